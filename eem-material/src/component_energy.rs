@@ -15,6 +15,7 @@ mod chain;
 use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::joint::JointEnergy;
 use crate::number::scalar::Real;
+use chain::Chain;
 
 /// The free energy of a material `M` with joint invariants, of N variables with K dashpots,
 ///
@@ -102,45 +103,44 @@ impl<
     }
 
     fn free_energy(&self, x: &[S; N]) -> S {
-        self.material.free_energy(&Self::variables(x))
+        self.material.free_energy(&M::variables(x))
     }
 
     // Rounding of the invariants counts as well.
     fn energy_magnitude(&self, x: &[S; N]) -> S {
-        let (tensors, variables) = (Self::tensors(x), Self::variables(x));
+        let (tensors, variables) = (M::tensors(x), M::variables(x));
         let gradient = self.material.gradient(&variables);
         let own = self.material.energy_magnitude(&variables);
-        Self::invariants::<S>().fold(own, |sum, (index, joint)| {
+        M::invariants().fold(own, |sum, (index, joint)| {
             sum + gradient[index].abs() * tensors.size(joint)
         })
     }
 
     fn internal_energy(&self, x: &[S; N]) -> S {
-        self.material.internal_energy(&Self::variables(x))
+        self.material.internal_energy(&M::variables(x))
     }
 
     fn gradient(&self, x: &[S; N]) -> [S; N] {
-        let gradient = self.material.gradient(&Self::variables(x));
-        Self::conjugates(&Self::tensors(x), gradient.as_ref(), S::one())
+        let gradient = self.material.gradient(&M::variables(x));
+        M::conjugates(&M::tensors(x), gradient.as_ref(), S::one())
     }
 
     fn hessian(&self, x: &[S; N]) -> ([S; N], [[S; N]; N]) {
-        let tensors = Self::tensors(x);
-        let (gradient, hessian) = self.material.hessian(&Self::variables(x));
+        let tensors = M::tensors(x);
+        let (gradient, hessian) = self.material.hessian(&M::variables(x));
         let gradient = gradient.as_ref();
-        let both = [&tensors, &tensors];
         (
-            Self::conjugates(&tensors, gradient, S::one()),
-            Self::slopes(both, (gradient, hessian.as_ref()), [S::one(); 2]),
+            M::conjugates(&tensors, gradient, S::one()),
+            M::slopes([&tensors; 2], (gradient, hessian.as_ref()), [S::one(); 2]),
         )
     }
 
     fn caloric(&self, x: &[S; N]) -> Caloric<S> {
-        self.material.caloric(&Self::variables(x))
+        self.material.caloric(&M::variables(x))
     }
 
     fn caloric_at(&self, x: [S; N]) -> impl Fn(S) -> (Caloric<S>, S) {
-        self.material.caloric_at(Self::variables(&x))
+        self.material.caloric_at(M::variables(&x))
     }
 
     // The states between two are mixed of strains and invariants.
@@ -150,26 +150,22 @@ impl<
         x1: &[S; N],
         new: usize,
     ) -> impl Fn(S) -> (Caloric<S>, S) {
-        let [x0, x1] = [x0, x1].map(Self::variables);
+        let [x0, x1] = [x0, x1].map(M::variables);
         self.material.caloric_at(x0.beginning_as(&x1, new))
     }
 
     fn entropy_hessian(&self, x: &[S; N]) -> [[S; N]; N] {
-        let tensors = Self::tensors(x);
-        let variables = Self::variables(x);
+        let (tensors, variables) = (M::tensors(x), M::variables(x));
         let hessian = self.material.entropy_hessian(&variables);
         // ∂s/∂x = −∂²ψ/∂θ∂x
         let slopes = self.material.rates(&variables).slopes;
-        let both = [&tensors, &tensors];
-        Self::slopes(both, (slopes.as_ref(), hessian.as_ref()), [S::one(); 2])
+        let of_material = (slopes.as_ref(), hessian.as_ref());
+        M::slopes([&tensors; 2], of_material, [S::one(); 2])
     }
 
     fn viscosity(&self, theta: S) -> ([S; K], [S; K]) {
         let (viscosities, slopes) = self.material.viscosity(theta);
-        (
-            Self::spread(viscosities.as_ref()),
-            Self::spread(slopes.as_ref()),
-        )
+        (M::spread(viscosities.as_ref()), M::spread(slopes.as_ref()))
     }
 
     fn drag(&self, theta: S) -> (M::Drag, M::Drag) {
@@ -177,8 +173,8 @@ impl<
     }
 
     fn entropy_form_old(&self, x0: &[S; N]) -> [S; A] {
-        let own = self.material.entropy_form_old(&Self::variables(x0));
-        Self::joined(own.as_ref(), x0)
+        let own = self.material.entropy_form_old(&M::variables(x0));
+        M::joined(own.as_ref(), x0)
     }
 
     fn entropy_form(
@@ -187,39 +183,34 @@ impl<
         x1: &[S; N],
         corners: &M::Corners,
     ) -> ([S; R], [[S; N]; R]) {
-        let (own, tensors) = Self::split(old);
-        let (response, tangent) = self
-            .material
-            .entropy_form(&own, &Self::variables(x1), corners);
-        Self::form(&tensors, x1, (&response, &tangent))
+        let (own, tensors) = M::split(old);
+        let variables = M::variables(x1);
+        let form = self.material.entropy_form(&own, &variables, corners);
+        M::form(&tensors, x1, form)
     }
 
     fn entropy_form_response(&self, old: &[S; A], x1: &[S; N], corners: &M::Corners) -> [S; R] {
-        let (own, tensors) = Self::split(old);
-        let variables = Self::variables(x1);
-        let response = self
-            .material
-            .entropy_form_response(&own, &variables, corners);
-        let mean = tensors.mean(&Self::tensors(x1));
-        Self::conjugates(&mean, response.as_ref(), -S::one())
+        let (own, tensors) = M::split(old);
+        let (material, variables) = (&self.material, M::variables(x1));
+        let response = material.entropy_form_response(&own, &variables, corners);
+        M::response(&tensors, x1, &response)
     }
 
     fn temperature_form_old(&self, x0: &[S; N]) -> [S; B] {
-        let own = self.material.temperature_form_old(&Self::variables(x0));
-        Self::joined(own.as_ref(), x0)
+        let own = self.material.temperature_form_old(&M::variables(x0));
+        M::joined(own.as_ref(), x0)
     }
 
     fn temperature_form(&self, old: &[S; B], x1: &[S; N]) -> ([S; R], [[S; N]; R]) {
-        let (own, tensors) = Self::split(old);
-        let (response, tangent) = self.material.temperature_form(&own, &Self::variables(x1));
-        Self::form(&tensors, x1, (&response, &tangent))
+        let (own, tensors) = M::split(old);
+        let form = self.material.temperature_form(&own, &M::variables(x1));
+        M::form(&tensors, x1, form)
     }
 
     fn temperature_form_response(&self, old: &[S; B], x1: &[S; N]) -> [S; R] {
-        let (own, tensors) = Self::split(old);
-        let variables = Self::variables(x1);
+        let (own, tensors) = M::split(old);
+        let variables = M::variables(x1);
         let response = self.material.temperature_form_response(&own, &variables);
-        let mean = tensors.mean(&Self::tensors(x1));
-        Self::conjugates(&mean, response.as_ref(), -S::one())
+        M::response(&tensors, x1, &response)
     }
 }

@@ -1,13 +1,11 @@
-//! Whether a material is sound in a box of states, with a state that shows it where it is not.
+//! The search of a box of states for one in which a material is invalid.
 //!
 //! A formula that compiles can still be no material: its heat capacity may become negative beyond
-//! a spinodal, a viscosity may change its sign, a logarithm may leave its domain. The check looks
-//! at the corners of the box, at a sample that fills it evenly, and from the worst of these it goes
-//! downhill.
+//! a spinodal, a viscosity may change its sign, a logarithm may leave its domain. The check examines
+//! the corners of the box and a sample that fills it evenly, and descends from the worst of these.
 
 mod error;
 mod point;
-mod sample;
 mod search;
 mod state;
 
@@ -171,7 +169,7 @@ pub fn check_domain<S: Real, M: FreeEnergy<S>>(
     search::search(&space, samples, &|x| examine(model, &space, x))
 }
 
-/// Heat capacity, then viscosities, that of the stretch last, of a sound state.
+/// Heat capacity, then viscosities, that of the stretch last, of a valid state.
 fn examine<S: Real, M: FreeEnergy<S>>(
     model: &M,
     space: &Space,
@@ -198,37 +196,32 @@ fn examine<S: Real, M: FreeEnergy<S>>(
     for row in hessian.as_ref() {
         finite("second derivative of the free energy", row.as_ref())?;
     }
-    let is_sound = |value: f64| value > 0.0 && value.is_finite();
     let mut found = Vec::with_capacity(1 + M::DASHPOTS);
-    if M::THERMAL {
-        let value = model.caloric(&variables).heat_capacity.to_f64();
-        if !is_sound(value) {
-            let point = point();
-            return Err(DomainError::HeatCapacity { value, point });
-        }
-        found.push(value);
-    }
-    let theta = if M::THERMAL { x[x.len() - 1] } else { 0.0 };
-    let (viscosities, _) = model.viscosity(S::from_f64(theta));
-    for (dashpot, value) in viscosities.as_ref().iter().enumerate() {
+    let mut take = |value: S, error: &dyn Fn(f64, DomainPoint) -> DomainError| {
         let value = value.to_f64();
-        if !is_sound(value) {
-            let point = point();
-            return Err(DomainError::Viscosity {
-                dashpot,
-                value,
-                point,
-            });
+        if value > 0.0 && value.is_finite() {
+            found.push(value);
+            return Ok(());
         }
-        found.push(value);
+        Err(error(value, point()))
+    };
+    if M::THERMAL {
+        let heat_capacity = model.caloric(&variables).heat_capacity;
+        take(heat_capacity, &|value, point| DomainError::HeatCapacity {
+            value,
+            point,
+        })?;
     }
-    let (drag, _) = model.drag(S::from_f64(theta));
-    for value in drag.as_ref().iter().map(|value| value.to_f64()) {
-        if !is_sound(value) {
-            let point = point();
-            return Err(DomainError::Drag { value, point });
-        }
-        found.push(value);
+    let theta = S::from_f64(if M::THERMAL { x[x.len() - 1] } else { 0.0 });
+    for (dashpot, &value) in model.viscosity(theta).0.as_ref().iter().enumerate() {
+        take(value, &|value, point| DomainError::Viscosity {
+            dashpot,
+            value,
+            point,
+        })?;
+    }
+    for &value in model.drag(theta).0.as_ref() {
+        take(value, &|value, point| DomainError::Drag { value, point })?;
     }
     Ok(found)
 }

@@ -1,4 +1,4 @@
-//! What a free energy offers to the schemes: the trait that the derive implements.
+//! The interface between free energies and schemes: the trait that the derive implements.
 
 use core::fmt::Debug;
 use core::ops::{Index, IndexMut};

@@ -103,7 +103,7 @@ pub(super) struct Tensors<S> {
 }
 
 impl<S: Scalar> Tensors<S> {
-    /// Those with these components; the others are zero.
+    /// Tensors with these components; the others are zero.
     pub(super) fn new(strain: &[S], viscous: &[S]) -> Self {
         let all = |some: &[S]| {
             let mut all = [S::zero(); COMPONENTS];

@@ -1,4 +1,4 @@
-//! Numbers: what is stepped, sums to twice the precision, and the kernels of divided differences.
+//! Numbers: scalar types, sums to twice the precision, and the kernels of divided differences.
 
 pub mod compact;
 pub mod compensated;

@@ -1,10 +1,9 @@
-//! The free energy of a point of a solid: that per volume, times the volume.
+//! The free energy of a point of a solid: the free energy per volume times the volume.
 
 use crate::free_energy::{Array, Caloric, FreeEnergy, Rates};
 use crate::number::scalar::Real;
 
-/// A free energy per volume at a point that stands for some volume. Energy, entropy, forces and viscosities
-/// are multiplied by it; temperatures are not.
+/// The free energy of a volume. Energy, entropy, forces and viscosities are multiplied by it; temperatures are not.
 #[derive(Clone, Debug)]
 pub struct PointEnergy<S, M> {
     density: M,
@@ -44,6 +43,13 @@ impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
             entropy: self.volume * caloric.entropy,
             heat_capacity: self.volume * caloric.heat_capacity,
             magnitude: self.volume * caloric.magnitude,
+        }
+    }
+
+    fn scaled_at(&self, density: impl Fn(S) -> (Caloric<S>, S)) -> impl Fn(S) -> (Caloric<S>, S) {
+        move |theta| {
+            let (caloric, psi) = density(theta);
+            (self.scaled_caloric(caloric), self.volume * psi)
         }
     }
 
@@ -129,11 +135,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     }
 
     fn caloric_at(&self, x: M::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
-        let density = self.density.caloric_at(x);
-        move |theta| {
-            let (caloric, psi) = density(theta);
-            (self.scaled_caloric(caloric), self.volume * psi)
-        }
+        self.scaled_at(self.density.caloric_at(x))
     }
 
     fn caloric_between(
@@ -142,11 +144,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         x1: &M::Variables,
         new: usize,
     ) -> impl Fn(S) -> (Caloric<S>, S) {
-        let density = self.density.caloric_between(x0, x1, new);
-        move |theta| {
-            let (caloric, psi) = density(theta);
-            (self.scaled_caloric(caloric), self.volume * psi)
-        }
+        self.scaled_at(self.density.caloric_between(x0, x1, new))
     }
 
     fn rates(&self, x: &M::Variables) -> Rates<M::Variables> {

@@ -4,7 +4,5 @@ pub(crate) mod bivector;
 pub(crate) mod lu;
 pub(crate) mod memory;
 pub(crate) mod pattern;
-#[cfg(feature = "sparse")]
-mod stored;
 pub(crate) mod system;
 pub(crate) mod threads;

@@ -89,5 +89,4 @@ pub use step::error::{StepError, StepFailure, StepLimit};
 pub use step::law::Law;
 pub use step::newton::{NewtonIteration, NewtonSettings, StepReport};
 pub use step::outcome::Corrections;
-pub use step::scheme::Scheme;
-pub use step::scheme_name::UnknownScheme;
+pub use step::scheme::{Scheme, UnknownScheme};

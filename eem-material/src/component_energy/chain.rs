@@ -1,142 +1,81 @@
 //! The chain rule between joint invariants and components of E and Γ.
 
-use super::ComponentEnergy;
+use core::array;
+
 use crate::free_energy::{Array, FreeEnergy};
 use crate::joint::{DEVIATORIC, Joint, JointEnergy, Tensors};
 use crate::number::scalar::Real;
 
 /// Derivatives by variables: a row per quantity.
-pub(super) type Rows<S, const N: usize, const R: usize> = [[S; N]; R];
+type Rows<S, const N: usize, const R: usize> = [[S; N]; R];
 
-impl<M: JointEnergy, const N: usize, const K: usize, const R: usize, const A: usize, const B: usize>
-    ComponentEnergy<M, N, K, R, A, B>
-{
+/// A material with joint invariants, as a function of components.
+pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     /// Number of strains of the material.
-    const fn strains<S: Real>() -> usize
-    where
-        M: FreeEnergy<S>,
-    {
-        M::MEASURES - M::JOINT.len()
-    }
+    const STRAINS: usize = Self::MEASURES - Self::JOINT.len();
 
-    /// Number of components of Γ.
-    const fn components<S: Real>() -> usize
-    where
-        M: FreeEnergy<S>,
-    {
-        K - M::DASHPOTS
-    }
+    /// Number of components of Γ: six if it has a trace.
+    const COMPONENTS: usize = DEVIATORIC + has_trace(Self::JOINT) as usize;
 
-    /// The components of E among the variables begin here, those of Γ there.
-    const fn places<S: Real>() -> [usize; 2]
-    where
-        M: FreeEnergy<S>,
-    {
-        let strains = Self::strains::<S>();
-        let dashpots = strains + Self::components::<S>();
-        [strains, dashpots + M::DASHPOTS]
-    }
+    /// The index of the first component of E, and of Γ.
+    const FIRST: [usize; 2] = {
+        let dashpots = Self::STRAINS + Self::COMPONENTS;
+        [Self::STRAINS, dashpots + Self::DASHPOTS]
+    };
 
-    /// Where a variable or a conjugate of the material that is no invariant is among those here.
-    const fn place<S: Real>(index: usize) -> usize
-    where
-        M: FreeEnergy<S>,
-    {
-        let invariants = M::JOINT.len();
-        if index < Self::strains::<S>() {
-            index
-        } else if index < M::MEASURES + M::DASHPOTS {
-            index - invariants + Self::components::<S>()
+    /// The index of a variable or a conjugate of the material that is no invariant.
+    fn index(of_material: usize) -> usize {
+        let invariants = Self::JOINT.len();
+        if of_material < Self::STRAINS {
+            of_material
+        } else if of_material < Self::MEASURES + Self::DASHPOTS {
+            of_material - invariants + Self::COMPONENTS
         } else {
-            index - invariants + 2 * Self::components::<S>()
+            of_material - invariants + 2 * Self::COMPONENTS
         }
     }
 
     /// The invariant at an index of the variables of the material.
-    fn joint<S: Real>(index: usize) -> Option<Joint>
-    where
-        M: FreeEnergy<S>,
-    {
-        let joint = index.checked_sub(Self::strains::<S>())?;
-        M::JOINT.get(joint).copied()
+    fn joint(of_material: usize) -> Option<Joint> {
+        let joint = of_material.checked_sub(Self::STRAINS)?;
+        Self::JOINT.get(joint).copied()
     }
 
-    /// The index of an invariant among the variables of the material.
-    pub(super) fn invariants<S: Real>() -> impl Iterator<Item = (usize, Joint)>
-    where
-        M: FreeEnergy<S>,
-    {
-        (Self::strains::<S>()..).zip(M::JOINT.iter().copied())
+    /// The invariants with their indices among the variables of the material.
+    fn invariants() -> impl Iterator<Item = (usize, Joint)> {
+        (Self::STRAINS..).zip(Self::JOINT.iter().copied())
     }
 
     /// E and Γ.
-    pub(super) fn tensors<S: Real>(x: &[S; N]) -> Tensors<S>
-    where
-        M: FreeEnergy<S>,
-    {
-        let [strain, viscous] = Self::places::<S>();
-        let components = Self::components::<S>();
-        Tensors::new(
-            &x[strain..strain + components],
-            &x[viscous..viscous + components],
-        )
+    fn tensors<const N: usize>(x: &[S; N]) -> Tensors<S> {
+        let [strain, viscous] = Self::FIRST.map(|first| &x[first..first + Self::COMPONENTS]);
+        Tensors::new(strain, viscous)
     }
 
     /// The variables of the material.
-    pub(super) fn variables<S: Real>(x: &[S; N]) -> M::Variables
-    where
-        M: FreeEnergy<S>,
-    {
+    fn variables<const N: usize>(x: &[S; N]) -> Self::Variables {
         let tensors = Self::tensors(x);
-        let mut variables = M::Variables::filled(S::zero());
+        let mut variables = Self::Variables::filled(S::zero());
         for (index, variable) in variables.as_mut().iter_mut().enumerate() {
-            *variable = match Self::joint::<S>(index) {
+            *variable = match Self::joint(index) {
                 Some(joint) => tensors.value(joint),
-                None => x[Self::place::<S>(index)],
+                None => x[Self::index(index)],
             };
         }
         variables
     }
 
-    /// The derivative by the variables here of what has these derivatives by those of the material.
-    fn chained<S: Real>(tensors: &Tensors<S>, by: &[S]) -> [S; N]
-    where
-        M: FreeEnergy<S>,
-    {
-        let [strain, viscous] = Self::places::<S>();
-        let mut chained = [S::zero(); N];
-        for (index, &by) in by.iter().enumerate() {
-            match Self::joint::<S>(index) {
-                Some(joint) => {
-                    for k in 0..Self::components::<S>() {
-                        chained[strain + k] += by * tensors.by_strain(joint, k);
-                        chained[viscous + k] += by * tensors.by_viscous(joint, k);
-                    }
-                }
-                None => chained[Self::place::<S>(index)] = by,
-            }
-        }
-        chained
-    }
-
-    /// Conjugates of the variables here from those of the material, along gradients `P` of the invariants; the
-    /// sign of those of Γ is the one given.
-    pub(super) fn conjugates<S: Real, const W: usize>(
-        along: &Tensors<S>,
-        response: &[S],
-        sign: S,
-    ) -> [S; W]
-    where
-        M: FreeEnergy<S>,
-    {
-        let [strain, viscous] = Self::places::<S>();
+    /// Conjugates of the components from those of the material, along gradients `P` of the invariants; those of Γ with
+    /// the given sign.
+    fn conjugates<const W: usize>(along: &Tensors<S>, of_material: &[S], sign: S) -> [S; W] {
+        let [strain, viscous] = Self::FIRST;
         let mut conjugates = [S::zero(); W];
-        for (index, &value) in response.iter().enumerate() {
-            let Some(joint) = Self::joint::<S>(index) else {
-                conjugates[Self::place::<S>(index)] = value;
+        for (index, &value) in of_material.iter().enumerate() {
+            let Some(joint) = Self::joint(index) else {
+                conjugates[Self::index(index)] = value;
                 continue;
             };
-            for k in 0..Self::components::<S>() {
+            for k in 0..Self::COMPONENTS {
                 conjugates[strain + k] += value * along.by_strain(joint, k);
                 conjugates[viscous + k] += sign * (value * along.by_viscous(joint, k));
             }
@@ -144,26 +83,23 @@ impl<M: JointEnergy, const N: usize, const K: usize, const R: usize, const A: us
         conjugates
     }
 
-    /// The derivatives of conjugates by the new variables, from those of the material; the gradients change by
-    /// the share given of those at the new state.
-    pub(super) fn slopes<S: Real, const W: usize>(
+    /// The derivatives of conjugates by the new components, from those of the material; the gradients change by
+    /// the given fraction of those at the new state.
+    fn slopes<const N: usize, const W: usize>(
         [along, new]: [&Tensors<S>; 2],
-        (response, tangent): (&[S], &[M::Variables]),
-        [sign, share]: [S; 2],
-    ) -> Rows<S, N, W>
-    where
-        M: FreeEnergy<S>,
-    {
-        let [strain, viscous] = Self::places::<S>();
+        (response, tangent): (&[S], &[Self::Variables]),
+        [sign, fraction]: [S; 2],
+    ) -> Rows<S, N, W> {
+        let [strain, viscous] = Self::FIRST;
         let mut slopes = [[S::zero(); N]; W];
         for (index, row) in tangent.iter().enumerate() {
-            let row = Self::chained(new, row.as_ref());
-            let Some(joint) = Self::joint::<S>(index) else {
-                slopes[Self::place::<S>(index)] = row;
+            let row: [S; N] = Self::conjugates(new, row.as_ref(), S::one());
+            let Some(joint) = Self::joint(index) else {
+                slopes[Self::index(index)] = row;
                 continue;
             };
-            let force = share * response[index];
-            for k in 0..Self::components::<S>() {
+            let force = fraction * response[index];
+            for k in 0..Self::COMPONENTS {
                 let by = [along.by_strain(joint, k), sign * along.by_viscous(joint, k)];
                 for (column, &entry) in row.iter().enumerate() {
                     slopes[strain + k][column] += by[0] * entry;
@@ -182,66 +118,71 @@ impl<M: JointEnergy, const N: usize, const K: usize, const R: usize, const A: us
         slopes
     }
 
-    /// Splits what a form keeps: that of the material, E and Γ.
-    pub(super) fn split<S: Real, T: Array<S>>(old: &[S]) -> (T, Tensors<S>)
-    where
-        M: FreeEnergy<S>,
-    {
+    /// Splits what a form keeps of the old state: values of the material, E and Γ.
+    fn split<T: Array<S>>(old: &[S]) -> (T, Tensors<S>) {
         let mut own = T::filled(S::zero());
         let (of_material, components) = old.split_at(T::LEN);
         own.as_mut().copy_from_slice(of_material);
-        let (strain, viscous) = components.split_at(Self::components::<S>());
+        let (strain, viscous) = components.split_at(Self::COMPONENTS);
         (own, Tensors::new(strain, viscous))
     }
 
-    /// Puts together what a form keeps.
-    pub(super) fn joined<S: Real, const W: usize>(own: &[S], x0: &[S; N]) -> [S; W]
-    where
-        M: FreeEnergy<S>,
-    {
-        let components = Self::components::<S>();
+    /// Joins what [`split`](Self::split) splits.
+    fn joined<const N: usize, const W: usize>(own: &[S], x0: &[S; N]) -> [S; W] {
         let mut all = [S::zero(); W];
         let (of_material, rest) = all.split_at_mut(own.len());
         of_material.copy_from_slice(own);
-        for (part, place) in rest.chunks_exact_mut(components).zip(Self::places::<S>()) {
-            part.copy_from_slice(&x0[place..place + components]);
+        for (part, first) in rest.chunks_exact_mut(Self::COMPONENTS).zip(Self::FIRST) {
+            part.copy_from_slice(&x0[first..first + Self::COMPONENTS]);
         }
         all
     }
 
-    /// The response of a form of the material, and its tangent.
-    pub(super) fn form<S: Real>(
+    /// The response of a form by components, from that of the material.
+    fn response<const N: usize, const R: usize>(
         old: &Tensors<S>,
         x1: &[S; N],
-        (response, tangent): (&M::Response, &M::Tangent),
-    ) -> ([S; R], Rows<S, N, R>)
-    where
-        M: FreeEnergy<S>,
-    {
+        of_material: &Self::Response,
+    ) -> [S; R] {
+        let mean = old.mean(&Self::tensors(x1));
+        Self::conjugates(&mean, of_material.as_ref(), -S::one())
+    }
+
+    /// The response of a form by components with its tangent, from those of the material.
+    fn form<const N: usize, const R: usize>(
+        old: &Tensors<S>,
+        x1: &[S; N],
+        (response, tangent): (Self::Response, Self::Tangent),
+    ) -> ([S; R], Rows<S, N, R>) {
         let new = Self::tensors(x1);
-        let mean = old.mean(&new);
-        let (response, tangent) = (response.as_ref(), tangent.as_ref());
-        let half = S::from_f64(0.5);
+        let both = [&old.mean(&new), &new];
+        let of_material = (response.as_ref(), tangent.as_ref());
         (
-            Self::conjugates(&mean, response, -S::one()),
-            Self::slopes([&mean, &new], (response, tangent), [-S::one(), half]),
+            Self::response(old, x1, &response),
+            Self::slopes(both, of_material, [-S::one(), S::from_f64(0.5)]),
         )
     }
 
     /// Viscosities of the components from those of the material.
-    pub(super) fn spread<S: Real>(own: &[S]) -> [S; K]
-    where
-        M: FreeEnergy<S>,
-    {
-        let dashpots = M::DASHPOTS;
-        core::array::from_fn(|k| {
-            if k < dashpots {
-                own[k]
-            } else if k < dashpots + DEVIATORIC {
-                own[dashpots]
-            } else {
-                own[dashpots + 1]
-            }
+    fn spread<const K: usize>(own: &[S]) -> [S; K] {
+        let dashpots = Self::DASHPOTS;
+        array::from_fn(|k| match k.checked_sub(dashpots) {
+            None => own[k],
+            Some(component) if component < DEVIATORIC => own[dashpots],
+            Some(_) => own[dashpots + 1],
         })
     }
+}
+
+impl<S: Real, M: FreeEnergy<S> + JointEnergy> Chain<S> for M {}
+
+const fn has_trace(invariants: &[Joint]) -> bool {
+    let mut index = 0;
+    while index < invariants.len() {
+        if matches!(invariants[index], Joint::Trace) {
+            return true;
+        }
+        index += 1;
+    }
+    false
 }

@@ -1,4 +1,4 @@
-//! What a check of a domain can find.
+//! Errors of a check of a domain.
 
 use thiserror::Error;
 
@@ -60,7 +60,7 @@ pub enum DomainError {
         /// The state.
         point: DomainPoint,
     },
-    /// The viscosity of the dashpot beside the spring is not positive and finite.
+    /// The viscosity of the dashpot in parallel with the spring is not positive and finite.
     #[error(
         "the viscosity of the stretch is {value} {unit} at {point}, it must be positive and finite", value = Readable(*value), unit = point.kind.viscosity())]
     Drag {

@@ -31,29 +31,23 @@ pub struct DomainReport {
 impl fmt::Display for DomainReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} states", self.evaluations)?;
-        if let Some(Least { value, point }) = &self.heat_capacity {
+        let mut write_least = |quantity: &str, least: &Least, unit: fn(Kind) -> &'static str| {
+            let (value, unit) = (Readable(least.value), unit(least.point.kind));
+            let point = &least.point;
             write!(
                 f,
-                "; heat capacity {:.6} {} or more, least at {point}",
-                Readable(*value),
-                point.kind.heat_capacity()
-            )?;
+                "; {quantity} {value:.6} {unit} or more, least at {point}"
+            )
+        };
+        if let Some(least) = &self.heat_capacity {
+            write_least("heat capacity", least, Kind::heat_capacity)?;
         }
-        for (dashpot, Least { value, point }) in self.viscosities.iter().enumerate() {
-            write!(
-                f,
-                "; viscosity of dashpot {dashpot} {:.6} {} or more, least at {point}",
-                Readable(*value),
-                point.kind.viscosity()
-            )?;
+        for (dashpot, least) in self.viscosities.iter().enumerate() {
+            let quantity = format!("viscosity of dashpot {dashpot}");
+            write_least(&quantity, least, Kind::viscosity)?;
         }
-        if let Some(Least { value, point }) = &self.drag {
-            write!(
-                f,
-                "; viscosity of the stretch {:.6} {} or more, least at {point}",
-                Readable(*value),
-                point.kind.viscosity()
-            )?;
+        if let Some(least) = &self.drag {
+            write_least("viscosity of the stretch", least, Kind::viscosity)?;
         }
         Ok(())
     }
@@ -69,20 +63,23 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Whether a domain of shape `given` fits.
-    pub(super) fn expect(self, given: Self) -> Result<(), DomainError> {
-        let counts = |shape: Self| {
-            let roles = ["Stretch", "Strain…", "Viscous", "Temperature"];
-            let [stretches, strains] = match shape.kind {
-                Kind::Spring => [shape.measures, 0],
-                Kind::Solid => [0, shape.measures],
-            };
-            let thermal = usize::from(shape.thermal);
-            roles
-                .into_iter()
-                .zip([stretches, strains, shape.dashpots, thermal])
+    /// The number of variables of each role.
+    fn counts(self) -> [(&'static str, usize); 4] {
+        let [stretches, strains] = match self.kind {
+            Kind::Spring => [self.measures, 0],
+            Kind::Solid => [0, self.measures],
         };
-        for ((role, expected), (_, given)) in counts(self).zip(counts(given)) {
+        [
+            ("Stretch", stretches),
+            ("Strain…", strains),
+            ("Viscous", self.dashpots),
+            ("Temperature", usize::from(self.thermal)),
+        ]
+    }
+
+    /// An error unless a domain of shape `given` fits.
+    pub(super) fn expect(self, given: Self) -> Result<(), DomainError> {
+        for ((role, expected), (_, given)) in self.counts().into_iter().zip(given.counts()) {
             if expected != given {
                 return Err(DomainError::Variables {
                     role,
@@ -110,15 +107,12 @@ impl Space {
             let positive = space.is_positive(index);
             let ends = low.is_finite() && high.is_finite() && low <= high;
             if !ends || (positive && low <= 0.0) {
+                let kinds = ["finite", "positive and finite"];
                 return Err(DomainError::Range {
                     variable: space.variable(index),
                     low,
                     high,
-                    kind: if positive {
-                        "positive and finite"
-                    } else {
-                        "finite"
-                    },
+                    kind: kinds[usize::from(positive)],
                 });
             }
         }
@@ -130,36 +124,31 @@ impl Space {
         self.ranges.len()
     }
 
-    /// Whether there is a temperature.
-    pub(super) fn is_thermal(&self) -> bool {
-        self.shape.thermal
-    }
-
-    /// Whether the last of so many viscosities is that of a dashpot beside a spring. Those of a solid are of its
-    /// dashpots, and of the flow of a viscous strain.
-    pub(super) fn is_last_drag(&self, viscosities: usize) -> bool {
-        self.shape.kind == Kind::Spring && viscosities > self.shape.dashpots
+    /// The report of the smallest heat capacity and viscosities found. The last viscosity of a spring with more than one
+    /// per dashpot is that of the dashpot in parallel; a solid has viscosities of its dashpots and of a viscous strain.
+    pub(super) fn report(&self, evaluations: usize, mut leasts: Vec<Least>) -> DomainReport {
+        let shape = self.shape;
+        let mut viscosities = leasts.split_off(usize::from(shape.thermal));
+        let has_drag = shape.kind == Kind::Spring && viscosities.len() > shape.dashpots;
+        let drag = has_drag.then(|| viscosities.pop()).flatten();
+        DomainReport {
+            evaluations,
+            heat_capacity: leasts.pop(),
+            viscosities,
+            drag,
+        }
     }
 
     /// Whether variable `index` is a length or a temperature, and neither viscous nor a strain.
     fn is_positive(&self, index: usize) -> bool {
-        let Shape {
-            kind,
-            measures,
-            dashpots,
-            ..
-        } = self.shape;
-        index >= measures + dashpots || (index < measures && kind == Kind::Spring)
+        let shape = self.shape;
+        let is_measure = index < shape.measures;
+        index >= shape.measures + shape.dashpots || is_measure && shape.kind == Kind::Spring
     }
 
     fn variable(&self, index: usize) -> String {
-        let Shape {
-            kind,
-            measures,
-            dashpots,
-            ..
-        } = self.shape;
-        match index.checked_sub(measures) {
+        let Shape { kind, dashpots, .. } = self.shape;
+        match index.checked_sub(self.shape.measures) {
             None => kind.measure(index),
             Some(dashpot) if dashpot < dashpots => {
                 format!("{} of dashpot {dashpot}", kind.viscous())

@@ -2,26 +2,31 @@
 
 use super::error::DomainError;
 use super::point::{DomainReport, Least, Space};
-use super::sample;
+use crate::number::scalar::Scalar;
 
-/// From how many of the worst points the search goes downhill.
+/// Number of the worst points from which the search descends.
 const STARTS: usize = 4;
 /// First and last step of the search, parts of the box.
 const STEPS: [f64; 2] = [0.125, 1e-6];
 /// Limit of the moves from one start, for quantities that fall in tiny steps.
 const MOVES: usize = 500;
 
-/// Heat capacity and viscosities of a state, or what is wrong with it.
+/// Corners are taken in the first variables only: there would be too many in all.
+const CORNERED: usize = 10;
+/// Iterations to the root φ of `φ^(d+1) = φ + 1`: each gains more than a bit.
+const ITERATIONS: usize = 64;
+
+/// Heat capacity and viscosities of a state, or why it is invalid.
 type Examine<'e> = dyn Fn(&[f64]) -> Result<Vec<f64>, DomainError> + 'e;
 
-/// A looked-at point of the unit cube and its quantities.
+/// An examined point of the unit cube and its quantities.
 #[derive(Clone, Debug)]
-struct Looked {
+struct Examined {
     unit: Vec<f64>,
     found: Vec<f64>,
 }
 
-/// Calls of the examination, counted.
+/// Counts the examinations.
 struct Examiner<'e> {
     space: &'e Space,
     examine: &'e Examine<'e>,
@@ -29,15 +34,15 @@ struct Examiner<'e> {
 }
 
 impl Examiner<'_> {
-    fn look(&mut self, unit: Vec<f64>) -> Result<Looked, DomainError> {
+    fn examine_at(&mut self, unit: Vec<f64>) -> Result<Examined, DomainError> {
         self.evaluations += 1;
         let found = (self.examine)(&self.space.state(&unit))?;
-        Ok(Looked { unit, found })
+        Ok(Examined { unit, found })
     }
 
     /// Goes to smaller values of one quantity along the axes, with steps that are halved where
     /// none of them gains (compass search, Fermi & Metropolis 1952).
-    fn descend(&mut self, start: &Looked, quantity: usize) -> Result<Looked, DomainError> {
+    fn descend(&mut self, start: &Examined, quantity: usize) -> Result<Examined, DomainError> {
         let [mut step, last] = STEPS;
         let (mut best, mut moves) = (start.clone(), 0);
         while step >= last && moves < MOVES {
@@ -47,7 +52,7 @@ impl Examiner<'_> {
                     let mut unit = best.unit.clone();
                     unit[axis] = (unit[axis] + direction).clamp(0.0, 1.0);
                     if (unit[axis] - best.unit[axis]).abs() > 0.0 {
-                        let trial = self.look(unit)?;
+                        let trial = self.examine_at(unit)?;
                         if trial.found[quantity] < best.found[quantity] {
                             best = trial;
                         }
@@ -63,7 +68,7 @@ impl Examiner<'_> {
     }
 }
 
-/// Looks at corners and sample, then goes downhill in each quantity.
+/// Examines corners and sample, then descends in each quantity.
 pub(super) fn search(
     space: &Space,
     samples: usize,
@@ -75,16 +80,16 @@ pub(super) fn search(
         evaluations: 0,
     };
     let dimension = space.dimension();
-    let units = sample::corners(dimension).chain(sample::even(dimension, samples));
-    let mut looked = Vec::new();
+    let units = corners(dimension).chain(even(dimension, samples));
+    let mut examined = Vec::new();
     for unit in units {
-        looked.push(examiner.look(unit)?);
+        examined.push(examiner.examine_at(unit)?);
     }
     let mut leasts = Vec::new();
-    for quantity in 0..looked[0].found.len() {
-        looked.sort_by(|a, b| a.found[quantity].total_cmp(&b.found[quantity]));
-        let mut least = looked[0].clone();
-        for start in &looked[..STARTS.min(looked.len())] {
+    for quantity in 0..examined[0].found.len() {
+        examined.sort_by(|a, b| a.found[quantity].total_cmp(&b.found[quantity]));
+        let mut least = examined[0].clone();
+        for start in &examined[..STARTS.min(examined.len())] {
             let lower = examiner.descend(start, quantity)?;
             if lower.found[quantity] < least.found[quantity] {
                 least = lower;
@@ -95,14 +100,68 @@ pub(super) fn search(
             point: space.point(&space.state(&least.unit)),
         });
     }
-    let mut viscosities = leasts.split_off(usize::from(space.is_thermal()));
-    let drag = space
-        .is_last_drag(viscosities.len())
-        .then(|| viscosities.pop());
-    Ok(DomainReport {
-        evaluations: examiner.evaluations,
-        heat_capacity: leasts.pop(),
-        viscosities,
-        drag: drag.flatten(),
+    Ok(space.report(examiner.evaluations, leasts))
+}
+
+/// All corners; in more than ten variables those of the first ten, the others in the middle.
+pub(super) fn corners(dimension: usize) -> impl Iterator<Item = Vec<f64>> {
+    let cornered = dimension.min(CORNERED);
+    (0..1_usize << cornered).map(move |bits| {
+        let coordinate = |axis: usize| match axis < cornered {
+            true if bits >> axis & 1 == 1 => 1.0,
+            true => 0.0,
+            false => 0.5,
+        };
+        (0..dimension).map(coordinate).collect()
     })
+}
+
+/// The first points of the additive sequence with the generalised golden ratio (Roberts 2018, *The
+/// unreasonable effectiveness of quasirandom sequences*):
+///
+/// ```text
+/// u_i(n) = ½ + n φ^−(i+1)  mod 1,    φ^(d+1) = φ + 1
+/// ```
+pub(super) fn even(dimension: usize, count: usize) -> impl Iterator<Item = Vec<f64>> {
+    #[expect(clippy::cast_precision_loss, reason = "a number of variables")]
+    let power = 1.0 / (dimension as f64 + 1.0);
+    let golden = (0..ITERATIONS).fold(2.0_f64, |ratio, _| Scalar::powf(1.0 + ratio, power));
+    let mut unit = vec![0.5; dimension];
+    (0..count).map(move |_| {
+        let mut step = 1.0;
+        for coordinate in &mut unit {
+            step /= golden;
+            *coordinate = (*coordinate + step).fract();
+        }
+        unit.clone()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{corners, even};
+
+    #[test]
+    fn corners_are_all_different() {
+        let mut corners: Vec<_> = corners(3).map(|corner| format!("{corner:?}")).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        assert_eq!(corners.len(), 8);
+        assert_eq!(super::corners(12).count(), 1024);
+    }
+
+    #[test]
+    fn the_sequence_fills_the_cube_evenly() {
+        // 1000 points: every one of 64 cells has its 15.6 of them, give or take a few.
+        let mut cells = [0_u32; 64];
+        for unit in even(3, 1000) {
+            let quarter = |u: f64| [0.25, 0.5, 0.75].iter().filter(|&&end| u >= end).count();
+            let cell = unit.iter().fold(0, |cell, &u| 4 * cell + quarter(u));
+            cells[cell] += 1;
+        }
+        assert!(
+            cells.iter().all(|count| (10..=22).contains(count)),
+            "{cells:?}"
+        );
+    }
 }

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::number::readable::Readable;
 
-/// What a model is one of: names and units of its variables.
+/// Springs or solids, which differ in names and units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// A length in m, energies in J.
@@ -22,40 +22,30 @@ impl Kind {
         }
     }
 
-    pub(super) fn heat_capacity(self) -> &'static str {
+    fn choose(self, of_spring: &'static str, of_solid: &'static str) -> &'static str {
         match self {
-            Self::Spring => "J/K",
-            Self::Solid => "J/(K m³)",
+            Self::Spring => of_spring,
+            Self::Solid => of_solid,
         }
+    }
+
+    pub(super) fn heat_capacity(self) -> &'static str {
+        self.choose("J/K", "J/(K m³)")
     }
 
     pub(super) fn viscosity(self) -> &'static str {
-        match self {
-            Self::Spring => "N s/m",
-            Self::Solid => "Pa s",
-        }
+        self.choose("N s/m", "Pa s")
     }
 
-    /// Measure number `index`, from 0.
+    pub(super) fn viscous(self) -> &'static str {
+        self.choose("viscous stretch", "viscous strain")
+    }
+
+    /// The name of a measure, counted from 0.
     pub(super) fn measure(self, index: usize) -> String {
         match self {
             Self::Spring => "stretch".to_owned(),
             Self::Solid => format!("strain {index}"),
-        }
-    }
-
-    /// What the viscous variables are.
-    pub(super) fn viscous(self) -> &'static str {
-        match self {
-            Self::Spring => "viscous stretch",
-            Self::Solid => "viscous strain",
-        }
-    }
-
-    fn length(self) -> &'static str {
-        match self {
-            Self::Spring => " m",
-            Self::Solid => "",
         }
     }
 }
@@ -75,23 +65,18 @@ pub struct DomainPoint {
 
 impl fmt::Display for DomainPoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (kind, length) = (self.kind, self.kind.length());
-        let mut separator = "";
+        let (kind, unit) = (self.kind, self.kind.choose(" m", ""));
         for (index, value) in self.measures.iter().enumerate() {
+            let separator = if index == 0 { "" } else { ", " };
             let measure = kind.measure(index);
-            write!(f, "{separator}{measure} {}{length}", Readable(*value))?;
-            separator = ", ";
+            write!(f, "{separator}{measure} {}{unit}", Readable(*value))?;
         }
         for (dashpot, value) in self.viscous.iter().enumerate() {
-            write!(
-                f,
-                "{separator}{} {}{length} of dashpot {dashpot}",
-                kind.viscous(),
-                Readable(*value)
-            )?;
+            let (viscous, value) = (kind.viscous(), Readable(*value));
+            write!(f, ", {viscous} {value}{unit} of dashpot {dashpot}")?;
         }
         match self.temperature {
-            Some(theta) => write!(f, "{separator}temperature {} K", Readable(theta)),
+            Some(theta) => write!(f, ", temperature {} K", Readable(theta)),
             None => Ok(()),
         }
     }

@@ -1,18 +1,115 @@
-//! The intervals that enclose the temperature, and the choice of the next step.
+//! The search for the temperature of an entropy from a start that is not known to be close.
 //!
-//! Every step either reduces the residual as fast as Newton's method should, or
-//! halves an interval. It is for a single number: masks are one `bool`.
+//! Every step either reduces the residual as fast as Newton's method should, or halves an interval. Written for scalar
+//! numbers: masks are one `bool`.
 
 use super::error::InversionError;
-use super::point::{Model, Point};
 use crate::free_energy::Caloric;
 use crate::number::scalar::{Mask, Real};
 
-/// Evaluations after which [`invert`](crate::invert) gives up: twice what bisection of the
-/// whole range of `ln θ` to the last bit would take.
+/// The limit of evaluations in [`invert`](crate::invert): twice what bisection of the whole range of `ln θ` to the last
+/// bit would take.
 const BUDGET: usize = 128;
 
-/// What is known about the solution.
+/// The residual is rounding noise below this many ε of the sum of |terms of S|.
+const NOISE: f64 = 4.0;
+
+/// Two logarithms of temperatures are the same within this many ε of `max(1, |ln θ|)`.
+const RESOLUTION: f64 = 2.0;
+
+/// The heat capacity may change by this part over a correction that is not
+/// checked by an evaluation, if it changes at the rate Σ|terms of S|.
+const TRUST: f64 = 0.25;
+
+/// Entropies that differ by this factor at the start suggest a power law. It decides one step only.
+const LARGE_FACTOR: f64 = 8.0;
+
+/// The entropy at one temperature.
+#[derive(Clone, Copy)]
+struct Point<S> {
+    /// `ln θ`.
+    x: S,
+    theta: S,
+    /// `C = dS/dx`.
+    heat_capacity: S,
+    /// `S − s`.
+    residual: S,
+    entropy: S,
+    /// The part of the residual that may be rounding.
+    noise: S,
+}
+
+impl<S: Real> Point<S> {
+    /// The point at `θ = eˣ` of a search for the entropy `target`.
+    fn new(x: S, theta: S, caloric: Caloric<S>, target: S) -> Self {
+        Self {
+            x,
+            theta,
+            entropy: caloric.entropy,
+            heat_capacity: caloric.heat_capacity,
+            residual: caloric.entropy - target,
+            noise: S::from_f64(NOISE) * S::EPSILON * caloric.magnitude,
+        }
+    }
+
+    /// On a stable branch: `0 < C < ∞` and `S` finite.
+    fn is_stable(&self) -> bool {
+        S::zero().less(self.heat_capacity).all()
+            && self.heat_capacity.is_finite()
+            && self.residual.is_finite()
+    }
+
+    /// The entropy has increased with the temperature since `other`, as on one stable branch.
+    fn follows(&self, other: &Self) -> bool {
+        let increase = self.residual - other.residual;
+        let noise = other.noise + self.noise;
+        if self.x.less(other.x).all() {
+            increase.at_most(noise).all()
+        } else {
+            (-noise).at_most(increase).all()
+        }
+    }
+
+    /// Newton's correction of `x`.
+    fn newton(&self) -> S {
+        -self.residual / self.heat_capacity
+    }
+
+    /// Newton's correction of a converged point; zero where it would itself be noise: next to a spinodal, where it could
+    /// lead beyond, or with nearly no capacity.
+    fn last_correction(&self) -> S {
+        let correction = self.newton();
+        let magnitude = self.noise / (S::from_f64(NOISE) * S::EPSILON);
+        let trusted = S::from_f64(TRUST) * self.heat_capacity / magnitude;
+        let is_sound = correction.abs().at_most(trusted.maximum(self.resolution()));
+        S::select(is_sound, correction, S::zero())
+    }
+
+    /// Newton's correction for `ln S`, exact for `S ∝ θⁿ`; that for `S` unless both entropies are positive.
+    fn logarithmic_newton(&self, target: S) -> S {
+        let are_positive = S::zero().less(self.entropy) & S::zero().less(target);
+        if are_positive.all() {
+            -(self.entropy / self.heat_capacity) * (self.entropy / target).ln()
+        } else {
+            self.newton()
+        }
+    }
+
+    /// Whether the logarithmic model is nearer than the linear one to the entropy found after a step from here.
+    fn is_logarithmic(&self, step: S, entropy: S) -> bool {
+        let growth = self.heat_capacity * step;
+        let linear = self.entropy + growth - entropy;
+        let logarithmic = self.entropy * (growth / self.entropy).exp() - entropy;
+        logarithmic.abs().less(linear.abs()).all()
+    }
+
+    /// The distance in `x` that two temperatures must have to be different.
+    fn resolution(&self) -> S {
+        S::from_f64(RESOLUTION) * S::EPSILON * self.x.abs().maximum(S::one())
+    }
+}
+
+/// The state of the search.
 struct Search<S> {
     target: S,
     /// The current point.
@@ -23,15 +120,15 @@ struct Search<S> {
     below: Option<S>,
     above: Option<S>,
     /// The ends of what may be stable.
-    edge_low: S,
-    edge_high: S,
+    edges: [S; 2],
     /// How far an unbracketed step may go.
     reach: S,
     /// The last two steps, infinite at first.
     last: S,
     last_but_one: S,
-    /// Which of the two models of `S` foretold the current point better.
-    model: Model,
+    /// Whether `ln S` (a power of the temperature) predicted the current point better than `S` (constant heat capacity)
+    /// as a linear function of `ln θ`.
+    is_logarithmic: bool,
     /// Whether the last step was that of a model inside the bracket.
     modelled: bool,
     /// How many such steps made the residual larger, and how many bisections
@@ -41,7 +138,7 @@ struct Search<S> {
     evaluations: usize,
 }
 
-/// The search from a start that is not known to be close, for a single number.
+/// The temperature of an entropy, for a scalar number.
 #[cold]
 pub(super) fn search_from<S: Real>(
     mut evaluate: impl FnMut(S) -> Caloric<S>,
@@ -54,24 +151,24 @@ pub(super) fn search_from<S: Real>(
         });
     }
     let first = Point::new(start.ln(), start, evaluate(start), entropy);
-    if !first.stable() {
+    if !first.is_stable() {
         return Err(InversionError::UnstableStart {
             start: start.to_f64(),
             heat_capacity: first.heat_capacity.to_f64(),
         });
     }
     let mut search = Search::new(entropy, first);
-    while !search.converged() {
+    while !search.has_converged() {
         let mut step = search.step();
         loop {
-            if search.spent() {
+            if search.evaluations >= BUDGET || search.is_exhausted() {
                 return search.conclude();
             }
             let x = search.point.x + step;
             let theta = x.exp();
             let trial = Point::new(x, theta, evaluate(theta), entropy);
             search.evaluations += 1;
-            if trial.stable() && trial.follows(&search.point) {
+            if trial.is_stable() && trial.follows(&search.point) {
                 search.accept(trial, step);
                 break;
             }
@@ -79,7 +176,8 @@ pub(super) fn search_from<S: Real>(
             step *= S::from_f64(0.5);
         }
     }
-    Ok(search.solution())
+    // One more correction, which needs no evaluation.
+    Ok(search.point.theta * search.point.last_correction().exp())
 }
 
 impl<S: Real> Search<S> {
@@ -88,18 +186,25 @@ impl<S: Real> Search<S> {
         let infinity = S::one() / S::zero();
         // All normal numbers with normal reciprocals, but for a factor e².
         let widest = S::MAX.ln() - S::from_f64(2.0);
+        let large = S::from_f64(LARGE_FACTOR);
+        let [is_above, is_below] = [
+            (large * target).less(first.entropy),
+            (large * first.entropy).less(target),
+        ];
         let mut search = Self {
             target,
             point: first,
             best: first,
             below: None,
             above: None,
-            edge_low: (-widest).minimum(first.x - S::one()),
-            edge_high: widest.maximum(first.x + S::one()),
+            edges: [
+                (-widest).minimum(first.x - S::one()),
+                widest.maximum(first.x + S::one()),
+            ],
             reach: S::one(),
             last: infinity,
             last_but_one: infinity,
-            model: first.first_model(target),
+            is_logarithmic: (is_above | is_below).all(),
             modelled: false,
             failures: 0,
             bisections_due: 0,
@@ -124,7 +229,7 @@ impl<S: Real> Search<S> {
 
     /// Makes a stable trial the current point.
     fn accept(&mut self, trial: Point<S>, step: S) {
-        self.model = self.point.better_model(step, trial.entropy);
+        self.is_logarithmic = self.point.is_logarithmic(step, trial.entropy);
         let own = self.point.residual.abs();
         if self.modelled && own.less(trial.residual.abs()).all() {
             self.failures += 1;
@@ -136,110 +241,93 @@ impl<S: Real> Search<S> {
         self.narrow();
     }
 
-    /// Notes that `x` is beyond a spinodal, and forgets what lies farther off:
-    /// it belongs to another branch.
+    /// Notes that `x` is beyond a spinodal, and drops points farther off, which belong to another branch.
     fn exclude(&mut self, x: S) {
         if x.less(self.point.x).all() {
-            self.edge_low = x;
+            self.edges[0] = x;
             self.below = self.below.filter(|&below| x.less(below).all());
         } else {
-            self.edge_high = x;
+            self.edges[1] = x;
             self.above = self.above.filter(|&above| above.less(x).all());
         }
         let best = self.best.x;
-        if (best.less(self.edge_low) | self.edge_high.less(best)).all() {
+        if (best.less(self.edges[0]) | self.edges[1].less(best)).all() {
             self.best = self.point;
         }
     }
 
-    /// The lower bound of the solution.
-    fn low(&self) -> S {
-        self.below
-            .map_or(self.edge_low, |x| x.maximum(self.edge_low))
-    }
-
-    /// The upper bound of the solution.
-    fn high(&self) -> S {
-        self.above
-            .map_or(self.edge_high, |x| x.minimum(self.edge_high))
-    }
-
-    /// The residual is rounding noise, or what it asks for is below the resolution.
-    fn converged(&self) -> bool {
+    /// The residual is rounding noise, or Newton's correction below the resolution.
+    fn has_converged(&self) -> bool {
+        let Point {
+            residual, noise, ..
+        } = self.point;
         let size = self.point.newton().abs();
-        self.point.is_noise() || size.at_most(self.point.resolution()).all()
-    }
-
-    /// The search must end without convergence.
-    fn spent(&self) -> bool {
-        self.evaluations >= BUDGET || self.exhausted()
+        residual.abs().at_most(noise).all() || size.at_most(self.point.resolution()).all()
     }
 
     /// There is no number left between the bounds.
-    fn exhausted(&self) -> bool {
-        let width = self.high() - self.low();
-        width.at_most(self.point.resolution()).all()
+    fn is_exhausted(&self) -> bool {
+        let [low, high] = self.edges;
+        let low = self.below.map_or(low, |x| x.maximum(low));
+        let high = self.above.map_or(high, |x| x.minimum(high));
+        (high - low).at_most(self.point.resolution()).all()
     }
 
-    /// The current point after one more correction, which needs no evaluation.
-    fn solution(&self) -> S {
-        self.point.theta * self.point.last_correction().exp()
-    }
-
-    /// The next step from the current point.
+    /// The next step from the current point. One that would leave the stable range goes half way to its end instead.
     fn step(&mut self) -> S {
         let linear = self.point.newton();
-        let logarithmic = self.point.logarithmic_newton(self.target).unwrap_or(linear);
-        let (first, second) = match self.model {
-            Model::Linear => (linear, logarithmic),
-            Model::Logarithmic => (logarithmic, linear),
+        let logarithmic = self.point.logarithmic_newton(self.target);
+        let [first, second] = if self.is_logarithmic {
+            [logarithmic, linear]
+        } else {
+            [linear, logarithmic]
         };
         let step = if let (Some(below), Some(above)) = (self.below, self.above) {
-            self.bracketed(first, second, below, above)
+            self.bracketed([first, second], [below, above])
         } else {
             self.unbracketed(first, second)
         };
-        self.inside_edges(step)
-    }
-
-    /// A step that does not shrink to half of the one before the last is too slow.
-    fn slow(&self, step: S) -> bool {
-        (S::from_f64(0.5) * self.last_but_one)
-            .less(step.abs())
-            .all()
+        let (x, half) = (self.point.x, S::from_f64(0.5));
+        let [low, high] = self.edges;
+        if high.at_most(x + step).all() {
+            half * (high - x)
+        } else if (x + step).at_most(low).all() {
+            half * (low - x)
+        } else {
+            step
+        }
     }
 
     /// A step with the solution between two known points.
-    fn bracketed(&mut self, first: S, second: S, below: S, above: S) -> S {
-        let (x, limit) = (self.point.x, S::from_f64(0.5) * self.last_but_one);
-        let usable = |step: S| {
-            let is_inside = below.less(x + step) & (x + step).less(above);
-            (is_inside & step.abs().at_most(limit)).all()
-        };
+    fn bracketed(&mut self, proposals: [S; 2], [below, above]: [S; 2]) -> S {
+        let (x, half) = (self.point.x, S::from_f64(0.5));
+        let limit = half * self.last_but_one;
         if self.bisections_due == 0 {
             self.modelled = true;
-            if usable(first) {
-                return first;
-            }
-            if usable(second) {
-                return second;
+            let usable = proposals.into_iter().find(|&step| {
+                let is_inside = below.less(x + step) & (x + step).less(above);
+                (is_inside & step.abs().at_most(limit)).all()
+            });
+            if let Some(step) = usable {
+                return step;
             }
         }
         self.modelled = false;
         self.bisections_due = self.bisections_due.saturating_sub(1);
-        S::from_f64(0.5) * (below + above) - x
+        half * (below + above) - x
     }
 
     /// A step that looks for the other end of the bracket.
     fn unbracketed(&mut self, first: S, second: S) -> S {
-        let size = first.abs();
-        let slow = self.slow(first);
-        let is_long = (S::from_f64(0.5) * self.last).less(size).all();
+        let (size, half) = (first.abs(), S::from_f64(0.5));
+        // Newton's method should halve its steps within two.
+        let is_slow = (half * self.last_but_one).less(size).all();
+        let is_long = (half * self.last).less(size).all();
         let length = if self.reach.less(size).all() {
             self.reach
-        } else if slow || is_long {
+        } else if is_slow || is_long {
             let longer = size.maximum(second.abs().minimum(self.reach));
-            if slow {
+            if is_slow {
                 longer.maximum(self.reach)
             } else {
                 longer
@@ -253,41 +341,30 @@ impl<S: Real> Search<S> {
         S::select(first.less(S::zero()), -length, length)
     }
 
-    /// A step that would leave the stable range goes half way to its end instead.
-    fn inside_edges(&self, step: S) -> S {
-        let x = self.point.x + step;
-        let half = S::from_f64(0.5);
-        if self.edge_high.at_most(x).all() {
-            half * (self.edge_high - self.point.x)
-        } else if x.at_most(self.edge_low).all() {
-            half * (self.edge_low - self.point.x)
-        } else {
-            step
-        }
-    }
-
     /// The result when the bounds have met: the best point, or that there is no solution.
     fn conclude(&self) -> Result<S, InversionError> {
+        let is_exhausted = self.is_exhausted();
+        if is_exhausted && self.below.is_some() && self.above.is_some() {
+            return Ok(self.best.theta);
+        }
         let entropy = self.target.to_f64();
         let temperature = self.best.theta.to_f64();
         let residual = self.best.residual.to_f64();
         let evaluations = self.evaluations;
-        if !self.exhausted() {
-            return Err(InversionError::TooManyEvaluations {
+        Err(if is_exhausted {
+            InversionError::NoSuchTemperature {
                 entropy,
                 temperature,
                 residual,
                 evaluations,
-            });
-        }
-        if self.below.is_some() && self.above.is_some() {
-            return Ok(self.best.theta);
-        }
-        Err(InversionError::NoSuchTemperature {
-            entropy,
-            temperature,
-            residual,
-            evaluations,
+            }
+        } else {
+            InversionError::TooManyEvaluations {
+                entropy,
+                temperature,
+                residual,
+                evaluations,
+            }
         })
     }
 }

@@ -1,6 +1,6 @@
-//! Numbers and places in half the memory.
+//! Indices in half the memory.
 
-/// A number that fits; more than it can count would need hundreds of gigabytes.
+/// An index in 32 bits; more entries would need hundreds of gigabytes.
 #[must_use]
 pub fn compact(number: usize) -> u32 {
     match u32::try_from(number) {

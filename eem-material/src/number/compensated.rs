@@ -1,4 +1,4 @@
-//! Sums that remember what rounding took from them.
+//! Compensated sums, which store the rounding errors of their additions.
 
 use crate::number::kernel::two_sum;
 use crate::number::scalar::{Real, Scalar};
@@ -13,7 +13,7 @@ pub struct Compensated<S> {
     carries: Vec<S>,
 }
 
-/// None.
+/// No sums.
 impl<S> Default for Compensated<S> {
     fn default() -> Self {
         Self {
@@ -38,7 +38,7 @@ impl<S: Scalar> Compensated<S> {
         &self.values
     }
 
-    /// Every sum and what is still missing of it.
+    /// Every sum with its carry.
     pub fn sums(&self) -> impl Iterator<Item = (S, S)> + Clone + '_ {
         let carries = self.carries.iter().copied();
         self.values.iter().copied().zip(carries)
@@ -61,7 +61,7 @@ impl<S: Scalar> Compensated<S> {
         self.carries[index] = S::zero();
     }
 
-    /// Replaces all of them, exactly.
+    /// Replaces all sums, exactly.
     pub fn write(&mut self, values: impl FnOnce(&mut [S])) {
         values(&mut self.values);
         self.carries.fill(S::zero());
@@ -71,12 +71,11 @@ impl<S: Scalar> Compensated<S> {
     #[inline]
     pub fn advance(&mut self, index: usize, old: &Self, increment: S) {
         let sum = old.sum(index).plus(increment);
-        self.values[index] = sum.value;
-        self.carries[index] = sum.carry;
+        (self.values[index], self.carries[index]) = (sum.value, sum.carry);
     }
 
-    /// The sums of one point of `D` coordinates, of `old` and increments, each a value and the rounding
-    /// that is missing of it; all carries added up.
+    /// The sums of one point of `D` coordinates, of `old` and increments, each a value and its rest; returns the sum of the
+    /// carries.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few numbers in registers")]
     pub fn advance_point<const D: usize>(
@@ -88,7 +87,7 @@ impl<S: Scalar> Compensated<S> {
         let from = old.point::<D>(point);
         let values = &mut self.values.as_chunks_mut::<D>().0[point];
         let carries = &mut self.carries.as_chunks_mut::<D>().0[point];
-        // Both arrays are stored as a whole: a load soon after a store of a single coordinate would stall.
+        // Each array is stored at once: a load soon after stores of single coordinates would stall.
         let (mut sums, mut missing) = ([S::zero(); D], [S::zero(); D]);
         for axis in 0..D {
             let from = Sum {
@@ -113,8 +112,7 @@ impl<S: Scalar> Compensated<S> {
     #[inline]
     pub fn add(&mut self, index: usize, increment: S) {
         let sum = self.sum(index).plus(increment);
-        self.values[index] = sum.value;
-        self.carries[index] = sum.carry;
+        (self.values[index], self.carries[index]) = (sum.value, sum.carry);
     }
 
     /// `self − old` of one sum, to rounding of the difference.
@@ -124,7 +122,7 @@ impl<S: Scalar> Compensated<S> {
         self.sum(index).change(old.sum(index))
     }
 
-    /// Takes over the sums of `other`, which has as many, without allocation.
+    /// Copies the sums of `other`, which has as many, without allocation.
     pub fn copy_from(&mut self, other: &Self) {
         if self.values.is_empty() {
             return;
@@ -139,7 +137,7 @@ impl<S: Scalar> Compensated<S> {
 pub struct Sum<S> {
     /// The sum, rounded.
     pub value: S,
-    /// What rounding has left of it.
+    /// The rounding error of the value.
     pub carry: S,
 }
 
@@ -158,8 +156,8 @@ impl<S: Scalar> Sum<S> {
 
     /// The sum with an increment.
     ///
-    /// The carry is added to what rounding takes from `value + increment`, and not to the increment,
-    /// whose last digits it would lose (`Sum2`, Ogita, Rump & Oishi 2005).
+    /// The carry is added to the rounding error of `value + increment`, and not to the increment, where its last digits
+    /// would be lost (`Sum2`, Ogita, Rump & Oishi 2005).
     #[inline]
     fn plus(self, increment: S) -> Self {
         let (high, error) = two_sum(self.value, increment);
@@ -182,14 +180,14 @@ impl<S: Scalar> Sum<S> {
     }
 }
 
-/// Adds to a value and what is missing of it a change that is large beside what is missing: the corrections
-/// of Newton's method. One addition less than [`Sum::add`], for which every digit of the carry counts.
+/// Adds to a value and its carry a change that is large compared with the carry: a correction of Newton's method. One
+/// addition less than [`Sum::add`], which keeps every digit of the carry.
 #[inline]
 pub fn correct<S: Scalar>(value: &mut S, carry: &mut S, change: S) {
     (*value, *carry) = two_sum(*value, *carry + change);
 }
 
-/// A sum to twice the precision, so that adding up a large scene costs no digits.
+/// A sum to twice the precision, so that the sum over a large scene loses no digits.
 #[derive(Clone, Copy, Debug)]
 pub struct Total<S> {
     value: S,
@@ -197,9 +195,8 @@ pub struct Total<S> {
 }
 
 impl<S: Scalar> Default for Total<S> {
-    /// Of nothing.
     fn default() -> Self {
-        let (value, rest) = (S::zero(), S::zero());
+        let [value, rest] = [S::zero(); 2];
         Self { value, rest }
     }
 }
@@ -213,7 +210,7 @@ impl<S: Scalar> Total<S> {
         self.rest += rest;
     }
 
-    /// Adds a sum and what is still missing of it.
+    /// Adds a sum with its carry.
     #[inline]
     pub fn add_sum(&mut self, sum: Sum<S>) {
         self.add(sum.value);
@@ -242,7 +239,7 @@ impl<S: Scalar> Total<S> {
         }
     }
 
-    /// Of some terms.
+    /// The sum of some terms.
     pub fn of(terms: impl IntoIterator<Item = S>) -> S {
         let mut sum = Self::default();
         for term in terms {
@@ -252,7 +249,7 @@ impl<S: Scalar> Total<S> {
     }
 }
 
-/// In a file, a pair: the sum and what is still missing of it.
+/// In a file, a pair: sum and carry.
 #[cfg(feature = "serde")]
 impl<S: serde::Serialize> serde::Serialize for Sum<S> {
     fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
@@ -268,7 +265,7 @@ impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Sum<S> {
     }
 }
 
-/// In a file, pairs: each sum with what is still missing of it.
+/// In a file, pairs: each sum with its carry.
 #[cfg(feature = "serde")]
 impl<S: serde::Serialize> serde::Serialize for Compensated<S> {
     fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
@@ -290,7 +287,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_small_increment_is_not_lost_beside_a_large_one_and_its_opposite() {
+    fn a_small_increment_is_not_lost_between_a_large_one_and_its_opposite() {
         let mut sum = Sum::new(1.0_f64);
         for increment in [1e-3, 1e-25, -1e-3] {
             sum.add(increment);

@@ -1,35 +1,34 @@
 //! The derivative of a function at the beginning of an interval, from values in it.
 //!
-//! Spans of which each is √3 times shorter than the one before give differences, and polynomials through these, by
-//! Neville's algorithm, their limit. Of all such limits that one is taken which seems the most accurate, by how much it
-//! differs from those of lower degree and by what rounding does to it, and with which those of all shorter spans agree:
-//! it may have taken a function for flat that only comes back to where it was (after C. J. F. Ridders, *Accurate
-//! computation of F′(x) and F′(x) F″(x)*, Adv. Eng. Softw. 4 (1982)).
+//! Differences over spans, each √3 times shorter than the one before, are extrapolated by Neville's algorithm. The result is
+//! the limit with the smallest estimated error, from the differences to lower degrees and from rounding, with which the
+//! limits of all shorter spans agree: a function that returns to its first value could seem flat over a long span (after
+//! C. J. F. Ridders, *Accurate computation of F′(x) and F′(x) F″(x)*, Adv. Eng. Softw. 4 (1982)).
 
-/// The ratio of a span to the next: irrational, so that no period is a multiple of two that follow each other.
+/// The ratio of a span to the next: irrational, so that no period is a multiple of two consecutive spans.
 const RATIO: f64 = 1.732_050_807_568_877_2;
 
-/// How many spans there are: the shortest is 3e-5 of the interval. Shorter ones would show how a function is rounded
-/// that comes from larger numbers, as 1 − cos t.
+/// The number of spans: the shortest is 3e-5 of the interval. Shorter ones would show the rounding of functions with larger
+/// terms, such as 1 − cos t.
 pub const SPANS: usize = 20;
 
 /// The highest degree of a polynomial.
 const DEGREE: usize = 8;
 
-/// Roundings of the two values of a difference, where those of a function are a few times that of its value.
+/// Roundings of the two values of a difference; those of a function are a few.
 const ROUNDINGS: f64 = 4.0;
 
-/// How far two limits may be apart in units of what their errors seem to be.
+/// The largest difference of two limits that agree, in units of their estimated errors.
 const AGREEMENT: f64 = 2.0;
 
-/// A limit, and what its error seems to be.
+/// A limit with its estimated error.
 #[derive(Clone, Copy)]
 struct Limit {
     value: f64,
     error: f64,
 }
 
-/// The spans after which the function is asked for, as shares of the interval.
+/// The spans after which the function is evaluated, as fractions of the interval.
 #[must_use]
 pub fn shares() -> [f64; SPANS] {
     let mut shares = [1.0; SPANS];
@@ -39,8 +38,7 @@ pub fn shares() -> [f64; SPANS] {
     shares
 }
 
-/// The derivative from the value at the beginning and those after some spans, in numbers that are ε apart at 1; not a
-/// number where there is none.
+/// The derivative from the value at the beginning and those after the spans, in numbers with this ε; NaN if there is none.
 #[must_use]
 pub fn derivative(first: f64, (spans, values): ([f64; SPANS], [f64; SPANS]), epsilon: f64) -> f64 {
     let limits = limits(first, (&spans, &values), epsilon);
@@ -105,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn what_comes_later_does_not_count() {
+    fn later_changes_of_the_function_have_no_effect() {
         for interval in [10.0, 1.0, 0.1] {
             assert!(of(|t| 0.2 * (t - 0.05).max(0.0), interval).abs() <= 1e-15);
             let pulse = |t: f64| if t < 0.03 { (100.0 * t).sin() } else { 0.0 };
@@ -114,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_has_none() {
+    fn a_function_that_is_nan_has_none() {
         let late = |t: f64| if t > 0.0 { f64::NAN } else { 0.0 };
         assert!(of(late, 1.0).is_nan());
         let at_first = |t: f64| {

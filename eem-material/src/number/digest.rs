@@ -1,16 +1,16 @@
-//! Many numbers in one: whether they are the same as others.
+//! Digests of numbers, to detect whether two sets of them are the same.
 
 use crate::number::scalar::Real;
 
-/// A 64-bit digest (FNV-1a; Fowler, Noll & Vo 1991). Against mistakes, not against malice.
+/// A 64-bit digest (FNV-1a; Fowler, Noll & Vo 1991), against mistakes, not against attacks.
 ///
-/// Two numbers that differ in one bit have different digests; that of two scenes with other
-/// numbers is the same by chance in one of 2⁶⁴ cases.
+/// Two numbers that differ in one bit have different digests; those of two scenes with different numbers agree by chance in
+/// one of 2⁶⁴ cases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Digest(u64);
 
 impl Digest {
-    /// That of nothing: the offset basis of the algorithm.
+    /// The empty digest: the offset basis of the algorithm.
     const NOTHING: Self = Self(0xcbf2_9ce4_8422_2325);
 
     /// The prime of the algorithm.
@@ -35,7 +35,7 @@ impl Digest {
         }
     }
 
-    /// What some work adds to nothing.
+    /// The digest of what `add` adds.
     pub fn of(add: impl FnOnce(&mut Self)) -> Self {
         let mut digest = Self::NOTHING;
         add(&mut digest);

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! smooth functions of `(a, b)` that are evaluated as such: `f[a,a] = f′(a)`
-//! and `f[a,a,a] = ½f″(a)` are ordinary values, and no distance between `a`
+//! and `f[a,a,a] = ½f″(a)` are regular values, and no distance between `a`
 //! and `b` is too small or too large. The quotient on the left is never formed
 //! for close ends.
 //!
@@ -34,27 +34,23 @@
 //! Comp. 43 (1984) 501–528; as a program transformation Reps & Rall,
 //! Higher-Order and Symbolic Computation 16 (2003).
 
-mod differences;
 mod exponential;
 mod hyperbolic;
 mod inverse;
 mod logarithm;
 mod power;
 mod primitives;
-mod root;
 mod trigonometric;
-mod whole_power;
 
-pub use primitives::two_sum;
-
-pub use differences::Differences;
-pub use exponential::{exp_dd, exp_dd2, exp_m1_dd, exp_m1_dd2, power_dd, power_dd2, power_dds};
+pub use exponential::{exp_dd as exp_m1_dd, exp_dd2 as exp_m1_dd2};
+pub use exponential::{exp_dd, exp_dd2, power_dd, power_dd2, power_dds};
 pub use hyperbolic::{cosh_dd, cosh_dd2, sinh_dd, sinh_dd2, tanh_dd, tanh_dd2};
 pub use inverse::{asinh_dd, asinh_dd2, atan_dd, atan_dd2, atanh_dd, atanh_dd2};
 pub use logarithm::{
     ln_1p_dd, ln_1p_dd2, ln_1p_dds, ln_dd, ln_dd2, ln_dds, log2_dd, log2_dd2, log10_dd, log10_dd2,
 };
-pub use power::{powf_dd, powf_dd2};
-pub use root::{cbrt_dd, cbrt_dd2, recip_dd, recip_dd2, sqrt_dd, sqrt_dd2};
+pub use power::{
+    cbrt_dd, cbrt_dd2, powf_dd, powf_dd2, powi_dd, powi_dd2, recip_dd, recip_dd2, sqrt_dd, sqrt_dd2,
+};
+pub use primitives::{Differences, two_sum};
 pub use trigonometric::{cos_dd, cos_dd2, sin_dd, sin_dd2, tan_dd, tan_dd2};
-pub use whole_power::{powi_dd, powi_dd2};

@@ -1,27 +1,60 @@
-//! Four numbers in the place of one: the same scene with four sets of numbers, one per SIMD lane.
+//! SIMD lanes: four numbers as one, for four scenes that differ in numbers only.
 //!
-//! Every lane has the bits that it would have alone. Arithmetic, roots and comparisons are those of
-//! the processor; elementary functions are those of the platform's library, lane by lane. Lanes have no
-//! order: comparisons return a mask, and whoever branches on it says what happens where lanes differ.
+//! Every lane has the bits that it would have alone. Arithmetic, roots and comparisons are those of the processor; elementary
+//! functions are those of the platform's library, lane by lane. Lanes have no order: comparisons return a mask, and a branch
+//! on it must handle lanes that differ.
 
-mod forward;
-mod mask;
 #[cfg(test)]
 mod tests;
 
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{
+    Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
+};
 
 use wide::f64x4;
 
 use crate::number::scalar::{MOST_LANES, Mask, Real, Scalar, Sealed};
-use forward::forward;
-pub use mask::LaneMask;
 
-/// How many numbers move together. Wider ones gain nothing with the instructions that every
-/// processor has.
+/// Forwards operators to the packed type.
+macro_rules! forward {
+    ($own:ident: $($operator:ident $method:ident),*; $($unary:ident $unary_method:ident),*) => {
+        $(
+            impl $operator for $own {
+                type Output = Self;
+
+                #[inline]
+                fn $method(self, other: Self) -> Self {
+                    Self::from_packed($operator::$method(self.packed(), other.packed()))
+                }
+            }
+        )*
+        $(
+            impl $unary for $own {
+                type Output = Self;
+
+                #[inline]
+                fn $unary_method(self) -> Self {
+                    Self::from_packed($unary::$unary_method(self.packed()))
+                }
+            }
+        )*
+    };
+    ($own:ident: $($assign:ident $method:ident by $operator:ident $by:ident),*) => {
+        $(
+            impl $assign for $own {
+                #[inline]
+                fn $method(&mut self, other: Self) {
+                    *self = $operator::$by(*self, other);
+                }
+            }
+        )*
+    };
+}
+
+/// The number of lanes. More gain nothing with the instructions that every processor has.
 const LANES: usize = MOST_LANES;
 
-/// See the module.
+/// Four numbers, see the module.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
 pub struct Lanes([f64; LANES]);
@@ -62,7 +95,7 @@ forward!(
     MulAssign mul_assign by Mul mul, DivAssign div_assign by Div div
 );
 
-/// Equal in all lanes. To branch where lanes may differ there is [`Scalar::equal`].
+/// Equal in all lanes. To branch where lanes may differ, use [`Scalar::equal`].
 impl PartialEq for Lanes {
     #[inline]
     fn eq(&self, other: &Self) -> bool {
@@ -106,7 +139,7 @@ impl Scalar for Lanes {
         LaneMask::from_packed(self.packed().simd_lt(other.packed()))
     }
 
-    /// One closure where the lanes agree: most branches are about rare cases.
+    /// One closure if all lanes agree, as in most branches, which are for rare cases.
     #[inline]
     fn branch(
         mask: LaneMask,
@@ -192,5 +225,40 @@ impl Real for Lanes {
     #[inline]
     fn lane(self, lane: usize) -> f64 {
         self.0[lane]
+    }
+}
+
+/// One `bool` per lane: all bits of a lane are set, or none.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneMask(f64x4);
+
+impl LaneMask {
+    #[inline]
+    fn packed(self) -> f64x4 {
+        self.0
+    }
+
+    #[inline]
+    fn from_packed(packed: f64x4) -> Self {
+        Self(packed)
+    }
+}
+
+forward!(LaneMask: BitAnd bitand, BitOr bitor; Not not);
+
+impl Mask for LaneMask {
+    #[inline]
+    fn none() -> Self {
+        Self(f64x4::ZERO)
+    }
+
+    #[inline]
+    fn all(self) -> bool {
+        self.0.all()
+    }
+
+    #[inline]
+    fn any(self) -> bool {
+        self.0.any()
     }
 }

@@ -6,11 +6,8 @@ use core::fmt;
 /// digits before it.
 const PLAIN: core::ops::Range<f64> = 1e-4..1e6;
 
-/// A number as error messages print it: the fewest digits that give back the same `f64`, with an
-/// exponent outside of 1e-4 … 1e6. `{}` alone would print 1e300 with 300 zeros.
-///
-/// A precision (`{:.6}`) is the number of digits behind the point, of the mantissa if there is an
-/// exponent.
+/// A number as error messages print it: the fewest digits that give back the same `f64`, with an exponent outside of 1e-4 …
+/// 1e6. A precision (`{:.6}`) is the number of digits behind the point, of the mantissa if there is an exponent.
 #[derive(Clone, Copy, Debug)]
 pub struct Readable(pub f64);
 

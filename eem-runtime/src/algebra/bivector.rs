@@ -11,12 +11,12 @@ use eem_material::number::scalar::Real;
 pub(crate) struct Bivector<T, const D: usize>([[T; D]; D]);
 
 impl<T: Copy, const D: usize> Bivector<T, D> {
-    /// With the same value in every plane.
+    /// The bivector with the same value in every plane.
     pub(crate) const fn filled(value: T) -> Self {
         Self([[value; D]; D])
     }
 
-    /// With each component by its axes `i < j`.
+    /// The bivector with these components, by axes `i < j`.
     #[inline]
     fn of(unused: T, mut of: impl FnMut(usize, usize) -> T) -> Self {
         let mut result = Self::filled(unused);
@@ -34,19 +34,18 @@ impl<T: Copy, const D: usize> Bivector<T, D> {
         self.0[i][j]
     }
 
-    /// The same, to be changed.
     #[inline]
     pub(crate) const fn at_mut(&mut self, [i, j]: [usize; 2]) -> &mut T {
         &mut self.0[i][j]
     }
 
-    /// With each component by its plane.
+    /// The bivector of functions of the components.
     #[inline]
     pub(crate) fn map<U: Copy>(&self, unused: U, mut of: impl FnMut(T) -> U) -> Bivector<U, D> {
         Bivector::of(unused, |i, j| of(self.0[i][j]))
     }
 
-    /// With each component by those of two in its plane.
+    /// The bivector of functions of the components of two.
     #[inline]
     pub(crate) fn zip<V: Copy, U: Copy>(
         &self,
@@ -65,7 +64,6 @@ pub(crate) fn planes<const D: usize>() -> impl Iterator<Item = [usize; 2]> {
 }
 
 impl<S: Real, const D: usize> Bivector<S, D> {
-    /// Zero.
     #[inline]
     pub(crate) fn zero() -> Self {
         Self::filled(S::zero())

@@ -1,19 +1,14 @@
 //! Dense LU factorisation with partial pivoting, in place.
 //!
-//! For the handful of unknowns of a small scene or of one element. It works on any [`Real`] and on
-//! borrowed memory, so that a step allocates nothing. For a number of unknowns that the compiler knows
-//! there is [`solve_fixed`], for one and two [`solve_one`] and [`solve_two`].
+//! For the few unknowns of a small scene or of one element. It works on any [`Real`] and on borrowed memory, so that a step
+//! allocates nothing. Numbers of unknowns known at compile time use [`solve_fixed`], [`solve_one`] and [`solve_two`].
 
-mod few;
 mod fixed;
-mod singular;
 
 use eem_material::number::scalar::{Discord, Mask, Real};
-pub(crate) use few::{solve_one, solve_two};
-pub(crate) use fixed::solve_fixed;
-pub(crate) use singular::Singular;
+pub(crate) use fixed::{Singular, solve_fixed, solve_one, solve_two};
 
-/// Numbers that need different pivots have none in common.
+/// Lanes that need different pivots have none in common.
 impl From<Discord> for Singular {
     fn from(Discord: Discord) -> Self {
         Self

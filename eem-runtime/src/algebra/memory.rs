@@ -1,7 +1,7 @@
-//! Whether linear systems fit in the memory there is, asked before it is reserved.
+//! The check, before memory is reserved, that linear systems fit in it.
 //!
-//! A system that promises memory until it is written to (Linux does) reserves anything, and ends the program later. So
-//! what the factors take, which is known from the pattern, is compared with what the machine has available.
+//! An operating system that overcommits memory (Linux does) reserves anything, and ends the program later. So the size of
+//! the factors, which is known from the pattern, is compared with the memory that the machine has available.
 
 /// The most memory that a linear system may take.
 #[derive(Clone, Copy, Debug)]
@@ -37,19 +37,19 @@ pub struct TooLarge {
     pub available: Option<u64>,
 }
 
-/// What takes no more than this, bytes, is reserved without asking the machine, which takes longer than a small scene.
+/// Up to this size, bytes, memory is reserved without a query of the machine, which takes longer than a small scene.
 const SMALL: u64 = 1 << 28;
 
 impl MemoryLimit {
-    /// What the machine has available.
+    /// The memory that the machine has available.
     pub(crate) const NONE: Self = Self(None);
 
-    /// So many bytes, whatever the machine has; without a number, what it has available.
+    /// So many bytes, whatever the machine has; without a number, the memory it has available.
     pub(crate) const fn new(bytes: Option<u64>) -> Self {
         Self(bytes)
     }
 
-    /// An error if a system of so many unknowns needs more bytes than it may have.
+    /// An error if a system of so many unknowns needs more bytes than the limit.
     pub(crate) fn check(self, unknowns: usize, needed: u64) -> Result<(), TooLarge> {
         let available = match self.0 {
             Some(limit) => Some(limit),
@@ -73,14 +73,13 @@ pub(crate) fn bytes<S>([rows, columns]: [usize; 2]) -> u64 {
     u64::try_from(numbers.saturating_mul(size_of::<S>())).unwrap_or(u64::MAX)
 }
 
-/// The memory that the machine, or the group of processes that this one belongs to, has available, bytes; `None` where
-/// that cannot be found out.
+/// The memory that the machine or the control group of this process has available, bytes; `None` if unknown.
 #[cfg(feature = "sparse")]
 fn available() -> Option<u64> {
     let mut system = sysinfo::System::new().ok()?;
     system.refresh_memory();
     let of_machine = system.available_memory();
-    // What a group of processes has free does not count what it could give back, as copies of files.
+    // The free memory of a control group does not count reclaimable memory such as the page cache.
     let limits = system.cgroup_limits();
     let of_group = limits.map(|limits| limits.total_memory.saturating_sub(limits.rss));
     let available = of_group.map_or(of_machine, |most| most.min(of_machine));
@@ -112,7 +111,7 @@ mod tests {
     // More than any machine has.
     #[test]
     #[cfg(feature = "sparse")]
-    fn the_machine_is_asked_for_what_is_large() {
+    fn large_systems_are_compared_with_the_memory_of_the_machine() {
         assert_eq!(MemoryLimit::NONE.check(1, SMALL), Ok(()));
         assert!(MemoryLimit::NONE.check(1, u64::MAX).is_err());
     }

@@ -4,26 +4,23 @@
 //! A X = B     A: unknowns × unknowns, entries only where the Pattern has them;  B: W columns
 //! ```
 //!
-//! The entries of A are one array, [`values`](LinearSystem::values). Where an entry is in it is
-//! asked once, when the scene is built ([`place`](LinearSystem::place)); an iteration then writes
-//! to places. The entries of a row that belong to the unknowns of one node lie next to each other, as do
-//! the rows of B. What belongs to an anchor has a place too, behind everything else, which no
-//! elimination reads.
+//! The entries of A are one array, [`values`](LinearSystem::values). Their indices are found once, when the scene is built
+//! ([`place`](LinearSystem::place)). The entries of a row that belong to the unknowns of one node are consecutive, as are the
+//! rows of B. Anchors write to a scratch entry behind all others, which no elimination reads.
 //!
-//! How entries are laid out and what solves with them is the business of the [`Storage`]: another
-//! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
-//! and `solve`. One and two unknowns do not ask it.
+//! The [`Storage`] decides how entries are laid out and solved with. Another one is another variant there, with its `new`
+//! (from the pattern), `entries`, `position` and `solve`. One and two unknowns do without.
 
+#[cfg(feature = "sparse")]
+use core::marker::PhantomData;
 use core::mem;
 
 #[cfg(feature = "sparse")]
-use eem_sparse::{Analysis, Solver};
+use eem_sparse::{Analysis, Precision, Solver};
 
 use crate::algebra::lu::{self, Singular};
 use crate::algebra::memory::{MemoryLimit, TooLarge, bytes};
 use crate::algebra::pattern::Pattern;
-#[cfg(feature = "sparse")]
-use crate::algebra::stored::Stored;
 use eem_material::number::scalar::Real;
 
 /// The most unknowns for which the elimination is compiled with their number.
@@ -33,12 +30,12 @@ pub(crate) const MOST_FIXED: usize = 12;
 #[cfg(feature = "sparse")]
 const MOST_DENSE: usize = 24;
 
-/// The largest share of entries, one in this many, that is worth looking for.
+/// A pattern is sparse if at most one in this many entries can differ from zero.
 #[cfg(feature = "sparse")]
 const SPARSITY: usize = 4;
 
-/// Entries of the factors per entry of the matrix from which on factors are kept; a chain has 1, a square
-/// lattice of 10 by 10 nodes 3.
+/// Factors are kept from this ratio of their entries to those of the matrix on; a chain has 1, a square lattice of 10 by 10
+/// nodes 3.
 #[cfg(feature = "sparse")]
 const WORTHWHILE_FILL: usize = 3;
 
@@ -47,20 +44,19 @@ const WORTHWHILE_FILL: usize = 3;
 pub(crate) struct LinearSystem<S, const W: usize> {
     unknowns: usize,
     storage: Storage,
-    /// A is zero.
     is_clear: bool,
     /// The entries of A, then a scratch entry for anchors, written but never read.
     values: Vec<S>,
     /// The rows of B, then a scratch row for anchors, written but never read.
     right: Vec<[S; W]>,
-    /// The rows of X, then what is said of those that have none.
+    /// Rows of X, then a scratch row for anchors.
     solution: Vec<[S; W]>,
 }
 
 /// The entries of A and the rows of B.
 pub(crate) type Parts<'a, S, const W: usize> = (&'a mut [S], &'a mut [[S; W]]);
 
-/// Where the entries of A are, and how the system is solved.
+/// How the entries of A are stored and the system is solved.
 #[derive(Debug)]
 enum Storage {
     /// All entries, row by row; at most [`MOST_FIXED`] unknowns.
@@ -73,7 +69,7 @@ enum Storage {
 }
 
 impl Storage {
-    /// What suits the pattern, unless it is too large.
+    /// The storage for a pattern, unless it is too large.
     fn new<S>(pattern: &Pattern, limit: MemoryLimit) -> Result<Self, TooLarge> {
         let unknowns = pattern.unknowns();
         if unknowns <= MOST_FIXED {
@@ -102,7 +98,7 @@ impl Storage {
         Ok(Self::Dense { pivots })
     }
 
-    /// How many values are stored.
+    /// Number of stored values.
     fn entries(&self) -> usize {
         match self {
             Self::Fixed { unknowns } => unknowns * unknowns,
@@ -112,7 +108,7 @@ impl Storage {
         }
     }
 
-    /// Where an entry is among the values, if the pattern has it.
+    /// The index of an entry among the values, if the pattern has it.
     #[cfg_attr(
         not(feature = "sparse"),
         expect(
@@ -129,8 +125,8 @@ impl Storage {
         }
     }
 
-    /// Overwrites the right-hand sides with the solutions, and the values with zeros; what follows the
-    /// values is not looked at.
+    /// Overwrites the right-hand sides with the solutions, and the values with zeros; the scratch entry behind them is not
+    /// read.
     #[inline(never)]
     fn solve<S: Real, const W: usize>(
         &mut self,
@@ -146,7 +142,7 @@ impl Storage {
     }
 }
 
-/// The elimination of a full matrix. Apart, so that small systems do not pay for its registers.
+/// The elimination of a full matrix, in a separate function, so that small systems do not spill registers for it.
 #[inline(never)]
 fn solve_dense<S: Real, const W: usize>(
     values: &mut [S],
@@ -160,7 +156,7 @@ fn solve_dense<S: Real, const W: usize>(
     Ok(())
 }
 
-/// The elimination by the pattern, apart for the same reason.
+/// The elimination by the pattern, separate for the same reason.
 #[cfg(feature = "sparse")]
 #[inline(never)]
 fn solve_sparse<S: Real, const W: usize>(
@@ -174,6 +170,26 @@ fn solve_sparse<S: Real, const W: usize>(
     solved.map_err(|_| Singular)?;
     values.fill(S::zero());
     Ok(())
+}
+
+/// Scene numbers for the sparse elimination, which computes in double precision.
+#[cfg(feature = "sparse")]
+#[derive(Clone, Copy)]
+struct Stored<S>(PhantomData<S>);
+
+#[cfg(feature = "sparse")]
+impl<S: Real> Precision for Stored<S> {
+    type Number = S;
+
+    #[inline]
+    fn widen(number: S) -> f64 {
+        number.to_f64()
+    }
+
+    #[inline]
+    fn narrow(value: f64) -> S {
+        S::from_f64(value)
+    }
 }
 
 /// The elimination that is compiled for this number of unknowns, more than two.
@@ -202,7 +218,7 @@ fn solve_fixed<S: Real, const W: usize>(
 }
 
 impl<S: Real, const W: usize> LinearSystem<S, W> {
-    /// A system in which what belongs to an anchor has so many rows, unless it takes more memory than it may.
+    /// A system with `run` scratch rows for anchors, unless it exceeds the memory limit.
     pub(crate) fn new(pattern: &Pattern, run: usize, limit: MemoryLimit) -> Result<Self, TooLarge> {
         let storage = Storage::new::<S>(pattern, limit)?;
         Ok(Self {
@@ -215,18 +231,16 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         })
     }
 
-    /// Number of unknowns.
     pub(crate) fn unknowns(&self) -> usize {
         self.unknowns
     }
 
-    /// The place of a row of B; the scratch row without an unknown.
+    /// The index of a row of B; the scratch row without an unknown.
     pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
         unknown.unwrap_or(self.unknowns)
     }
 
-    /// The place of an entry of A, which the pattern must have; without one of the unknowns, the
-    /// scratch entry.
+    /// The index of an entry of A, which the pattern must have; the scratch entry if an unknown is missing.
     pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
         let position = row.zip(column).map(|(row, column)| {
             let position = self.storage.position(row, column);
@@ -236,13 +250,13 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         position.flatten().unwrap_or(self.storage.entries())
     }
 
-    /// Makes everything zero.
+    /// Sets A and B to zero.
     pub(crate) fn clear(&mut self) {
         self.clear_matrix();
         self.right.fill([S::zero(); W]);
     }
 
-    /// Makes A zero.
+    /// Sets A to zero.
     #[inline]
     pub(crate) fn clear_matrix(&mut self) {
         if !self.is_clear {
@@ -258,7 +272,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         (&mut self.values, &mut self.right)
     }
 
-    /// The entries of A and the rows of B for the next system, of which A is zero, and the rows of X.
+    /// The entries of A, set to zero, the rows of B and those of X.
     #[inline]
     pub(crate) fn renew(&mut self) -> (&mut [S], &mut [[S; W]], &mut [[S; W]]) {
         self.clear_matrix();
@@ -293,7 +307,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         .collect()
     }
 
-    /// Whether finding factors takes so much longer than solving with them that they are worth keeping.
+    /// Whether factors are worth keeping: finding them takes much longer than solving with them.
     pub(crate) fn keeps_factors(&self) -> bool {
         match &self.storage {
             #[cfg(feature = "sparse")]
@@ -304,8 +318,8 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         }
     }
 
-    /// Like [`solve`](Self::solve), but with the factors of the last matrix instead of those of A. False if
-    /// there are none that say anything, and nothing has changed.
+    /// Like [`solve`](Self::solve), but with the factors of the last matrix instead of those of A. Returns false, and changes
+    /// nothing, without usable factors.
     pub(crate) fn solve_with_last_factors(&mut self) -> bool {
         match &mut self.storage {
             #[cfg(feature = "sparse")]
@@ -326,7 +340,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
         match self.unknowns {
-            // In line, as they are hardly longer than the call.
+            // Inline: hardly longer than a call.
             1 => lu::solve_one(&mut self.values, &self.right, &mut self.solution)?,
             2 => lu::solve_two(&mut self.values, &self.right, &mut self.solution)?,
             unknowns => {
@@ -392,12 +406,12 @@ mod tests {
     }
 
     #[test]
-    fn what_belongs_to_an_anchor_is_read_by_nobody() {
+    fn entries_of_anchors_are_not_read() {
         let mut system =
             LinearSystem::<f64, 1>::new(&Pattern::new(1, |_| {}), 1, MemoryLimit::NONE).unwrap();
-        let (own, nobody) = (system.place(Some(0), Some(0)), system.place(Some(0), None));
+        let (own, scratch) = (system.place(Some(0), Some(0)), system.place(Some(0), None));
         let (values, right) = system.parts();
-        (values[own], values[nobody]) = (2.0, 9.0);
+        (values[own], values[scratch]) = (2.0, 9.0);
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
         assert_eq!(system.solution()[0].map(f64::to_bits), [3.0_f64.to_bits()]);

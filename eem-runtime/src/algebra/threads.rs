@@ -1,12 +1,11 @@
-//! Two independent tasks, at the same time if a thread of the current rayon pool is free.
+//! Two independent tasks, in parallel if a thread of the current rayon pool is free.
 //!
-//! Where work is divided never depends on the number of threads, so that results do not either.
+//! The division of work never depends on the number of threads, so that results do not either.
 
-/// A task, whatever it does; its outcome is left where it can be found. Not generic, so that rayon is compiled once
-/// and not for each material.
+/// A task, which stores its result itself. Not generic, so that rayon is compiled once and not for each material.
 pub(crate) type Task<'a> = &'a mut (dyn FnMut() + Send);
 
-/// Runs a task on a thread of the pool, unless that is the only one: what it joins need not wake one each time.
+/// Runs a task on a thread of the pool, unless that is the only one: its joins then need not wake a thread each time.
 pub(crate) fn enter(task: Task<'_>) {
     #[cfg(feature = "parallel")]
     if rayon::current_num_threads() > 1 {

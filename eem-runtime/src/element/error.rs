@@ -91,7 +91,7 @@ pub enum StateError {
     Path {
         /// The element.
         element: Element,
-        /// What it is.
+        /// The quantity.
         quantity: &'static str,
         /// Its value.
         value: f64,
@@ -146,7 +146,7 @@ pub enum StateError {
         element: Element,
         /// The entropy, J/K.
         entropy: f64,
-        /// What the inversion says.
+        /// The error of the inversion.
         r#source: InversionError,
     },
     /// A quantity that a model computes is not finite.

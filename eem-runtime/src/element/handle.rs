@@ -1,26 +1,26 @@
 //! Handles: what a scene returns for the things put into it.
 //!
-//! A handle is a small copyable value that knows its scene, so that a handle of another scene is
-//! an error and never somebody else's node.
+//! A handle is a small copyable value that contains the id of its scene, so that a handle of another scene is
+//! an error and never a wrong node.
 
 use core::fmt;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use eem_material::number::compact::compact;
 
-/// Which scene a handle belongs to.
+/// The scene that a handle belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct SceneId(u32);
 
 impl SceneId {
-    /// An identity that none of the last four thousand million scenes of this process has.
+    /// An id that differs from those of the last 2³² scenes of this process.
     pub(crate) fn unique() -> Self {
         static NEXT: AtomicU32 = AtomicU32::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
 }
 
-/// What a scene counts.
+/// The kinds of handles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Node,
@@ -30,13 +30,12 @@ pub(crate) enum Kind {
 
 /// A handle of any kind.
 pub(crate) trait Handle: fmt::Display + Copy {
-    /// What it stands for.
     const KIND: Kind;
 
-    /// The scene that gave it.
+    /// The scene that created it.
     fn scene(&self) -> SceneId;
 
-    /// Its place, in the order of creation.
+    /// Its index in the order of creation.
     fn index(&self) -> usize;
 }
 
@@ -88,7 +87,7 @@ pub struct Element {
 }
 
 impl Element {
-    /// The element with this place in the order of creation.
+    /// The element with this index in the order of creation.
     pub(crate) fn new(scene: SceneId, index: usize, model: &'static &'static str) -> Self {
         Self {
             scene,
@@ -97,18 +96,15 @@ impl Element {
         }
     }
 
-    /// Its place, in the order of creation.
+    /// Its index in the order of creation.
     #[inline]
     pub(crate) const fn index(self) -> usize {
         self.index as usize
     }
 
-    /// The one that was created so many places after it, of the same model.
-    pub(crate) fn after(self, places: usize) -> Self {
-        Self {
-            index: compact(self.index() + places),
-            ..self
-        }
+    /// The element of the same model that was created `count` elements later.
+    pub(crate) fn after(self, count: usize) -> Self {
+        Self::new(self.scene, self.index() + count, self.model)
     }
 }
 

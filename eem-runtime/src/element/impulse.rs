@@ -1,6 +1,6 @@
-//! The impulses of a step, in one of the places that each node has for its forces.
+//! The impulses of a step, in one of the memory places that each node has for its forces.
 
-/// Places of a node.
+/// Places per node.
 pub(crate) const PLACES: usize = 3;
 
 /// The impulses on all nodes, N s.
@@ -11,20 +11,17 @@ pub(crate) struct Impulses<'a, S, const D: usize> {
 }
 
 impl<'a, S, const D: usize> Impulses<'a, S, D> {
-    /// In this place of each node.
     #[inline]
     pub(crate) fn new(nodes: &'a mut [[[S; D]; PLACES]], place: usize) -> Self {
         Self { nodes, place }
     }
 
-    /// Those on all nodes.
     #[inline]
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut [S; D]> {
         let place = self.place;
         self.nodes.iter_mut().map(move |node| &mut node[place])
     }
 
-    /// That on a node.
     #[inline]
     pub(crate) fn of(&mut self, node: usize) -> &mut [S; D] {
         &mut self.nodes[node][self.place]

@@ -18,29 +18,22 @@
 //!
 //! and the force `Σ f_a D*π_a` on node i is `Σ_j A_ij r_m,j` with a symmetric matrix A of numbers, one
 //! per pair of arms, that only depends on `f`, `π⁰` and `π¹`.
-//!
-//! All arrays have fixed lengths.
 
 mod between;
 pub(crate) mod integrals;
 mod measures;
-mod plane;
-mod quadratic_strain;
 mod shape;
 mod solid;
 mod solid_measures;
 mod solid_state;
 mod solid_strain;
-mod space;
 mod stiffness;
 mod strain;
-mod stress;
 mod stretch;
 mod tensor;
 
-pub(crate) use measures::add_blocks;
 pub use measures::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Points, Weights};
-pub(crate) use quadratic_strain::{PerStrain, QuadraticStrain, StrainMatrix};
+pub(crate) use measures::{PerStrain, QuadraticStrain, StrainMatrix, add_blocks};
 pub use shape::{Hex8, Hex20, Quad4, Quad8, Shape};
 pub use solid::SolidPoint;
 pub use solid_state::SolidState;

@@ -1,34 +1,33 @@
-//! Which unknown of the global system belongs to which node and element.
+//! The DOF map: the unknowns of the global system of each node and element.
 //!
-//! Unknowns are the displacements of the masses and, for elements that conduct heat to other
-//! elements, the algorithmic temperature that their neighbours see. Viscous stretches and
-//! temperatures proper are condensed within their element.
+//! Unknowns are the displacements of the masses and, for elements that conduct heat to other elements, their coupled
+//! interface temperature. Viscous stretches and temperatures proper are condensed within their element.
 
 use crate::element::handle::{Element, HeatPartner};
 
-/// What a model has.
+/// Capabilities of a model: dashpots, temperature, kind of measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
     pub(crate) dashpots: usize,
     pub(crate) thermal: bool,
-    /// Whether a dashpot stands beside the spring.
+    /// Whether a dashpot acts in parallel with the spring (Kelvin–Voigt).
     pub(crate) drag: bool,
-    /// Whether it has a length and a force.
+    /// Whether its measure is a length, to which a force belongs.
     pub(crate) is_spring: bool,
-    /// How many of the dashpots, the last ones, are components of a viscous strain.
+    /// The number of dashpots, the last ones, that are components of a viscous strain.
     pub(crate) viscous_strain: usize,
     /// The unit of a viscous stretch.
     pub(crate) viscous_unit: &'static str,
 }
 
 impl Shape {
-    /// How many dashpots have a stretch each.
+    /// Number of dashpots with a stretch of their own.
     pub(crate) const fn scalar_dashpots(&self) -> usize {
         self.dashpots - self.viscous_strain
     }
 }
 
-/// Where an element keeps its internal variables in the [`State`](crate::element::state::State).
+/// The state indices of the internal variables of an element in the [`State`](crate::element::state::State).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slots {
     /// Offset of the viscous stretches.
@@ -44,7 +43,7 @@ pub(crate) struct Layout {
     pub(crate) nodes: Vec<Option<usize>>,
     /// The slots of each element.
     pub(crate) elements: Vec<Slots>,
-    /// The unknown of the algorithmic temperature of each thermal slot, if it is coupled.
+    /// The unknown of the interface temperature of each thermal slot, if it is coupled.
     pub(crate) coupled: Vec<Option<usize>>,
     /// Number of viscous stretches.
     pub(crate) viscous: usize,
@@ -100,7 +99,7 @@ impl Layout {
         }
     }
 
-    /// Drops the tables from nodes and elements to unknowns, which are not needed once all places are
+    /// Drops the tables from nodes and elements to unknowns, which are not needed once all matrix indices are
     /// found; the numbers of unknowns and variables stay.
     pub(crate) fn forget_places(&mut self) {
         self.nodes = Vec::new();

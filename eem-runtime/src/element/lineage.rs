@@ -1,16 +1,16 @@
-//! Which handles are of a scene that may be a copy of another one.
+//! The handles of a scene that may be a copy of another one.
 
 use super::handle::{Handle, Kind, SceneId};
 
-/// A scene, and those that it is a copy of: their handles are also its own, if they are older than the copy.
+/// A scene and its ancestors, of which it is a copy: their handles are valid in it if they are older than the copy.
 #[derive(Clone, Debug)]
 pub(crate) struct Lineage {
     own: SceneId,
-    /// The scenes that it comes from, the first one first, and how much of each kind they had when they were copied.
+    /// The ancestors, the oldest first, with the number of their handles when they were copied.
     copied: Vec<(SceneId, Counts)>,
 }
 
-/// How many nodes, elements and reservoirs a scene has.
+/// The number of handles of each kind.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Counts {
     pub(crate) nodes: usize,
@@ -29,7 +29,7 @@ impl Counts {
 }
 
 impl Lineage {
-    /// A scene of its own.
+    /// A scene without ancestors.
     pub(crate) fn new() -> Self {
         Self {
             own: SceneId::unique(),
@@ -37,12 +37,11 @@ impl Lineage {
         }
     }
 
-    /// The scene itself, which no copy is.
     pub(crate) const fn scene(&self) -> SceneId {
         self.own
     }
 
-    /// That of a copy of the scene, which has so much now.
+    /// The lineage of a copy of the scene, which has so many handles now.
     pub(crate) fn copy(&self, counts: Counts) -> Self {
         let mut copied = self.copied.clone();
         copied.push((self.own, counts));
@@ -52,7 +51,7 @@ impl Lineage {
         }
     }
 
-    /// Whether a handle is of this scene.
+    /// Whether a handle is valid in this scene.
     #[inline]
     pub(crate) fn owns<H: Handle>(&self, handle: &H) -> bool {
         handle.scene() == self.own || self.inherits(handle)
@@ -64,7 +63,7 @@ impl Lineage {
             .any(|(scene, counts)| *scene == handle.scene() && handle.index() < counts.of(H::KIND))
     }
 
-    /// The scene that gave the handle of a kind with a place.
+    /// The scene that created a handle.
     pub(crate) fn giver(&self, kind: Kind, index: usize) -> SceneId {
         let mut copied = self.copied.iter();
         let giver = copied.find(|(_, counts)| index < counts.of(kind));

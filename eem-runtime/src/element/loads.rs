@@ -1,4 +1,4 @@
-//! What acts during one step: forces, moved anchors, prescribed temperatures.
+//! The loads of one step: forces, moved anchors, prescribed temperatures.
 
 use crate::element::handle::Node;
 use eem_material::number::scalar::Real;
@@ -12,7 +12,7 @@ pub(crate) struct Prescribed<S> {
     pub(crate) end: S,
 }
 
-/// Where a rocket pushes, and along which line.
+/// The node that a rocket pushes, and the ends of the line along which it does.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PushLine {
     pub(crate) node: Node,
@@ -28,14 +28,13 @@ pub(crate) struct Push<S> {
     pub(crate) thrust: S,
 }
 
-/// What acts during one step. There is no memory for kinds of loads that the scene does not have.
+/// The loads of one step. Kinds of loads that the scene does not have take no memory.
 #[derive(Clone, Debug)]
 pub(crate) struct StepLoads<S> {
     /// Loads that do work, per coordinate, N.
     pub(crate) force: Vec<S>,
     /// Loads and weight, per coordinate, N.
     pub(crate) total_force: Vec<S>,
-    /// Rockets.
     pub(crate) pushes: Vec<Push<S>>,
     /// Displacements of moved anchors, per coordinate, m.
     pub(crate) motion: Vec<S>,
@@ -91,7 +90,7 @@ impl<S: Real> StepLoads<S> {
     }
 }
 
-/// What belongs to a node, among coordinates that may all be missing.
+/// The coordinates of a node; zero if none are stored.
 #[inline]
 pub(crate) fn point<S: Real, const D: usize>(coordinates: &[S], node: usize) -> [S; D] {
     let points = coordinates.as_chunks::<D>().0;

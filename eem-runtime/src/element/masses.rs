@@ -1,4 +1,4 @@
-//! The masses of the nodes, of which anchors have none, and those of solids, which couple nodes.
+//! The masses of the nodes, of which anchors have none, and of solids, which couple nodes.
 
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Mask, Real};
@@ -8,9 +8,9 @@ use eem_material::number::scalar::{Mask, Real};
 pub(crate) struct Masses<S> {
     /// Its diagonal. That of an anchor is stored as zero, which no other node has.
     own: Vec<S>,
-    /// What is beside the diagonal, each pair of nodes that move once.
+    /// Off-diagonal entries, once for each pair of nodes that move.
     pairs: Vec<MassPair<S>>,
-    /// What solids have at anchors: each pair with an anchor once, and each anchor with itself.
+    /// Entries of solids at anchors: once for each pair with an anchor, and each anchor with itself.
     held: Vec<MassPair<S>>,
 }
 
@@ -23,15 +23,14 @@ pub(crate) struct MassPair<S> {
 }
 
 impl<S> MassPair<S> {
-    /// The two nodes.
     pub(crate) fn nodes(&self) -> [usize; 2] {
         self.nodes.map(|node| node as usize)
     }
 }
 
 impl<S: Real> Masses<S> {
-    /// The masses of some nodes; `None` for anchors, whose pairs and masses of their own are among the pairs. Several
-    /// of the same pair add up.
+    /// From the masses of the nodes, `None` for anchors, and pairs, among them the masses of solids at anchors. Entries of
+    /// the same pair add up.
     pub(crate) fn new(
         masses: impl Iterator<Item = Option<S>>,
         mut pairs: Vec<([usize; 2], S)>,
@@ -62,7 +61,6 @@ impl<S: Real> Masses<S> {
         masses
     }
 
-    /// Number of nodes.
     pub(crate) fn len(&self) -> usize {
         self.own.len()
     }
@@ -74,35 +72,30 @@ impl<S: Real> Masses<S> {
         (!mass.equal(S::zero()).all()).then_some(mass)
     }
 
-    /// The masses of all nodes.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Option<S>> + Clone + '_ {
         (0..self.len()).map(|node| self.get(node))
     }
 
-    /// The nodes that are anchors.
     pub(crate) fn anchors(&self) -> impl Iterator<Item = usize> + '_ {
-        let nodes = self.iter().enumerate();
-        nodes
-            .filter(|(_, mass)| mass.is_none())
-            .map(|(node, _)| node)
+        (0..self.len()).filter(|&node| self.get(node).is_none())
     }
 
-    /// What is beside the diagonal, of nodes that move.
+    /// Off-diagonal entries of nodes that move.
     pub(crate) fn pairs(&self) -> &[MassPair<S>] {
         &self.pairs
     }
 
-    /// What solids have at anchors: pairs with an anchor, and anchors with themselves.
+    /// Entries of solids at anchors: pairs with an anchor, and anchors with themselves.
     pub(crate) fn held(&self) -> &[MassPair<S>] {
         &self.held
     }
 
-    /// Whether there are solids, whose masses couple nodes.
+    /// Whether masses couple nodes: those of solids.
     pub(crate) fn are_coupled(&self) -> bool {
         !(self.pairs.is_empty() && self.held.is_empty())
     }
 
-    /// The entries of the matrix beside the diagonal of the nodes that move, each with its row and its column.
+    /// The entries of the matrix except the diagonal of the nodes that move, with row and column.
     pub(crate) fn coupled(&self) -> impl Iterator<Item = ([usize; 2], S)> + '_ {
         let pairs = self.pairs.iter().chain(&self.held);
         pairs.flat_map(|pair| {
@@ -112,7 +105,7 @@ impl<S: Real> Masses<S> {
         })
     }
 
-    /// The mass that gravity pulls at each node, a sum of a row, kg; of anchors what solids have there.
+    /// The mass on which gravity acts at each node, the sum of a row, kg; at anchors that of solids.
     pub(crate) fn weights(&self) -> Vec<S> {
         let mut weights = self.own.clone();
         for ([row, _], mass) in self.coupled() {

@@ -5,15 +5,13 @@
 //! heat        γ and s evolve at fixed q and p:  g* = −D_γ e, θ* = D_s e
 //! ```
 //!
-//! Each part is a step of the EEM scheme in entropy form with the other part switched off, so that
-//! each obeys both laws and keeps the momenta; together they are of first order (Romero 2010, part
-//! II; Kern, Romero, Conde Martín & García Orden 2021, §I). The elements do what they do in
-//! [`EemEntropy`](crate::element::conjugates::EemEntropy); only the solver knows of the parts.
+//! Each part is a step of [`EemEntropy`](crate::element::conjugates::EemEntropy) with the other part switched off, so that
+//! each satisfies both laws and conserves the momenta; together they are of first order (Romero 2010, part II; Kern,
+//! Romero, Conde Martín & García Orden 2021, §I). Only the solver distinguishes the parts.
 
-/// The part of the physics that is being stepped.
+/// The part of the physics that is stepped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Phase {
-    /// All of it.
     Whole,
     /// Positions and momenta; internal variables stay.
     Mechanics,

@@ -1,15 +1,15 @@
 //! Rules of several stages in a step, as numbers.
 
-/// A rule of several stages: a partitioned Runge–Kutta method for positions and momenta, with what it
-/// does to the internal variables of an element.
+/// A rule of several stages: a partitioned Runge–Kutta method for positions and momenta, with its equations for the
+/// internal variables of an element.
 ///
 /// Stages are numbered in the order of time. Those before [`known`](Self::known) are at the old positions and
 /// viscous stretches; each of the others has a set of unknowns, `q_i − q⁰`, `γ_i` and a temperature.
 #[derive(Debug)]
 pub(crate) struct Tableau {
-    /// c: when the stages are, as shares of the step.
+    /// c: the times of the stages, as fractions of the step.
     pub(crate) times: &'static [f64],
-    /// How many of the first stages are at the start of the step.
+    /// The number of stages at the start of the step.
     pub(crate) known: usize,
     /// `q_i = q⁰ + c_i (h/m)(p⁰ − h Σ_j positions_ij F_j)`, a row per set: A Â divided by c.
     pub(crate) positions: &'static [&'static [f64]],
@@ -29,7 +29,7 @@ pub(crate) struct Tableau {
     pub(crate) path: Option<Path>,
 }
 
-/// The path of an element through a step, and the projection of what belongs to its points.
+/// The path of an element through a step, and the projection of quantities at its points.
 ///
 /// Squared length, viscous stretches and entropy are polynomials of the degree of the number of stages,
 /// given by their increments `h ẏ_j` at the stages. With `ê = e(C, γ, s)` the conjugates of a stage are
@@ -48,9 +48,9 @@ pub(crate) struct Path {
     pub(crate) supports: Supports,
 }
 
-/// When motions and temperatures that are prescribed are looked at: at as many times as there are stages,
-/// of which the last is the end of the step. With the old state they are the nodes of Lobatto's rule, so
-/// that what the polynomial misses is orthogonal to all that would cost order.
+/// The times at which prescribed motions and temperatures are evaluated: as many as there are stages, the last of which is
+/// the end of the step. With the old state they are the nodes of Lobatto's rule, so that the error of the polynomial is
+/// orthogonal to everything that would cost order.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Supports {
     pub(crate) times: &'static [f64],
@@ -72,7 +72,7 @@ pub(crate) struct EntropyBalance {
     pub(crate) stage: usize,
     /// The stage whose temperature is Θ.
     pub(crate) unknown: usize,
-    /// The entropy that a thermostat gives at each stage for one unit that the equation lacks.
+    /// The entropy that a thermostat gives at each stage per unit of the defect of the equation.
     pub(crate) supply: &'static [f64],
 }
 
@@ -93,8 +93,8 @@ impl EntropyBalance {
 /// How the end of a step follows from the stages.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Ending {
-    /// Stage after stage from the forces before it, where a stage that feels its own force `A q_i` needs
-    /// one linear solve; the last stage is the end.
+    /// Stage after stage from the forces before it; a stage that depends on its own force `A q_i` needs one linear solve.
+    /// The last stage is the end.
     StageByStage,
     /// From the forces: `q¹ = q⁰ + (h/m)(p⁰ − h Σ_j weights_j F_j)`.
     Forces(&'static [f64]),
@@ -125,12 +125,10 @@ pub(crate) struct UnknownSet {
 }
 
 impl Tableau {
-    /// Number of stages.
     pub(crate) const fn stages(&self) -> usize {
         self.times.len()
     }
 
-    /// Number of sets of unknowns.
     pub(crate) const fn sets(&self) -> usize {
         self.positions.len()
     }
@@ -145,7 +143,7 @@ impl Tableau {
         stage.checked_sub(self.known)
     }
 
-    /// The share of Θ of a set in the temperature of a stage.
+    /// The weight of Θ of a set in the temperature of a stage.
     pub(crate) fn share(&self, stage: usize, set: usize) -> f64 {
         self.temperatures[stage][set]
     }

@@ -1,10 +1,9 @@
-//! Which scheme takes least to follow a motion: an explicit one, or an implicit one.
+//! The choice between explicit and implicit schemes by their cost.
 //!
-//! An explicit scheme is the cheaper one until stability, and not accuracy, limits its steps. Where it does, one
-//! step of an implicit scheme is tried, so long that it would be the cheaper one; it is gone on with if that step is
-//! accurate. From time to time the explicit scheme is tried for some steps again, and gone on with if it took
-//! less for the same time. After a trial that failed the next one waits twice as long, so that trials never take
-//! more than a share of a run.
+//! An explicit scheme is cheaper until stability, and not accuracy, limits its steps. Then one step of an implicit scheme is
+//! tried, so long that it would be cheaper; the run continues with that scheme if the step is accurate. From time to time
+//! the explicit scheme is tried for some steps again, and kept if it took less effort for the same time. The wait doubles
+//! after each failed trial, so that trials take a bounded fraction of a run.
 //!
 //! Effort is counted and not measured, so that two runs take the same steps.
 
@@ -14,42 +13,42 @@ use crate::step::control::Tolerance;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Real;
 
-/// The relative tolerance from which on order 2 takes less than order 6 where steps are limited by stability.
+/// The relative tolerance above which order 2 is cheaper than order 6 where stability limits the steps.
 const ROUGH: f64 = 1e-4;
 
-/// Steps between two looks at the fastest motion.
+/// Steps between two checks of the fastest motion.
 const LOOK_EVERY: u32 = 10;
 
-/// Looks in succession at which stability limits the steps, or finds that some failed, before another scheme is tried.
+/// Checks in succession that find steps limited by stability or failed, before another scheme is tried.
 const LIMITED_LOOKS: u32 = 2;
 
-/// The share of the longest stable step, by a bound, from which on stability limits it.
+/// Stability limits a step above this fraction of the longest stable one, by a bound.
 const NEARLY_UNSTABLE: f64 = 0.6;
 
-/// How much cheaper an implicit step has to be to be tried, and the explicit one to be gone on with.
+/// Cost ratio required before switching, in either direction.
 const MARGIN: f64 = 1.5;
 
-/// Iterations of Newton's method in a step that has not been made yet, and the steps of one in two halves.
+/// Expected Newton iterations of a step, and the steps of one in two halves.
 const ITERATIONS: f64 = 4.0;
 const PARTS: f64 = 3.0;
 
-/// Trials wait until the effort is so many times that of one.
+/// Trials wait for this multiple of their own effort.
 const PATIENCE: f64 = 4.0;
 
-/// Explicit steps of a trial, unless they take so many times as much as implicit ones.
+/// Explicit steps of a trial, and the cost ratio at which it ends early.
 const TRIAL_STEPS: u32 = 6;
 const HOPELESS: f64 = 4.0;
 
-/// By how much implicit steps change when the motion has become another one.
+/// The ratio of implicit steps above which the motion counts as a different one.
 const OTHER_MOTION: f64 = 4.0;
 
-/// What the evaluations of an explicit trial, and of building elements twice, come to.
+/// The effort of an explicit trial, and of building elements twice.
 const EXPLICIT_TRIAL: f64 = 400.0;
 
-/// How much of what is known of earlier steps is left after another one.
+/// The weight of earlier steps after another one.
 const MEMORY: f64 = 0.8;
 
-/// The scheme with which a run begins that was asked for this one.
+/// The scheme with which a run by this scheme begins.
 pub(crate) const fn first(asked: Scheme, is_second: bool) -> Scheme {
     match asked {
         Scheme::Auto if is_second => Scheme::EemTemperature,
@@ -68,7 +67,7 @@ pub(crate) fn implicit<S: Real>(tolerance: &Tolerance<S>, is_second: bool) -> Sc
     }
 }
 
-/// All that are tried where one does not find a step, in this order.
+/// The schemes that are tried, in this order, if one finds no step.
 pub(crate) const CANDIDATES: [Scheme; 4] = [
     Scheme::EemTemperature,
     Scheme::EemEntropy,
@@ -76,8 +75,8 @@ pub(crate) const CANDIDATES: [Scheme; 4] = [
     Scheme::EemExplicit,
 ];
 
-/// What an evaluation of all elements by a scheme takes, with its share of a solution for so many unknowns, in
-/// evaluations by the explicit scheme; measured on pendulums and on a chain of 16 springs.
+/// The effort of an evaluation of all elements, with the solution for so many unknowns, in evaluations by the explicit
+/// scheme; measured on pendulums and on a chain of 16 springs.
 fn weight(scheme: Scheme, unknowns: usize) -> f64 {
     let dense = match scheme {
         Scheme::EemExplicit => return 1.0,
@@ -98,7 +97,7 @@ fn stages(scheme: Scheme) -> f64 {
     stages
 }
 
-/// What a run with [`Scheme::Auto`] remembers of its schemes.
+/// The history of schemes in a run with [`Scheme::Auto`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -110,47 +109,43 @@ pub(crate) struct Choice {
     recent: [f64; 2],
     /// Steps of the present scheme.
     steps: u32,
-    /// Looks in succession at which stability limited the steps, or since which a step had failed.
+    /// Checks in succession that found steps limited by stability or failed.
     limited: u32,
-    /// Steps that had failed at the last look.
+    /// Failed steps at the last check.
     failures: u64,
     /// Effort per time, 1/s, and last step, s, of the scheme before it.
     before: [f64; 2],
     /// Whether the present scheme is the explicit one on trial.
     is_on_trial: bool,
-    /// The size of implicit steps when the explicit scheme was tried in vain, s; zero before.
+    /// The size of implicit steps at the last failed trial of the explicit scheme, s; zero before.
     tried: f64,
-    /// All effort so far, that from which on the other kind may be tried, and that between two trials; none before
-    /// the first.
+    /// All effort so far, the effort from which on the next trial may begin, and that between two trials, `None` before the
+    /// first.
     spent: f64,
     due: f64,
     wait: Option<f64>,
 }
 
-/// What has been learnt of a trial.
+/// The outcome of a trial.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Verdict {
-    /// Nothing yet, or there is no trial.
+    /// Not decided, or there is no trial.
     None,
-    /// The present scheme is gone on with.
+    /// Continue with the present scheme.
     Keep,
-    /// The one before it is gone on with, in steps of this size, s.
+    /// Return to the previous scheme, with steps of this size, s.
     Return(f64),
 }
 
 impl Choice {
-    /// All numbers, none of which is ever negative or infinite.
+    /// All numbers; valid ones are finite and not negative.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
-        let pairs = [self.recent, self.before, [self.spent, self.due]];
+        let ([a, b], [c, d]) = (self.recent, self.before);
         let on_trial = f64::from(u8::from(self.is_on_trial));
-        let single = [Some(self.tried), self.wait, Some(on_trial)];
-        pairs
-            .into_iter()
-            .flatten()
-            .chain(single.into_iter().flatten())
+        let all = [a, b, c, d, self.spent, self.due, self.tried];
+        all.into_iter().chain(self.wait).chain([on_trial])
     }
 
-    /// Before the first step.
     pub(crate) const fn new() -> Self {
         Self {
             recent: [0.0; 2],
@@ -166,8 +161,7 @@ impl Choice {
         }
     }
 
-    /// Takes in what a scheme with so many unknowns did: its evaluations, and the time that they were for, s; none for
-    /// steps that were not kept.
+    /// Counts the evaluations of a scheme with so many unknowns over a time, s; zero for rejected steps.
     pub(crate) fn note(
         &mut self,
         (scheme, unknowns): (Scheme, usize),
@@ -189,13 +183,13 @@ impl Choice {
         self.recent[0] / self.recent[1]
     }
 
-    /// Whether it is time to look how fast the fastest motion is.
+    /// Whether the fastest motion is due for a check.
     pub(crate) const fn looks(&self) -> bool {
         self.steps > 0 && self.steps.is_multiple_of(LOOK_EVERY)
     }
 
-    /// Takes in such a look: what share of the longest stable step the present one is, and how many steps have
-    /// failed so far.
+    /// Takes the result of a check: the present step as a fraction of the longest stable one, and the number of failed steps
+    /// so far.
     pub(crate) const fn see(&mut self, share: f64, failures: u64) {
         let has_failed = failures > self.failures;
         self.failures = failures;
@@ -206,8 +200,7 @@ impl Choice {
         };
     }
 
-    /// The size of an implicit step that would be cheaper than explicit ones over the same time, if it is time
-    /// to try one, s.
+    /// The size of an implicit step that would be cheaper than explicit ones over the same time, if a trial is due, s.
     pub(crate) fn implicit_trial(&mut self, scheme: Scheme, unknowns: usize) -> Option<f64> {
         if self.limited < LIMITED_LOOKS {
             return None;
@@ -219,18 +212,18 @@ impl Choice {
         (self.spent >= self.due).then(|| MARGIN * effort / self.rate())
     }
 
-    /// Whether the explicit scheme is to be tried again, where implicit steps have this size, s.
+    /// Whether a trial of the explicit scheme is due, for implicit steps of this size, s.
     pub(crate) fn tries_explicit(&mut self, size: f64) -> bool {
         let alike = self.tried / OTHER_MOTION..=self.tried * OTHER_MOTION;
         if self.tried > 0.0 && !alike.contains(&size) {
-            // What the last trial has shown does not count any more.
+            // The last trial was for another motion.
             self.tried = size;
             self.wait_for(PATIENCE * EXPLICIT_TRIAL);
         }
         self.spent >= self.due
     }
 
-    /// Another scheme is gone on with, after steps of this size, s.
+    /// Switches to another scheme, after steps of this size, s.
     pub(crate) fn change(&mut self, last: f64) {
         self.leave(last);
         self.is_on_trial = false;
@@ -238,7 +231,7 @@ impl Choice {
         self.wait_for(PATIENCE * EXPLICIT_TRIAL);
     }
 
-    /// The explicit scheme is on trial, after steps of this size, s; the size of its own last ones, s.
+    /// Starts a trial of the explicit scheme after steps of this size, s; returns the size of its own last steps, s.
     pub(crate) fn begin_trial(&mut self, last: f64) -> f64 {
         let [_, own] = self.before;
         self.leave(last);
@@ -252,7 +245,7 @@ impl Choice {
         (self.steps, self.limited) = (0, 0);
     }
 
-    /// What has been learnt of the explicit scheme on trial.
+    /// The outcome of the trial of the explicit scheme so far.
     pub(crate) fn judge(&mut self, present: f64) -> Verdict {
         let [rate, last] = self.before;
         let is_hopeless = self.steps > 0 && self.rate() > HOPELESS * rate;
@@ -271,7 +264,7 @@ impl Choice {
         Verdict::Return(last)
     }
 
-    /// A trial failed.
+    /// Doubles the wait after a failed trial.
     pub(crate) fn wait_longer(&mut self) {
         self.limited = 0;
         self.wait_for(2.0 * self.wait.unwrap_or_default());

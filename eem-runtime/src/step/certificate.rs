@@ -1,15 +1,15 @@
-//! What a step proves of itself, whatever found it.
+//! The certificate of a step: the proof of its laws, whatever found it.
 //!
-//! With the increments that were used and the energies `e = ψ + θ s` of the states that are stored,
+//! With the increments that were used and the energies `e = ψ + θ s` of the stored states,
 //!
 //! ```text
 //! R = Σ v̄·Δp + Σ Δe + Σ θ_r Δσ_r + heat lost − work − heat,     v̄ = (p⁰ + p¹)/2m
 //! ```
 //!
-//! is what the step has gained of energy. Δe is a difference of values of ψ: with the force that moved the
-//! momenta in its place, any force would pass.
+//! is the energy that the step has gained. Δe is a difference of values of ψ: if it were computed from the force that moved
+//! the momenta, any force would pass.
 //!
-//! **What decides.** Rounding explains
+//! **Decision.** Rounding explains
 //!
 //! ```text
 //! B* = 64 ε (A* + A⁺)
@@ -18,56 +18,52 @@
 //! A⁺ = Σ |T_ij| |x_j| |Δx_i|          T: tangent of (f*, −g*, θ*),  x = (λ, γ, θ),  Δx = (Δλ, Δγ, Δs)
 //! ```
 //!
-//! A* has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces; it is found
-//! only where A* is not enough. Where the terms of an entropy cancel, the temperature that is found from it,
-//! and with it the stored energy, is known to 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller
-//! values of `|ψ| + θ|s| + cθ`.
+//! A* has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces; A⁺ is computed only if A* is
+//! not enough. Where the terms of an entropy cancel, the temperature found from it, and so the stored energy, has an error of
+//! 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller values of `|ψ| + θ|s| + cθ`.
 //!
-//! Of what forces contribute, 0.4 of the digits count at most: ε^−0.4 times the other terms and
-//! `√ε Σ m (ℓ/h)²`, with the shortest element ℓ of each node; of their impulses ε^−0.4 times
-//! `Σ |p| + m ℓ/h`. Every term carries some roundings; 64 is eight times the largest `|R|/(ε (A* + A⁺))` that
-//! a right step has shown, near an anchor. Momenta and productions are judged beside the energy.
+//! Forces contribute at most 0.4 of the digits: ε^−0.4 times the other terms and `√ε Σ m (ℓ/h)²`, with the shortest element ℓ
+//! of each node; their impulses ε^−0.4 times `Σ |p| + m ℓ/h`. Every term carries some roundings; 64 is eight times the
+//! largest `|R|/(ε (A* + A⁺))` seen in a correct step, near an anchor. Momenta and productions are checked as well.
 //!
 //! Where values of ψ have more rounding than B*, because its terms cancel, and R is within `B* + 4 ε M`, with
-//! `M = Σ |terms of ψ|` at both ends, R decides nothing. Then Δe by discrete derivatives between the stored
-//! states, formed anew, takes its place in the decision.
+//! `M = Σ |terms of ψ|` at both ends, R decides nothing. Then Δe by discrete derivatives between the stored states,
+//! evaluated again, replaces it.
 //!
-//! **What is reported.** R as it is, from values, and with the forces at the ends
+//! **Report.** R as it is, from values, and with the forces at the ends
 //!
 //! ```text
 //! B = B* + 64 ε Σ over both ends (|f|λ + Σ |g||γ|)  + 16 ε M
 //! ```
 //!
-//! The rounding of λ and γ costs ψ the second term, which near a singular force is far above `|f*|λ`; the
-//! evaluation of ψ costs 8 ε M. M is found where values are too rough to decide. Nothing of B is cut off, so
-//! that the true ΔE of the stored states is within B. Where B exceeds 100 times 64 ε of `T + |ψ| + θ|s| + cθ +
-//! |f|λ + Σ|g||γ|` at both ends, the report says that its bound is wide.
+//! The second term is the effect of the rounding of λ and γ on ψ, which near a singular force is far above `|f*|λ`; the
+//! evaluation of ψ has an error of 8 ε M. M is computed where values decide nothing. B is not limited, so that the true ΔE
+//! of the stored states is within B. If B exceeds 100 times 64 ε of `T + |ψ| + θ|s| + cθ + |f|λ + Σ|g||γ|` at both ends,
+//! the report says that its bound is wide.
 
-mod internal;
 mod motion;
 
 use crate::element::handle::Element;
 use crate::element::recount::Recount;
+use crate::element::state::State;
 use crate::element::tally::{ROUNDINGS, Tally};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use eem_material::number::scalar::{Mask, Real};
 
-pub(crate) use internal::Internal;
 pub(crate) use motion::{Kept, Motion, NodeStep, Speeds};
 
-/// Roundings that the certificate itself may be off by: those of the values of ψ and θs at both ends. What
-/// it says has to stay below the bound by as much.
+/// Rounding errors of the certificate itself: of the values of ψ and θs at both ends. The defect must stay below the bound
+/// by as much.
 const OWN_ROUNDINGS: f64 = 8.0;
 
-/// The part of them up to which a step is taken without another iteration.
+/// The fraction of the bound up to which a step is accepted without another iteration.
 const ENOUGH: f64 = 1.0 / 64.0;
 
-/// Roundings of `Σ |q||p|` and of `Σ |p|` up to which a step is taken without another iteration.
+/// Roundings of `Σ |q||p|` and of `Σ |p|` up to which a step is accepted without another iteration.
 const ENOUGH_MOMENTUM: f64 = 4.0;
 
-/// The share of the digits that a bound may cost: a Maxwell element of which one spring is 10⁷ times as
-/// stiff as the other loses 0.36 of them.
+/// The fraction of the digits that a bound may cost: a Maxwell element with a stiffness ratio of 10⁷ loses 0.36 of them.
 const MOST_DIGITS: f64 = 0.4;
 
 /// Roundings of the largest terms of a free energy, in the evaluation of which several add up.
@@ -77,11 +73,10 @@ const VALUE_ROUNDINGS: f64 = 4.0;
 /// values, and 4 for what values and differences round together.
 const REPORTED_VALUE_ROUNDINGS: f64 = 16.0;
 
-/// A bound above so many times 64 ε of the terms of the energies is wide.
+/// A bound above this multiple of 64 ε of the terms of the energies is wide.
 const WIDE: f64 = 100.0;
 
-/// What moves if every node covers its shortest element in a step: where nothing else does, forces are
-/// measured by it.
+/// The motion if every node covers its shortest element in a step: the scale of forces where nothing else moves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reach<S> {
     /// `Σ m (ℓ/h)²`, J.
@@ -90,7 +85,7 @@ pub(crate) struct Reach<S> {
     pub(crate) momentum: S,
 }
 
-/// What a step has proved.
+/// The proof of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Certificate<S: Real> {
     /// R, J.
@@ -99,26 +94,62 @@ pub(crate) struct Certificate<S: Real> {
     pub(crate) bound: S,
     /// The terms of the energies at both ends, J.
     terms: S,
-    /// What decides: R, or the same with differences in the place of values, and B*, J.
+    /// The defect that decides, R or its replacement by discrete derivatives, and B*, J.
     judged: [S; 2],
     /// Σ over dashpots and paths of heat, J/K.
     pub(crate) production: S,
     /// The smallest of them; zero without any, J/K.
     pub(crate) least_production: S,
-    /// The largest component of what the momenta are off by, and the magnitude of their terms.
+    /// The largest component of the defect of the momenta, and the magnitude of their terms.
     linear: [S; 2],
     angular: [S; 2],
     is_balanced: S::Mask,
 }
 
+/// The change of the internal energy in a step, from values at both ends.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Internal<S> {
+    /// `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, J.
+    change: S,
+    /// The magnitude of its terms at both ends, J.
+    magnitude: S,
+    /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of both ends, J.
+    terms: S,
+    /// The part of them that neither `magnitude` nor the amplitude of forces has, J.
+    excess: S,
+}
+
+impl<S: Real> Internal<S> {
+    pub(crate) fn new(reservoirs: &[S], [old, next]: [&State<S>; 2]) -> Self {
+        let [mut change, mut magnitude, mut terms, mut excess] = [S::zero(); 4];
+        for (old, new) in old.energies.iter().zip(&next.energies) {
+            change += new.value - old.value;
+            magnitude += old.magnitude + new.magnitude;
+            terms += old.terms + new.terms;
+            excess += old.excess + new.excess;
+        }
+        for (index, &theta) in reservoirs.iter().enumerate() {
+            let sums = &next.reservoir_entropies;
+            change += theta * sums.change(index, &old.reservoir_entropies);
+        }
+        let heat = next.heat.change(old.heat);
+        change += next.dissipated.change(old.dissipated) - heat;
+        Self {
+            change,
+            magnitude: magnitude + heat.abs(),
+            terms,
+            excess,
+        }
+    }
+}
+
 impl<S: Real> Reach<S> {
-    /// Of nothing.
     pub(crate) fn none() -> Self {
         let [energy, momentum] = [S::zero(); 2];
         Self { energy, momentum }
     }
 
-    /// A node with this mass, kg, which covers its length in a step: h/ℓ is the slowness, s/m.
+    /// Adds a node with this mass, kg, which covers its length in a step: h/ℓ is the slowness, s/m.
     pub(crate) fn add(&mut self, mass: S, slowness: S) {
         let momentum = mass / slowness;
         self.momentum += momentum;
@@ -127,8 +158,8 @@ impl<S: Real> Reach<S> {
 }
 
 impl<S: Real> Certificate<S> {
-    /// From the motion of the nodes, what the elements say, and the energies of the stored states; and how far
-    /// nodes reach, if it is asked for.
+    /// From the motion of the nodes, the balances of the elements and the energies of the stored states; `reach` is called
+    /// if needed.
     pub(crate) fn new<const D: usize>(
         motion: &Motion<S, D>,
         tally: &Tally<S>,
@@ -171,8 +202,8 @@ impl<S: Real> Certificate<S> {
         }
     }
 
-    /// The same where the energies have been counted anew: they decide if values are less sharp than the bound
-    /// and their roundings explain the difference.
+    /// With energies evaluated again: they decide if values are less accurate than the bound and their roundings explain the
+    /// difference.
     pub(crate) fn recounted(mut self, recount: &Recount<S>) -> Self {
         let [defect, bound] = self.judged;
         let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * recount.magnitude;
@@ -223,7 +254,7 @@ impl<S: Real> Certificate<S> {
         self.is_balanced() && self.broken_law().is_none()
     }
 
-    /// Where all equations hold as sharply as another iteration would make them.
+    /// The lanes in which all equations hold as accurately as after another iteration.
     #[inline]
     pub(crate) fn is_enough(&self) -> S::Mask {
         let rounding = S::from_f64(ENOUGH_MOMENTUM) * S::EPSILON;
@@ -236,14 +267,14 @@ impl<S: Real> Certificate<S> {
             & S::zero().at_most(self.least_production)
     }
 
-    /// Where the energy is as sharp as another iteration would make it.
+    /// The lanes in which the energy is as accurate as after another iteration.
     #[inline]
     pub(crate) fn has_enough_energy(&self) -> S::Mask {
         let [defect, bound] = self.judged;
         defect.abs().at_most(S::from_f64(ENOUGH) * bound)
     }
 
-    /// This one where a mask holds and another elsewhere; both of the same step.
+    /// This one where the mask holds and another elsewhere; both of the same step.
     pub(crate) fn or(mut self, is_own: S::Mask, other: &Self) -> Self {
         self.defect = S::select(is_own, self.defect, other.defect);
         self.bound = S::select(is_own, self.bound, other.bound);
@@ -255,7 +286,7 @@ impl<S: Real> Certificate<S> {
         self
     }
 
-    /// The first law that is broken, with what it is off by and what rounding explains.
+    /// The first violated law, with its defect and the bound for rounding.
     pub(crate) fn broken_law(&self) -> Option<(Law, [S; 2])> {
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
         let [energy, bound] = self.judged;
@@ -275,7 +306,7 @@ impl<S: Real> Certificate<S> {
                 S::zero(),
             ),
         ];
-        // Not a number is not kept.
+        // A NaN violates a law.
         let broken = laws
             .into_iter()
             .find(|(_, defect, bound)| !defect.abs().at_most(*bound).all());
@@ -283,8 +314,8 @@ impl<S: Real> Certificate<S> {
     }
 }
 
-/// By how much the terms of the forces at the end of a step, which are found by their secants, may be too large: 8.3 in a
-/// million random steps.
+/// The factor by which the terms of the forces at the end of a step, which are found by their secants, may be too large: 8.3
+/// in a million random steps.
 const SECANT: f64 = 16.0;
 
 /// Whether a bound is far above the rounding of these terms of energies, J, or not a number.
@@ -294,7 +325,7 @@ pub(crate) fn is_wide<S: Real>(bound: S, terms: S) -> bool {
 }
 
 impl Law {
-    /// The error of a step to `time` that breaks it, most of all in one element.
+    /// The error of a step to `time` that violates the law, most of all in one element.
     pub(crate) fn not_kept<S: Real>(
         self,
         [defect, bound]: [S; 2],

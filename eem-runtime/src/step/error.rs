@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, with a state, and with a step.
+//! Why a step failed.
 //!
 //! Every error names the thing, the value and, once time runs, the time. Values are given in `f64`
 //! whatever the scalar of the scene.
@@ -247,7 +247,7 @@ pub enum StepFailure {
 }
 
 impl StepFailure {
-    /// Whether it is a step that failed, and not the run that was asked for.
+    /// Whether a step failed, and not the call.
     const fn is_of_a_step(&self) -> bool {
         !matches!(
             self,
@@ -261,40 +261,17 @@ impl StepFailure {
 
     /// Whether a step of another size from the same state may succeed.
     pub(crate) const fn depends_on_step(&self) -> bool {
-        match self {
-            Self::Unbounded { .. }
-            | Self::NotConverged { .. }
-            | Self::LawNotKept { .. }
-            | Self::Energy { .. }
-            | Self::SingularTangent
-            | Self::Unstable { .. }
-            | Self::TooCold { .. }
-            | Self::Correction { .. }
-            | Self::NotClosed { .. }
-            | Self::Load { .. }
-            | Self::Thrust { .. }
-            | Self::Motion { .. }
-            | Self::MotionSpeed { .. }
-            | Self::PrescribedTemperature { .. }
-            | Self::State(_) => true,
-            Self::Time { .. }
-            | Self::TooSmall { .. }
-            | Self::End { .. }
-            | Self::EventTolerance { .. }
-            | Self::EventFunction { .. }
-            | Self::EventError { .. }
-            | Self::Unknowns { .. }
-            | Self::Discord(_) => false,
-        }
+        let is_final = matches!(
+            self,
+            Self::Time { .. } | Self::TooSmall { .. } | Self::Discord(_)
+        );
+        self.is_of_a_step() && !is_final
     }
 }
 
 impl core::fmt::Display for StepError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self {
-            failure, shorter, ..
-        } = self;
-        let time = Readable(self.time);
+        let (failure, time) = (&self.failure, Readable(self.time));
         if !failure.is_of_a_step() {
             return write!(f, "at t = {time} s: {failure}");
         }
@@ -303,8 +280,8 @@ impl core::fmt::Display for StepError {
             f,
             "step from t = {time} s by {step} s failed after {iterations} iterations in all attempts: {failure}"
         )?;
-        match shorter {
-            Some(shorter) => write!(f, " (a step of {} s would do)", Readable(*shorter)),
+        match self.shorter {
+            Some(shorter) => write!(f, " (a step of {} s would do)", Readable(shorter)),
             None => Ok(()),
         }
     }

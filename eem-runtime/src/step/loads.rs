@@ -1,8 +1,7 @@
-//! The loads of a step, from what the user gave.
+//! The loads of a step from the functions of the user.
 //!
-//! The forces of a step are constant over it, so that their work `F·Δq` is exact; a moved anchor
-//! does the work of the force it needs; a thermostat gives the heat that its element needs. A scheme with
-//! stages evaluates them at the time of each, as steps of no length.
+//! The forces of a step are constant over it, so that their work `F·Δq` is exact; a moved anchor does the work of the force
+//! it needs; a thermostat gives the heat that its element needs. A scheme with stages evaluates them at the time of each.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +13,7 @@ use crate::step::error::StepFailure;
 use eem_material::number::scalar::{Real, is_positive};
 
 impl<S: Real> StepLoads<S> {
-    /// Memory for a scene, in which masses couple nodes or not.
+    /// Memory for a scene, whose masses couple nodes or not.
     pub(crate) fn new<const D: usize>(
         coordinates: usize,
         layout: &Layout,
@@ -47,8 +46,8 @@ impl<S: Real> StepLoads<S> {
 
     /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.
     ///
-    /// A force of time is taken in the middle of the step, by the trapezoidal rule too: forces at both ends
-    /// would give half an impulse to what is switched on between two steps.
+    /// A force that depends on time is evaluated in the middle of the step, by the trapezoidal rule too: forces at both ends
+    /// would halve the impulse of a load that is switched on between two steps.
     pub(crate) fn evaluate<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
@@ -56,27 +55,31 @@ impl<S: Real> StepLoads<S> {
         [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
-        let half = S::from_f64(0.5);
-        let (middle, end) = (time + half * step, time + step);
-        self.evaluate_forces(loads, middle)?;
-        self.evaluate_rockets(loads, middle)?;
-        self.add_weights(loads, masses);
-        self.evaluate_motions(loads, end, q0)?;
-        self.evaluate_speeds(loads, [time, step], q0, &CUBIC)?;
-        self.evaluate_temperatures(loads, [middle, end])
+        self.evaluate_forces_at(loads, masses, time + S::from_f64(0.5) * step)?;
+        self.evaluate_supports_by(&CUBIC, loads, [time, step], q0)
     }
 
-    /// Evaluates what is prescribed at the end of the span from `time` by `step`, motions and temperatures; forces are
-    /// those of stages.
+    /// Evaluates prescribed motions and temperatures at the end of the span from `time` by `step`; forces are those of
+    /// stages.
     pub(crate) fn evaluate_supports<const D: usize>(
         &mut self,
+        loads: &Loads<S, D>,
+        span: [S; 2],
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
+        self.evaluate_supports_by(&SEXTIC, loads, span, q0)
+    }
+
+    fn evaluate_supports_by<const D: usize>(
+        &mut self,
+        polynomial: &Polynomial,
         loads: &Loads<S, D>,
         [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
         let (middle, end) = (time + S::from_f64(0.5) * step, time + step);
         self.evaluate_motions(loads, end, q0)?;
-        self.evaluate_speeds(loads, [time, step], q0, &SEXTIC)?;
+        self.evaluate_speeds(loads, [time, step], q0, polynomial)?;
         self.evaluate_temperatures(loads, [middle, end])
     }
 
@@ -87,22 +90,11 @@ impl<S: Real> StepLoads<S> {
         masses: &Masses<S>,
         time: S,
     ) -> Result<(), StepFailure> {
-        self.evaluate_forces(loads, time)?;
-        self.evaluate_rockets(loads, time)?;
-        self.add_weights(loads, masses);
-        Ok(())
-    }
-
-    fn evaluate_forces<const D: usize>(
-        &mut self,
-        loads: &Loads<S, D>,
-        time: S,
-    ) -> Result<(), StepFailure> {
         self.force.fill(S::zero());
         for (node, force) in &loads.forces {
             let value = force(time);
             for axis in 0..D {
-                // The sum of all loads on the node, which may overflow where none of them does.
+                // The sum of all loads on the node may overflow although none of them does.
                 let sum = &mut self.force[node.index * D + axis];
                 *sum += value[axis];
                 if !sum.is_finite() {
@@ -115,14 +107,6 @@ impl<S: Real> StepLoads<S> {
                 }
             }
         }
-        Ok(())
-    }
-
-    fn evaluate_rockets<const D: usize>(
-        &mut self,
-        loads: &Loads<S, D>,
-        time: S,
-    ) -> Result<(), StepFailure> {
         for (push, rocket) in self.pushes.iter_mut().zip(&loads.rockets) {
             push.thrust = (rocket.thrust)(time);
             if !push.thrust.is_finite() {
@@ -131,6 +115,16 @@ impl<S: Real> StepLoads<S> {
                     value: push.thrust.to_f64(),
                     time: time.to_f64(),
                 });
+            }
+        }
+        let total = self.total_force.as_chunks_mut::<D>().0;
+        for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
+            *total = point(&self.force, node);
+            weigh(total, mass.unwrap_or(S::zero()), loads);
+        }
+        for ([row, _], mass) in masses.coupled() {
+            if let Some(total) = total.get_mut(row) {
+                weigh(total, mass, loads);
             }
         }
         Ok(())
@@ -160,8 +154,8 @@ impl<S: Real> StepLoads<S> {
         Ok(())
     }
 
-    /// The velocities that moved anchors have at the end of a span, of a polynomial through their places in it: more
-    /// accurate than the step, and none that jumps to and fro.
+    /// The velocities of moved anchors at the end of a span, of a polynomial through their positions in it: more accurate
+    /// than the step, and without oscillations from step to step.
     fn evaluate_speeds<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
@@ -183,7 +177,7 @@ impl<S: Real> StepLoads<S> {
                 let position = (before > 0.0).then(|| motion(at));
                 for (axis, sum) in sums.iter_mut().enumerate() {
                     let coordinate = node.index * D + axis;
-                    // At the start it is where it is.
+                    // Zero at the start.
                     let place = position.map_or(S::zero(), |q| q[axis] - q0[coordinate]);
                     if !place.is_finite() {
                         return Err(StepFailure::Motion {
@@ -235,28 +229,15 @@ impl<S: Real> StepLoads<S> {
         }
         Ok(())
     }
-
-    fn add_weights<const D: usize>(&mut self, loads: &Loads<S, D>, masses: &Masses<S>) {
-        let total = self.total_force.as_chunks_mut::<D>().0;
-        for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
-            *total = point(&self.force, node);
-            weigh(total, mass.unwrap_or(S::zero()), loads);
-        }
-        for ([row, _], mass) in masses.coupled() {
-            if let Some(total) = total.get_mut(row) {
-                weigh(total, mass, loads);
-            }
-        }
-    }
 }
 
-/// The velocity at the end of a span, of the polynomial through places that are equally far apart in time:
+/// The velocity at the end of a span, of the polynomial through positions at equal distances in time:
 ///
 /// ```text
 /// q̇ = Σ_k weights_k (q_end − q_k)/(divisor span)       k parts of the span before its end
 /// ```
 ///
-/// All is looked at from the end, as differences of the places have less rounding.
+/// Differences from the position at the end have the least rounding.
 struct Polynomial {
     degree: f64,
     weights: &'static [f64],

@@ -1,4 +1,4 @@
-//! When Newton's method is done, and what it did.
+//! Convergence of Newton's method, its settings and its report.
 
 use eem_material::number::scalar::{Mask, Real};
 
@@ -53,9 +53,9 @@ pub struct StepReport<S> {
     pub update: S,
     /// The largest residual of the momentum balances at the new state, N s.
     pub residual: S,
-    /// `ΔE − work − heat` of the step, J, computed from values of ψ at the stored states, never from forces. See
-    /// [`bound`](Self::bound). In the first step after a restored checkpoint its last digits may differ, because
-    /// the energies of the old state are evaluated again.
+    /// `ΔE − work − heat` of the step, J, from values of ψ at the stored states, never from forces; see
+    /// [`bound`](Self::bound). Its last digits may differ in the first step after a restored checkpoint, which evaluates the
+    /// energies of the old state again.
     pub defect: S,
     /// The bound for the effect of rounding on the energy of the step, J. The true `ΔE − work − heat` of the stored
     /// states, of which [`defect`](Self::defect) is the rounded value, is within this bound in every step of an
@@ -63,16 +63,13 @@ pub struct StepReport<S> {
     ///
     /// It is `64 ε` times the terms of the balance, which are `|ψ| + θ|s| + cθ`, `|f|λ` and `|g||γ|` with the
     /// forces at both ends, and the effect of rounding in the arguments of the forces. If terms of ψ cancel, the
-    /// rounding of ψ is added.
-    ///
-    /// It tells how much the proof is worth. A length is known to `ε λ`; so a body with a stiffness k much larger
-    /// than its energies need, or near a singular force, has its energy to `ε k λ²` only.
+    /// rounding of ψ is added. A length has an error of `ε λ`; so a very stiff body, or one near a singular force, has an
+    /// energy error of `ε k λ²` with its stiffness k.
     pub bound: S,
     /// Whether [`bound`](Self::bound) exceeds 100 times `64 ε` of `T + |ψ| + θ|s| + cθ + |f|λ + |g||γ|` at both
-    /// ends; in implicit schemes, which know the forces at the end by secants only, from a sixteenth of that. The step then
-    /// satisfies its laws as far as rounding can tell, but less precisely than the energies are
-    /// stored. This happens if internal variables depend much more on the rounding of a length than the energies
-    /// do, or if terms of ψ cancel.
+    /// ends; in implicit schemes, which have the forces at the end by secants only, a sixteenth of that. The step then
+    /// satisfies its laws to rounding, but less precisely than the energies are stored. This happens if internal variables
+    /// depend much more on the rounding of a length than the energies do, or if terms of ψ cancel.
     ///
     /// If the bound is too wide for your purpose, write ψ without cancelling terms (`ln_1p`, `exp_m1`, a square
     /// instead of a difference of squares), replace a very stiff body by a rigid one, or keep away from the
@@ -92,7 +89,7 @@ pub struct StepReport<S> {
 }
 
 impl<S: Real> StepReport<S> {
-    /// Of two steps in a row as if they were one.
+    /// The report of two consecutive steps as one.
     pub(crate) fn and(self, later: Self) -> Self {
         Self {
             time: later.time,
@@ -111,8 +108,8 @@ impl<S: Real> StepReport<S> {
     }
 }
 
-/// An update below `tolerance` is the last one if it is also this much smaller than the one before:
-/// the iteration then contracts, and what remains is smaller still.
+/// An update below `tolerance` is the last one if it is also this much smaller than the one before: the iteration then
+/// contracts, and the error is smaller still.
 pub(crate) const CONTRACTION: f64 = 0.1;
 
 /// An iteration that contracts less than this, with updates below a tenth of the tolerance,
@@ -142,12 +139,11 @@ pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> S:
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Largest<S> {
     largest: S,
-    /// Of all magnitudes: it keeps a NaN, which a comparison loses.
+    /// Of all magnitudes: it propagates a NaN, which a comparison loses.
     sum: S,
 }
 
 impl<S: Real> Largest<S> {
-    /// Zero, of none.
     #[inline]
     pub(crate) fn none() -> Self {
         Self {
@@ -156,7 +152,6 @@ impl<S: Real> Largest<S> {
         }
     }
 
-    /// Looks at another number.
     #[inline]
     pub(crate) fn see(&mut self, value: S) {
         let size = value.abs();
@@ -164,7 +159,6 @@ impl<S: Real> Largest<S> {
         self.largest = S::select(self.largest.less(size), size, self.largest);
     }
 
-    /// The largest so far.
     #[inline]
     pub(crate) fn found(self) -> S {
         // The product is zero, or NaN.

@@ -1,9 +1,9 @@
-//! What a step proves of itself, whatever solver has found it.
+//! The outcome of a step for all solvers: what its certificate proves.
 
 use crate::step::certificate::Certificate;
 use eem_material::number::scalar::Real;
 
-/// What a step proves of itself.
+/// What the certificate of a step proves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outcome<S> {
     /// `ΔE − work − heat`, and what rounding explains of it, J.
@@ -13,8 +13,8 @@ pub(crate) struct Outcome<S> {
     /// Σ over dashpots and paths of heat, and the smallest of them, J/K.
     pub(crate) production: S,
     pub(crate) least_production: S,
-    /// What an explicit step was off by before it was closed, relative to the terms of the energy: the
-    /// largest of all components, with its sign.
+    /// The energy error of an explicit step before its correction, relative to the energy terms: the largest of all
+    /// connected bodies, with its sign.
     pub(crate) correction: S,
 }
 
@@ -47,7 +47,6 @@ pub struct Corrections<S> {
 }
 
 impl<S: Real> Corrections<S> {
-    /// Of no step.
     pub(crate) fn none() -> Self {
         Self {
             largest: S::zero(),
@@ -64,12 +63,12 @@ impl<S: Real> Corrections<S> {
     }
 }
 
-/// What an attempt at a step has found.
+/// An attempted step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Attempt<S> {
     /// The estimate of its error in units of the tolerance; zero without one.
     pub(crate) error: S,
-    /// What it proves; nothing where the error exceeds the tolerance, as the step is not made then.
+    /// `None` if the error exceeds the tolerance: the step is then not made.
     pub(crate) outcome: Option<Outcome<S>>,
 }
 

@@ -1,6 +1,9 @@
-//! The time integration schemes, a row of data each.
+//! The time integration schemes, a row of data each, with their names.
+
+use core::{fmt, str::FromStr};
 
 use crate::element::conjugates::{Conjugates, PointRule};
+use crate::element::tableau::{Tableau, UnknownSet};
 use crate::step::control::{Accuracy, Estimate};
 use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
@@ -29,9 +32,9 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 ///
 /// `Variational4` is stable if vibrations are resolved, `ωh < √8`. The schemes of order 4 have twice as many
 /// unknowns, that of order 6 three times as many. `EemExplicit`, the variational schemes and `Gauss4` are for springs
-/// only, without rockets. `EemEntropy4` and `EemEntropy6` use mean temperatures along the step. One that is not positive is an error; they are positive if no temperature
-/// changes by more than a factor of 13.9 or 7.2 within a step. Dashpots and conduction much faster than a step
-/// decay slowly, as with any Gauss collocation.
+/// only, without rockets. `EemEntropy4` and `EemEntropy6` use mean temperatures along the step, which are positive if no
+/// temperature changes by more than a factor of 13.9 or 7.2 within a step; one that is not is an error. Dashpots and
+/// conduction much faster than a step decay slowly, as with any Gauss collocation.
 ///
 /// ```
 /// use eem::Scheme;
@@ -103,6 +106,12 @@ impl Scheme {
     pub const fn name(self) -> &'static str {
         self.rule().name
     }
+
+    /// The scheme of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        named().find(|scheme| scheme.name() == name)
+    }
 }
 
 /// How the end of a step follows from what Newton's method has found.
@@ -118,7 +127,7 @@ pub(crate) enum Closing {
     Explicit,
 }
 
-/// What a scheme is.
+/// The data of a scheme; those of an exact one unless said otherwise.
 struct Rule {
     name: &'static str,
     conjugates: Conjugates,
@@ -126,9 +135,9 @@ struct Rule {
     /// See [`Scheme::is_exact`].
     is_exact: bool,
     /// See [`Scheme::foretells_its_start`].
-    is_ordinary: bool,
+    is_classical: bool,
     order: u8,
-    /// Whether what it keeps does not depend on the sizes of steps.
+    /// Whether its conserved quantities do not depend on the sizes of steps.
     may_change_steps: bool,
 }
 
@@ -139,33 +148,26 @@ impl Rule {
             conjugates,
             closing: Closing::Increments,
             is_exact: true,
-            is_ordinary: false,
+            is_classical: false,
             order: 2,
             may_change_steps: true,
         }
     }
 
-    const fn ordinary(name: &'static str, conjugates: Conjugates) -> Self {
+    const fn classical(name: &'static str, conjugates: Conjugates) -> Self {
         Self {
-            name,
-            conjugates,
-            closing: Closing::Increments,
             is_exact: false,
-            is_ordinary: true,
-            order: 2,
-            may_change_steps: true,
+            is_classical: true,
+            ..Self::exact(name, conjugates)
         }
     }
 
     const fn variational(name: &'static str, conjugates: Conjugates) -> Self {
         Self {
-            name,
-            conjugates,
             closing: Closing::Start,
             is_exact: false,
-            is_ordinary: false,
-            order: 2,
             may_change_steps: false,
+            ..Self::exact(name, conjugates)
         }
     }
 
@@ -173,32 +175,26 @@ impl Rule {
         Self { order, ..self }
     }
 
-    const fn closed_explicitly(self) -> Self {
-        Self {
-            closing: Closing::Explicit,
-            ..self
-        }
+    const fn closed(self, closing: Closing) -> Self {
+        Self { closing, ..self }
     }
 
     const fn through_stages(self, order: u8) -> Self {
-        Self {
-            closing: Closing::Stages,
-            order,
-            ..self
-        }
+        self.of_order(order).closed(Closing::Stages)
     }
 }
 
 impl Scheme {
     const fn rule(self) -> Rule {
         use Conjugates::{EntropyForm, Point, Stages, TemperatureForm};
+        use PointRule::{Midpoint, MidpointTemperature, Trapezoidal, TrapezoidalTemperature};
         match self {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
             // Its elements have no algorithmic quantities of their own.
             Self::EemExplicit => Rule::exact("eem-explicit", Point(PointRule::Variational))
                 .of_order(8)
-                .closed_explicitly(),
+                .closed(Closing::Explicit),
             // That of its first one.
             Self::Auto => Rule {
                 name: "auto",
@@ -210,17 +206,15 @@ impl Scheme {
                 Rule::variational("variational-4", Stages(&variational_4::TABLEAU))
                     .through_stages(4)
             }
-            Self::Midpoint => Rule::ordinary("midpoint", Point(PointRule::Midpoint)),
-            Self::MidpointTemperature => Rule::ordinary(
-                "midpoint-temperature",
-                Point(PointRule::MidpointTemperature),
-            ),
-            Self::Trapezoidal => Rule::ordinary("trapezoidal", Point(PointRule::Trapezoidal)),
-            Self::TrapezoidalTemperature => Rule::ordinary(
-                "trapezoidal-temperature",
-                Point(PointRule::TrapezoidalTemperature),
-            ),
-            Self::Gauss4 => Rule::ordinary("gauss-4", Stages(&gauss_4::TABLEAU)).through_stages(4),
+            Self::Midpoint => Rule::classical("midpoint", Point(Midpoint)),
+            Self::MidpointTemperature => {
+                Rule::classical("midpoint-temperature", Point(MidpointTemperature))
+            }
+            Self::Trapezoidal => Rule::classical("trapezoidal", Point(Trapezoidal)),
+            Self::TrapezoidalTemperature => {
+                Rule::classical("trapezoidal-temperature", Point(TrapezoidalTemperature))
+            }
+            Self::Gauss4 => Rule::classical("gauss-4", Stages(&gauss_4::TABLEAU)).through_stages(4),
             Self::EemEntropy4 => {
                 Rule::exact("eem-entropy-4", Stages(&eem_entropy_4::TABLEAU)).through_stages(4)
             }
@@ -291,17 +285,120 @@ impl Scheme {
         self.rule().is_exact
     }
 
-    /// Whether Newton's method starts from a motion under foretold forces, which saves most of an
-    /// iteration. The ordinary rules start at the old state, as ordinary codes do: beyond
-    /// their stable steps it depends on the start which state is found, if any, and so they
-    /// break down where the literature says.
+    /// Whether Newton's method starts from a motion under predicted forces, which saves most of an iteration. The
+    /// classical schemes start at the old state: beyond their stable steps the start decides which state is found, if
+    /// any, and so they break down where the literature says.
     pub(crate) const fn foretells_its_start(self) -> bool {
-        !self.rule().is_ordinary
+        !self.rule().is_classical
     }
 
-    /// Whether a solution that is not found at once is followed from a small step on. Not for the
-    /// ordinary rules, for the same reason.
+    /// Whether a solution that is not found at once is followed from a small step on. Not for the classical schemes, for
+    /// the same reason.
     pub(crate) const fn follows_its_solution(self) -> bool {
-        !self.rule().is_ordinary
+        !self.rule().is_classical
+    }
+
+    /// Whether the nodal forces have a part that depends on the old state only; see
+    /// [`implicit`](crate::element::conjugates::ElementScheme::implicit).
+    pub(crate) const fn has_old_forces(self) -> bool {
+        matches!(self.conjugates(), Conjugates::Point(rule) if rule.has_old_share())
+    }
+
+    /// Whether its elements have a
+    /// [starting form](crate::element::conjugates::ElementScheme::starting_form).
+    pub(crate) const fn has_starting_form(self) -> bool {
+        matches!(self.conjugates(), Conjugates::EntropyForm)
+    }
+
+    /// Whether mechanics and heat are stepped one after the other.
+    pub(crate) const fn is_split(self) -> bool {
+        matches!(self, Self::Staggered)
+    }
+
+    /// Whether it steps springs with a dashpot in parallel: along one gradient, with their heat.
+    pub(crate) const fn takes_drag(self) -> bool {
+        let takes_drag = match self.conjugates() {
+            Conjugates::Stages(rule) => rule.path.is_some(),
+            Conjugates::Point(PointRule::Variational) => false,
+            _ => true,
+        };
+        takes_drag && !self.is_split()
+    }
+
+    /// Whether it takes the end of a step from increments, so that it steps solids, whose masses couple nodes, and
+    /// rockets.
+    pub(crate) fn ends_by_increments(self) -> bool {
+        match self.closing() {
+            Closing::Increments => true,
+            Closing::Stages => self.tableau().is_some_and(|rule| rule.path.is_some()),
+            Closing::Start | Closing::Explicit => false,
+        }
+    }
+
+    /// The numbers of a scheme that goes through stages.
+    pub(crate) const fn tableau(self) -> Option<&'static Tableau> {
+        match self.conjugates() {
+            Conjugates::Stages(rule) => Some(rule),
+            _ => None,
+        }
+    }
+
+    /// The sets of unknowns.
+    pub(crate) fn sets(self) -> Vec<UnknownSet> {
+        let Some(rule) = self.tableau() else {
+            // `(2m/h)(q¹ − q⁰) − 2p⁰ + h F`: twice that of one stage at the end.
+            return vec![UnknownSet {
+                time: 1.0,
+                inertia: 2.0,
+            }];
+        };
+        let sets = (0..rule.sets()).map(|set| {
+            let time = rule.times[rule.stage_of(set)];
+            let inertia = time.recip();
+            UnknownSet { time, inertia }
+        });
+        sets.collect()
+    }
+}
+
+impl fmt::Display for Scheme {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// There is no scheme of this name; the message lists those there are.
+///
+/// ```
+/// use eem::Scheme;
+///
+/// assert_eq!("eem-entropy".parse(), Ok(Scheme::EemEntropy));
+/// let error = "euler".parse::<Scheme>().unwrap_err();
+/// assert!(error.to_string().starts_with("no scheme is named `euler`; there are eem-entropy, "));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no scheme is named `{name}`; there are {}", names())]
+pub struct UnknownScheme {
+    /// What was asked for.
+    pub name: String,
+}
+
+/// All schemes, and the choice among them.
+fn named() -> impl Iterator<Item = Scheme> {
+    Scheme::ALL.into_iter().chain([Scheme::Auto])
+}
+
+fn names() -> String {
+    let names: Vec<_> = named().map(Scheme::name).collect();
+    names.join(", ")
+}
+
+impl FromStr for Scheme {
+    type Err = UnknownScheme;
+
+    fn from_str(name: &str) -> Result<Self, UnknownScheme> {
+        Self::from_name(name).ok_or_else(|| UnknownScheme {
+            name: name.to_owned(),
+        })
     }
 }

@@ -1,28 +1,35 @@
-//! The linear systems of a scheme: their memory is reserved before a scene is taken apart, or the scene refused.
+//! The linear systems of a scheme, whose memory is reserved before a scene is changed, and their sparsity patterns.
+//!
+//! ```text
+//! tangent   displacements of the masses and coupled interface temperatures Θ; each iteration
+//! secant    one unknown per mass, the same for every axis of space; once per step, D right sides
+//! ```
+//!
+//! Where elements share only nodes, both patterns are the graph of the masses, and the entries of two masses are a block
+//! with one row per axis of space.
 
 use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::algebra::pattern::Pattern;
 use crate::algebra::system::LinearSystem;
-use crate::element::conduction::Conduction;
+use crate::element::conduction::{Conduction, Partner};
 use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
 use crate::element::tableau::Ending;
 use crate::scene::entry::ElementEntry;
-use crate::step::pattern;
 use crate::step::scheme::{Closing, Scheme};
 use eem_material::number::scalar::Real;
 
 /// The linear systems that a scheme solves in a step.
 #[derive(Debug)]
 pub(crate) struct Systems<S, const D: usize> {
-    /// That of an iteration.
+    /// The system of an iteration.
     pub(crate) tangent: LinearSystem<S, 1>,
-    /// That of a stage, where a scheme ends its steps stage by stage.
+    /// The system of a stage, if a scheme ends its steps stage by stage.
     pub(crate) secant: Option<LinearSystem<S, D>>,
 }
 
 impl<S: Real, const D: usize> Systems<S, D> {
-    /// Those of a scheme, unless one takes more memory than it may.
+    /// The systems of a scheme, or an error if one exceeds the memory limit.
     pub(crate) fn new(
         scheme: Scheme,
         (elements, layout): (&[ElementEntry<S>], &Layout),
@@ -33,7 +40,7 @@ impl<S: Real, const D: usize> Systems<S, D> {
         let mut pattern = if scheme.closing() == Closing::Explicit {
             Pattern::new(0, |_| {})
         } else {
-            pattern::of_tangent(elements, layout, conduction, rockets, D)
+            tangent_pattern(elements, layout, conduction, rockets, D)
         };
         let sets = scheme.sets().len();
         if sets > 1 {
@@ -44,8 +51,92 @@ impl<S: Real, const D: usize> Systems<S, D> {
         Ok(Self {
             tangent: LinearSystem::new(&pattern, D, limit)?,
             secant: has_secant
-                .then(|| LinearSystem::new(&pattern::of_secant(elements, layout, D), 1, limit))
+                .then(|| LinearSystem::new(&mass_pattern(elements, layout, &[], D), 1, limit))
                 .transpose()?,
         })
+    }
+}
+
+/// The pattern of the tangent.
+///
+/// The forces of an element depend on its nodes, on its own Θ and on that of its partners, and
+/// so does its own Θ. If there are no Θ, the coordinates of a node are the rows of a block.
+fn tangent_pattern<S: Real>(
+    elements: &[ElementEntry<S>],
+    layout: &Layout,
+    conduction: &Conduction<S>,
+    rockets: &[PushLine],
+    dimension: usize,
+) -> Pattern {
+    if layout.coupled.iter().all(Option::is_none)
+        && let Ok(blocks) = mass_pattern(elements, layout, rockets, dimension).in_blocks(dimension)
+    {
+        return blocks;
+    }
+    Pattern::new(layout.unknowns, |pair| {
+        for rocket in rockets {
+            let positions = || nodes_of(rocket, layout).flat_map(|first| first..first + dimension);
+            pair_all(positions, pair);
+        }
+        for (entry, slots) in elements.iter().zip(&layout.elements) {
+            let slot = slots.thermal;
+            let own = || {
+                let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
+                let positions = nodes.flat_map(|first| first..first + dimension);
+                positions.chain(slot.and_then(|slot| layout.coupled[slot]))
+            };
+            let links = slot.map_or(&[][..], |slot| conduction.links(slot));
+            pair_all(own, pair);
+            for row in own() {
+                for link in links {
+                    if let Partner::Slot(partner) = link.partner
+                        && let Some(column) = layout.coupled[partner]
+                    {
+                        pair(row, column);
+                    }
+                }
+            }
+        }
+    })
+}
+
+/// The graph of the masses, by elements and rockets: the pattern of the secant matrix, without rockets.
+fn mass_pattern<S>(
+    elements: &[ElementEntry<S>],
+    layout: &Layout,
+    rockets: &[PushLine],
+    dimension: usize,
+) -> Pattern {
+    let masses = layout.nodes.iter().flatten().count();
+    Pattern::new(masses, |pair| {
+        for entry in elements {
+            let masses = || {
+                let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
+                nodes.map(|first| first / dimension)
+            };
+            pair_all(masses, pair);
+        }
+        for rocket in rockets {
+            pair_all(
+                || nodes_of(rocket, layout).map(|first| first / dimension),
+                pair,
+            );
+        }
+    })
+}
+
+/// The first unknowns of the nodes of a rocket.
+fn nodes_of<'a>(rocket: &PushLine, layout: &'a Layout) -> impl Iterator<Item = usize> + 'a {
+    let &PushLine { node, tail, head } = rocket;
+    let nodes = [node, tail, head].into_iter();
+    nodes.filter_map(|node| layout.nodes[node.index])
+}
+
+/// Adds every pair of some unknowns.
+fn pair_all<I: Iterator<Item = usize>>(own: impl Fn() -> I, pair: &mut dyn FnMut(usize, usize)) {
+    for row in own() {
+        own()
+            .filter(|&column| column < row)
+            .for_each(|column| pair(row, column));
     }
 }

@@ -1,20 +1,14 @@
 //! The exponential function, and powers in which base and exponent both vary.
 
-use super::primitives::{ends, phi, phi2, phi3};
-use crate::number::kernel::differences::Differences;
+use super::primitives::{Differences, ends, phi, phi2, phi3};
 use crate::number::scalar::Scalar;
 
-/// `f[a,b]` of the exponential function.
-///
-/// ```text
-/// f = eˣ:  f[a,b] = e^M φ(d),  M = max(a,b),  d = |b − a|,  φ(d) = (1 − e^(−d))/d
-/// ```
+/// `f[a,b]` of the exponential function, and of `eˣ − 1` (`exp_m1_dd`): `e^M φ(d)`
+/// with `M = max(a,b)`, `d = |b − a|`, `φ(d) = (1 − e^(−d))/d`.
 ///
 /// ```
-/// use eem::kernel::exp_dd;
-///
-/// assert!((exp_dd(0.0, 1.0) - (1.0_f64.exp() - 1.0)).abs() < 1e-15);
-/// assert_eq!(exp_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::exp_dd(0.0, 1.0) - (1.0_f64.exp() - 1.0)).abs() < 1e-15);
+/// assert_eq!(eem::kernel::exp_dd(0.0, 0.0), 1.0);
 /// ```
 #[inline]
 pub fn exp_dd<S: Scalar>(a: S, b: S) -> S {
@@ -22,7 +16,7 @@ pub fn exp_dd<S: Scalar>(a: S, b: S) -> S {
     high.exp() * phi(d)
 }
 
-/// `f[a,b,b]` of the exponential function.
+/// `f[a,b,b]` of the exponential function, and of `eˣ − 1` (`exp_m1_dd2`).
 ///
 /// ```text
 /// f = eˣ:  f[a,b,b] = e^b φ₂(b − a)  (b ≥ a),   e^a φ₃(a − b)  (b < a)
@@ -38,26 +32,6 @@ pub fn exp_dd2<S: Scalar>(a: S, b: S) -> S {
     power_dd2(a.exp(), b.exp(), a, b)
 }
 
-/// `f[a,b]` of `eˣ − 1`, the same as [`exp_dd`].
-///
-/// ```
-/// assert_eq!(eem_material::kernel::exp_m1_dd(0.0, 0.0), 1.0);
-/// ```
-#[inline]
-pub fn exp_m1_dd<S: Scalar>(a: S, b: S) -> S {
-    exp_dd(a, b)
-}
-
-/// `f[a,b,b]` of `eˣ − 1`, the same as [`exp_dd2`].
-///
-/// ```
-/// assert_eq!(eem_material::kernel::exp_m1_dd2(0.0, 0.0), 0.5);
-/// ```
-#[inline]
-pub fn exp_m1_dd2<S: Scalar>(a: S, b: S) -> S {
-    exp_dd2(a, b)
-}
-
 /// `exp[X_a, X_b]` from values `e^X` that are already known.
 ///
 /// ```text
@@ -71,10 +45,8 @@ pub fn exp_m1_dd2<S: Scalar>(a: S, b: S) -> S {
 /// this number times that of `h ln g`.
 ///
 /// ```
-/// use eem::kernel::power_dd;
-///
 /// let (x_a, x_b) = (2.0_f64.ln(), 2.0 * 2.0_f64.ln());
-/// let difference = power_dd(2.0, 4.0, x_a, x_b);
+/// let difference = eem::kernel::power_dd(2.0, 4.0, x_a, x_b);
 /// assert!((difference - 2.0 / 2.0_f64.ln()).abs() < 1e-15);
 /// ```
 #[inline]

@@ -6,17 +6,11 @@ use super::primitives::{
 };
 use crate::number::scalar::Scalar;
 
-/// `f[a,b]` of the hyperbolic sine.
-///
-/// ```text
-/// f = sinh x:  f[a,b] = ½φ(d)(e^M + e^(−m)),  m = min(a,b),  M = max(a,b),  d = M − m
-/// ```
+/// `f[a,b]` of the hyperbolic sine: `½φ(d)(e^M + e^(−m))` with `m = min(a,b)`, `M = max(a,b)`, `d = M − m`.
 ///
 /// ```
-/// use eem::kernel::sinh_dd;
-///
-/// assert_eq!(sinh_dd(0.0, 0.0), 1.0);
-/// assert!((sinh_dd(0.0, 1.0) - 1.0_f64.sinh()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::sinh_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::sinh_dd(0.0, 1.0) - 1.0_f64.sinh()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn sinh_dd<S: Scalar>(a: S, b: S) -> S {
@@ -49,19 +43,12 @@ pub fn sinh_dd2<S: Scalar>(a: S, b: S) -> S {
     )
 }
 
-/// `f[a,b]` of the hyperbolic cosine.
-///
-/// ```text
-/// f = cosh x:  f[a,b] = ½φ(d)e^M(1 − e^(−s)),  s = a + b ≥ 0,  M = max(a,b),  d = |b − a|
-/// ```
-///
-/// and the mirror image for `s < 0`.
+/// `f[a,b]` of the hyperbolic cosine: `½φ(d)e^M(1 − e^(−s))` with `s = a + b ≥ 0`, `M = max(a,b)`, `d = |b − a|`;
+/// the mirror image for `s < 0`.
 ///
 /// ```
-/// use eem::kernel::cosh_dd;
-///
-/// assert_eq!(cosh_dd(-2.0, 2.0), 0.0);
-/// assert!((cosh_dd(0.0, 1.0) - (1.0_f64.cosh() - 1.0)).abs() < 1e-15);
+/// assert_eq!(eem::kernel::cosh_dd(-2.0, 2.0), 0.0);
+/// assert!((eem::kernel::cosh_dd(0.0, 1.0) - (1.0_f64.cosh() - 1.0)).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn cosh_dd<S: Scalar>(a: S, b: S) -> S {
@@ -72,11 +59,7 @@ pub fn cosh_dd<S: Scalar>(a: S, b: S) -> S {
     S::branch(sum.less(S::zero()), || -size, || size)
 }
 
-/// `f[a,b,b]` of the hyperbolic cosine.
-///
-/// ```text
-/// f = cosh x:  f[a,b,b] = ½(exp[a,b,b] + exp[−a,−b,−b])
-/// ```
+/// `f[a,b,b]` of the hyperbolic cosine: `½(exp[a,b,b] + exp[−a,−b,−b])`.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::cosh_dd2(1.0, 0.0);
@@ -87,19 +70,12 @@ pub fn cosh_dd2<S: Scalar>(a: S, b: S) -> S {
     half(exp_dd2(a, b) + exp_dd2(-a, -b))
 }
 
-/// `f[a,b]` of the hyperbolic tangent.
-///
-/// ```text
-/// f = tanh x:  f[a,b] = 4e^(−2μ)φ(2d)/((1 + e^(−2|a|))(1 + e^(−2|b|)))
-/// ```
-///
-/// with `d = |b − a|`, and `μ = min(|a|, |b|)` for ends of one sign, else 0.
+/// `f[a,b]` of the hyperbolic tangent: `4e^(−2μ)φ(2d)/((1 + e^(−2|a|))(1 + e^(−2|b|)))` with
+/// `d = |b − a|`, and `μ = min(|a|, |b|)` for ends of one sign, else 0.
 ///
 /// ```
-/// use eem::kernel::tanh_dd;
-///
-/// assert_eq!(tanh_dd(0.0, 0.0), 1.0);
-/// assert!((tanh_dd(-1.0, 1.0) - 1.0_f64.tanh()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::tanh_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::tanh_dd(-1.0, 1.0) - 1.0_f64.tanh()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn tanh_dd<S: Scalar>(a: S, b: S) -> S {
@@ -110,13 +86,8 @@ pub fn tanh_dd<S: Scalar>(a: S, b: S) -> S {
     numerator / ((S::one() + decay(a)) * (S::one() + decay(b)))
 }
 
-/// `f[a,b,b]` of the hyperbolic tangent.
-///
-/// ```text
-/// f = tanh x:  f[a,b,b] = (sinhc′d − sinhc d·tanh b)/(cosh a·cosh b),  d = b − a,  |d| < 1
-/// ```
-///
-/// and by definition for |d| ≥ 1.
+/// `f[a,b,b]` of the hyperbolic tangent: `(sinhc′d − sinhc d·tanh b)/(cosh a·cosh b)` with `d = b − a` for `|d| < 1`,
+/// by definition for |d| ≥ 1.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::tanh_dd2(1.0, 0.0);

@@ -1,7 +1,6 @@
 //! Logarithms, summed up between close ends and based at the smaller of distant ones.
 
-use super::primitives::{area_tangent_tail, by_definition, half, log_difference};
-use crate::number::kernel::differences::Differences;
+use super::primitives::{Differences, area_tangent_tail, by_definition, half, log_difference};
 use crate::number::scalar::Scalar;
 
 /// Up to this |z| = |b − a|/(a + b), a ratio of 3/2, differences are sums of series.
@@ -38,33 +37,21 @@ pub fn ln_1p_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
     differences(mean, S::one(), [S::one() + a, S::one() + b], [a, b])
 }
 
-/// `f[a,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
-///
-/// ```text
-/// f = ln x:  f[a,b] = ν artanh z/z,  ν = 2/(a + b),  z = ½(b − a)ν
-/// ```
-///
-/// summed up for |z| < 1/5, which needs no function of the library, and `ln(1 + d/m)/d` with
-/// m = min(a,b) and d = |b − a| for larger ratios.
+/// `f[a,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative: `ν artanh z/z`
+/// with `ν = 2/(a + b)`, `z = ½(b − a)ν`, summed for |z| < 1/5 without a function of the library; `ln(1 + d/m)/d` with
+/// `m = min(a,b)`, `d = |b − a|` for larger ratios.
 ///
 /// ```
-/// use eem::kernel::ln_dd;
-///
-/// assert!((ln_dd(1.0, 2.0) - 2.0_f64.ln()).abs() < 1e-15);
-/// assert_eq!(ln_dd(4.0, 4.0), 0.25);
+/// assert!((eem::kernel::ln_dd(1.0, 2.0) - 2.0_f64.ln()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::ln_dd(4.0, 4.0), 0.25);
 /// ```
 #[inline]
 pub fn ln_dd<S: Scalar>(a: S, b: S) -> S {
     ln_dds(a, b).first
 }
 
-/// `f[a,b,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
-///
-/// ```text
-/// f = ln x:  f[a,b,b] = −½ν(1/b + νt),  t = (artanh z/z − 1)/z,  |z| < 1/5
-/// ```
-///
-/// with ν and z of [`ln_dd`]; by definition for larger ratios.
+/// `f[a,b,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative: `−½ν(1/b + νt)`
+/// with `t = (artanh z/z − 1)/z` for |z| < 1/5, and ν and z of [`ln_dd`]; by definition for larger ratios.
 ///
 /// ```
 /// assert_eq!(eem_material::kernel::ln_dd2(2.0, 2.0), -0.125);
@@ -74,11 +61,7 @@ pub fn ln_dd2<S: Scalar>(a: S, b: S) -> S {
     ln_dds(a, b).second_b
 }
 
-/// `f[a,b]` of `ln(1 + x)`, for `a, b > −1`.
-///
-/// ```text
-/// f = ln(1 + x):  f[a,b] = ln(1 + d/w)/d,  w = 1 + min(a,b),  d = |b − a|
-/// ```
+/// `f[a,b]` of `ln(1 + x)`, for `a, b > −1`: `ln(1 + d/w)/d` with `w = 1 + min(a,b)`, `d = |b − a|`.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::ln_1p_dd(0.0, 1.0);

@@ -7,6 +7,19 @@
 
 use crate::number::scalar::Scalar;
 
+/// All divided differences of a function between two ends, the bits of the single kernels.
+///
+/// They have most of their work in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Differences<S> {
+    /// `f[a,b]`.
+    pub first: S,
+    /// `f[b,a,a] = ∂f[a,b]/∂a`.
+    pub second_a: S,
+    /// `f[a,b,b] = ∂f[a,b]/∂b`.
+    pub second_b: S,
+}
+
 /// Number of terms of `Σ (±x)^k/(k+2)!` for |x| < 1: 1/22! = 2⁻⁶⁹.
 const EXPONENTIAL_TERMS: usize = 20;
 
@@ -20,13 +33,13 @@ const SPLIT: f64 = 134_217_729.0;
 const EXPONENTIAL: [f64; EXPONENTIAL_TERMS] = exponential_coefficients();
 
 /// `(−1)^k 2k/(2k+1)!` for `k = 1, 2, …`.
-const SINC_PRIME: [f64; SINC_TERMS] = sinc_prime_coefficients(-1.0);
+const SINC_PRIME: [f64; SINC_TERMS] = odd_coefficients(-1.0, true);
 
 /// `2k/(2k+1)!` for `k = 1, 2, …`.
-const SINHC_PRIME: [f64; SINC_TERMS] = sinc_prime_coefficients(1.0);
+const SINHC_PRIME: [f64; SINC_TERMS] = odd_coefficients(1.0, true);
 
 /// `1/(2k+1)!` for `k = 1, 2, …`.
-const SINH_TAIL: [f64; SINC_TERMS] = sinh_tail_coefficients();
+const SINH_TAIL: [f64; SINC_TERMS] = odd_coefficients(1.0, false);
 
 /// The polynomial of degree 7 nearest to `Σ z²ᵏ/(2k+3)` for z² < 1/25, up to 2⁻⁵⁶ (Remez 1934).
 const AREA_TANGENT: [f64; 8] = [
@@ -54,31 +67,19 @@ const fn exponential_coefficients() -> [f64; EXPONENTIAL_TERMS] {
     coefficients
 }
 
-const fn sinc_prime_coefficients(sign: f64) -> [f64; SINC_TERMS] {
+/// `sign^k n_k/(2k+1)!` for `k = 1, 2, …`, where `n_k` is `2k` for a slope, else 1.
+const fn odd_coefficients(sign: f64, of_slope: bool) -> [f64; SINC_TERMS] {
     let mut coefficients = [0.0; SINC_TERMS];
     let mut factorial = 6.0;
     let mut even = 2.0;
     let mut signed = sign;
     let mut k = 0;
     while k < SINC_TERMS {
-        coefficients[k] = signed * even / factorial;
+        let numerator = if of_slope { signed * even } else { signed };
+        coefficients[k] = numerator / factorial;
         even += 2.0;
         factorial *= even * (even + 1.0);
         signed *= sign;
-        k += 1;
-    }
-    coefficients
-}
-
-const fn sinh_tail_coefficients() -> [f64; SINC_TERMS] {
-    let mut coefficients = [0.0; SINC_TERMS];
-    let mut factorial = 6.0;
-    let mut even = 2.0;
-    let mut k = 0;
-    while k < SINC_TERMS {
-        coefficients[k] = 1.0 / factorial;
-        even += 2.0;
-        factorial *= even * (even + 1.0);
         k += 1;
     }
     coefficients
@@ -256,7 +257,7 @@ pub fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
 /// `ab = product + error` exactly in double precision (Dekker 1971), short of overflow.
 ///
 /// In single precision the splitting constant is too large and the error comes
-/// out as zero: the product is then the ordinary one.
+/// out as zero: the product is then rounded as usual.
 #[inline]
 pub(super) fn two_product<S: Scalar>(a: S, b: S) -> (S, S) {
     let product = a * b;

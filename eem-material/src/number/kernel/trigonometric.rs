@@ -6,17 +6,11 @@
 use super::primitives::{ends, half, sinc, sinc_prime, two_sum};
 use crate::number::scalar::Scalar;
 
-/// `f[a,b]` of the sine.
-///
-/// ```text
-/// f = sin x:  f[a,b] = cos(½(a + b))·sinc(½(b − a))
-/// ```
+/// `f[a,b]` of the sine: `cos(½(a + b))·sinc(½(b − a))`.
 ///
 /// ```
-/// use eem::kernel::sin_dd;
-///
-/// assert_eq!(sin_dd(0.0, 0.0), 1.0);
-/// assert!((sin_dd(0.0, 1.0) - 1.0_f64.sin()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::sin_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::sin_dd(0.0, 1.0) - 1.0_f64.sin()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn sin_dd<S: Scalar>(a: S, b: S) -> S {
@@ -24,11 +18,7 @@ pub fn sin_dd<S: Scalar>(a: S, b: S) -> S {
     cos * half_distance_sinc(a, b)
 }
 
-/// `f[a,b,b]` of the sine.
-///
-/// ```text
-/// f = sin x:  f[a,b,b] = ½(cos m·sinc′x − sin m·sinc x),  m = ½(a + b),  x = ½(b − a)
-/// ```
+/// `f[a,b,b]` of the sine: `½(cos m·sinc′x − sin m·sinc x)` with `m = ½(a + b)`, `x = ½(b − a)`.
 ///
 /// ```
 /// let exact = 1.0_f64.sin() - 1.0;
@@ -41,17 +31,11 @@ pub fn sin_dd2<S: Scalar>(a: S, b: S) -> S {
     half(cos * slope - sin * value)
 }
 
-/// `f[a,b]` of the cosine.
-///
-/// ```text
-/// f = cos x:  f[a,b] = −sin(½(a + b))·sinc(½(b − a))
-/// ```
+/// `f[a,b]` of the cosine: `−sin(½(a + b))·sinc(½(b − a))`.
 ///
 /// ```
-/// use eem::kernel::cos_dd;
-///
-/// assert_eq!(cos_dd(-3.0, 3.0), 0.0);
-/// assert!((cos_dd(0.0, 1.0) - (1.0_f64.cos() - 1.0)).abs() < 1e-15);
+/// assert_eq!(eem::kernel::cos_dd(-3.0, 3.0), 0.0);
+/// assert!((eem::kernel::cos_dd(0.0, 1.0) - (1.0_f64.cos() - 1.0)).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn cos_dd<S: Scalar>(a: S, b: S) -> S {
@@ -59,11 +43,7 @@ pub fn cos_dd<S: Scalar>(a: S, b: S) -> S {
     -sin * half_distance_sinc(a, b)
 }
 
-/// `f[a,b,b]` of the cosine.
-///
-/// ```text
-/// f = cos x:  f[a,b,b] = −½(sin m·sinc′x + cos m·sinc x),  m = ½(a + b),  x = ½(b − a)
-/// ```
+/// `f[a,b,b]` of the cosine: `−½(sin m·sinc′x + cos m·sinc x)` with `m = ½(a + b)`, `x = ½(b − a)`.
 ///
 /// ```
 /// let exact = 1.0_f64.cos() - 1.0;
@@ -76,17 +56,11 @@ pub fn cos_dd2<S: Scalar>(a: S, b: S) -> S {
     -half(sin * slope + cos * value)
 }
 
-/// `f[a,b]` of the tangent, for ends with no pole between them.
-///
-/// ```text
-/// f = tan x:  f[a,b] = sinc(b − a)/(cos a·cos b)
-/// ```
+/// `f[a,b]` of the tangent, for ends with no pole between them: `sinc(b − a)/(cos a·cos b)`.
 ///
 /// ```
-/// use eem::kernel::tan_dd;
-///
-/// assert_eq!(tan_dd(0.0, 0.0), 1.0);
-/// assert!((tan_dd(0.0, 1.0) - 1.0_f64.tan()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::tan_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::tan_dd(0.0, 1.0) - 1.0_f64.tan()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn tan_dd<S: Scalar>(a: S, b: S) -> S {
@@ -96,11 +70,8 @@ pub fn tan_dd<S: Scalar>(a: S, b: S) -> S {
     value / (a.cos() * b.cos())
 }
 
-/// `f[a,b,b]` of the tangent, for ends with no pole between them.
-///
-/// ```text
-/// f = tan x:  f[a,b,b] = (sinc′d + sinc d·tan b)/(cos a·cos b),  d = b − a
-/// ```
+/// `f[a,b,b]` of the tangent, for ends with no pole between them: `(sinc′d + sinc d·tan b)/(cos a·cos b)`
+/// with `d = b − a`.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::tan_dd2(1.0, 0.0);

@@ -79,7 +79,7 @@ fn each_lane_has_the_bits_that_it_has_alone() {
         (Scalar::maximum, Scalar::maximum),
         (Scalar::powf, Scalar::powf),
     ];
-    // The sign and the digits of a NaN are nobody's business.
+    // The sign and the digits of a NaN do not matter.
     let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
     for numbers in samples.windows(LANES) {
         let packed = Lanes::pack(|lane| numbers[lane]);

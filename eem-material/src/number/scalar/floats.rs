@@ -1,7 +1,6 @@
 //! `f64` and `f32` as numbers.
 
-use super::number::Scalar;
-use super::real::Real;
+use super::{Real, Scalar};
 
 /// Forwards to inherent methods of the same name.
 macro_rules! forward {

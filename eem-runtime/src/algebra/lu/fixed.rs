@@ -1,18 +1,81 @@
-//! Elimination for a number of unknowns that the compiler knows, at most twelve.
+//! Elimination for a number of unknowns known at compile time, at most twelve.
 //!
-//! Row by row: what lies above has been divided by its pivots, so that a row is finished, from loading it
-//! to its own division, without being stored in between. The pivot of a row is its diagonal entry
-//! as long as that is not small beside the others; from the first row on where it is, the unknowns change
-//! places.
+//! Row by row: the rows above have been divided by their pivots, so that a row is finished, from loading it to its own
+//! division, without being stored in between. The pivot of a row is its diagonal entry as long as that is not small
+//! compared with the others; from the first row on where it is, columns are exchanged. One and two unknowns take a division.
 
 use core::array;
 
-use crate::algebra::lu::singular::Singular;
 use eem_material::number::scalar::{Mask, Real};
+
+/// A matrix without a usable pivot in some column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Singular;
 
 /// A row is divided by its diagonal entry unless its other entries, all together, are larger by more than
 /// this factor; that bounds the growth of entries nearly as well as the largest pivot does.
-pub(super) const LARGEST_RATIO: f64 = 4.0;
+const LARGEST_RATIO: f64 = 4.0;
+
+/// The first row of `x` becomes the solution of `A x = b` for one unknown, and A zero.
+#[inline]
+pub(crate) fn solve_one<S: Real, const W: usize>(
+    matrix: &mut [S],
+    b: &[[S; W]],
+    x: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let ([pivot, ..], [right, ..], [x, ..]) = (matrix, b, x) else {
+        return Err(Singular);
+    };
+    if !pivot.is_finite() || pivot.equal(S::zero()).any() {
+        return Err(Singular);
+    }
+    *x = right.map(|value| value / *pivot);
+    *pivot = S::zero();
+    Ok(())
+}
+
+/// The first two rows of `x` become the solution of `A x = b` for two unknowns, and A zero: Cramer's rule,
+/// with a single division, unless the first pivot or the determinant is too small.
+///
+/// It reads A row by row, as elements write it: a load across rows would stall until both stores are complete.
+#[inline]
+pub(crate) fn solve_two<S: Real, const W: usize>(
+    matrix: &mut [S],
+    b: &[[S; W]],
+    x: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let ([matrix, ..], [b, ..], [x, ..]) = (
+        matrix.as_chunks_mut::<4>().0,
+        b.as_chunks::<2>().0,
+        x.as_chunks_mut::<2>().0,
+    ) else {
+        return Err(Singular);
+    };
+    let (a, u) = (matrix[0], matrix[1]);
+    // This branch keeps the compiler from loading u and c together.
+    let is_small = (S::from_f64(LARGEST_RATIO) * a.abs()).at_most(u.abs());
+    if is_small.decide()? {
+        *x = *b;
+        return solve_fixed::<S, 2, W>(matrix, x);
+    }
+    let (c, d) = (matrix[2], matrix[3]);
+    let determinant = a * d - c * u;
+    let square = determinant * determinant;
+    // Products and reciprocal are normal numbers.
+    let is_normal = S::MAX.recip().less(square) & square.at_most(S::MAX);
+    if !is_normal.decide()? {
+        *x = *b;
+        return solve_fixed::<S, 2, W>(matrix, x);
+    }
+    let inverse = determinant.recip();
+    for column in 0..W {
+        let (upper, lower) = (b[0][column], b[1][column]);
+        x[0][column] = (d * upper - u * lower) * inverse;
+        x[1][column] = (a * lower - c * upper) * inverse;
+    }
+    *matrix = [S::zero(); 4];
+    Ok(())
+}
 
 /// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns, and A with zeros.
 pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
@@ -25,7 +88,7 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     let [b, ..] = b.as_chunks_mut::<N>().0 else {
         return Err(Singular);
     };
-    // An exchange does not come back: what it changes would have to be loaded again.
+    // Without a way back from an exchange, nothing has to be loaded again.
     match eliminate(a, b) {
         Ok(()) => substitute(a, b),
         Err(row) => exchange_from(row, a, b)?,
@@ -40,7 +103,7 @@ fn eliminate<S: Real, const N: usize, const W: usize>(
     a: &mut [[S; N]; N],
     b: &mut [[S; W]; N],
 ) -> Result<(), usize> {
-    // One by one: the compiler does not unroll loops in loops, and so keeps rows in registers.
+    // Unrolled by hand, as the compiler does not unroll loops in loops: rows stay in registers.
     eliminate_row::<S, 0, N, W>(a, b)?;
     eliminate_row::<S, 1, N, W>(a, b)?;
     eliminate_row::<S, 2, N, W>(a, b)?;
@@ -86,8 +149,8 @@ fn eliminate_row<S: Real, const I: usize, const N: usize, const W: usize>(
     Ok(())
 }
 
-/// Does the rest, from row `first` on, with the largest entry of each row for its pivot: where that is not
-/// on the diagonal, two unknowns change places.
+/// Does the rest, from row `first` on, with the largest entry of each row as its pivot, if necessary by an exchange of two
+/// columns.
 #[cold]
 #[inline(never)]
 fn exchange_from<S: Real, const N: usize, const W: usize>(
@@ -96,7 +159,7 @@ fn exchange_from<S: Real, const N: usize, const W: usize>(
     b: &mut [[S; W]; N],
 ) -> Result<(), Singular> {
     if S::LANES > 1 {
-        // Some of the numbers may have good pivots.
+        // Some of the lanes may have good pivots.
         return Err(Singular);
     }
     let mut order: [usize; N] = array::from_fn(|at| at);
@@ -148,19 +211,19 @@ fn largest_behind<S: Real, const N: usize>(
 fn substitute<S: Real, const N: usize, const W: usize>(a: &[[S; N]; N], b: &mut [[S; W]; N]) {
     for (row, entries) in a.iter().enumerate().rev() {
         let (head, known) = b.split_at_mut(row + 1);
-        // The latest is the last to be waited for.
+        // The result computed last is used last.
         for (known, &factor) in known.iter().zip(&entries[row + 1..]).rev() {
             subtract(&mut head[row], factor, known);
         }
     }
 }
 
-/// Entries are subtracted two by two: from an even column on.
+/// Entries are subtracted in pairs: from an even column on.
 const fn even(column: usize) -> usize {
     column & !1
 }
 
-/// Whether the diagonal entry of a row will do as its pivot.
+/// Whether the diagonal entry of a row is a good pivot.
 #[inline]
 fn dominates<S: Real, const N: usize>(row: &[S; N], diagonal: usize) -> bool {
     let mut squares = [S::zero(); 2];
@@ -236,6 +299,57 @@ mod tests {
             [f64::INFINITY, 1.0, 1.0, 1.0],
         ] {
             let solved = solve_fixed::<f64, 2, 1>(&mut [a, b, c, d], &mut [[1.0]; 2]);
+            assert_eq!(solved, Err(Singular));
+        }
+    }
+
+    #[test]
+    fn one_unknown_is_a_quotient() {
+        let (mut a, mut x) = ([4.0], [[0.0, 0.0]]);
+        solve_one(&mut a, &[[2.0, 6.0]], &mut x).unwrap();
+        assert_eq!((a, x), ([0.0], [[0.5, 1.5]]));
+    }
+
+    #[test]
+    fn one_unknown_needs_a_number_that_is_not_zero() {
+        for pivot in [0.0, f64::NAN, f64::INFINITY] {
+            let solved = solve_one(&mut [pivot], &[[1.0]], &mut [[0.0]]);
+            assert_eq!(solved, Err(Singular));
+        }
+    }
+
+    /// With and without a good first pivot, and beyond the range of a determinant.
+    #[test]
+    fn two_unknowns_are_solved_with_cramer_and_without() {
+        for a in [
+            [4.0, 0.25, 0.25, 4.0],
+            [0.0, 1.0, 1.0, 0.0],
+            [1e-3, 1.0, 1.0, 1.0],
+            [1e-200, 3e-200, 3e-200, 1e-200],
+            [3e-200, 1e-200, 1e-200, 3e-200],
+        ] {
+            let exact = [1.0_f64, 2.0];
+            let [upper, lower] = [0, 2].map(|row| a[row] * exact[0] + a[row + 1] * exact[1]);
+            let (mut matrix, mut x) = (a, [[0.0]; 2]);
+            solve_two(&mut matrix, &[[upper], [lower]], &mut x).unwrap();
+            assert!(matrix.iter().all(|entry| entry.to_bits() == 0));
+            for ([found], exact) in x.into_iter().zip(exact) {
+                assert!((found - exact).abs() <= 16.0 * f64::EPSILON * exact);
+            }
+        }
+    }
+
+    #[test]
+    fn a_singular_matrix_of_two_unknowns_is_reported() {
+        for mut matrix in [
+            [1.0, 2.0, 2.0, 4.0],
+            [0.0; 4],
+            [f64::NAN, 1.0, 1.0, 1.0],
+            [1.0, f64::NAN, 0.0, 1.0],
+            [1.0, 0.0, 0.0, f64::INFINITY],
+            [f64::INFINITY, 1.0, 1.0, 1.0],
+        ] {
+            let solved = solve_two::<f64, 1>(&mut matrix, &[[1.0]; 2], &mut [[0.0]; 2]);
             assert_eq!(solved, Err(Singular));
         }
     }

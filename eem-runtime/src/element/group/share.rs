@@ -99,7 +99,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     /// Adds the derivatives of something per arm times `Σ κ (Θ_partner − Θ)` to the rows of the nodes.
     #[inline]
-    fn add_pull(&self, site: &Site<K, S, D>, arms: &Arms<K, S, D>, values: &mut [S]) {
+    pub(super) fn add_pull(&self, site: &Site<K, S, D>, arms: &Arms<K, S, D>, values: &mut [S]) {
         let mut sum = S::zero();
         for partner in &self.partners {
             let mut by_partner = *arms;

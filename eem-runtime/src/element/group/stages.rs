@@ -1,29 +1,21 @@
-//! All elements of one model, stepped through the stages of a [`Tableau`].
+//! All elements of one model, stepped through the stages of a [`Tableau`](crate::element::tableau::Tableau).
 //!
-//! The internal variables of all stages are eliminated together, point by point. Where the conjugates of
-//! a stage come from is a [`Source`](source::Source): values of the free energy there, or
-//! projections of its derivatives along the path through the step.
+//! The internal variables of all stages are eliminated together, point by point. The conjugates of the stages come
+//! from a [`Source`](source::Source): values of the free energy at the stages, or projections of its derivatives along
+//! the path through the step.
 //!
 //! ```text
-//! begin     take over the old state, once                             (begin)
-//! evaluate  conjugates of the stages                                  (values, projection, heat)
-//!           local unknowns eliminated                                 (eliminate, values, projection)
-//!           contributions to the global residual and tangent          (assemble, forces)
-//! correct   local unknowns from the global solution                   (correct)
-//! close     increments of the internal variables, and the new state   (closing, values, projection)
+//! begin     reads the old state, once                                 (stage_group, values, projection)
+//! evaluate  conjugates of the stages                                  (values, projection)
+//!           local unknowns eliminated                                 (point, values, projection)
+//!           contributions to the global residual and tangent          (assemble)
+//! correct   local unknowns from the global solution                   (stage_group, point, values, projection)
+//! close     increments of the internal variables, and the new state   (stage_group, values, projection)
 //! ```
 
 mod assemble;
-mod begin;
-mod closing;
-mod correct;
-mod eliminate;
-mod forces;
-mod heat;
-mod local;
-mod member;
+mod point;
 mod projection;
-mod secant;
 mod site;
 mod source;
 mod stage_group;

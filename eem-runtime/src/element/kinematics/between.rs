@@ -20,9 +20,9 @@ pub(super) struct Deformed<A, S, const D: usize> {
     strain: A,
 }
 
-/// The square of a strain beyond which j is that of F. Below, j and the other measures have the rounding
-/// of the same E, so that differences like `e1 − ln(1 + j)` keep their digits; above, squares of E would
-/// take digits of a small J, or of one beside a large shear. At the limit both are right to ε.
+/// Beyond this square of a strain j is computed from F. Below, j and the other measures have the rounding of the same E, so
+/// that differences like `e1 − ln(1 + j)` keep their digits; above, squares of E would lose digits of a J that is small or
+/// comes with a large shear. At the limit both are accurate to ε.
 const LARGE_SQUARE: f64 = 0.25;
 
 impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
@@ -58,7 +58,7 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
 }
 
 impl<S: Real, const D: usize> Measure<S, D> {
-    /// The measure of a strain; j has no more digits than E.
+    /// The measure of a strain; j has the rounding of E.
     #[inline]
     pub(super) fn of_strain<A: Symmetric<S, D>>(&self, strain: &A) -> S {
         match self {
@@ -97,13 +97,13 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
         Self::with_volumes([old.strain, new.strain], volumes)
     }
 
-    /// Two strains, whatever the deformations are.
+    /// Two strains, without deformation gradients.
     pub(super) fn of_strains(ends: [&A; 2]) -> Self {
         let volumes = ends.map(|strain| S::one() + Measure::<S, D>::Dilatation.of_strain(strain));
         Self::with_volumes(ends.map(|strain| *strain), volumes)
     }
 
-    /// With the new strain at both ends.
+    /// The new strain at both ends.
     #[inline]
     pub(super) fn at_the_end(&self) -> Self {
         Self::with_volumes([self.new; 2], [self.new_volume; 2])

@@ -1,7 +1,6 @@
-//! What is integrated over the reference configuration of a cell, once.
+//! Integrals over the reference configuration of a cell, found once, by Gauss rules of two to four points per axis.
 
 use crate::element::kinematics::shape::Shape;
-use crate::element::kinematics::shape::rule::gauss;
 use crate::element::kinematics::tensor::{Symmetric, Tensor};
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Real;
@@ -9,7 +8,7 @@ use eem_material::number::scalar::Real;
 /// `N_a` and `∂N_a/∂ξ` of all nodes.
 pub(crate) type Functions<S, const D: usize> = Vec<(S, [S; D])>;
 
-/// Those at a place of the parent cell.
+/// The shape functions at a place of the parent cell.
 pub(crate) fn functions<H: Shape<D>, S: Real, const D: usize>(place: [S; D]) -> Functions<S, D> {
     let nodes = 0..H::NODES.len();
     nodes.map(|node| H::function(node, place)).collect()
@@ -60,9 +59,9 @@ pub(crate) fn masses<H: Shape<D>, S: Real, const D: usize>(
     masses
 }
 
-/// Puts the mass on the diagonal: the sum of a row, which is exact for linear shape functions, or, as some
-/// of those are negative otherwise, shares of the whole mass like the diagonal (Hinton, Rock & Zienkiewicz
-/// 1976). The pairs stay, without mass.
+/// Lumps the mass on the diagonal: the sum of a row for linear shape functions, for which it is exact; as some sums are
+/// negative for others, the whole mass in proportion to the diagonal (Hinton, Rock & Zienkiewicz 1976). Off-diagonal entries
+/// become zero.
 pub(crate) fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S, D>) {
     let rows = masses.as_ref().iter();
     let sums: Vec<S> = rows
@@ -81,4 +80,48 @@ pub(crate) fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S
         *row = H::PerNode::filled(S::zero());
         row[a] = own;
     }
+}
+
+/// Abscissas and weights on [−1, 1].
+fn on_axis<S: Real>(points: usize) -> Vec<(S, S)> {
+    let number = S::from_f64;
+    match points {
+        2 => {
+            let root = (S::one() / number(3.0)).sqrt();
+            vec![(-root, S::one()), (root, S::one())]
+        }
+        3 => {
+            let root = number(0.6).sqrt();
+            let [edge, middle] = [5.0, 8.0].map(|nine| number(nine) / number(9.0));
+            vec![(-root, edge), (S::zero(), middle), (root, edge)]
+        }
+        // x² = 3/7 ∓ 2/7 √(6/5), weights (18 ± √30)/36
+        _ => {
+            let shift = number(2.0) * number(1.2).sqrt();
+            let [inner, outer] = [number(3.0) - shift, number(3.0) + shift]
+                .map(|seventh| (seventh / number(7.0)).sqrt());
+            let [heavy, light] = [number(30.0).sqrt(), -number(30.0).sqrt()]
+                .map(|root| (number(18.0) + root) / number(36.0));
+            let half = [(outer, light), (inner, heavy)];
+            let [first, second] = half.map(|(at, weight)| (-at, weight));
+            vec![first, second, half[1], half[0]]
+        }
+    }
+}
+
+/// The points of a cell with their weights, the first coordinate fastest.
+pub(crate) fn gauss<S: Real, const D: usize>(per_axis: usize) -> Vec<([S; D], S)> {
+    let axis = on_axis::<S>(per_axis);
+    let points = (0..D).fold(1, |points, _| points * axis.len());
+    let point = |mut index: usize| {
+        let (mut place, mut weight) = ([S::zero(); D], S::one());
+        for at in &mut place {
+            let (abscissa, share) = axis[index % axis.len()];
+            index /= axis.len();
+            *at = abscissa;
+            weight *= share;
+        }
+        (place, weight)
+    };
+    (0..points).map(point).collect()
 }

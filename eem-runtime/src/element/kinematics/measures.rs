@@ -9,7 +9,7 @@ use eem_material::number::scalar::Real;
 /// The arms of an element, m.
 pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;
 
-/// A number per measure: the measures themselves, or the forces that belong to them.
+/// A number per measure: the measures themselves, or their conjugate forces.
 pub type Measures<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<S>;
 
 /// Derivatives of measures by arms: per measure and arm.
@@ -70,7 +70,7 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// `[T; number of points]`, at which the free energy is evaluated.
     type PerPoint<T: Send + Sync>: Points<T>;
 
-    /// What the mean-value gradients between two states have in common.
+    /// The common part of the mean-value gradients between two states.
     type Between: Copy + core::fmt::Debug;
 
     /// Whether its measure is a length, to which a force belongs.
@@ -86,14 +86,13 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// Why an element cannot have these arms.
     fn refusal(&self, element: Element, r: &Arms<Self, S, D>) -> StateError;
 
-    /// What makes an energy of the force of a dashpot: its own measure, m, for a force in N; one for
-    /// strains.
+    /// The factor that makes an energy of the force of a dashpot: the measure, m, for a force in N; one for strains.
     fn unit(&self, measures: &Measures<Self, S, D>) -> S;
 
-    /// The distance over which its gradients change by themselves, m.
+    /// The displacement that changes its gradients by their own size, m.
     fn length(&self, measures: &Measures<Self, S, D>) -> S;
 
-    /// What the measures are computed from, `|∂π/∂r| |r|`: times ε, what rounding of the arms does.
+    /// The terms of the measures, `|∂π/∂r| |r|`: times ε, the effect of rounding of the arms.
     fn sizes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>) -> Measures<Self, S, D>;
 
     /// The largest `|∂π/∂r|` of each measure.
@@ -110,16 +109,15 @@ pub trait Kinematics<S: Real, const D: usize>:
         self.slopes(r, measures)
     }
 
-    /// Stress and strain with these arms under conjugates of the measures; none of a spring.
+    /// Stress and strain with these arms under conjugates of the measures; `None` for a spring.
     fn solid_state(&self, _: &Arms<Self, S, D>, _: &Measures<Self, S, D>) -> Option<SolidState<S>> {
         None
     }
 
-    /// Names the numbers of the reference configuration, which tell one element from another.
+    /// Calls `see` with the numbers of the reference configuration, which distinguish elements.
     fn numbers(&self, see: &mut dyn FnMut(S));
 
-    /// The measures `π(r)`, exact to rounding where they are admissible. Elsewhere they are not
-    /// admissible either, but may be zero or infinite.
+    /// The measures `π(r)`, exact to rounding where the arms are admissible. Elsewhere they may be zero or infinite.
     fn measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
 
     /// `∂π/∂r` at `r`, whose measures are given.
@@ -137,7 +135,7 @@ pub trait Kinematics<S: Real, const D: usize>:
         force: &Measures<Self, S, D>,
     ) -> Blocks<Self, S, D>;
 
-    /// What the mean-value gradients between old and new arms have in common.
+    /// The common part of the mean-value gradients between old and new arms.
     fn between(&self, arms: [&Arms<Self, S, D>; 2]) -> Self::Between;
 
     /// `∂π/∂r` at the new arms.
@@ -149,8 +147,8 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// The mean-value gradient `D*π` between two states.
     fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D>;
 
-    /// `Σ_a f_a D*π_a` along gradients that are given. Where forces of several measures cancel, they are
-    /// summed before they act on the nodes, whose torque is then zero to the rounding of the sum.
+    /// `Σ_a f_a D*π_a` along given gradients. If forces of several measures cancel, they are summed before they act on the
+    /// nodes, whose torque is then zero to the rounding of the sum.
     #[inline]
     fn pull(
         &self,
@@ -199,6 +197,67 @@ pub trait Kinematics<S: Real, const D: usize>:
     fn secant(&self, ends: &Ends<Self, S, D>, force: &Measures<Self, S, D>) -> Weights<Self, S, D>;
 }
 
+/// A number per component of the strain C.
+pub(crate) type PerStrain<K, S, const D: usize> = <K as QuadraticStrain<S, D>>::PerStrain<S>;
+
+/// Derivatives of measures by the strain.
+pub(crate) type StrainSlopes<K, S, const D: usize> =
+    <K as Kinematics<S, D>>::PerMeasure<PerStrain<K, S, D>>;
+
+/// A square matrix of the components of the strain.
+pub(crate) type StrainMatrix<K, S, const D: usize> =
+    <K as QuadraticStrain<S, D>>::PerStrain<PerStrain<K, S, D>>;
+
+/// Measures as functions of the strain C of an element, which is quadratic in the arms:
+///
+/// ```text
+/// spring    C = λ² = r·r             solid    C = E = ½(FᵀF − 1), component by component
+/// Ċ = ∂C/∂r·ṙ                        bilinear in arms and velocities
+/// ```
+///
+/// A path of C through a step, with Ċ from the arms at Gauss points, ends at the strain of the new arms exactly.
+pub(crate) trait QuadraticStrain<S: Real, const D: usize>: Kinematics<S, D> {
+    /// `[T; number of components]`.
+    type PerStrain<T: Entry>: Array<T>;
+
+    /// C of these arms.
+    fn strain(&self, r: &Arms<Self, S, D>) -> PerStrain<Self, S, D>;
+
+    /// `∂C/∂r·w`, bilinear in r and w.
+    fn strain_rate(&self, r: &Arms<Self, S, D>, w: &Arms<Self, S, D>) -> PerStrain<Self, S, D>;
+
+    /// `Σ n_q ∂C_q/∂r`, linear in r.
+    fn strain_force(&self, r: &Arms<Self, S, D>, n: &PerStrain<Self, S, D>) -> Arms<Self, S, D>;
+
+    /// The magnitude of the terms of [`strain_force`](Self::strain_force), given that of n.
+    fn strain_force_size(&self, r: &Arms<Self, S, D>, n: &PerStrain<Self, S, D>) -> S;
+
+    /// `Σ n_q ∂²C_q/∂r²`.
+    fn strain_stiffness(&self, n: &PerStrain<Self, S, D>) -> Weights<Self, S, D>;
+
+    /// The magnitude of the terms of each component of a strain.
+    fn strain_sizes(&self, strain: &PerStrain<Self, S, D>) -> PerStrain<Self, S, D>;
+
+    /// The weight of each component in the square of a strain, and the unit of the strain.
+    fn strain_metric(&self, strain: &PerStrain<Self, S, D>) -> (PerStrain<Self, S, D>, S);
+
+    /// The measures of a strain; `None` if no deformation has it.
+    fn measures_of(&self, strain: &PerStrain<Self, S, D>) -> Option<Measures<Self, S, D>>;
+
+    /// Why an element cannot have this strain within a step.
+    fn refuse(&self, element: Element, strain: &PerStrain<Self, S, D>) -> StateError;
+
+    /// P with `P·(C¹ − C⁰) = π¹ − π⁰` exactly, symmetric in both.
+    fn strain_slopes(&self, ends: [&PerStrain<Self, S, D>; 2]) -> StrainSlopes<Self, S, D>;
+
+    /// `Σ_a f_a ∂²π_a/∂C²`.
+    fn strain_curvature(
+        &self,
+        strain: &PerStrain<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> StrainMatrix<Self, S, D>;
+}
+
 /// Adds blocks to a sum.
 #[inline]
 pub(crate) fn add_blocks<K: Kinematics<S, D>, S: Real, const D: usize>(
@@ -214,12 +273,12 @@ pub(crate) fn add_blocks<K: Kinematics<S, D>, S: Real, const D: usize>(
     }
 }
 
-/// What an element has at each of its points. Implemented for arrays.
+/// An array with an entry per point of an element. Implemented for arrays.
 pub trait Points<T>: AsRef<[T]> + AsMut<[T]> + IntoIterator<Item = T> + Send + Sync {
     /// Number of points.
     const LEN: usize;
 
-    /// Makes them, point by point.
+    /// Creates the entries point by point.
     fn from_fn(make: impl FnMut(usize) -> T) -> Self;
 }
 

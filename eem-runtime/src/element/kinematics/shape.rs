@@ -1,14 +1,208 @@
-//! The shapes of the cells of solids: shape functions and rule of integration, a file each.
+//! The shapes of the cells of solids: nodes, faces, shape functions and rule of integration.
 
-mod hex20;
-mod hex8;
-mod interpolation;
-mod quad4;
-mod quad8;
-pub(super) mod rule;
+use core::{array, fmt::Debug};
 
-pub use hex8::Hex8;
-pub use hex20::Hex20;
-pub use interpolation::Shape;
-pub use quad4::Quad4;
-pub use quad8::Quad8;
+use crate::element::kinematics::measures::Points;
+use crate::element::kinematics::tensor::Symmetric;
+use eem_material::free_energy::{Array, Entry};
+use eem_material::number::scalar::Real;
+
+/// The shape of a cell in `D` dimensions: [`Quad4`], [`Quad8`], [`Hex8`] or [`Hex20`].
+///
+/// Nodes are in the order of VTK: corners, then mid-side nodes. The integration points are Gauss points; the first
+/// coordinate varies fastest.
+///
+/// ```
+/// use eem::kinematics::{Hex20, Shape};
+///
+/// // In the middle of the cell, the corners count −1/4 and the middles of edges 1/4.
+/// let [first, last] = [0, 19].map(|node| Hex20::function(node, [0.0, 0.0, 0.0]).0);
+/// assert_eq!([first, last], [-0.25, 0.25]);
+/// ```
+pub trait Shape<const D: usize>: Copy + Debug + Send + Sync + 'static {
+    /// `[T; number of nodes]`.
+    type PerNode<T: Entry>: Array<T>;
+    /// `[T; number of nodes − 1]`.
+    type PerArm<T: Entry>: Array<T>;
+    /// `[T; number of points]`.
+    type PerPoint<T: Send + Sync>: Points<T>;
+    /// A symmetric tensor.
+    type Tensor<S: Real>: Symmetric<S, D>;
+    /// `[T; number of components of a symmetric tensor]`.
+    type PerComponent<T: Entry>: Array<T>;
+
+    /// Its name.
+    const NAME: &'static str;
+    /// The nodes of the parent cell [−1, 1]ᴰ.
+    const NODES: &'static [[i8; D]];
+    /// The nodes of each face, corners first, against the clock seen from outside.
+    const FACES: &'static [&'static [usize]];
+    /// Gauss points per axis.
+    const PER_AXIS: usize;
+
+    /// `N_a` and `∂N_a/∂ξ` of a node at a place of the parent cell.
+    #[inline]
+    fn function<S: Real>(node: usize, place: [S; D]) -> (S, [S; D]) {
+        // A cell has mid-side nodes if it has more nodes than corners.
+        if Self::NODES.len() > 1 << D {
+            serendipity(&Self::NODES[node], place)
+        } else {
+            multilinear(&Self::NODES[node], place)
+        }
+    }
+}
+
+/// A quadrilateral of four nodes in plane strain, with four points.
+#[derive(Clone, Copy, Debug)]
+pub enum Quad4 {}
+
+/// A quadrilateral of eight nodes in plane strain, whose edges may bend, with nine points.
+#[derive(Clone, Copy, Debug)]
+pub enum Quad8 {}
+
+/// A hexahedron of eight nodes, with eight points.
+#[derive(Clone, Copy, Debug)]
+pub enum Hex8 {}
+
+/// A hexahedron of twenty nodes, whose edges may bend, with 27 points.
+#[derive(Clone, Copy, Debug)]
+pub enum Hex20 {}
+
+impl Shape<2> for Quad4 {
+    type PerNode<T: Entry> = [T; 4];
+    type PerArm<T: Entry> = [T; 3];
+    type PerPoint<T: Send + Sync> = [T; 4];
+    type Tensor<S: Real> = [S; 3];
+    type PerComponent<T: Entry> = [T; 3];
+
+    const NAME: &'static str = "Quad4";
+    const NODES: &'static [[i8; 2]] = Quad8::NODES.split_at(4).0;
+    const FACES: &'static [&'static [usize]] = &[&[3, 0], &[1, 2], &[0, 1], &[2, 3]];
+    const PER_AXIS: usize = 2;
+}
+
+impl Shape<2> for Quad8 {
+    type PerNode<T: Entry> = [T; 8];
+    type PerArm<T: Entry> = [T; 7];
+    type PerPoint<T: Send + Sync> = [T; 9];
+    type Tensor<S: Real> = [S; 3];
+    type PerComponent<T: Entry> = [T; 3];
+
+    const NAME: &'static str = "Quad8";
+    const NODES: &'static [[i8; 2]] = &[
+        [-1, -1],
+        [1, -1],
+        [1, 1],
+        [-1, 1],
+        [0, -1],
+        [1, 0],
+        [0, 1],
+        [-1, 0],
+    ];
+    const FACES: &'static [&'static [usize]] = &[&[3, 0, 7], &[1, 2, 5], &[0, 1, 4], &[2, 3, 6]];
+    const PER_AXIS: usize = 3;
+}
+
+impl Shape<3> for Hex8 {
+    type PerNode<T: Entry> = [T; 8];
+    type PerArm<T: Entry> = [T; 7];
+    type PerPoint<T: Send + Sync> = [T; 8];
+    type Tensor<S: Real> = [S; 6];
+    type PerComponent<T: Entry> = [T; 6];
+
+    const NAME: &'static str = "Hex8";
+    const NODES: &'static [[i8; 3]] = Hex20::NODES.split_at(8).0;
+    const FACES: &'static [&'static [usize]] = &[
+        &[0, 4, 7, 3],
+        &[1, 2, 6, 5],
+        &[0, 1, 5, 4],
+        &[3, 7, 6, 2],
+        &[0, 3, 2, 1],
+        &[4, 5, 6, 7],
+    ];
+    const PER_AXIS: usize = 2;
+}
+
+impl Shape<3> for Hex20 {
+    type PerNode<T: Entry> = [T; 20];
+    type PerArm<T: Entry> = [T; 19];
+    type PerPoint<T: Send + Sync> = [T; 27];
+    type Tensor<S: Real> = [S; 6];
+    type PerComponent<T: Entry> = [T; 6];
+
+    const NAME: &'static str = "Hex20";
+    const NODES: &'static [[i8; 3]] = &[
+        [-1, -1, -1],
+        [1, -1, -1],
+        [1, 1, -1],
+        [-1, 1, -1],
+        [-1, -1, 1],
+        [1, -1, 1],
+        [1, 1, 1],
+        [-1, 1, 1],
+        [0, -1, -1],
+        [1, 0, -1],
+        [0, 1, -1],
+        [-1, 0, -1],
+        [0, -1, 1],
+        [1, 0, 1],
+        [0, 1, 1],
+        [-1, 0, 1],
+        [-1, -1, 0],
+        [1, -1, 0],
+        [1, 1, 0],
+        [-1, 1, 0],
+    ];
+    const FACES: &'static [&'static [usize]] = &[
+        &[0, 4, 7, 3, 16, 15, 19, 11],
+        &[1, 2, 6, 5, 9, 18, 13, 17],
+        &[0, 1, 5, 4, 8, 17, 12, 16],
+        &[3, 7, 6, 2, 19, 14, 18, 10],
+        &[0, 3, 2, 1, 11, 10, 9, 8],
+        &[4, 5, 6, 7, 12, 13, 14, 15],
+    ];
+    const PER_AXIS: usize = 3;
+}
+
+/// `Π ½(1 + ξ_k ξ)` with its derivatives.
+fn multilinear<S: Real, const D: usize>(node: &[i8; D], place: [S; D]) -> (S, [S; D]) {
+    let half = S::from_f64(0.5);
+    let sides = node.map(|side| S::from_f64(f64::from(side)));
+    let factors = array::from_fn(|axis| half * (S::one() + sides[axis] * place[axis]));
+    product(&factors, &sides.map(|side| half * side))
+}
+
+/// Corners `Π ½(1 + ξ_k ξ) (Σ ξ_k ξ − (D − 1))`, middles of edges `(1 − ξ²) Π ½(1 + ξ_k ξ)`, with
+/// their derivatives.
+fn serendipity<S: Real, const D: usize>(node: &[i8; D], place: [S; D]) -> (S, [S; D]) {
+    let half = S::from_f64(0.5);
+    let sides = node.map(|side| S::from_f64(f64::from(side)));
+    if let Some(along) = node.iter().position(|&side| side == 0) {
+        let (mut factors, mut slopes) = ([S::zero(); D], [S::zero(); D]);
+        for axis in 0..D {
+            let at = place[axis];
+            (factors[axis], slopes[axis]) = if axis == along {
+                ((S::one() - at) * (S::one() + at), -(at + at))
+            } else {
+                (half * (S::one() + sides[axis] * at), half * sides[axis])
+            };
+        }
+        return product(&factors, &slopes);
+    }
+    let (value, slopes) = multilinear(node, place);
+    let mut sum = S::one();
+    for axis in 0..D {
+        sum += sides[axis] * place[axis] - S::one();
+    }
+    let total = array::from_fn(|axis| slopes[axis] * sum + value * sides[axis]);
+    (value * sum, total)
+}
+
+/// A product of functions, one per axis, with its derivatives.
+fn product<S: Real, const D: usize>(factors: &[S; D], slopes: &[S; D]) -> (S, [S; D]) {
+    let of = |changed: usize| {
+        let factor = |axis: usize| [factors, slopes][usize::from(axis == changed)][axis];
+        (1..D).fold(factor(0), |product, axis| product * factor(axis))
+    };
+    (of(D), array::from_fn(of))
+}

@@ -3,14 +3,13 @@
 use core::array;
 
 use crate::element::kinematics::between::Between;
-use crate::element::kinematics::integrals::{functions, jacobian};
+use crate::element::kinematics::integrals::{functions, gauss, jacobian};
 use crate::element::kinematics::measures::Points;
 use crate::element::kinematics::shape::Shape;
-use crate::element::kinematics::shape::rule::gauss;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, Tensor, add, dot, pushed};
 use eem_material::free_energy::Array;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Real, is_positive};
 
 /// N measures of the strain at one of the points of a cell of shape `H`, in plane strain or in space.
 ///
@@ -60,21 +59,21 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
     ///
     /// # Errors
     ///
-    /// The index of the first point at which it is inside out, with `det ∂X/∂ξ` there, m² or m³.
+    /// The index of the first point at which the cell is inverted, with `det ∂X/∂ξ` there, m² or m³.
     pub fn points(
         reference: &H::PerNode<[S; D]>,
         thickness: S,
         measures: [Measure<S, D>; N],
     ) -> Result<H::PerPoint<Self>, (usize, S)> {
-        let mut wrong = None;
+        let mut inverted = None;
         let rule = gauss(H::PER_AXIS);
         let points = H::PerPoint::from_fn(|at| {
             let (place, weight) = rule[at];
             let functions = functions::<H, S, D>(place);
             let jacobian = jacobian(reference.as_ref(), &functions);
             let size = H::Tensor::<S>::determinant(&jacobian);
-            if wrong.is_none() && (!S::zero().less(size).all() || !size.is_finite()) {
-                wrong = Some((at, size));
+            if inverted.is_none() && !is_positive(size) {
+                inverted = Some((at, size));
             }
             let mut point = Self {
                 measures,
@@ -90,10 +89,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
             point.length = point.steepest().recip();
             point
         });
-        match wrong {
-            Some(wrong) => Err(wrong),
-            None => Ok(points),
-        }
+        inverted.map_or(Ok(points), Err)
     }
 
     /// The largest `|B_i|` of all nodes, 1/m.
@@ -117,28 +113,26 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
     /// F.
     #[inline]
     pub(super) fn deformation(&self, r: &PerArm<H, S, D>) -> Tensor<S, D> {
-        let mut tensor = [[S::zero(); D]; D];
-        for (arm, gradient) in r.as_ref().iter().zip(self.gradients.as_ref()) {
-            for (row, &component) in tensor.iter_mut().zip(arm) {
-                for (entry, &slope) in row.iter_mut().zip(gradient) {
-                    *entry += component * slope;
-                }
-            }
-        }
-        tensor
+        self.combined(r, |entry| entry)
     }
 
     /// The magnitude of the terms of F, `Σ |r_i| ⊗ |B_i|`.
     pub(super) fn terms_of_deformation(&self, r: &PerArm<H, S, D>) -> Tensor<S, D> {
-        let mut terms = [[S::zero(); D]; D];
+        self.combined(r, S::abs)
+    }
+
+    /// `Σ r_i ⊗ B_i` of functions of the entries of both.
+    #[inline]
+    fn combined(&self, r: &PerArm<H, S, D>, of: impl Fn(S) -> S) -> Tensor<S, D> {
+        let mut sum = [[S::zero(); D]; D];
         for (arm, gradient) in r.as_ref().iter().zip(self.gradients.as_ref()) {
-            for (row, component) in terms.iter_mut().zip(arm) {
-                for (entry, slope) in row.iter_mut().zip(gradient) {
-                    *entry += component.abs() * slope.abs();
+            for (row, &component) in sum.iter_mut().zip(arm) {
+                for (entry, &slope) in row.iter_mut().zip(gradient) {
+                    *entry += of(component) * of(slope);
                 }
             }
         }
-        terms
+        sum
     }
 
     /// `F A B_i` of all arms.
@@ -149,6 +143,16 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
             *b = pushed(tensor, &by.applied(b));
         }
         pulled
+    }
+
+    /// The magnitude of `F A B_i`, given that of the terms of F and of A.
+    pub(super) fn size_of_pull(&self, terms: &Tensor<S, D>, by: &H::Tensor<S>) -> S {
+        let mut steepness = [S::zero(); D];
+        for (sum, b) in (0..D).cycle().zip(self.gradients.as_ref().as_flattened()) {
+            steepness[sum] += b.abs();
+        }
+        let sizes = pushed(terms, &by.applied(&steepness));
+        sizes.iter().fold(S::zero(), |sum, &size| sum + size)
     }
 
     /// `F P B_i` of each measure.
@@ -185,19 +189,6 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
             }
         }
         weights
-    }
-
-    /// The deformations at the end and in the middle, and the strains.
-    #[inline]
-    pub(super) fn deformations(&self, arms: [&PerArm<H, S, D>; 2]) -> Deformations<H, S, D> {
-        let [old, new] = arms.map(|r| self.deformation(r));
-        let half = S::from_f64(0.5);
-        let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
-        Deformations {
-            mean,
-            new,
-            strains: Between::new([&old, &new]),
-        }
     }
 }
 

@@ -1,4 +1,8 @@
-//! The measures at a point of a solid, as the groups of elements ask for them.
+//! The measures at a point of a solid as functions of its arms, and its stress.
+
+use core::array;
+
+use nalgebra::SMatrix;
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
@@ -8,8 +12,9 @@ use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{Deformations, PerArm, PerPair, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
-use crate::element::kinematics::tensor::{Symmetric, plus, pushed};
+use crate::element::kinematics::tensor::{Symmetric, plus, pushed, scaled};
 use eem_material::free_energy::{Array, Entry};
+use eem_material::joint::basis;
 use eem_material::number::scalar::{Mask, Real};
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
@@ -57,14 +62,9 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         let squares = tensor.iter().flatten();
         let square = squares.fold(S::one(), |sum, &entry| sum + entry * entry);
         let size = S::from_f64(0.5) * square;
-        self.measures.each_ref().map(|measure| {
-            let mut slope = between.slope(measure);
-            slope
-                .as_mut()
-                .iter_mut()
-                .for_each(|entry| *entry = entry.abs());
-            slope.contracted(&H::Tensor::filled(size))
-        })
+        self.measures
+            .each_ref()
+            .map(|measure| sizes_of(between.slope(measure)).contracted(&H::Tensor::filled(size)))
     }
 
     fn slopes(&self, r: &PerArm<H, S, D>, measures: &[S; N]) -> [S; N] {
@@ -75,45 +75,69 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         })
     }
 
-    // Of E⁰ + E¹, the slope of E:E, nothing is left where strains vanish, but the rounding of its terms
-    // ½(FᵀF + 1) remains. It acts in all directions, also in those without force.
+    // The slope of E:E, E⁰ + E¹, vanishes without strain, but the rounding of its terms ½(FᵀF + 1) remains. It acts in all
+    // directions, also in those without force.
     fn slope_sizes(&self, r: &PerArm<H, S, D>, _: &[S; N]) -> [S; N] {
         let tensor = self.deformation(r);
         let between = Strains::<H, S, D>::new([&tensor, &tensor]);
         let terms = self.terms_of_deformation(r);
         let unit = H::Tensor::<S>::unit();
         let strain = plus(&H::Tensor::green_lagrange(&terms), S::one(), &unit);
-        let mut steepness = [S::zero(); D];
-        for (sum, b) in (0..D).cycle().zip(self.gradients.as_ref().as_flattened()) {
-            steepness[sum] += b.abs();
-        }
         self.measures.each_ref().map(|measure| {
-            let mut slope = match measure {
+            let slope = match measure {
                 Measure::Square => plus(&strain, S::one(), &strain),
                 _ => between.slope(measure),
             };
-            for entry in slope.as_mut() {
-                *entry = entry.abs();
-            }
-            let sizes = pushed(&terms, &slope.applied(&steepness));
-            sizes.iter().fold(S::zero(), |sum, &size| sum + size)
+            self.size_of_pull(&terms, &sizes_of(slope))
         })
     }
 
     fn solid_state(&self, r: &PerArm<H, S, D>, force: &[S; N]) -> Option<SolidState<S>> {
-        Some(self.state(r, force))
+        let tensor = self.deformation(r);
+        let between = Strains::<H, S, D>::new([&tensor, &tensor]);
+        let deformed = Deformed::<H::Tensor<S>, S, D>::new(tensor);
+        let dilatation = deformed.measure(&Measure::Dilatation);
+        let volume = S::one() + dilatation;
+        let second = scaled(self.volume.recip(), &self.stress(&between, force));
+        let mut stress = SMatrix::from_element(S::zero());
+        let mut strain = stress;
+        for (column, row) in tensor.iter().enumerate() {
+            let pushed = pushed(&tensor, &second.applied(row));
+            let mut axis = [S::zero(); D];
+            axis[column] = S::one();
+            let stretched = deformed.strain().applied(&axis);
+            for row in 0..D {
+                stress[(row, column)] = pushed[row] / volume;
+                strain[(row, column)] = stretched[row];
+            }
+        }
+        if D == 2 {
+            // The stress that keeps the thickness: P₃₃ of each measure.
+            let slopes = self.measures.each_ref().map(|measure| match measure {
+                Measure::Trace => S::one(),
+                Measure::Dilatation => volume,
+                Measure::Square | Measure::Fibre(_) => S::zero(),
+                Measure::Component(k) => basis(*k)[2],
+            });
+            let across = slopes.iter().zip(force);
+            let across = across.fold(S::zero(), |sum, (&slope, &force)| sum + slope * force);
+            stress[(2, 2)] = across / (self.volume * volume);
+        }
+        Some(SolidState {
+            stress,
+            strain,
+            dilatation,
+        })
     }
 
     fn numbers(&self, see: &mut dyn FnMut(S)) {
         see(self.volume);
-        let entries = self.gradients.as_ref().iter().flatten();
-        entries.for_each(|&entry| see(entry));
-        for measure in &self.measures {
-            if let Measure::Fibre(along) = measure {
-                for &entry in along {
-                    see(entry);
-                }
-            }
+        let fibres = self.measures.iter().filter_map(|measure| match measure {
+            Measure::Fibre(along) => Some(along),
+            _ => None,
+        });
+        for &entry in self.gradients.as_ref().iter().chain(fibres).flatten() {
+            see(entry);
         }
     }
 
@@ -143,7 +167,14 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
 
     #[inline]
     fn between(&self, arms: [&PerArm<H, S, D>; 2]) -> Deformations<H, S, D> {
-        self.deformations(arms)
+        let [old, new] = arms.map(|r| self.deformation(r));
+        let half = S::from_f64(0.5);
+        let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
+        Deformations {
+            mean,
+            new,
+            strains: Between::new([&old, &new]),
+        }
     }
 
     #[inline]
@@ -201,4 +232,12 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
 #[inline]
 fn no_blocks<H: Shape<D>, S: Real, const D: usize>() -> PerPair<H, S, D> {
     H::PerArm::filled(H::PerArm::filled([[S::zero(); D]; D]))
+}
+
+/// The absolute values of the components.
+fn sizes_of<S: Real, A: Array<S>>(mut tensor: A) -> A {
+    for entry in tensor.as_mut() {
+        *entry = entry.abs();
+    }
+    tensor
 }

@@ -7,7 +7,7 @@ use eem_material::number::scalar::Real;
 /// Stress and strain at a point of a solid, in three dimensions also in plane strain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SolidState<S: Real> {
-    /// Cauchy's stress `σ = F S Fᵀ/J` without that of dashpots beside the solid, Pa.
+    /// Cauchy's stress `σ = F S Fᵀ/J` without that of dashpots in parallel with the solid, Pa.
     pub stress: SMatrix<S, 3, 3>,
     /// Green and Lagrange's strain `E = ½(FᵀF − 1)`.
     pub strain: SMatrix<S, 3, 3>,

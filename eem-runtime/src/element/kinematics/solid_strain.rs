@@ -5,61 +5,41 @@
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::quadratic_strain::QuadraticStrain;
+use crate::element::kinematics::measures::QuadraticStrain;
 use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{PerArm, SolidPoint, Strains};
-use crate::element::kinematics::tensor::{Symmetric, add, pushed};
+use crate::element::kinematics::tensor::{Symmetric, add};
 use eem_material::free_energy::{Array, Entry};
 use eem_material::number::scalar::{Real, is_positive};
 
 type Components<H, S, const D: usize> = <H as Shape<D>>::PerComponent<S>;
 
+/// Components as another type of the same length; those of shears are multiplied by a factor.
+#[inline]
+fn converted<A: Array<S>, B: Array<S>, S: Real, const D: usize>(from: &A, of_shears: f64) -> B {
+    let mut to = B::filled(S::from_f64(of_shears));
+    for (index, (to, &from)) in to.as_mut().iter_mut().zip(from.as_ref()).enumerate() {
+        *to = if index < D { from } else { *to * from };
+    }
+    to
+}
+
 /// As a tensor.
 #[inline]
-fn tensor<H: Shape<D>, S: Real, const D: usize>(components: &Components<H, S, D>) -> H::Tensor<S> {
-    let mut tensor = H::Tensor::<S>::filled(S::zero());
-    tensor.as_mut().copy_from_slice(components.as_ref());
-    tensor
-}
-
-/// As components.
-#[inline]
-fn components<H: Shape<D>, S: Real, const D: usize>(tensor: &H::Tensor<S>) -> Components<H, S, D> {
-    let mut components = Components::<H, S, D>::filled(S::zero());
-    components.as_mut().copy_from_slice(tensor.as_ref());
-    components
-}
-
-/// How often each component counts in `A:B`.
-#[inline]
-fn counts<H: Shape<D>, S: Real, const D: usize>() -> H::Tensor<S> {
-    let mut counts = H::Tensor::<S>::filled(S::from_f64(2.0));
-    counts.as_mut()[..D].fill(S::one());
-    counts
+fn tensor<H: Shape<D>, S: Real, const D: usize>(strain: &Components<H, S, D>) -> H::Tensor<S> {
+    converted::<_, _, S, D>(strain, 1.0)
 }
 
 /// The conjugates of components that go with a tensor.
 #[inline]
 fn conjugates<H: Shape<D>, S: Real, const D: usize>(by: &H::Tensor<S>) -> Components<H, S, D> {
-    let mut conjugates = components::<H, S, D>(by);
-    for (entry, &count) in conjugates
-        .as_mut()
-        .iter_mut()
-        .zip(counts::<H, S, D>().as_ref())
-    {
-        *entry *= count;
-    }
-    conjugates
+    converted::<_, _, S, D>(by, 2.0)
 }
 
 /// The tensor that goes with conjugates of components.
 #[inline]
 fn stress<H: Shape<D>, S: Real, const D: usize>(n: &Components<H, S, D>) -> H::Tensor<S> {
-    let mut stress = tensor::<H, S, D>(n);
-    for (entry, &count) in stress.as_mut().iter_mut().zip(counts::<H, S, D>().as_ref()) {
-        *entry /= count;
-    }
-    stress
+    converted::<_, _, S, D>(n, 0.5)
 }
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> QuadraticStrain<S, D>
@@ -69,7 +49,8 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> QuadraticStrain<S, D>
 
     #[inline]
     fn strain(&self, r: &PerArm<H, S, D>) -> Components<H, S, D> {
-        components::<H, S, D>(&H::Tensor::green_lagrange(&self.deformation(r)))
+        let strain = H::Tensor::green_lagrange(&self.deformation(r));
+        converted::<_, _, S, D>(&strain, 1.0)
     }
 
     // Ė = sym(FᵀḞ)
@@ -80,7 +61,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> QuadraticStrain<S, D>
         for (row, moved) in rows.iter().zip(&moved) {
             add(&mut rate, S::one(), &H::Tensor::symmetrised(row, moved));
         }
-        components::<H, S, D>(&rate)
+        converted::<_, _, S, D>(&rate, 1.0)
     }
 
     #[inline]
@@ -89,13 +70,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> QuadraticStrain<S, D>
     }
 
     fn strain_force_size(&self, r: &PerArm<H, S, D>, n: &Components<H, S, D>) -> S {
-        let terms = self.terms_of_deformation(r);
-        let mut steepness = [S::zero(); D];
-        for (sum, b) in (0..D).cycle().zip(self.gradients.as_ref().as_flattened()) {
-            steepness[sum] += b.abs();
-        }
-        let sizes = pushed(&terms, &stress::<H, S, D>(n).applied(&steepness));
-        sizes.iter().fold(S::zero(), |sum, &size| sum + size)
+        self.size_of_pull(&self.terms_of_deformation(r), &stress::<H, S, D>(n))
     }
 
     #[inline]
@@ -113,17 +88,15 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> QuadraticStrain<S, D>
 
     #[inline]
     fn strain_metric(&self, _: &Components<H, S, D>) -> (Components<H, S, D>, S) {
-        (components::<H, S, D>(&counts::<H, S, D>()), S::one())
+        let ones = H::Tensor::filled(S::one());
+        (conjugates::<H, S, D>(&ones), S::one())
     }
 
     #[inline]
     fn measures_of(&self, strain: &Components<H, S, D>) -> Option<[S; N]> {
         let strain = tensor::<H, S, D>(strain);
-        let square = S::one() + strain.growth();
-        if !is_positive(square) {
-            return None;
-        }
-        Some(self.measures.each_ref().map(|of| of.of_strain(&strain)))
+        is_positive(S::one() + strain.growth())
+            .then(|| self.measures.each_ref().map(|of| of.of_strain(&strain)))
     }
 
     #[cold]

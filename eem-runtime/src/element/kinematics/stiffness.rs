@@ -5,8 +5,8 @@
 //! K_ij    = B_i·(𝔸·B_j + Σ_n F P_n ⊗ ∂f_n/∂r_j),     𝔸 = ∂(F S)/∂F¹ with f held
 //! ```
 //!
-//! 𝔸 is found once per point. What is multiplied with it then are all arms at once, in loops of fixed length
-//! that the compiler turns into vector instructions.
+//! 𝔸 is computed once per point, and multiplied with all arms at once, in loops of fixed length that the compiler
+//! vectorises.
 
 use core::array;
 
@@ -20,8 +20,8 @@ use eem_material::number::scalar::Real;
 type Moduli<S, const D: usize> = [[Tensor<S, D>; D]; D];
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D> {
-    /// Adds the derivative of `F S B_i` by a new deformation, of which F changes by a share, with the derivatives of
-    /// the forces by the arms; without the latter if none are given.
+    /// Adds the derivative of `F S B_i` by the new deformation, of whose change F takes a fraction, with the derivatives of the
+    /// forces by the arms if they are given.
     pub(super) fn add_stiffness(
         &self,
         [tensor, new]: [&Tensor<S, D>; 2],

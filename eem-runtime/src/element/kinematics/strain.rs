@@ -1,4 +1,4 @@
-//! Which measures of strain a free energy per volume depends on.
+//! The measures of strain on which a free energy per volume depends.
 
 use eem_material::free_energy::{FreeEnergy, Material};
 use eem_material::number::scalar::{Mask, Real};

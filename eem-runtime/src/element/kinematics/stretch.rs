@@ -4,8 +4,7 @@ use core::array;
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::measures::{Ends, Kinematics};
-use crate::element::kinematics::quadratic_strain::QuadraticStrain;
+use crate::element::kinematics::measures::{Ends, Kinematics, QuadraticStrain};
 use crate::element::kinematics::tensor::dot;
 use eem_material::free_energy::Entry;
 use eem_material::number::scalar::{Mask, Real, Scalar, is_positive};
@@ -71,7 +70,7 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
         (least.at_most(lambda) & lambda.at_most(most)).all()
     }
 
-    // The stretch may have under- or overflowed; the message says the true one.
+    // The stretch may have under- or overflowed; the message has the correct value.
     #[cold]
     fn refusal(&self, element: Element, [r]: &[[S; D]; 1]) -> StateError {
         let lambda = r

@@ -1,13 +1,13 @@
-//! What the nodes contribute to the certificate of a step: kinetic energy, work and momenta.
+//! The contribution of the nodes to the certificate of a step: kinetic energy, work and momenta.
 
 use crate::algebra::bivector::Bivector;
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::Real;
 
-/// What the motion of the nodes contributes to a certificate.
+/// The contribution of the motion of the nodes to a certificate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion<S, const D: usize> {
-    /// What momenta are kept, and about which point, m.
+    /// The conserved momenta, and their reference point, m.
     pub(crate) kept: Kept<S, D>,
     /// `Σ v̄·Δp − work`, J.
     pub(super) energy: Total<S>,
@@ -22,7 +22,7 @@ pub(crate) struct Motion<S, const D: usize> {
     pub(super) farthest: S,
 }
 
-/// Which momenta a scene keeps but for its loads.
+/// The momenta that a scene conserves apart from its loads.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kept<S, const D: usize> {
     /// With two anchors or more, or moved ones: none.
@@ -33,7 +33,7 @@ pub(crate) enum Kept<S, const D: usize> {
     Both,
 }
 
-/// What a node did in a step.
+/// The motion of a node in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NodeStep<'a, S, const D: usize> {
     pub(crate) speeds: Speeds<S, D>,
@@ -47,7 +47,7 @@ pub(crate) struct NodeStep<'a, S, const D: usize> {
     pub(crate) impulse: &'a [S; D],
 }
 
-/// What says how fast a node moves.
+/// The velocity of a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Speeds<S, const D: usize> {
     /// `1/m`, 1/kg: `v = p/m`.
@@ -85,7 +85,6 @@ impl<S: Real, const D: usize> NodeStep<'_, S, D> {
 }
 
 impl<S: Real, const D: usize> Motion<S, D> {
-    /// Of nothing.
     pub(crate) fn new(kept: Kept<S, D>) -> Self {
         let zero = S::zero();
         Self {
@@ -100,7 +99,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
         }
     }
 
-    /// A node that moves, with the force of its loads if there are any, N.
+    /// Adds a node that moves, with the force of its loads if there are any, N.
     #[inline]
     pub(crate) fn see(&mut self, node: &NodeStep<'_, S, D>, force: Option<&[S; D]>, step: S) {
         let [gain, size] = node.energies();
@@ -117,14 +116,14 @@ impl<S: Real, const D: usize> Motion<S, D> {
         }
     }
 
-    /// Work that a load or a support has done, J.
+    /// Adds the work of a load or a support, J.
     #[inline]
     pub(crate) fn work(&mut self, work: S) {
         self.energy.add(-work);
         self.amplitude += work.abs();
     }
 
-    /// The impulse of a load, N s, on a node that has moved so far from its old position.
+    /// Adds the impulse of a load, N s, on a node with this displacement from its old position.
     pub(crate) fn push(&mut self, [position, displacement]: [&[S; D]; 2], impulse: &[S; D]) {
         let origin = match self.kept {
             Kept::None => return,

@@ -1,33 +1,111 @@
-//! The size of the next step from the errors of the last ones.
+//! The error of a step as a function of its size, and the size of the next step from the errors of the last ones.
 
-use crate::step::control::accuracy::{AIM, Accuracy, Estimate};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real};
+
+/// The error that a step aims at, in units of the tolerance.
+const AIM: f64 = 0.8;
+
+/// The error beyond which a step in two halves is rejected, in units of the tolerance.
+const MOST: f64 = 1.2;
+
+/// The least fraction of the step size after a rejected step.
+const LEAST_AFTER_ERROR: f64 = 0.2;
+
+/// The error of a scheme as a function of its step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Accuracy {
+    /// p: the error of a step is of order p + 1.
+    pub(crate) order: u8,
+    pub(crate) estimate: Estimate,
+}
+
+/// The source of the error estimate of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Estimate {
+    /// The step in two halves. Tolerances are those of the state and not of a step.
+    Halves,
+    /// An embedded scheme; the estimate is of order p.
+    Embedded,
+}
+
+/// Errors of fewer roundings cannot be distinguished from rounding.
+const ROUNDINGS: f64 = 16.0;
+
+impl Accuracy {
+    pub(crate) fn order(self) -> f64 {
+        f64::from(self.order)
+    }
+
+    /// The relative tolerance of a step.
+    pub(super) fn of_step<S: Real>(self, relative: S) -> S {
+        if self.estimate == Estimate::Halves {
+            relative.powf(S::from_f64(1.0 + 1.0 / self.order()))
+        } else {
+            relative
+        }
+    }
+
+    /// The smallest relative tolerance whose errors are above rounding.
+    pub(super) fn floor<S: Real>(self) -> f64 {
+        let rounding = ROUNDINGS * S::EPSILON.to_f64();
+        if self.estimate == Estimate::Halves {
+            rounding.powf(self.order() / (self.order() + 1.0))
+        } else {
+            rounding
+        }
+    }
+
+    /// Whether a step with this error, in units of the tolerance, is accepted.
+    pub(crate) fn accepts<S: Real>(self, error: S) -> bool {
+        let most = match self.estimate {
+            Estimate::Halves => MOST,
+            Estimate::Embedded => 1.0,
+        };
+        error.at_most(S::from_f64(most)).all()
+    }
+
+    /// The fraction of its size with which a rejected step is tried again.
+    pub(crate) fn left_after<S: Real>(self, error: S) -> S {
+        let power = S::from_f64(-1.0 / self.order_of_estimate());
+        let left = S::from_f64(AIM) * error.powf(power);
+        let least = S::from_f64(LEAST_AFTER_ERROR);
+        // NaN if the error is NaN.
+        if least.less(left).all() { left } else { least }
+    }
+
+    /// The power of the step size to which its estimated error is proportional.
+    pub(super) fn order_of_estimate(self) -> f64 {
+        match self.estimate {
+            Estimate::Halves => self.order() + 1.0,
+            Estimate::Embedded => self.order(),
+        }
+    }
+}
 
 /// The memory of the filter: b of H211b (Söderlind 2003, *Digital filters in adaptive time-stepping*).
 const MEMORY: f64 = 4.0;
 
-/// How much of the size is left after a step that failed.
+/// The fraction of the step size after a failed step.
 pub(crate) const AFTER_FAILURE: f64 = 0.25;
 
-/// Errors that are smaller say no more than this one.
+/// Smaller errors are treated as this one.
 const LEAST_ERROR: f64 = 1e-10;
 
-/// Of an embedded estimate: the share of the error in the power, and the memory of the one before (Hairer, Nørsett &
-/// Wanner, *Solving ODEs I*, II.4, with less memory than theirs, which would make steps far smaller).
+/// For an embedded estimate: the reduction of the exponent of the error, and the exponent of the error before (Hairer,
+/// Nørsett & Wanner, *Solving ODEs I*, II.4, with a smaller exponent than theirs, which would make steps far smaller).
 const FORGETTING: f64 = 0.03;
 const REMEMBERING: f64 = 0.04;
 
-/// The smallest error that such a memory takes in.
+/// The smallest previous error that is used.
 const LEAST_REMEMBERED: f64 = 1e-4;
 
-/// By how much such a step may change.
+/// The range of the change of step size with an embedded estimate.
 const CHANGES: [f64; 2] = [1.0 / 3.0, 6.0];
 
-/// What makes the next step as large as the errors of the last two allow.
+/// The controller of the step size, by the errors of the last two steps.
 ///
-/// Where two halves of a step tell its error, a digital filter, H211b, with the order k of the error and `b = 4`; its
-/// factor f is limited to `1 + arctan(f − 1)`. Where the scheme has an estimate, of order p, a proportional
-/// controller with some memory.
+/// For errors from two halves of a step it is the digital filter H211b, with the order k of the error and `b = 4`; its
+/// factor f is limited to `1 + arctan(f − 1)`. For an embedded estimate, of order p, it is a PI controller.
 ///
 /// ```text
 /// h₊ = h (0.8/e_n)^(1/bk) (0.8/e_{n−1})^(1/bk) (h_n/h_{n−1})^(−1/b)
@@ -45,7 +123,6 @@ pub(crate) struct Controller<S> {
 }
 
 impl<S: Real> Controller<S> {
-    /// Before the first step.
     pub(crate) const fn new() -> Self {
         Self { last: None }
     }
@@ -118,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn the_error_settles_at_the_aim() {
+    fn the_error_converges_to_the_aim() {
         for start in [0.01, 1.0, 7.0] {
             let (sizes, _) = run(|_| start);
             let error = (sizes[59] / start).powi(3);

@@ -1,4 +1,4 @@
-//! What step control has done so far.
+//! Statistics of step control.
 
 use crate::algebra::memory::TooLarge;
 use crate::step::error::StepFailure;
@@ -54,7 +54,7 @@ impl StepStatistics {
         true
     }
 
-    /// Those that were rejected for another reason than their error.
+    /// Steps rejected for another reason than their error.
     pub(crate) const fn failures(&self) -> u64 {
         self.rejected() - self.rejected_by_error
     }

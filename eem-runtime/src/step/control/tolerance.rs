@@ -1,11 +1,11 @@
-//! Tolerances, and errors in units of them.
+//! Tolerances of step control, and errors in units of them.
 
 use crate::element::state::State;
 use crate::scene::error::SceneError;
-use crate::step::control::accuracy::Accuracy;
+use crate::step::control::controller::Accuracy;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
-/// Numbers whose rounding is coarser are of single precision.
+/// The ε that separates double and single precision.
 const SINGLE: f64 = 1e-12;
 
 /// The tolerance of step control.
@@ -56,8 +56,8 @@ pub struct Tolerance<S = f64> {
 /// A relative tolerance of 1e-6, in single precision of 1e-3.
 impl<S: Real> Default for Tolerance<S> {
     fn default() -> Self {
-        let of_double = S::EPSILON.to_f64() < SINGLE;
-        Self::new(S::from_f64(if of_double { 1e-6 } else { 1e-3 }))
+        let is_double = S::EPSILON.to_f64() < SINGLE;
+        Self::new(S::from_f64(if is_double { 1e-6 } else { 1e-3 }))
     }
 }
 
@@ -94,7 +94,7 @@ impl<S: Real> Tolerance<S> {
         }
     }
 
-    /// An error unless it can be asked of a scheme, whose errors go like this.
+    /// An error unless a scheme of this accuracy can satisfy it.
     pub(crate) fn check(&self, accuracy: Accuracy) -> Result<(), SceneError> {
         let floor = accuracy.floor::<S>();
         let relative = self.relative.to_f64();
@@ -120,17 +120,17 @@ impl<S: Real> Tolerance<S> {
     }
 }
 
-/// What is not compared as others of its kind.
+/// The variables that are compared differently from others.
 #[derive(Clone, Debug)]
 pub(crate) struct Kinds {
     /// Which viscous variables are strains of solids.
     pub(crate) are_strains: Vec<bool>,
-    /// Which momenta, by coordinate, follow from a motion that is given, so that their errors are those of one step and
-    /// do not add up: they are not compared. None where nothing is moved.
+    /// Which momenta, by coordinate, follow from a prescribed motion, so that their errors do not add up: they are ignored.
+    /// Empty without prescribed motions.
     pub(crate) are_given: Vec<bool>,
 }
 
-/// What errors of a step are compared with.
+/// The scales of the errors of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scales<S> {
     /// Of a coordinate, m, of a momentum, kg m/s, and of a viscous strain.
@@ -142,7 +142,7 @@ pub(crate) struct Scales<S> {
 }
 
 impl<S: Real> Scales<S> {
-    /// Of a step between two states, where the momenta have been this large before, kg m/s.
+    /// For a step between two states, given the largest momentum so far, kg m/s.
     pub(crate) fn new(
         tolerance: &Tolerance<S>,
         accuracy: Accuracy,
@@ -170,9 +170,9 @@ impl<S: Real> Scales<S> {
             for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
                 let difference = (a - b).abs();
                 let error = difference / scale(index, b);
-                // Nothing is no error, whatever it is compared with.
-                let is_none = difference.equal(S::zero());
-                largest = largest.maximum(S::select(is_none, S::zero(), error));
+                // No difference is no error, even at scale zero.
+                let is_equal = difference.equal(S::zero());
+                largest = largest.maximum(S::select(is_equal, S::zero(), error));
             }
         };
         see([a.positions.values(), b.positions.values()], &|_, _| {
@@ -217,7 +217,7 @@ pub(crate) fn norm<S: Real>(x: &[S]) -> S {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::step::control::accuracy::Estimate;
+    use crate::step::control::controller::Estimate;
 
     #[test]
     fn tolerances_of_steps_make_errors_of_the_state_proportional() {
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_reached_is_refused_with_the_floor() {
+    fn tolerances_below_the_floor_are_errors() {
         let accuracy = Accuracy {
             order: 2,
             estimate: Estimate::Halves,

@@ -1,177 +1,187 @@
 //! From the stages of the elements to the global system.
 
-use super::forces::StageForces;
-use super::heat;
-use super::local::LocalStages;
-use super::member::StagePoint;
-use super::site::StageSite;
+use super::point::LocalStages;
+use super::site::{PerPair, StageSite};
 use super::source::Source;
-use crate::algebra::system::LinearSystem;
-use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, scale};
-use crate::element::group::stages::stage_group::StageGroup;
-use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Kinematics, add_blocks};
-use crate::element::tableau::{MOST_STAGES, Tableau};
+use crate::element::group::arms::add_scaled;
+use crate::element::group::site::Contact;
+use crate::element::group::view::Trial;
+use crate::element::kinematics::{Arms, Blocks, Kinematics};
+use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
-    StageGroup<S, M, K, C, D>
-{
-    /// Eliminates the local unknowns at a trial that has been evaluated, and adds residual and tangent.
-    pub(super) fn assemble_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, 1>,
-    ) -> Result<(), StateError> {
-        let rule = self.rule;
-        let (values, right) = system.parts();
-        let forces = &mut self.forces;
-        let members = self.elements.members.iter().zip(&mut self.members);
-        for (member, stages) in members {
-            let arms = stages.arms(rule, trial);
-            forces.clear(rule);
-            for (point, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
-                point.condense(in_state, rule, &mut self.local, view)?;
-                let mut target = Target {
-                    rule,
-                    step: view.step,
-                    site: &stages.site,
-                    local: &mut self.local,
-                    values: &mut *values,
-                    right: &mut *right,
-                };
-                let bases = C::bases(point, rule);
-                point.assemble_forces(&bases, forces, &mut target);
-                for set in 0..rule.sets() {
-                    let stage = rule.stage_of(set);
-                    let turn = C::turn(point, rule, set, &arms);
-                    add_blocks::<K, S, D>(&mut forces.blocks[stage][set], &turn);
-                }
-                if let Some(slot) = in_state.slots().thermal {
-                    point.assemble_temperatures(slot, &bases, trial, &mut target);
+/// The forces of an element at the stages, as functions of the arms of each set.
+pub(super) struct StageForces<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// With the internal variables eliminated, N.
+    pulls: [Arms<K, S, D>; MOST_STAGES],
+    /// Their derivatives by the arms of each set.
+    pub(super) blocks: PerPair<Blocks<K, S, D>>,
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> StageForces<K, S, D> {
+    pub(super) fn zero() -> Self {
+        let blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
+        Self {
+            pulls: [Arms::<K, S, D>::filled([S::zero(); D]); MOST_STAGES],
+            blocks: [[blocks; MOST_SETS]; MOST_SETS],
+        }
+    }
+
+    pub(super) fn clear(&mut self, rule: &Tableau) {
+        self.pulls = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_STAGES];
+        for row in &mut self.blocks[..rule.stages()] {
+            row[..rule.sets()].fill(Blocks::<K, S, D>::filled(K::PerArm::filled(
+                [[S::zero(); D]; D],
+            )));
+        }
+    }
+
+    /// Adds a force along an arm, of which the derivatives by the arms of each set are given.
+    fn add(&mut self, stage: usize, (value, along): (S, &Arms<K, S, D>), by: &[Arms<K, S, D>]) {
+        add_scaled::<K, S, D>(&mut self.pulls[stage], value, along);
+        for (blocks, by) in self.blocks[stage].iter_mut().zip(by) {
+            for (row, along) in blocks.as_mut().iter_mut().zip(along.as_ref()) {
+                for (block, by) in row.as_mut().iter_mut().zip(by.as_ref()) {
+                    for (entries, &along) in block.iter_mut().zip(along) {
+                        for (entry, &by) in entries.iter_mut().zip(by) {
+                            *entry += along * by;
+                        }
+                    }
                 }
             }
-            let target = (&mut *values, &mut *right);
-            forces.scatter((rule, view.step), &stages.site, target);
         }
-        Ok(())
     }
 }
 
-/// Where a point writes what belongs to its temperatures.
-struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
-    rule: &'static Tableau,
-    step: S,
-    site: &'a StageSite<K, S, D>,
-    local: &'a mut LocalStages<S>,
-    values: &'a mut [S],
-    right: &'a mut [[S; 1]],
+/// The workspace of the assembly of an element, and the global system.
+pub(super) struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
+    pub(super) rule: &'static Tableau,
+    pub(super) step: S,
+    pub(super) site: &'a StageSite<K, S, D>,
+    pub(super) local: &'a mut LocalStages<S>,
+    pub(super) forces: &'a mut StageForces<K, S, D>,
+    pub(super) values: &'a mut [S],
+    pub(super) right: &'a mut [[S; 1]],
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
-    StagePoint<S, M, K, C, D>
-{
-    /// The forces of all stages and their derivatives, with their directions held, and what heat from other elements
-    /// does to them.
-    fn assemble_forces(
-        &self,
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
+    /// Adds the forces of a point at all stages with their derivatives for constant directions, and the effect of heat
+    /// from other elements on them.
+    pub(super) fn add_forces<M: Material<S>, C: Source<S, M, K, D>>(
+        &mut self,
+        source: &C,
         bases: &C::Bases,
-        forces: &mut StageForces<K, S, D>,
-        target: &mut Target<'_, K, S, D>,
     ) {
-        let rule = target.rule;
+        let (rule, contacts) = (self.rule, &source.point().contacts);
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         // By the heat at each stage.
         let mut by_heat = [[nowhere; MOST_STAGES]; MOST_STAGES];
         for (stage, by_heat) in by_heat.iter_mut().enumerate().take(rule.stages()) {
             for force in 0..C::FORCES {
                 let at = [stage, force];
-                let value = C::force(self, rule, target.local, at) + target.local.row[0];
-                let by_arms = C::by_arms(self, bases, rule, target.local);
-                let along = C::direction(self, bases, at);
-                forces.add((rule, stage), (value, along), &by_arms);
-                if self.contacts.is_some() {
-                    let heats = &target.local.row[1 + rule.sets() * C::FORCES..];
+                let value = source.force(self.local, at) + self.local.row[0];
+                let by_arms = source.by_arms(bases, self.local);
+                let along = source.direction(bases, at);
+                self.forces
+                    .add(stage, (value, along), &by_arms[..rule.sets()]);
+                if contacts.is_some() {
+                    let heats = &self.local.row[1 + rule.sets() * C::FORCES..];
                     for (sum, &by) in by_heat.iter_mut().zip(heats) {
                         add_scaled::<K, S, D>(sum, by, along);
                     }
                 }
             }
         }
+        let Some(contacts) = contacts else {
+            return;
+        };
         for (set, weights) in rule.positions.iter().enumerate() {
             let mut impulses = [nowhere; MOST_STAGES];
             for (&weight, by_heat) in weights.iter().zip(&by_heat) {
                 for (sum, by) in impulses.iter_mut().zip(by_heat) {
-                    add_scaled::<K, S, D>(sum, target.step * S::from_f64(weight), by);
+                    add_scaled::<K, S, D>(sum, self.step * S::from_f64(weight), by);
                 }
             }
-            self.assemble_heat(set, &impulses, target);
+            self.add_heat(set, &contacts[set], &impulses);
         }
     }
 
-    /// What heat from other elements does to the rows of the nodes in a set, given the impulses by the heat at each
-    /// stage.
-    fn assemble_heat(
-        &self,
+    /// Adds the effect of heat from other elements to the rows of the nodes in a set, given the impulses by the heat at
+    /// each stage.
+    fn add_heat(
+        &mut self,
         set: usize,
+        contacts: &[Contact<K, S, D>],
         impulses: &[Arms<K, S, D>; MOST_STAGES],
-        target: &mut Target<'_, K, S, D>,
     ) {
-        let Some(contacts) = &self.contacts else {
-            return;
-        };
-        let rule = target.rule;
-        let site = &target.site.sets[set][set];
-        for (column, contact) in contacts[set].iter().enumerate().take(rule.sets()) {
+        let (rule, site) = (self.rule, &self.site.sets[set][set]);
+        for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
             let mut by_seen = Arms::<K, S, D>::filled([S::zero(); D]);
             for (stage, impulse) in impulses.iter().enumerate().take(rule.stages()) {
                 let share = S::from_f64(rule.share(stage, column));
                 add_scaled::<K, S, D>(&mut by_seen, share, impulse);
             }
-            let times = |factor: S| {
-                let mut arms = by_seen;
-                scale::<K, S, D>(&mut arms, factor);
-                arms
-            };
-            let own = times(-contact.conductance());
-            site.add_column(&contact.column, &own, target.values);
-            for partner in &contact.partners {
-                let by_partner = times(partner.conductance);
-                site.add_column(&partner.column, &by_partner, target.values);
+            contact.add_pull(site, &by_seen, self.values);
+        }
+    }
+
+    /// Adds the equations `Θ − θ = 0` of the coupled interface temperatures of a point.
+    pub(super) fn add_temperatures<M: Material<S>, C: Source<S, M, K, D>>(
+        &mut self,
+        source: &C,
+        bases: &C::Bases,
+        (slot, trial): (usize, &Trial<S, D>),
+    ) {
+        let rule = self.rule;
+        let contacts = source.point().contacts.iter().flatten();
+        for (set, contacts) in contacts.enumerate().take(rule.sets()) {
+            let theta = source.temperature(self.local, set) + self.local.row[0];
+            let by_arms = source.by_arms(bases, self.local);
+            let by_heat = &self.local.row[1 + rule.sets() * C::FORCES..];
+            let own = &contacts[set];
+            let seen = trial.seen.values()[trial.seen_of_set(set, slot)];
+            self.right[own.unknown as usize][0] += theta - seen;
+            self.values[own.diagonal as usize] += S::one();
+            for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
+                let site = &self.site.sets[set][column];
+                site.subtract_arms(&by_arms[column], &contact.row, self.values);
+                // ∂θ/∂Θ of the set of the column
+                let by = by_heat.iter().enumerate();
+                let by = by.fold(S::zero(), |sum, (stage, &by)| {
+                    sum + S::from_f64(rule.share(stage, column)) * by
+                });
+                self.values[contact.diagonal as usize] += by * contact.conductance();
+                for partner in &contact.partners {
+                    self.values[partner.entry as usize] -= by * partner.conductance;
+                }
             }
         }
     }
 
-    /// The equations `Θ − θ = 0` of a point whose temperatures neighbours see.
-    fn assemble_temperatures(
-        &self,
-        slot: usize,
-        bases: &C::Bases,
-        trial: &Trial<S, D>,
-        target: &mut Target<'_, K, S, D>,
-    ) {
-        let Some(contacts) = &self.contacts else {
-            return;
-        };
-        let rule = target.rule;
-        for (set, contacts) in contacts.iter().enumerate().take(rule.sets()) {
-            let theta = C::temperature(self, rule, target.local, set) + target.local.row[0];
-            let by_arms = C::by_arms(self, bases, rule, target.local);
-            let by_heat = &target.local.row[1 + rule.sets() * C::FORCES..];
-            let own = &contacts[set];
-            let seen = trial.seen.values()[trial.seen_of_set(set, slot)];
-            target.right[own.unknown as usize][0] += theta - seen;
-            target.values[own.diagonal as usize] += S::one();
-            for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
-                let site = &target.site.sets[set][column];
-                site.subtract_arms(&by_arms[column], &contact.row, target.values);
-                let by = heat::by_seen(rule, column, by_heat);
-                target.values[contact.diagonal as usize] += by * contact.conductance();
-                for partner in &contact.partners {
-                    target.values[partner.entry as usize] -= by * partner.conductance;
+    /// Writes the impulses of the forces to the rows of each set.
+    pub(super) fn write_forces(self) {
+        for (set, weights) in self.rule.positions.iter().enumerate() {
+            let own = &self.site.sets[set][set];
+            let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
+            for (&weight, stage) in weights.iter().zip(&self.forces.pulls) {
+                add_scaled::<K, S, D>(&mut pull, self.step * S::from_f64(weight), stage);
+            }
+            own.subtract_arms(&pull, &own.rows, self.right.as_flattened_mut());
+            let sites = self.site.sets[set].iter().take(self.rule.sets());
+            for (column, site) in sites.enumerate() {
+                for i in 0..K::PerArm::<()>::LEN {
+                    for j in 0..K::PerArm::<()>::LEN {
+                        let mut block = [[S::zero(); D]; D];
+                        for (&weight, stage) in weights.iter().zip(&self.forces.blocks) {
+                            let impulse = self.step * S::from_f64(weight);
+                            let entries = stage[column][i][j].as_flattened();
+                            for (sum, &entry) in block.as_flattened_mut().iter_mut().zip(entries) {
+                                *sum += impulse * entry;
+                            }
+                        }
+                        site.add_block([i + 1, j + 1], &block, self.values);
+                    }
                 }
             }
         }

@@ -1,6 +1,7 @@
 //! Conjugates that are projections of the derivatives of the energy along the path through a step, TC-cG(k).
 //!
-//! With the [strain](QuadraticStrain) C, `ê(C, γ, s) = e(π(C), γ, s)` and the polynomials through the increments `R_i = h(Ċ, γ̇, ṡ)_i`,
+//! With the [strain](QuadraticStrain) C, `ê(C, γ, s) = e(π(C), γ, s)` and the polynomials through the increments
+//! `R_i = h(Ċ, γ̇, ṡ)_i`,
 //!
 //! ```text
 //! Ċ_i = ∂C/∂d_i·ḋ_i     (N, −G, Θ)_i = a_i = Σ_r projection_ir ∇ê(y(τ_r)) + μ W R_i
@@ -9,27 +10,20 @@
 //! F_i = N_i ∂C/∂d_i,   γ̇_i = G_i/η(Θ_i),   Θ_i ṡ_i = Σ η γ̇_i² + Σ κ(Θ_f − Θ)_i
 //! ```
 //!
-//! (Groß & Betsch 2011; `C` as an independent path: Betsch & Steinmann 2001). As Ċ has the degree `2k − 1`,
-//! the path of C ends at the strain of d¹; so μ, which vanishes with the error of the quadrature, makes
-//! `Σ b_i a_i·R_i` the change of the energy of the element. `Δê` is that of discrete derivatives between the
-//! ends, without a difference of energies.
+//! (Groß & Betsch 2011; `C` as an independent path: Betsch & Steinmann 2001). As Ċ has the degree `2k − 1`, the path of C ends
+//! at the strain of d¹; so μ, which vanishes with the error of the quadrature, makes `Σ b_i a_i·R_i` the change of the energy
+//! of the element. `Δê` comes from discrete derivatives between the ends, without a difference of energies.
 //!
 //! The local unknowns are the increments of γ and s at all stages, the inputs those of C and heat.
 
-mod begin;
-mod certify;
 mod closing;
-mod derivatives;
-mod drag;
-mod drag_heat;
 mod exact;
+mod kelvin_voigt;
 mod local;
 mod path;
 mod vector;
 
-use super::heat;
-use super::local::LocalStages;
-use super::member::{StageArms, StagePoint, StatePoint};
+use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
 use super::site::PerPair;
 use super::source::Source;
 use crate::element::error::StateError;
@@ -38,15 +32,15 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Blocks, PerStrain, QuadraticStrain};
 use crate::element::recount::Recount;
 use crate::element::state::State;
-use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES, Tableau};
+use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES};
 use crate::element::tally::Tally;
-use drag_heat::DragHeat;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::Real;
-use vector::{Matrix, Vector};
+use vector::{Matrix, Vector, derivatives, steepness};
 
-/// The path of a point through a step, and what is projected from it.
+/// A point with its path through a step, and the projections from it.
 pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
+    point: StagePoint<K, S, D>,
     /// `y⁰ = (C, γ…, s)`, and what the discrete derivatives need of `(π, γ, θ)⁰`.
     old: Vector<S, M, K, D>,
     old_form: M::TemperatureFormOld,
@@ -69,11 +63,15 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D
     conjugates: [Vector<S, M, K, D>; MOST_STAGES],
     /// `∂a_i/∂R_j`.
     by_rates: Box<PerPair<Matrix<S, M, K, D>>>,
-    /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, to what the conjugates are known.
-    resolution: [Vector<S, M, K, D>; MOST_STAGES],
+    /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, the conditioning error of the conjugates.
+    conditioning: [Vector<S, M, K, D>; MOST_STAGES],
     /// `η_k` and `dη_k/dθ` at `Θ_i`.
     viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
-    drags: [DragHeat<S, K, D>; MOST_STAGES],
+    /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives by the temperature and, for
+    /// constant temperature, by the increments of C.
+    viscous_heat: [S; MOST_STAGES],
+    heat_by_theta: [S; MOST_STAGES],
+    heat_by_strain: PerPair<PerStrain<K, S, D>>,
     /// Heat from other elements at the stages, W.
     received: [S; MOST_STAGES],
     /// `d_i` and `h ḋ_i`, m.
@@ -81,15 +79,11 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D
     motions: [Arms<K, S, D>; MOST_STAGES],
 }
 
-/// Along which arms the components of the strain act at the stages: `∂C_q/∂d_i`, and the same for `h ḋ_i`.
+/// The directions of the components of the strain at the stages: `∂C_q/∂d_i`, and the same for `h ḋ_i`.
 pub(crate) struct Directions<K: QuadraticStrain<S, D>, S: Real, const D: usize> {
     along: [K::PerStrain<Arms<K, S, D>>; MOST_STAGES],
     turning: [K::PerStrain<Arms<K, S, D>>; MOST_STAGES],
 }
-
-/// A point with such conjugates.
-pub(super) type ProjectedPoint<S, M, K, const D: usize> =
-    StagePoint<S, M, K, Projections<S, M, K, D>, D>;
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S, M, K, D>
     for Projections<S, M, K, D>
@@ -98,120 +92,166 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
 
     type Bases = Directions<K, S, D>;
 
-    fn new() -> Self {
-        let zeros = Vector::zero();
-        let viscosities = M::Viscosities::filled(S::zero());
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+    fn new(point: StagePoint<K, S, D>) -> Self {
+        let (none, zeros) = (S::zero(), Vector::zero());
+        let viscosities = M::Viscosities::filled(none);
+        let strain = PerStrain::<K, S, D>::filled(none);
+        let nowhere = Arms::<K, S, D>::filled([none; D]);
         Self {
+            point,
             old: zeros,
-            old_form: M::TemperatureFormOld::filled(S::zero()),
+            old_form: M::TemperatureFormOld::filled(none),
             units: zeros,
             metric: zeros,
             rates: [zeros; MOST_STAGES],
             previous: [zeros; MOST_STAGES],
             correction: [zeros; MOST_STAGES],
-            temperatures: [S::zero(); MOST_POINTS + 1],
+            temperatures: [none; MOST_POINTS + 1],
             end: zeros,
             end_slopes: [zeros; 2],
-            end_sizes: [PerStrain::<K, S, D>::filled(S::zero()); 2],
+            end_sizes: [strain; 2],
             conjugates: [zeros; MOST_STAGES],
             by_rates: Box::new([[Matrix::zero(); MOST_SETS]; MOST_SETS]),
-            resolution: [zeros; MOST_STAGES],
+            conditioning: [zeros; MOST_STAGES],
             viscosities: [(viscosities, viscosities); MOST_STAGES],
-            drags: [(); MOST_STAGES].map(|()| DragHeat::zero()),
-            received: [S::zero(); MOST_STAGES],
+            viscous_heat: [none; MOST_STAGES],
+            heat_by_theta: [none; MOST_STAGES],
+            heat_by_strain: [[strain; MOST_SETS]; MOST_SETS],
+            received: [none; MOST_STAGES],
             arms: [nowhere; MOST_STAGES],
             motions: [nowhere; MOST_STAGES],
         }
     }
 
-    fn begin(
-        point: &mut ProjectedPoint<S, M, K, D>,
-        in_state: &StatePoint<S, M, K, D>,
-        view: &StepView<'_, S>,
-        r0: &Arms<K, S, D>,
-    ) {
-        point.begin_path(in_state, view, r0);
+    fn point(&self) -> &StagePoint<K, S, D> {
+        &self.point
+    }
+
+    fn point_mut(&mut self) -> &mut StagePoint<K, S, D> {
+        &mut self.point
+    }
+
+    fn begin(&mut self, in_state: &StatePoint<S, M, K, D>, x0: &M::Variables, r0: &Arms<K, S, D>) {
+        let (kinematics, last) = (&self.point.kinematics, M::Variables::LEN - 1);
+        let (gradient, hessian) = in_state.model.hessian(x0);
+        self.old_form = in_state.model.temperature_form_old(x0);
+        (self.old.rest, self.old.strain) = (*x0, kinematics.strain(r0));
+        let strain = &self.old.strain;
+        let (slopes, curvatures) = derivatives(kinematics, strain, (x0, &gradient, &hessian));
+        self.end_slopes[0] = slopes;
+        self.end_sizes[0] = kinematics.strain_sizes(strain);
+        let strains = 0..Self::STRAINS;
+        let (counts, unit) = kinematics.strain_metric(strain);
+        let derivatives = (&slopes, &curvatures);
+        let of_strain = steepness(derivatives, strains.clone(), |q| counts[q], unit);
+        for q in strains.clone() {
+            self.metric[q] = counts[q] * of_strain;
+        }
+        let entropy = Self::ENTROPY;
+        let components = entropy - M::VISCOUS_STRAIN..entropy;
+        for index in strains.end..components.start {
+            let unit = self.point.viscous_unit;
+            self.units[index] = unit;
+            self.metric[index] = steepness(derivatives, index..index + 1, |_| S::one(), unit);
+        }
+        // Components of a tensor count alike, whatever the axes are.
+        let of_components = steepness(derivatives, components.clone(), |_| S::one(), S::one());
+        for index in components {
+            self.units[index] = self.point.viscous_unit;
+            self.metric[index] = of_components;
+        }
+        if M::THERMAL {
+            let theta = x0[last];
+            self.old[entropy] = self.point.entropy;
+            self.units[entropy] = -theta * hessian[last][last];
+            self.metric[entropy] = curvatures.at([entropy, entropy]);
+            self.temperatures = [theta; MOST_POINTS + 1];
+        }
+        self.rates = [Vector::zero(); MOST_STAGES];
     }
 
     fn evaluate(
-        point: &mut ProjectedPoint<S, M, K, D>,
+        &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
-        rule: &Tableau,
         (view, trial): (&StepView<'_, S>, &Trial<S, D>),
         arms: &StageArms<K, S, D>,
     ) -> Result<(), StateError> {
         if let Some(slot) = in_state.slots().thermal {
-            for stage in 0..rule.stages() {
-                point.own.received[stage] = heat::received(rule, stage, slot, view, trial);
+            let rule = self.point.rule;
+            for (stage, received) in self.received.iter_mut().enumerate().take(rule.stages()) {
+                *received = heat_received(rule, stage, slot, (view, trial));
             }
         }
-        point.move_along(in_state, rule, arms)?;
-        point.project(in_state, rule)?;
-        let end = point.reach_end(in_state, rule)?;
-        point.make_exact(rule, &end);
-        point.find_viscosities(in_state, rule)?;
-        point.add_drag(in_state, rule, view.per_step)
+        self.move_along(in_state, arms)?;
+        self.project(in_state)?;
+        let end = self.reach_end(in_state)?;
+        self.make_exact(&end);
+        self.find_viscosities(in_state)?;
+        self.add_kelvin_voigt(in_state, view.per_step)
     }
 
+    // All in J; the unknowns are in their units.
     fn write_equations(
-        point: &mut ProjectedPoint<S, M, K, D>,
+        &mut self,
         in_state: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
         local: &mut LocalStages<S>,
         view: &StepView<'_, S>,
     ) -> Result<(), StateError> {
-        point.write_path(in_state, rule, local, view)
-    }
-
-    fn force(
-        point: &ProjectedPoint<S, M, K, D>,
-        rule: &Tableau,
-        local: &mut LocalStages<S>,
-        [stage, component]: [usize; 2],
-    ) -> S {
-        point.eliminate(rule, local, [stage, component]);
-        point.own.conjugates[stage][component]
-    }
-
-    fn bases(point: &ProjectedPoint<S, M, K, D>, rule: &Tableau) -> Directions<K, S, D> {
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        let none = [K::PerStrain::filled(nowhere); MOST_STAGES];
-        let mut bases: Directions<K, S, D> = Directions {
-            along: none,
-            turning: none,
-        };
-        let (own, kinematics) = (&point.own, &point.kinematics);
-        for stage in 0..rule.stages() {
-            let along = bases.along[stage].as_mut().iter_mut();
-            let pairs = along.zip(bases.turning[stage].as_mut());
-            for (component, (along, turning)) in pairs.enumerate() {
-                let mut unit = PerStrain::<K, S, D>::filled(S::zero());
-                unit[component] = S::one();
-                *along = kinematics.strain_force(&own.arms[stage], &unit);
-                *turning = kinematics.strain_force(&own.motions[stage], &unit);
+        let stages = 0..self.point.rule.stages();
+        for stage in stages.clone() {
+            for k in 0..M::DASHPOTS {
+                self.write_creep(local, [stage, k], view.per_step);
             }
         }
-        bases
+        let Some(slot) = in_state.slots().thermal else {
+            return Ok(());
+        };
+        if let Some(prescribed) = self.point.prescribed {
+            return self.prescribe(in_state, local, &prescribed);
+        }
+        for stage in stages {
+            let theta = self.mean_temperature(stage);
+            let flow = view.conduction.reservoir_flow(slot, theta);
+            let heat = flow.heat + self.received[stage];
+            self.write_heat(local, stage, (view, [heat, flow.conductance]));
+        }
+        Ok(())
+    }
+
+    fn force(&self, local: &mut LocalStages<S>, [stage, component]: [usize; 2]) -> S {
+        self.differentiate(local, [stage, component]);
+        self.point.eliminate(local);
+        self.conjugates[stage][component]
+    }
+
+    fn bases(&self) -> Directions<K, S, D> {
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let none = [K::PerStrain::filled(nowhere); MOST_STAGES];
+        let (mut along, mut turning) = (none, none);
+        for stage in 0..self.point.rule.stages() {
+            for component in 0..Self::FORCES {
+                let mut unit = PerStrain::<K, S, D>::filled(S::zero());
+                unit[component] = S::one();
+                let force = |arms| self.point.kinematics.strain_force(arms, &unit);
+                along[stage][component] = force(&self.arms[stage]);
+                turning[stage][component] = force(&self.motions[stage]);
+            }
+        }
+        Directions { along, turning }
     }
 
     fn direction<'a>(
-        _: &'a ProjectedPoint<S, M, K, D>,
+        &'a self,
         bases: &'a Directions<K, S, D>,
         [stage, component]: [usize; 2],
     ) -> &'a Arms<K, S, D> {
         &bases.along[stage].as_ref()[component]
     }
 
-    fn turn(
-        point: &ProjectedPoint<S, M, K, D>,
-        _: &Tableau,
-        set: usize,
-        _: &StageArms<K, S, D>,
-    ) -> Blocks<K, S, D> {
+    fn geometric_stiffness(&self, set: usize, _: &StageArms<K, S, D>) -> Blocks<K, S, D> {
         let mut blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
-        let stress = point.own.conjugates[set].strain;
-        let weights = point.kinematics.strain_stiffness(&stress);
+        let stress = &self.conjugates[set].strain;
+        let weights = self.point.kinematics.strain_stiffness(stress);
         for (row, weights) in blocks.as_mut().iter_mut().zip(weights.as_ref()) {
             for (block, &weight) in row.as_mut().iter_mut().zip(weights.as_ref()) {
                 for (axis, row) in block.iter_mut().enumerate() {
@@ -222,26 +262,21 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         blocks
     }
 
-    fn temperature(
-        point: &ProjectedPoint<S, M, K, D>,
-        rule: &Tableau,
-        local: &mut LocalStages<S>,
-        set: usize,
-    ) -> S {
-        point.eliminate(rule, local, [set, Vector::<S, M, K, D>::ENTROPY]);
-        point.mean_temperature(set)
+    fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S {
+        self.differentiate(local, [set, Self::ENTROPY]);
+        self.point.eliminate(local);
+        self.mean_temperature(set)
     }
 
     // ∂(hĊ_i)/∂d_j = δ_ij ∂²C/∂d² h ḋ_i + motion_ij ∂C/∂d_i
     fn by_arms(
-        _: &ProjectedPoint<S, M, K, D>,
+        &self,
         bases: &Directions<K, S, D>,
-        rule: &Tableau,
         local: &LocalStages<S>,
     ) -> [Arms<K, S, D>; MOST_SETS] {
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         let mut by_arms = [nowhere; MOST_SETS];
-        for (stage, row) in rule.motion.iter().enumerate() {
+        for (stage, row) in self.point.rule.motion.iter().enumerate() {
             let mut along = nowhere;
             let rows = bases.along[stage].as_ref().iter();
             let rows = rows.zip(bases.turning[stage].as_ref());
@@ -256,112 +291,109 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         by_arms
     }
 
-    fn inputs(
-        point: &ProjectedPoint<S, M, K, D>,
-        rule: &Tableau,
-        motions: &[Arms<K, S, D>; MOST_SETS],
-        inputs: &mut [S],
-    ) {
-        let (own, kinematics) = (&point.own, &point.kinematics);
-        for (stage, row) in rule.motion.iter().enumerate() {
-            let turned = kinematics.strain_rate(&own.motions[stage], &motions[stage]);
-            let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
-            for (motion, &share) in motions.iter().zip(*row) {
-                add_scaled::<K, S, D>(&mut change, S::from_f64(share), motion);
-            }
-            let moved = kinematics.strain_rate(&own.arms[stage], &change);
+    fn inputs(&self, motions: &[Arms<K, S, D>; MOST_SETS], inputs: &mut [S]) {
+        let kinematics = &self.point.kinematics;
+        for (stage, row) in self.point.rule.motion.iter().enumerate() {
+            let turned = kinematics.strain_rate(&self.motions[stage], &motions[stage]);
+            let change = combined::<K, S, D>(row, motions);
+            let moved = kinematics.strain_rate(&self.arms[stage], &change);
             for q in 0..Self::FORCES {
                 inputs[stage * Self::FORCES + q] = turned[q] + moved[q];
             }
         }
     }
 
-    fn hold(point: &mut ProjectedPoint<S, M, K, D>) {
-        point.own.previous = point.own.rates;
-        point.own.correction = [Vector::zero(); MOST_STAGES];
+    fn hold(&mut self) {
+        self.previous = self.rates;
+        self.correction = [Vector::zero(); MOST_STAGES];
     }
 
-    fn correct(
-        point: &mut ProjectedPoint<S, M, K, D>,
-        rule: &Tableau,
-        local: &LocalStages<S>,
-    ) -> S {
-        let creeping = rule.sets() * M::DASHPOTS;
+    fn correct(&mut self, local: &LocalStages<S>) -> S {
+        let entropies = self.point.rule.sets() * M::DASHPOTS;
         let mut largest = S::zero();
         for unknown in 0..local.unknowns() {
-            let change = local.change(&point.solved, unknown);
-            let (stage, index) = if unknown < creeping {
+            let change = local.change(&self.point.solved, unknown);
+            let (stage, index) = if unknown < entropies {
                 (unknown / M::DASHPOTS, Self::FORCES + unknown % M::DASHPOTS)
             } else {
-                (unknown - creeping, Vector::<S, M, K, D>::ENTROPY)
+                (unknown - entropies, Self::ENTROPY)
             };
-            point.own.correction[stage][index] = point.own.units[index] * change;
+            self.correction[stage][index] = self.units[index] * change;
             largest = largest.maximum(change.abs());
         }
         largest
     }
 
-    fn apply(point: &mut ProjectedPoint<S, M, K, D>, rule: &Tableau, share: S) {
-        let own = &mut point.own;
-        for stage in 0..rule.stages() {
-            for index in Self::FORCES..Vector::<S, M, K, D>::LEN {
-                let change = share * own.correction[stage][index];
-                own.rates[stage][index] = own.previous[stage][index] + change;
+    fn apply(&mut self, fraction: S) {
+        for stage in 0..self.point.rule.stages() {
+            for index in Self::FORCES..Self::LEN {
+                let change = fraction * self.correction[stage][index];
+                self.rates[stage][index] = self.previous[stage][index] + change;
             }
         }
     }
 
-    fn pull(
-        point: &ProjectedPoint<S, M, K, D>,
-        _: &Tableau,
-        stage: usize,
-        _: &StageArms<K, S, D>,
-    ) -> K::PerNode<[S; D]> {
-        let stress = &point.own.conjugates[stage].strain;
-        let arms = &point.own.arms[stage];
-        spread::<K, S, D>(&point.kinematics.strain_force(arms, stress))
+    fn nodal_force(&self, stage: usize, _: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
+        let (kinematics, stress) = (&self.point.kinematics, &self.conjugates[stage].strain);
+        spread::<K, S, D>(&kinematics.strain_force(&self.arms[stage], stress))
     }
 
-    fn magnitude(point: &ProjectedPoint<S, M, K, D>, rule: &Tableau, step: S) -> S {
-        point.magnitude_of_impulse(rule, step)
+    fn impulse_size(&self, step: S) -> S {
+        let known =
+            |stage: usize, q: usize| self.conjugates[stage][q].abs() + self.conditioning[stage][q];
+        let stages = 0..self.point.rule.stages();
+        let forces = stages.map(|stage| self.force_size(stage, |q| known(stage, q)));
+        step * forces.fold(S::zero(), S::maximum)
     }
 
     fn close(
-        point: &mut ProjectedPoint<S, M, K, D>,
+        &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
-        rule: &Tableau,
         (view, trial, r1): (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        let booked = point.book(in_state, rule, (view, trial), next, tally);
-        let near = point.own.temperatures[MOST_POINTS];
+        let booked = self.book(in_state, (view, trial), next, tally);
+        let near = self.temperatures[MOST_POINTS];
         if let Some(entropy) = in_state.settle(r1, view, near, next)? {
-            point.book_thermostat(rule, &booked, entropy, next);
+            self.book_thermostat(&booked, entropy, next);
         }
         let energy = &mut next.energies[in_state.element.index()];
-        energy.terms += point.forces_at_end();
+        energy.terms += self.forces_at_end();
         let magnitude = energy.magnitude;
-        point.certify(in_state, rule, (view, trial), (&booked, magnitude), tally);
+        self.certify(in_state, (view, trial), (&booked, magnitude), tally);
         Ok(())
     }
 
     fn recount(
-        point: &ProjectedPoint<S, M, K, D>,
+        &self,
         in_state: &StatePoint<S, M, K, D>,
-        of_step: (&Tableau, &K::PerNode<u32>),
+        nodes: &K::PerNode<u32>,
         ends: [&State<S>; 2],
         recount: &mut Recount<S>,
     ) {
-        point.recount_energy(in_state, of_step, ends, recount);
+        let own = in_state.balance_between(nodes, ends);
+        let mut found = S::zero();
+        for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
+            let terms = self.conjugates[stage].entries();
+            let work = terms.zip(self.rates[stage].entries());
+            let work = work.fold(S::zero(), |sum, (a, rate)| sum + a * rate);
+            found += S::from_f64(weight) * (work - self.viscous_heat[stage]);
+        }
+        recount.element(in_state.element, own.by_values, own.by_differences, found);
     }
 }
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
+    /// Number of variables y, of components of the strain among them, and the index of the entropy.
+    const LEN: usize = Vector::<S, M, K, D>::LEN;
+    const STRAINS: usize = Vector::<S, M, K, D>::STRAINS;
+    const ENTROPY: usize = Vector::<S, M, K, D>::ENTROPY;
+
     /// Θ of a stage, K; zero without temperature.
     fn mean_temperature(&self, stage: usize) -> S {
         if M::THERMAL {
-            self.own.conjugates[stage][Vector::<S, M, K, D>::ENTROPY]
+            self.conjugates[stage][Self::ENTROPY]
         } else {
             S::zero()
         }
@@ -370,11 +402,32 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
     /// `Σ_j shares_j R_j`.
     fn increments(&self, shares: &[f64]) -> Vector<S, M, K, D> {
         let mut sum = Vector::zero();
-        for (rates, &share) in self.own.rates.iter().zip(shares) {
-            for index in 0..Vector::<S, M, K, D>::LEN {
+        for (rates, &share) in self.rates.iter().zip(shares) {
+            for index in 0..Self::LEN {
                 sum[index] += S::from_f64(share) * rates[index];
             }
         }
         sum
     }
+
+    /// `y = (C, γ, s)` where the path has gone these shares of the increments.
+    fn path_at(&self, shares: &[f64]) -> Vector<S, M, K, D> {
+        let mut y = self.increments(shares);
+        for index in 0..Self::LEN {
+            y[index] += self.old[index];
+        }
+        y
+    }
+}
+
+/// `Σ_j shares_j arms_j`.
+fn combined<K: QuadraticStrain<S, D>, S: Real, const D: usize>(
+    shares: &[f64],
+    arms: &[Arms<K, S, D>],
+) -> Arms<K, S, D> {
+    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (arms, &share) in arms.iter().zip(shares) {
+        add_scaled::<K, S, D>(&mut sum, S::from_f64(share), arms);
+    }
+    sum
 }

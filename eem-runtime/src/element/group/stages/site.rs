@@ -1,51 +1,118 @@
-//! Where the elements write in the system of the stages, found once per scene.
+//! The matrix indices of the elements in the systems of the stages, found once per scene.
 //!
-//! The unknowns of that system come set after set, so that its matrix has a block for every two sets. An
-//! element has a [`Site`] in each.
+//! The unknowns of an iteration come set after set, so that the matrix has a block for every two sets. An element has a
+//! [`Site`] in each. The secant system, which closes a step stage by stage, has one unknown per mass and a right-hand
+//! side per axis.
 
 use core::array;
 
-use super::secant::SecantSite;
+use crate::element::group::closing::pull_of_arms;
 use crate::element::group::site::{Contact, Site};
 use crate::element::group::view::Sites;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::{Arms, Kinematics, Weights};
 use crate::element::tableau::{MOST_SETS, Tableau};
+use eem_material::free_energy::Array;
+use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 
-/// Something for every two sets of unknowns: that of the rows, and that of the columns.
+/// Something for every two sets of unknowns: of the rows, and of the columns.
 pub(super) type PerPair<T> = [[T; MOST_SETS]; MOST_SETS];
 
-/// The places of one element.
+/// The matrix indices of one element.
 #[derive(Clone, Debug)]
 pub(super) struct StageSite<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) sets: PerPair<Site<K, S, D>>,
-    pub(super) secant: SecantSite<K, S, D>,
+    /// The entry of two nodes in the secant system.
+    secant: K::PerNode<K::PerNode<u32>>,
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
-    /// The nodes, and no places yet.
+    /// The nodes, without indices.
     pub(super) fn unconnected(site: Site<K, S, D>) -> Self {
         Self {
             sets: [[site; MOST_SETS]; MOST_SETS],
-            secant: SecantSite::unconnected(),
+            secant: K::PerNode::filled(K::PerNode::filled(0)),
         }
     }
 
-    /// The places of an element with these nodes in the sets of a rule.
+    /// The indices of an element with these nodes in the sets of a rule.
     pub(super) fn new(rule: &Tableau, nodes: &K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
-        Self {
-            sets: pairs(|sets| Site::new(*nodes, &of_sets(rule, sites, sets))),
-            secant: SecantSite::new(nodes, sites),
+        let mass = |node: u32| sites.layout.nodes[node as usize].map(|first| first / D);
+        let sets = pairs(|sets| Site::new(*nodes, &of_sets(rule, sites, sets)));
+        let mut site = Self::unconnected(sets[0][0]);
+        for (row, &i) in site.secant.as_mut().iter_mut().zip(nodes.as_ref()) {
+            for (entry, &j) in row.as_mut().iter_mut().zip(nodes.as_ref()) {
+                *entry = compact(sites.secant_place(mass(i), mass(j)));
+            }
         }
+        Self { sets, ..site }
     }
 
-    /// What is the same for all sets: the nodes.
-    pub(super) fn common(&self) -> &Site<K, S, D> {
+    /// Nodes and rows of the first set.
+    pub(super) fn first(&self) -> &Site<K, S, D> {
         &self.sets[0][0]
+    }
+
+    /// Adds the matrix `factor A` of nodal forces `A r` for the nodes that move to the secant system.
+    #[inline]
+    pub(super) fn add_secant(&self, weights: &Weights<K, S, D>, factor: S, values: &mut [S]) {
+        let is_mass = &self.first().is_mass;
+        let mut add = |[i, j]: [usize; 2], entry: S| {
+            if is_mass[i] && is_mass[j] {
+                values[self.secant[i][j] as usize] += entry;
+            }
+        };
+        for (i, row) in weights.as_ref().iter().enumerate() {
+            for (j, &weight) in row.as_ref().iter().enumerate() {
+                let entry = factor * weight;
+                add([i + 1, j + 1], entry);
+                add([i + 1, 0], -entry);
+                add([0, j + 1], -entry);
+                add([0, 0], entry);
+            }
+        }
     }
 }
 
-/// The places of the temperature that is seen of a point, if it conducts heat to others.
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// Adds the motion of anchors, which is known, to arms.
+    #[inline]
+    pub(super) fn add_anchors(&self, arms: &mut Arms<K, S, D>, moved: &[[S; D]]) {
+        for (i, arm) in arms.as_mut().iter_mut().enumerate() {
+            for (node, sign) in [(i + 1, S::one()), (0, -S::one())] {
+                if !self.is_mass[node] {
+                    let moved = &moved[self.nodes[node] as usize];
+                    for (arm, &moved) in arm.iter_mut().zip(moved) {
+                        *arm += sign * moved;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Subtracts the impulse `h A r` of known arms from the nodes that move.
+    #[inline]
+    pub(super) fn subtract_known(
+        &self,
+        weights: &Weights<K, S, D>,
+        (known, h): (&Arms<K, S, D>, S),
+        right: &mut [[S; D]],
+    ) {
+        let force = pull_of_arms::<K, S, D>(weights, known);
+        for (i, force) in force.as_ref().iter().enumerate() {
+            for (node, h) in [(i + 1, -h), (0, h)] {
+                if self.is_mass[node] {
+                    let right = &mut right[self.rows[node] as usize / D];
+                    for (right, &force) in right.iter_mut().zip(force) {
+                        *right += h * force;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The matrix indices of the interface temperature of a point, if it conducts heat to others.
 pub(super) fn contacts<K: Kinematics<S, D>, S: Real, const D: usize>(
     rule: &Tableau,
     nodes: &K::PerNode<u32>,
@@ -58,8 +125,7 @@ pub(super) fn contacts<K: Kinematics<S, D>, S: Real, const D: usize>(
     is_coupled.then(|| contacts.map(|row| row.map(there)))
 }
 
-/// Where the rows of one set and the columns of another are. Sets that the rule does not have are never looked at:
-/// theirs are those of its last one.
+/// The rows of one set and the columns of another. A rule with fewer sets repeats its last one, which is never read.
 fn of_sets<'a, S: Real, const D: usize>(
     rule: &Tableau,
     sites: &Sites<'a, S, D>,
@@ -68,7 +134,6 @@ fn of_sets<'a, S: Real, const D: usize>(
     sites.of_sets(sets.map(|set| set.min(rule.sets() - 1)))
 }
 
-/// Made for every two sets.
 fn pairs<T>(make: impl Fn([usize; 2]) -> T) -> PerPair<T> {
     array::from_fn(|row| array::from_fn(|column| make([row, column])))
 }

@@ -1,7 +1,6 @@
-//! Where the conjugates of the stages of an element come from.
+//! The sources of the conjugates of the stages.
 
-use super::local::LocalStages;
-use super::member::{StageArms, StagePoint, StatePoint};
+use super::point::{LocalStages, StageArms, StagePoint, StatePoint};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Blocks, Kinematics, Weights};
@@ -12,153 +11,139 @@ use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// What one step needs to remember of a point besides what every rule does, and what follows from it: forces,
-/// temperatures and rates of the stages, with their derivatives.
+/// A point of an element at the stages of a step: forces, temperatures and rates of the stages, with their derivatives.
 pub(crate) trait Source<S, M, K, const D: usize>: Sized + Send + Sync + 'static
 where
     S: Real,
     M: Material<S>,
     K: Kinematics<S, D>,
 {
-    /// How many forces a stage has.
+    /// Number of forces of a stage.
     const FORCES: usize;
 
-    /// Number of inputs, which other elements and the nodes decide: one per force, set after set, and Q stage after
-    /// stage.
+    /// The common part of [`direction`](Self::direction) and [`by_arms`](Self::by_arms).
+    type Bases;
+
+    /// Number of local unknowns: viscous stretches and temperature, set after set.
+    fn unknowns_of(rule: &Tableau) -> usize {
+        rule.sets() * (M::DASHPOTS + usize::from(M::THERMAL))
+    }
+
+    /// Number of inputs: one per force, set after set, and the heat Q from other elements, stage after stage.
     fn inputs_of(rule: &Tableau) -> usize {
         rule.sets() * Self::FORCES + rule.stages() * usize::from(M::THERMAL)
     }
 
-    /// Memory.
-    fn new() -> Self;
+    fn new(point: StagePoint<K, S, D>) -> Self;
 
-    /// Takes what it needs from the old state, where the trial starts, given its arms.
-    fn begin(
-        point: &mut StagePoint<S, M, K, Self, D>,
-        in_state: &StatePoint<S, M, K, D>,
-        view: &StepView<'_, S>,
-        r0: &Arms<K, S, D>,
-    );
+    fn point(&self) -> &StagePoint<K, S, D>;
+
+    fn point_mut(&mut self) -> &mut StagePoint<K, S, D>;
+
+    /// Starts the trial at the old variables `(π, γ, θ)⁰` and arms.
+    fn begin(&mut self, in_state: &StatePoint<S, M, K, D>, x0: &M::Variables, r0: &Arms<K, S, D>);
 
     /// Evaluates the model at a trial.
     fn evaluate(
-        point: &mut StagePoint<S, M, K, Self, D>,
+        &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
-        rule: &Tableau,
         view_and_trial: (&StepView<'_, S>, &Trial<S, D>),
         arms: &StageArms<K, S, D>,
     ) -> Result<(), StateError>;
 
-    /// Writes the local equations at a trial that has been evaluated: residuals and their derivatives by the
-    /// local unknowns and by the inputs.
+    /// Writes the local equations at an evaluated trial: residuals and their derivatives by local unknowns and inputs.
     fn write_equations(
-        point: &mut StagePoint<S, M, K, Self, D>,
+        &mut self,
         in_state: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
         local: &mut LocalStages<S>,
         view: &StepView<'_, S>,
     ) -> Result<(), StateError>;
 
-    /// One of the forces of a stage; its derivatives go to the row of the local memory.
-    fn force(
-        point: &StagePoint<S, M, K, Self, D>,
-        rule: &Tableau,
+    /// Eliminates the internal variables at an evaluated trial.
+    fn condense(
+        &mut self,
+        in_state: &StatePoint<S, M, K, D>,
         local: &mut LocalStages<S>,
-        stage_and_force: [usize; 2],
-    ) -> S;
+        view: &StepView<'_, S>,
+    ) -> Result<(), StateError> {
+        if local.unknowns() == 0 {
+            return Ok(());
+        }
+        local.matrix.fill(S::zero());
+        self.point_mut().solved.fill(S::zero());
+        self.write_equations(in_state, local, view)?;
+        // A finite local system is singular only where the model has no derivative.
+        let solved = self.point_mut().solve(local);
+        solved.map_err(|_| StateError::NotFinite {
+            element: in_state.element,
+            quantity: "inverse of the local tangent",
+            value: f64::INFINITY,
+        })
+    }
 
-    /// What the next two are found from.
-    type Bases;
+    /// One of the forces of a stage; its derivatives, with the local unknowns eliminated, are written to the row of the
+    /// workspace.
+    fn force(&self, local: &mut LocalStages<S>, stage_and_force: [usize; 2]) -> S;
 
-    /// That at a trial that has been evaluated.
-    fn bases(point: &StagePoint<S, M, K, Self, D>, rule: &Tableau) -> Self::Bases;
+    /// See [`Bases`](Self::Bases), at an evaluated trial.
+    fn bases(&self) -> Self::Bases;
 
     /// The arms along which a force acts.
     fn direction<'a>(
-        point: &'a StagePoint<S, M, K, Self, D>,
+        &'a self,
         bases: &'a Self::Bases,
         stage_and_force: [usize; 2],
     ) -> &'a Arms<K, S, D>;
 
-    /// What the forces of the stage of a set do when their directions turn.
-    fn turn(
-        point: &StagePoint<S, M, K, Self, D>,
-        rule: &Tableau,
-        set: usize,
-        arms: &StageArms<K, S, D>,
-    ) -> Blocks<K, S, D>;
+    /// The forces at the stage of a set times the derivative of their directions by the arms.
+    fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D>;
 
-    /// The temperature of a set, K; its derivatives go to the row of the local memory.
-    fn temperature(
-        point: &StagePoint<S, M, K, Self, D>,
-        rule: &Tableau,
-        local: &mut LocalStages<S>,
-        set: usize,
-    ) -> S;
+    /// The temperature of a set, K; its derivatives are written like those of a [force](Self::force).
+    fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S;
 
-    /// The derivatives by the arms of each set of the quantity that has been eliminated last.
-    fn by_arms(
-        point: &StagePoint<S, M, K, Self, D>,
-        bases: &Self::Bases,
-        rule: &Tableau,
-        local: &LocalStages<S>,
-    ) -> [Arms<K, S, D>; MOST_SETS];
+    /// The derivatives of the quantity in the row by the arms of each set.
+    fn by_arms(&self, bases: &Self::Bases, local: &LocalStages<S>) -> [Arms<K, S, D>; MOST_SETS];
 
-    /// The changes of the inputs that go with changes of the arms of each set.
-    fn inputs(
-        point: &StagePoint<S, M, K, Self, D>,
-        rule: &Tableau,
-        motions: &[Arms<K, S, D>; MOST_SETS],
-        inputs: &mut [S],
-    );
+    /// The changes of the inputs that belong to forces, for changes of the arms of each set.
+    fn inputs(&self, motions: &[Arms<K, S, D>; MOST_SETS], inputs: &mut [S]);
 
-    /// Starts the next correction from the present trial, with none.
-    fn hold(point: &mut StagePoint<S, M, K, Self, D>);
+    /// Starts the next correction, of zero, from the present trial.
+    fn hold(&mut self);
 
-    /// Takes the correction from the solved local system; the largest in its unit.
-    fn correct(
-        point: &mut StagePoint<S, M, K, Self, D>,
-        rule: &Tableau,
-        local: &LocalStages<S>,
-    ) -> S;
+    /// Takes the correction from the solved local system; returns the largest in its unit.
+    fn correct(&mut self, local: &LocalStages<S>) -> S;
 
-    /// Applies a share of the correction.
-    fn apply(point: &mut StagePoint<S, M, K, Self, D>, rule: &Tableau, share: S);
+    /// Applies a fraction of the correction.
+    fn apply(&mut self, fraction: S);
 
     /// The forces on the nodes at a stage, N.
-    fn pull(
-        point: &StagePoint<S, M, K, Self, D>,
-        rule: &Tableau,
-        stage: usize,
-        arms: &StageArms<K, S, D>,
-    ) -> K::PerNode<[S; D]>;
+    fn nodal_force(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]>;
 
-    /// A of the nodal force `A q_i` of the found stage, where stages are closed one after the other.
-    fn secant(_: &StagePoint<S, M, K, Self, D>, _stage: usize) -> Weights<K, S, D> {
+    /// A of the nodal force `A q_i` at a stage, where stages are closed one after the other.
+    fn secant(&self, _stage: usize) -> Weights<K, S, D> {
         Weights::<K, S, D>::filled(K::PerArm::filled(S::zero()))
     }
 
-    /// The magnitude of what they are computed from in a step, N s; only where steps are certified.
-    fn magnitude(_: &StagePoint<S, M, K, Self, D>, _: &Tableau, _step: S) -> S {
+    /// The magnitude of the terms of the impulses of the forces in a step, N s; only where steps are certified.
+    fn impulse_size(&self, _step: S) -> S {
         S::zero()
     }
 
-    /// Books the increments of the internal variables and of the reservoirs, and finds the temperature of the
-    /// new state, whose arms are given.
+    /// Books the increments of the internal variables and of the reservoirs, and finds the temperature of the new state,
+    /// whose arms are given.
     fn close(
-        point: &mut StagePoint<S, M, K, Self, D>,
+        &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
-        rule: &Tableau,
         view_trial_and_new_arms: (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Result<(), StateError>;
 
-    /// The balance of energy of the point in the last step, given its nodes; only where steps are certified.
+    /// The energy balance of the point in the last step, given its nodes; only where steps are certified.
     fn recount(
-        _: &StagePoint<S, M, K, Self, D>,
+        &self,
         _: &StatePoint<S, M, K, D>,
-        _: (&Tableau, &K::PerNode<u32>),
+        _: &K::PerNode<u32>,
         _: [&State<S>; 2],
         _: &mut Recount<S>,
     ) {

@@ -1,24 +1,29 @@
 //! The elements of one model, stepped through stages.
+//!
+//! Newton's method leaves an error in the trial stages. At the end of a step `f`, `g` and `θ` of the stages are taken as
+//! given, and the remaining relations are evaluated explicitly from them: the balances of momentum and entropy then hold
+//! to rounding whatever that error is.
 
-use super::forces::StageForces;
-use super::local::LocalStages;
-use super::member::StageMember;
+use super::assemble::{StageForces, Target};
+use super::point::{LocalStages, StageArms, StageMember, StagePoint, StateMember};
 use super::site::{StageSite, contacts};
 use super::source::Source;
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::PointRule;
 use crate::element::error::StateError;
-use crate::element::group::element_group::ElementGroup;
+use crate::element::group::arms::arms_in;
+use crate::element::group::begin::shorten;
+use crate::element::group::element_group::{ElementGroup, variables};
 use crate::element::group::interface::{Elements, Group, Loose};
 use crate::element::group::loose::LooseElements;
 use crate::element::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Kinematics, QuadraticStrain};
+use crate::element::kinematics::{Arms, Kinematics, QuadraticStrain, add_blocks};
 use crate::element::recount::Recount;
 use crate::element::state::State;
-use crate::element::tableau::Tableau;
+use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::element::tally::Tally;
-use eem_material::free_energy::Material;
+use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`.
@@ -30,11 +35,11 @@ pub(crate) struct StageGroup<
     const D: usize,
 > {
     pub(super) rule: &'static Tableau,
-    /// What they are in a state.
+    /// The elements in a state.
     pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
-    pub(super) members: Vec<StageMember<S, M, K, C, D>>,
+    pub(super) members: Vec<StageMember<K, S, C, D>>,
     pub(super) local: LocalStages<S>,
-    /// Those of one element.
+    /// The forces of one element.
     pub(super) forces: Box<StageForces<K, S, D>>,
 }
 
@@ -47,15 +52,72 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const 
         placed: Placed<'_>,
     ) -> Self {
         let elements = ElementGroup::new(PointRule::Variational, elements, placed);
-        let members = elements.members.iter();
-        let members = members.map(|member| StageMember::new(member, rule));
+        let [unknowns, inputs] = [C::unknowns_of(rule), C::inputs_of(rule)];
+        let source = |kinematics: K| {
+            C::new(StagePoint {
+                rule,
+                kinematics,
+                contacts: None,
+                entropy: S::zero(),
+                prescribed: None,
+                viscous_unit: S::one(),
+                solved: vec![S::zero(); (1 + inputs) * unknowns],
+            })
+        };
+        let staged = |member: &StateMember<S, M, K, D>| StageMember {
+            site: StageSite::unconnected(member.site),
+            points: (member.points.as_ref().iter())
+                .map(|in_state| source(in_state.kinematics))
+                .collect(),
+        };
         Self {
             rule,
-            members: members.collect(),
+            members: elements.members.iter().map(staged).collect(),
             forces: Box::new(StageForces::zero()),
-            local: LocalStages::new::<M>(rule, C::inputs_of(rule)),
+            local: LocalStages::new(unknowns, inputs),
             elements,
         }
+    }
+
+    /// Eliminates the local unknowns at an evaluated trial, and adds residual and tangent.
+    fn assemble(
+        &mut self,
+        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
+        system: &mut LinearSystem<S, 1>,
+    ) -> Result<(), StateError> {
+        let rule = self.rule;
+        let (values, right) = system.parts();
+        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
+            let arms = StageArms::<K, S, D>::new(rule, &member.site.nodes, (view, trial));
+            self.forces.clear(rule);
+            let mut target = Target {
+                rule,
+                step: view.step,
+                site: &stages.site,
+                local: &mut self.local,
+                forces: &mut self.forces,
+                values: &mut *values,
+                right: &mut *right,
+            };
+            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
+                source.condense(in_state, target.local, view)?;
+                let bases = source.bases();
+                target.add_forces(source, &bases);
+                for set in 0..rule.sets() {
+                    let blocks = &mut target.forces.blocks[rule.stage_of(set)][set];
+                    add_blocks::<K, S, D>(blocks, &source.geometric_stiffness(set, &arms));
+                }
+                if let Some(slot) = in_state.slots().thermal {
+                    target.add_temperatures(source, &bases, (slot, trial));
+                }
+            }
+            target.write_forces();
+        }
+        Ok(())
+    }
+
+    fn sources_mut(&mut self) -> impl Iterator<Item = &mut C> {
+        (self.members.iter_mut()).flat_map(|stages| &mut stages.points)
     }
 }
 
@@ -78,16 +140,31 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             let (rule, nodes) = (self.rule, &member.site.nodes);
             stages.site = StageSite::new(rule, nodes, sites);
-            let points = stages.points.iter_mut();
-            for (point, in_state) in points.zip(member.points.as_ref()) {
-                point.contacts = contacts(rule, nodes, in_state.slots().thermal, sites);
+            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
+                let slot = in_state.slots().thermal;
+                source.point_mut().contacts = contacts(rule, nodes, slot, sites);
             }
         }
     }
 
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            stages.begin(member, view, old.lengths);
+            let nodes = &member.site.nodes;
+            let r0 = arms_in::<K, S, D>(nodes, &view.state.positions);
+            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
+                let (slots, point) = (in_state.slots(), source.point_mut());
+                let measures = point.kinematics.measure(&r0);
+                let length = point.kinematics.length(&measures);
+                shorten::<K, S, D>(nodes, length, old.lengths);
+                point.viscous_unit = point.kinematics.unit(&measures);
+                if let Some(slot) = slots.thermal {
+                    point.entropy = view.state.entropies.values()[slot];
+                    point.prescribed = view.prescribed_at_stages(slot);
+                }
+                let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
+                source.begin(in_state, &x0, &r0);
+                source.hold();
+            }
         }
         Ok(())
     }
@@ -98,34 +175,46 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         trial: &Trial<S, D>,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
-        let members = self.elements.members.iter_mut().zip(&mut self.members);
-        for (member, stages) in members {
-            let arms = stages.arms(self.rule, trial);
-            let points = stages.points.iter_mut();
-            for (point, in_state) in points.zip(member.points.as_mut()) {
-                C::evaluate(point, in_state, self.rule, (view, trial), &arms)?;
+        for (member, stages) in (self.elements.members.iter_mut()).zip(&mut self.members) {
+            let arms = StageArms::new(self.rule, &member.site.nodes, (view, trial));
+            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_mut()) {
+                source.evaluate(in_state, (view, trial), &arms)?;
             }
         }
         match system {
             None => Ok(()),
-            Some(system) => self.assemble_all(view, trial, system),
+            Some(system) => self.assemble((view, trial), system),
         }
     }
 
     fn correct(&mut self, solution: &[[S; 1]], _: S::Mask) -> S {
-        self.correct_all(solution)
+        let (rule, local) = (self.rule, &mut self.local);
+        let mut largest = S::zero();
+        for stages in &mut self.members {
+            let mut motions = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+            for (set, motion) in motions.iter_mut().enumerate().take(rule.sets()) {
+                *motion = stages.site.sets[set][set].motion_in(solution);
+            }
+            for source in &mut stages.points {
+                let (strains, heat) = local.inputs.split_at_mut(rule.sets() * C::FORCES);
+                source.inputs(&motions, strains);
+                for (stage, input) in heat.iter_mut().enumerate() {
+                    *input = source.point().heat_change(stage, solution);
+                }
+                source.hold();
+                largest = largest.maximum(source.correct(local));
+                source.apply(S::one());
+            }
+        }
+        largest
     }
 
     fn apply(&mut self, share: S) {
-        let points = self.members.iter_mut();
-        let points = points.flat_map(|stages| &mut stages.points);
-        points.for_each(|point| C::apply(point, self.rule, share));
+        self.sources_mut().for_each(|source| source.apply(share));
     }
 
     fn hold(&mut self) {
-        let points = self.members.iter_mut();
-        let points = points.flat_map(|stages| &mut stages.points);
-        points.for_each(C::hold);
+        self.sources_mut().for_each(C::hold);
     }
 
     fn add_impulse(
@@ -136,8 +225,26 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         impulses: &mut Impulses<'_, S, D>,
         magnitudes: &mut [S],
     ) {
-        if let Along::Stage(stage) = along {
-            self.add_impulse_of(stage, view, trial, impulses, magnitudes);
+        let Along::Stage(stage) = along else {
+            return;
+        };
+        for stages in &self.members {
+            let nodes = &stages.site.first().nodes;
+            let arms = StageArms::new(self.rule, nodes, (view, trial));
+            for source in &stages.points {
+                let force = source.nodal_force(stage, &arms);
+                for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                    for (sum, &force) in impulses.of(node as usize).iter_mut().zip(force) {
+                        *sum -= view.step * force;
+                    }
+                }
+                if stage == 0 && !magnitudes.is_empty() {
+                    let magnitude = source.impulse_size(view.step);
+                    for &node in nodes.as_ref() {
+                        magnitudes[node as usize] += magnitude;
+                    }
+                }
+            }
         }
     }
 
@@ -148,7 +255,19 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         trial: &Trial<S, D>,
         system: &mut LinearSystem<S, D>,
     ) {
-        self.add_secant_all(set, view, trial, system);
+        let stage = self.rule.stage_of(set);
+        let impulse = view.step * S::from_f64(self.rule.positions[set][stage]);
+        let (values, right) = system.parts();
+        for stages in &self.members {
+            let site = stages.site.first();
+            let mut known = arms_in::<K, S, D>(&site.nodes, &view.state.positions);
+            site.add_anchors(&mut known, trial.displacements_of_set(set));
+            for source in &stages.points {
+                let weights = source.secant(stage);
+                stages.site.add_secant(&weights, impulse, values);
+                site.subtract_known(&weights, (&known, impulse), right);
+            }
+        }
     }
 
     fn close(
@@ -158,14 +277,19 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        self.close_all(view, trial, next, tally)
+        for (member, stages) in (self.elements.members.iter_mut()).zip(&mut self.members) {
+            let r1 = member.arms_in(next);
+            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_mut()) {
+                source.close(in_state, (view, trial, &r1), next, tally)?;
+            }
+        }
+        Ok(())
     }
 
     fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
         for (member, stages) in self.elements.members.iter().zip(&self.members) {
-            let of_step = (self.rule, &member.site.nodes);
-            for (point, in_state) in stages.points.iter().zip(member.points.as_ref()) {
-                C::recount(point, in_state, of_step, ends, recount);
+            for (source, in_state) in stages.points.iter().zip(member.points.as_ref()) {
+                source.recount(in_state, &member.site.nodes, ends, recount);
             }
         }
     }

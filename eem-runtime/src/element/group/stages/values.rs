@@ -1,44 +1,49 @@
 //! Conjugates that are values of the free energy at the stages.
+//!
+//! ```text
+//! r_γi = γ_i − γ⁰ − h Σ_j a_ij γ̇_j                              for every dashpot and set
+//! r_sk = Σ_i e_ki s_i − e_k s⁰ − h Σ_i w_ki Φ_i                  for every set
+//! ```
+//!
+//! with the numbers of the [`Tableau`](crate::element::tableau::Tableau) are the local equations of `u = (γ…, Θ)` of all
+//! sets; their inputs are `y = (π…, Q…)`.
 
 mod at_stage;
-mod closing;
-mod evaluate;
-mod local;
 
-use super::local::LocalStages;
-use super::member::{StageArms, StagePoint, StatePoint};
+use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
 use super::source::Source;
+use crate::element::conduction::Partner;
+use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, along, measures_in};
-use crate::element::group::element_group::variables;
+use crate::element::group::arms::{add_scaled, along, measures_in, resultant};
+use crate::element::group::closing::pull;
 use crate::element::group::point::grown;
+use crate::element::group::respond::{check_measures, check_temperature};
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Weights};
+use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Weights};
+use crate::element::layout::Slots;
 use crate::element::state::State;
-use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
+use crate::element::tableau::{Ending, EntropyBalance, MOST_SETS, MOST_STAGES};
 use crate::element::tally::Tally;
 use at_stage::AtStage;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::Real;
 
-/// The variables at the stages, and what the model says there.
+/// A point with its variables and the model at the stages.
 pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
-    /// The trial variables `(π, γ, θ)` at the stages.
+    point: StagePoint<K, S, D>,
+    /// The old variables `(π, γ, θ)⁰`.
+    old: M::Variables,
+    /// The trial variables at the stages.
     x: [M::Variables; MOST_STAGES],
     /// The same before the last correction, and the correction; temperatures only at the stages whose
     /// temperatures are unknowns.
     previous: [M::Variables; MOST_STAGES],
     correction: [M::Variables; MOST_STAGES],
-    /// What the model says there.
-    points: [AtStage<S, M>; MOST_STAGES],
-    /// `∂π/∂r` there.
+    stages: [AtStage<S, M>; MOST_STAGES],
+    /// `∂π/∂r`.
     gradients: [Gradient<K, S, D>; MOST_STAGES],
-    /// The entropy that dashpots and conduction gave it in the step, J/K.
-    entropy_received: S,
 }
-
-/// A point with such conjugates.
-pub(super) type ValuesPoint<S, M, K, const D: usize> = StagePoint<S, M, K, Values<S, M, K, D>, D>;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, K, D>
     for Values<S, M, K, D>
@@ -47,115 +52,119 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
 
     type Bases = ();
 
-    fn new() -> Self {
+    fn new(point: StagePoint<K, S, D>) -> Self {
         let zeros = [M::Variables::filled(S::zero()); MOST_STAGES];
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         Self {
+            point,
+            old: zeros[0],
             x: zeros,
             previous: zeros,
             correction: zeros,
-            points: [(); MOST_STAGES].map(|()| AtStage::zero()),
+            stages: [(); MOST_STAGES].map(|()| AtStage::zero()),
             gradients: [Gradient::<K, S, D>::filled(nowhere); MOST_STAGES],
-            entropy_received: S::zero(),
         }
     }
 
-    fn begin(
-        point: &mut ValuesPoint<S, M, K, D>,
-        in_state: &StatePoint<S, M, K, D>,
-        view: &StepView<'_, S>,
-        r0: &Arms<K, S, D>,
-    ) {
-        let measures = point.kinematics.measure(r0);
-        let gradient = point.kinematics.gradient(r0, &measures);
-        let x = variables::<S, M>(measures.as_ref(), in_state.slots(), view.state);
-        point.own.gradients = [gradient; MOST_STAGES];
-        point.own.x = [x; MOST_STAGES];
-        let prescribed = point.prescribed.into_iter().flatten();
-        for (x, theta) in point.own.x.iter_mut().zip(prescribed) {
-            x[M::Variables::LEN - 1] = theta;
+    fn point(&self) -> &StagePoint<K, S, D> {
+        &self.point
+    }
+
+    fn point_mut(&mut self) -> &mut StagePoint<K, S, D> {
+        &mut self.point
+    }
+
+    fn begin(&mut self, _: &StatePoint<S, M, K, D>, x0: &M::Variables, r0: &Arms<K, S, D>) {
+        let gradient = (self.point.kinematics).gradient(r0, &measures_in::<K, S, D>(x0));
+        self.gradients = [gradient; MOST_STAGES];
+        (self.old, self.x) = (*x0, [*x0; MOST_STAGES]);
+        let prescribed = self.point.prescribed.into_iter().flatten();
+        for (x, theta) in self.x.iter_mut().zip(prescribed) {
+            x[Self::TEMPERATURE] = theta;
         }
     }
 
     fn evaluate(
-        point: &mut ValuesPoint<S, M, K, D>,
+        &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
-        rule: &Tableau,
         (view, trial): (&StepView<'_, S>, &Trial<S, D>),
         arms: &StageArms<K, S, D>,
     ) -> Result<(), StateError> {
-        point.evaluate_stages(in_state, rule, (view, trial), arms)
-    }
-
-    fn write_equations(
-        point: &mut ValuesPoint<S, M, K, D>,
-        _: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
-        local: &mut LocalStages<S>,
-        view: &StepView<'_, S>,
-    ) -> Result<(), StateError> {
-        point.write_stages(rule, local, view.step);
+        let (rule, kinematics) = (self.point.rule, self.point.kinematics);
+        for stage in 0..rule.stages() {
+            // The measures of a known stage are those of the old state.
+            if let Some(set) = rule.set_of(stage) {
+                let r = arms.of_set(set);
+                let measures = kinematics.measure(&r);
+                check_measures::<K, S, D>(&kinematics, in_state.element, &measures, &r)?;
+                self.gradients[stage] = kinematics.gradient(&r, &measures);
+                self.x[stage].as_mut()[..M::MEASURES].copy_from_slice(measures.as_ref());
+            }
+            let heat = match in_state.slots().thermal {
+                Some(slot) => heat_received(rule, stage, slot, (view, trial)),
+                None => S::zero(),
+            };
+            self.evaluate_stage(in_state, view, (stage, heat))?;
+        }
         Ok(())
     }
 
-    fn force(
-        point: &ValuesPoint<S, M, K, D>,
-        rule: &Tableau,
+    fn write_equations(
+        &mut self,
+        _: &StatePoint<S, M, K, D>,
         local: &mut LocalStages<S>,
-        [stage, measure]: [usize; 2],
-    ) -> S {
-        let at_stage = &point.own.points[stage];
-        point.eliminate(rule, local, stage, &at_stage.hessian[measure]);
+        view: &StepView<'_, S>,
+    ) -> Result<(), StateError> {
+        self.write_creep(local, view.step);
+        let unknowns = local.unknowns();
+        let first = self.point.rule.sets() * M::DASHPOTS;
+        for (set, balance) in self.point.rule.entropies.iter().enumerate() {
+            if M::THERMAL && self.point.prescribed.is_none() {
+                self.write_balance(local, (first + set, balance), view.step);
+            } else if M::THERMAL {
+                // δθ = 0
+                local.matrix[(first + set) * (unknowns + 1)] = S::one();
+            }
+        }
+        Ok(())
+    }
+
+    fn force(&self, local: &mut LocalStages<S>, [stage, measure]: [usize; 2]) -> S {
+        let at_stage = &self.stages[stage];
+        self.differentiate(local, stage, &at_stage.hessian[measure]);
+        self.point.eliminate(local);
         at_stage.gradient[measure]
     }
 
-    fn bases(_: &ValuesPoint<S, M, K, D>, _: &Tableau) {}
+    fn bases(&self) {}
 
-    fn direction<'a>(
-        point: &'a ValuesPoint<S, M, K, D>,
-        (): &'a (),
-        [stage, measure]: [usize; 2],
-    ) -> &'a Arms<K, S, D> {
-        &point.own.gradients[stage].as_ref()[measure]
+    fn direction<'a>(&'a self, (): &'a (), [stage, measure]: [usize; 2]) -> &'a Arms<K, S, D> {
+        &self.gradients[stage].as_ref()[measure]
     }
 
-    fn turn(
-        point: &ValuesPoint<S, M, K, D>,
-        rule: &Tableau,
-        set: usize,
-        arms: &StageArms<K, S, D>,
-    ) -> Blocks<K, S, D> {
-        let stage = rule.stage_of(set);
+    fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D> {
+        let stage = self.point.rule.stage_of(set);
+        let [measures, forces] = self.measures_and_forces(stage);
         let r = arms.of_set(set);
-        let measures = measures_in::<K, S, D>(&point.own.x[stage]);
-        let forces = measures_in::<K, S, D>(&point.own.points[stage].gradient);
-        point.kinematics.curvature(&r, &measures, &forces)
+        self.point.kinematics.curvature(&r, &measures, &forces)
     }
 
-    fn temperature(
-        point: &ValuesPoint<S, M, K, D>,
-        rule: &Tableau,
-        local: &mut LocalStages<S>,
-        set: usize,
-    ) -> S {
+    fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S {
         let mut by = M::Variables::filled(S::zero());
-        by[M::Variables::LEN - 1] = S::one();
-        let stage = rule.entropies[set].unknown;
-        point.eliminate(rule, local, stage, &by);
-        point.temperature(stage)
+        by[Self::TEMPERATURE] = S::one();
+        let stage = self.point.rule.entropies[set].unknown;
+        self.differentiate(local, stage, &by);
+        self.point.eliminate(local);
+        self.theta(stage)
     }
 
-    fn by_arms(
-        point: &ValuesPoint<S, M, K, D>,
-        (): &(),
-        rule: &Tableau,
-        local: &LocalStages<S>,
-    ) -> [Arms<K, S, D>; MOST_SETS] {
+    fn by_arms(&self, (): &(), local: &LocalStages<S>) -> [Arms<K, S, D>; MOST_SETS] {
+        let rule = self.point.rule;
         let measures = local.row[1..].chunks_exact(M::MEASURES);
         let mut by_arm = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
         let sets = by_arm.iter_mut().take(rule.sets()).zip(measures);
         for (set, (sum, measures)) in sets.enumerate() {
-            let rows = point.own.gradients[rule.stage_of(set)].as_ref().iter();
+            let rows = self.gradients[rule.stage_of(set)].as_ref().iter();
             for (row, &by) in rows.zip(measures) {
                 add_scaled::<K, S, D>(sum, by, row);
             }
@@ -163,103 +172,283 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
         by_arm
     }
 
-    fn inputs(
-        point: &ValuesPoint<S, M, K, D>,
-        rule: &Tableau,
-        motions: &[Arms<K, S, D>; MOST_SETS],
-        inputs: &mut [S],
-    ) {
+    fn inputs(&self, motions: &[Arms<K, S, D>; MOST_SETS], inputs: &mut [S]) {
         for (set, measures) in inputs.chunks_exact_mut(M::MEASURES).enumerate() {
-            let rows = point.own.gradients[rule.stage_of(set)].as_ref().iter();
+            let rows = self.gradients[self.point.rule.stage_of(set)].as_ref();
             for (input, row) in measures.iter_mut().zip(rows) {
                 *input = along::<K, S, D>(row, &motions[set]);
             }
         }
     }
 
-    fn hold(point: &mut ValuesPoint<S, M, K, D>) {
-        point.own.previous = point.own.x;
-        point.own.correction = [M::Variables::filled(S::zero()); MOST_STAGES];
+    fn hold(&mut self) {
+        self.previous = self.x;
+        self.correction = [M::Variables::filled(S::zero()); MOST_STAGES];
     }
 
-    fn correct(point: &mut ValuesPoint<S, M, K, D>, rule: &Tableau, local: &LocalStages<S>) -> S {
-        let last = M::Variables::LEN - 1;
+    fn correct(&mut self, local: &LocalStages<S>) -> S {
+        let rule = self.point.rule;
+        let temperatures = rule.sets() * M::DASHPOTS;
         let mut largest = S::zero();
         for u in 0..local.unknowns() {
-            let change = local.change(&point.solved, u);
-            let creeping = rule.sets() * M::DASHPOTS;
-            let (stage, index, scale) = if u < creeping {
+            let change = local.change(&self.point.solved, u);
+            let (stage, index, scale) = if u < temperatures {
                 let stage = rule.stage_of(u / M::DASHPOTS);
-                (stage, M::MEASURES + u % M::DASHPOTS, point.viscous_unit)
+                let index = M::MEASURES + u % M::DASHPOTS;
+                (stage, index, self.point.viscous_unit)
             } else {
-                let stage = rule.entropies[u - creeping].unknown;
-                (stage, last, point.temperature(stage))
+                let stage = rule.entropies[u - temperatures].unknown;
+                (stage, Self::TEMPERATURE, self.theta(stage))
             };
-            point.own.correction[stage][index] = change;
+            self.correction[stage][index] = change;
             largest = largest.maximum((change / scale).abs());
         }
         largest
     }
 
     /// Viscous stretches linearly, temperatures in their logarithms, so that they stay positive.
-    fn apply(point: &mut ValuesPoint<S, M, K, D>, rule: &Tableau, share: S) {
-        let (last, is_given) = (M::Variables::LEN - 1, point.prescribed.is_some());
-        let own = &mut point.own;
+    fn apply(&mut self, fraction: S) {
+        let rule = self.point.rule;
         for stage in rule.known..rule.stages() {
             for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
-                let change = share * own.correction[stage][index];
-                own.x[stage][index] = own.previous[stage][index] + change;
+                let change = fraction * self.correction[stage][index];
+                self.x[stage][index] = self.previous[stage][index] + change;
             }
         }
-        if !M::THERMAL || is_given {
+        if !M::THERMAL || self.point.prescribed.is_some() {
             return;
         }
         for stage in rule.entropies.iter().map(|balance| balance.unknown) {
-            let change = share * own.correction[stage][last];
-            own.x[stage][last] = grown(own.previous[stage][last], change);
+            let change = fraction * self.correction[stage][Self::TEMPERATURE];
+            self.x[stage][Self::TEMPERATURE] =
+                grown(self.previous[stage][Self::TEMPERATURE], change);
         }
         for (stage, shares) in rule.temperatures.iter().enumerate() {
             let terms = shares.iter().zip(rule.entropies);
-            let mean = terms.fold(S::zero(), |sum, (&share, balance)| {
-                sum + S::from_f64(share) * own.x[balance.unknown][last]
+            self.x[stage][Self::TEMPERATURE] = terms.fold(S::zero(), |sum, (&share, balance)| {
+                sum + S::from_f64(share) * self.theta(balance.unknown)
             });
-            own.x[stage][last] = mean;
         }
     }
 
-    fn pull(
-        point: &ValuesPoint<S, M, K, D>,
-        rule: &Tableau,
-        stage: usize,
-        arms: &StageArms<K, S, D>,
-    ) -> K::PerNode<[S; D]> {
-        point.pull(rule, stage, arms)
+    /// With the forces as found and the directions of the trial.
+    fn nodal_force(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
+        let (rule, kinematics) = (self.point.rule, &self.point.kinematics);
+        let set = rule.set_of(stage);
+        let r = set.map_or(arms.old, |set| arms.of_set(set));
+        let feels_itself = set.is_some_and(|set| rule.positions[set][stage] != 0.0);
+        if feels_itself && matches!(rule.ending, Ending::StageByStage) {
+            return pull::<K, S, D>(&self.secant(stage), &r);
+        }
+        let gradient = kinematics.gradient(&r, &kinematics.measure(&r));
+        let [_, forces] = self.measures_and_forces(stage);
+        resultant::<K, S, D>(&gradient, &forces)
     }
 
-    fn secant(point: &ValuesPoint<S, M, K, D>, stage: usize) -> Weights<K, S, D> {
-        point.secant(stage)
+    fn secant(&self, stage: usize) -> Weights<K, S, D> {
+        let [measures, forces] = self.measures_and_forces(stage);
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        // At rest in the stage; the secant of an element with one point does not depend on the arms.
+        let ends = Ends::new(&self.point.kinematics, [nowhere; 2], [measures; 2]);
+        self.point.kinematics.secant(&ends, &forces)
     }
 
     fn close(
-        point: &mut ValuesPoint<S, M, K, D>,
+        &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
-        rule: &Tableau,
         (view, _, r1): (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
         next: &mut State<S>,
         _: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        point.book(rule, in_state.slots(), view, next);
-        let near = point.temperature(rule.stages() - 1);
+        let received = self.book(in_state.slots(), view, next);
+        let near = self.theta(self.point.rule.stages() - 1);
         if let Some(entropy) = in_state.settle(r1, view, near, next)? {
-            point.book_thermostat(rule, view.step, entropy, next);
+            self.book_thermostat(view.step, [entropy, received], next);
         }
         Ok(())
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ValuesPoint<S, M, K, D> {
-    /// The temperature of a stage, K; only for elements that have one.
-    fn temperature(&self, stage: usize) -> S {
-        self.own.x[stage][M::Variables::LEN - 1]
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, K, D> {
+    /// The index of the last variable, the temperature of elements that have one.
+    const TEMPERATURE: usize = M::Variables::LEN - 1;
+
+    /// The temperature of a stage, K; without meaning for elements that have none.
+    fn theta(&self, stage: usize) -> S {
+        self.x[stage][Self::TEMPERATURE]
+    }
+
+    fn measures_and_forces(&self, stage: usize) -> [K::PerMeasure<S>; 2] {
+        [&self.x[stage], &self.stages[stage].gradient].map(measures_in::<K, S, D>)
+    }
+
+    /// The model at a stage whose variables are known, with the heat from other elements, W.
+    fn evaluate_stage(
+        &mut self,
+        in_state: &mut StatePoint<S, M, K, D>,
+        view: &StepView<'_, S>,
+        (stage, heat): (usize, S),
+    ) -> Result<(), StateError> {
+        let (theta, at_stage) = (self.theta(stage), &mut self.stages[stage]);
+        if M::THERMAL {
+            check_temperature(in_state.element, theta)?;
+        }
+        (at_stage.gradient, at_stage.hessian) = in_state.model.hessian(&self.x[stage]);
+        let mut values = at_stage.gradient.as_ref().iter();
+        if let Some(value) = values.find(|value| !value.is_finite()) {
+            return Err(StateError::NotFinite {
+                element: in_state.element,
+                quantity: "force or entropy",
+                value: value.to_f64(),
+            });
+        }
+        in_state.find_viscosities(theta)?;
+        let dissipation_by = at_stage.creep(&in_state.viscosities);
+        let Some(slot) = in_state.slots().thermal else {
+            return Ok(());
+        };
+        let slope = at_stage.entropy_by()[Self::TEMPERATURE];
+        Infeasible::unless_stable(theta * slope, theta)
+            .map_err(|infeasible| infeasible.of(in_state.element))?;
+        let mut flow = view.conduction.reservoir_flow(slot, theta);
+        flow.heat += heat;
+        at_stage.warm(theta, &flow, &dissipation_by);
+        Ok(())
+    }
+
+    /// Writes the derivatives of a quantity of a stage, given by x, to the row of the workspace.
+    fn differentiate(&self, local: &mut LocalStages<S>, stage: usize, by: &M::Variables) {
+        let rule = self.point.rule;
+        let (measures, rest) = by.as_ref().split_at(M::MEASURES);
+        let (dashpots, theta) = rest.split_at(M::DASHPOTS);
+        local.clear_row();
+        if let Some(set) = rule.set_of(stage) {
+            let first = 1 + set * M::MEASURES;
+            local.row[first..first + M::MEASURES].copy_from_slice(measures);
+            let first = set * M::DASHPOTS;
+            local.by_unknown[first..first + M::DASHPOTS].copy_from_slice(dashpots);
+        }
+        if M::THERMAL && self.point.prescribed.is_none() {
+            let thetas = &mut local.by_unknown[rule.sets() * M::DASHPOTS..];
+            for (entry, &share) in thetas.iter_mut().zip(rule.temperatures[stage]) {
+                *entry = S::from_f64(share) * theta[0];
+            }
+        }
+    }
+
+    /// The equations of the viscous stretches.
+    fn write_creep(&mut self, local: &mut LocalStages<S>, h: S) {
+        let rule = self.point.rule;
+        for (set, weights) in rule.rates.iter().enumerate() {
+            for k in 0..M::DASHPOTS {
+                let (equation, index) = (set * M::DASHPOTS + k, M::MEASURES + k);
+                let mut rest = self.x[rule.stage_of(set)][index] - self.old[index];
+                let diagonal = equation * (local.unknowns() + 1);
+                local.matrix[diagonal] = S::one();
+                for (stage, &weight) in weights.iter().enumerate() {
+                    let weight = -h * S::from_f64(weight);
+                    rest += weight * self.stages[stage].rates[index];
+                    self.differentiate(local, stage, &self.stages[stage].rates_by[index]);
+                    self.point.add_row(local, equation, weight);
+                }
+                self.point.solved[equation] = rest;
+            }
+        }
+    }
+
+    /// An equation of the entropies, if the temperature is free.
+    fn write_balance(
+        &mut self,
+        local: &mut LocalStages<S>,
+        (equation, balance): (usize, &EntropyBalance),
+        h: S,
+    ) {
+        let rule = self.point.rule;
+        let unknowns = local.unknowns();
+        let mut rest = -S::from_f64(balance.old) * self.point.entropy;
+        for (stage, &weight) in balance.entropies.iter().enumerate() {
+            if weight != 0.0 {
+                let weight = S::from_f64(weight);
+                rest += weight * self.stages[stage].entropy();
+                self.differentiate(local, stage, &self.stages[stage].entropy_by());
+                self.point.add_row(local, equation, weight);
+            }
+        }
+        for (stage, &weight) in balance.rates.iter().enumerate() {
+            if weight != 0.0 {
+                let weight = -h * S::from_f64(weight);
+                rest += weight * self.stages[stage].rates[Self::TEMPERATURE];
+                self.differentiate(
+                    local,
+                    stage,
+                    &self.stages[stage].rates_by[Self::TEMPERATURE],
+                );
+                self.point.add_row(local, equation, weight);
+                let heat = 1 + rule.sets() * M::MEASURES + stage;
+                self.point.solved[heat * unknowns + equation] = weight / self.theta(stage);
+            }
+        }
+        self.point.solved[equation] = rest;
+        // Newton's method on θ r, which is far less curved than r where conduction is stiff, and zero
+        // where it is.
+        let scaled = rest / self.theta(balance.stage);
+        let row = &mut local.matrix[equation * unknowns + rule.sets() * M::DASHPOTS..];
+        for (entry, &share) in row.iter_mut().zip(rule.temperatures[balance.stage]) {
+            *entry += S::from_f64(share) * scaled;
+        }
+    }
+
+    /// Books the increments of the internal variables and of the reservoirs' entropies; returns the entropy that dashpots
+    /// and conduction gave to the point, J/K.
+    fn book(&self, slots: Slots, view: &StepView<'_, S>, next: &mut State<S>) -> S {
+        let (stages, old) = (&self.stages, view.state);
+        let over_step = |of: &dyn Fn(usize) -> S| {
+            let terms = self.point.rule.weights.iter().enumerate();
+            terms.fold(S::zero(), |sum, (stage, &weight)| {
+                sum + view.step * S::from_f64(weight) * of(stage)
+            })
+        };
+        for k in 0..M::DASHPOTS {
+            let creep = over_step(&|stage| stages[stage].rates[M::MEASURES + k]);
+            (next.viscous).advance(slots.viscous + k, &old.viscous, creep);
+        }
+        let Some(slot) = slots.thermal else {
+            let heat = over_step(&|stage| stages[stage].dissipation);
+            next.dissipated.add(heat);
+            return S::zero();
+        };
+        let received = over_step(&|stage| stages[stage].rates[Self::TEMPERATURE]);
+        next.entropies.advance(slot, &old.entropies, received);
+        for link in view.conduction.links(slot) {
+            if let Partner::Reservoir(index) = link.partner {
+                let theta = view.conduction.reservoirs[index];
+                let flow = |stage: usize| link.conductance * (self.theta(stage) - theta) / theta;
+                next.reservoir_entropies.add(index, over_step(&flow));
+            }
+        }
+        received
+    }
+
+    /// Books the heat of the thermostat of an element whose new entropy is given: at the stages it gives what the equations
+    /// of the rule need with the prescribed temperatures, at the last stage the rest of the total.
+    fn book_thermostat(&self, h: S, [new_entropy, received]: [S; 2], next: &mut State<S>) {
+        let total = new_entropy - self.point.entropy - received;
+        let mut rest = total;
+        for balance in self.point.rule.entropies {
+            let mut defect = -S::from_f64(balance.old) * self.point.entropy;
+            let terms = balance.entropies.iter().zip(balance.rates);
+            for ((&entropy, &rate), stage) in terms.zip(&self.stages) {
+                defect += S::from_f64(entropy) * stage.entropy();
+                defect -= h * S::from_f64(rate) * stage.rates[Self::TEMPERATURE];
+            }
+            for (stage, &supply) in balance.supply.iter().enumerate() {
+                let given = S::from_f64(supply) * defect;
+                next.heat.add(self.theta(stage) * given);
+                rest -= given;
+            }
+        }
+        let stages = self.point.rule.stages();
+        next.heat.add(self.theta(stages - 1) * rest);
+        next.thermostat_entropy.add(-total);
     }
 }

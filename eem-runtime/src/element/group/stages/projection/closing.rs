@@ -1,4 +1,4 @@
-//! What is booked of an element with projected conjugates.
+//! The end of a step of an element with projected conjugates: balances and certificate.
 //!
 //! ```text
 //! γ¹ = γ⁰ + Σ b ν
@@ -8,42 +8,45 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat at every stage, see
 //! [`conduction`](crate::element::conduction).
 
-use super::ProjectedPoint;
-use super::vector::Vector;
+use super::Projections;
 use crate::element::balances::{Balances, Received, reservoir_correction};
-use crate::element::group::stages::member::StatePoint;
+use crate::element::group::stages::point::StatePoint;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::QuadraticStrain;
+use crate::element::kinematics::{PerStrain, QuadraticStrain};
 use crate::element::state::State;
-use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::element::tally::Tally;
+use crate::element::tableau::MOST_STAGES;
+use crate::element::tally::{Care, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// What a step has given to an element, stage by stage.
+/// Heat and entropy received in a step, stage by stage.
 pub(super) type Booked<S> = [Received<S>; MOST_STAGES];
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
     /// Books the increments of the internal variables and of the reservoirs' entropies.
     pub(super) fn book(
         &self,
         in_state: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
         (view, trial): (&StepView<'_, S>, &Trial<S, D>),
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Booked<S> {
-        let mut booked = self.book_dashpots(in_state, rule, view, next, tally);
+        let mut booked = self.book_dashpots(in_state, view, next, tally);
+        let sum = |of: fn(&Received<S>) -> S| {
+            let terms = booked.iter().map(of);
+            terms.fold(S::zero(), |sum, term| sum + term)
+        };
         let Some(slot) = in_state.slots().thermal else {
             if M::DASHPOTS + M::Drag::LEN > 0 {
-                next.dissipated.add(sum(&booked, |received| received.heat));
+                next.dissipated.add(sum(|received| received.heat));
             }
             return booked;
         };
-        let produced = sum(&booked, |received| received.entropy);
+        let produced = sum(|received| received.entropy);
         let mut balances = Balances { next, tally };
         (balances.next.entropies).advance(slot, &view.state.entropies, produced);
-        for ((stage, &weight), received) in rule.weights.iter().enumerate().zip(&mut booked) {
+        let weights = self.point.rule.weights.iter();
+        for ((stage, &weight), received) in weights.enumerate().zip(&mut booked) {
             let share = view.step * S::from_f64(weight);
             self.book_paths((stage, share), slot, trial, &mut balances, received);
             let theta = self.mean_temperature(stage);
@@ -54,48 +57,42 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
         booked
     }
 
-    /// Books the viscous stretches; what the dashpots give, in J and in J/K.
+    /// Books the viscous stretches; returns heat and entropy of the dashpots.
     fn book_dashpots(
         &self,
         in_state: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
         view: &StepView<'_, S>,
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Booked<S> {
         let mut booked = [Received::none(); MOST_STAGES];
-        let slots = in_state.slots();
-        let creep = self.increments(rule.weights);
+        let (weights, slots) = (self.point.rule.weights, in_state.slots());
+        let mut dissipate = |stage: usize, heat: S| {
+            let entropy = heat / self.temperature_or_one(stage);
+            booked[stage].heat += heat;
+            booked[stage].add(entropy);
+            tally.produce(entropy);
+            tally.turn_over(heat);
+        };
+        let creep = self.increments(weights);
         for k in 0..M::DASHPOTS {
-            let index = Vector::<S, M, K, D>::STRAINS + k;
-            next.viscous
-                .advance(slots.viscous + k, &view.state.viscous, creep[index]);
-            for (stage, &weight) in rule.weights.iter().enumerate() {
-                let rate = self.own.rates[stage][index];
-                let drag = self.own.viscosities[stage].0[k] * view.per_step * rate;
-                let heat = S::from_f64(weight) * (drag * rate);
-                self.dissipate(stage, heat, &mut booked, tally);
+            let index = Self::STRAINS + k;
+            (next.viscous).advance(slots.viscous + k, &view.state.viscous, creep[index]);
+            for (stage, &weight) in weights.iter().enumerate() {
+                let rate = self.rates[stage][index];
+                let drag = self.viscosities[stage].0[k] * view.per_step * rate;
+                dissipate(stage, S::from_f64(weight) * (drag * rate));
             }
         }
         if M::Drag::LEN > 0 {
-            for (stage, &weight) in rule.weights.iter().enumerate() {
-                let heat = S::from_f64(weight) * self.own.drags[stage].heat;
-                self.dissipate(stage, heat, &mut booked, tally);
+            for (stage, &weight) in weights.iter().enumerate() {
+                dissipate(stage, S::from_f64(weight) * self.viscous_heat[stage]);
             }
         }
         booked
     }
 
-    /// Books heat of a dashpot at a stage, J.
-    fn dissipate(&self, stage: usize, heat: S, booked: &mut Booked<S>, tally: &mut Tally<S>) {
-        let entropy = heat / self.temperature_or_one(stage);
-        booked[stage].heat += heat;
-        booked[stage].add(entropy);
-        tally.produce(entropy);
-        tally.turn_over(heat);
-    }
-
-    /// Books what flows to other elements at a stage, during its share of the step, s.
+    /// Books the heat to other elements at a stage, during its share of the step, s.
     fn book_paths(
         &self,
         (stage, share): (usize, S),
@@ -104,7 +101,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
         balances: &mut Balances<'_, S>,
         received: &mut Received<S>,
     ) {
-        let Some(contacts) = &self.contacts else {
+        let Some(contacts) = &self.point.contacts else {
             return;
         };
         for partner in &contacts[stage][stage].partners {
@@ -123,34 +120,28 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
         view: &StepView<'_, S>,
         heat: S,
     ) -> S {
-        if self.prescribed.is_some() {
+        if self.point.prescribed.is_some() {
             return S::zero();
         }
         let theta = self.mean_temperature(stage);
         let flow = view.conduction.reservoir_flow(slot, theta);
         let weight = share * view.per_step;
-        let taken = weight * theta * self.own.rates[stage][Vector::<S, M, K, D>::ENTROPY];
+        let taken = weight * theta * self.rates[stage][Self::ENTROPY];
         reservoir_correction(&flow, [share, theta], [taken, S::zero(), heat])
     }
 
-    /// Books the heat of the thermostat of an element whose new entropy is given, stage by stage; what is left
-    /// of the entropy by rounding it gives at the last one.
-    pub(super) fn book_thermostat(
-        &self,
-        rule: &Tableau,
-        booked: &Booked<S>,
-        entropy: S,
-        next: &mut State<S>,
-    ) {
-        let mut total = entropy - self.entropy;
+    /// Books the heat of the thermostat of an element whose new entropy is given, stage by stage; the rounding of the
+    /// entropy at the last one.
+    pub(super) fn book_thermostat(&self, booked: &Booked<S>, entropy: S, next: &mut State<S>) {
+        let rule = self.point.rule;
+        let mut total = entropy - self.point.entropy;
         let mut heat = S::zero();
         let mut rest = total;
-        for (stage, &weight) in rule.weights.iter().enumerate() {
-            let taken = S::from_f64(weight) * self.own.rates[stage][Vector::<S, M, K, D>::ENTROPY];
-            let received = booked[stage].entropy;
-            heat += self.mean_temperature(stage) * (taken - received);
+        for ((stage, &weight), received) in rule.weights.iter().enumerate().zip(booked) {
+            let taken = S::from_f64(weight) * self.rates[stage][Self::ENTROPY];
+            heat += self.mean_temperature(stage) * (taken - received.entropy);
             rest -= taken;
-            total -= received;
+            total -= received.entropy;
         }
         heat += self.mean_temperature(rule.stages() - 1) * rest;
         next.book_thermostat(heat, total);
@@ -164,11 +155,125 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
             S::one()
         }
     }
-}
 
-/// The same of all stages together.
-fn sum<S: Real>(booked: &Booked<S>, of: impl Fn(&Received<S>) -> S) -> S {
-    booked
-        .iter()
-        .fold(S::zero(), |sum, received| sum + of(received))
+    /// Adds its forces, and checks the balances of its internal variables, given the magnitude of the terms of its
+    /// energy, J.
+    pub(super) fn certify(
+        &self,
+        in_state: &StatePoint<S, M, K, D>,
+        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
+        (booked, energy): (&Booked<S>, S),
+        tally: &mut Tally<S>,
+    ) {
+        let weights = self.point.rule.weights;
+        let forces = self.amplitude(tally.care);
+        tally.force(forces);
+        // h Σ b |F|
+        let impulse = weights.iter().enumerate();
+        let impulse = impulse.fold(S::zero(), |sum, (stage, &weight)| {
+            let force = self.force_size(stage, |q| self.conjugates[stage][q].abs());
+            sum + view.step * S::from_f64(weight) * force
+        });
+        tally.exchange(impulse);
+        for ((stage, &weight), received) in weights.iter().enumerate().zip(booked) {
+            for k in 0..M::DASHPOTS {
+                let index = Self::STRAINS + k;
+                let eta = self.viscosities[stage].0[k];
+                let drag = eta * view.per_step * self.rates[stage][index];
+                let force = self.conjugates[stage][index];
+                let terms = drag.abs() + self.size_of_conjugate([stage, index], tally.care);
+                tally.balance(drag + force, terms);
+            }
+            if !M::THERMAL {
+                continue;
+            }
+            let last = Self::ENTROPY;
+            let theta = self.mean_temperature(stage);
+            if self.point.prescribed.is_none() {
+                let taken = S::from_f64(weight) * theta * self.rates[stage][last];
+                let defect = taken - theta * received.entropy;
+                let terms = theta * received.terms;
+                tally.balance(defect, taken.abs() + terms + energy + forces);
+            }
+            if self.point.contacts.is_some()
+                && let Some(slot) = in_state.slots().thermal
+            {
+                let seen = trial.seen.values()[trial.seen_of_set(stage, slot)];
+                let terms = self.size_of_conjugate([stage, last], tally.care);
+                tally.balance(seen - theta, terms);
+            }
+        }
+    }
+
+    /// The size of a conjugate, for a thorough bound with its conditioning error, in units of ε.
+    fn size_of_conjugate(&self, [stage, index]: [usize; 2], care: Care) -> S {
+        let size = self.conjugates[stage][index].abs();
+        match care {
+            Care::Quick => size,
+            Care::Thorough => size + self.conditioning[stage][index],
+        }
+    }
+
+    /// The contribution of its forces to A and, for a thorough bound, to A⁺, J:
+    ///
+    /// ```text
+    /// |∇ê⁰||y⁰| + |∇ê¹||y¹| + Σ b |a||R| + ε Σ |W| y¹²,     Σ b |∂²ê/∂x∂y| |y| |R_x|
+    /// ```
+    fn amplitude(&self, care: Care) -> S {
+        let weights = self.point.rule.weights;
+        let mut sum = S::zero();
+        for index in 0..Self::ENTROPY {
+            let [old, new] = [0, 1].map(|end| self.size_at_end(end, index));
+            sum += S::EPSILON * self.metric[index] * new * new;
+            // λ ∂e/∂λ = 2 C ∂ê/∂C
+            let [old_slopes, new_slopes] = &self.end_slopes;
+            let ends = (old_slopes[index] * old).abs() + (new_slopes[index] * new).abs();
+            sum += ends + ends;
+            for (stage, &weight) in weights.iter().enumerate() {
+                let work = self.conjugates[stage][index] * self.rates[stage][index];
+                sum += S::from_f64(weight) * work.abs();
+            }
+        }
+        // Strains of solids are ratios, whose sizes are unrelated to the motion.
+        if K::IS_SPRING && care == Care::Quick {
+            return sum;
+        }
+        for (stage, &weight) in weights.iter().enumerate() {
+            for index in 0..Self::LEN {
+                let work = self.conditioning[stage][index] * self.rates[stage][index];
+                sum += S::from_f64(weight) * work.abs();
+            }
+        }
+        sum
+    }
+
+    /// The magnitude of the terms of a variable at one of the ends.
+    fn size_at_end(&self, end: usize, index: usize) -> S {
+        if index < Self::STRAINS {
+            self.end_sizes[end][index]
+        } else {
+            [&self.old, &self.end][end][index]
+        }
+    }
+
+    /// `Σ|f||π| + Σ|g||γ|` of the new state, which the amplitude has for both ends, J.
+    pub(super) fn forces_at_end(&self) -> S {
+        let strains = Self::STRAINS;
+        (0..Self::ENTROPY).fold(S::zero(), |sum, index| {
+            let size = self.size_at_end(1, index);
+            let work = (self.end_slopes[1][index] * size).abs();
+            // λ ∂e/∂λ = 2 C ∂ê/∂C
+            sum + if index < strains { work + work } else { work }
+        })
+    }
+
+    /// The magnitude of the terms of the force on the nodes at a stage, given that of each conjugate of the strain, N.
+    pub(super) fn force_size(&self, stage: usize, of: impl Fn(usize) -> S) -> S {
+        let mut sizes = PerStrain::<K, S, D>::filled(S::zero());
+        for (q, size) in sizes.as_mut().iter_mut().enumerate() {
+            *size = of(q);
+        }
+        let arms = &self.arms[stage];
+        self.point.kinematics.strain_force_size(arms, &sizes)
+    }
 }

@@ -1,7 +1,13 @@
-//! Numbers per variable `y = (C…, γ…, s)` of the path of a point.
+//! Numbers per variable `y = (C…, γ…, s)` of the path of a point, and the derivatives of the energy by them.
+//!
+//! ```text
+//! e_x = ψ_x,   e_s = θ,   e_xy = ψ_xy − ψ_xθ ψ_yθ/ψ_θθ,   e_xs = −ψ_xθ/ψ_θθ,   e_ss = −1/ψ_θθ
+//! ê_C = P e_π,   ê_CC = P e_ππ Pᵀ + Σ e_π ∂²π/∂C²,   ê_Cx = P e_πx,   P = ∂π/∂C
+//! ```
 
-use core::ops::{Index, IndexMut};
+use core::ops::{Index, IndexMut, Range};
 
+use crate::element::group::arms::measures_in;
 use crate::element::kinematics::{PerStrain, QuadraticStrain, StrainMatrix};
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::Real;
@@ -11,15 +17,15 @@ use eem_material::number::scalar::Real;
 pub(super) struct Vector<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
     /// Of the components of the strain.
     pub(super) strain: PerStrain<K, S, D>,
-    /// Of γ and s, at their places among the variables of the model; none of measures.
-    rest: M::Variables,
+    /// Of γ and s, at their indices among the variables of the model, whose measures are ignored.
+    pub(super) rest: M::Variables,
 }
 
 /// A number per two variables.
 #[derive(Debug)]
 pub(super) struct Matrix<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
     strains: StrainMatrix<K, S, D>,
-    /// Rows of the strain in columns of the rest, and the other way round.
+    /// Rows of the strain in columns of the rest, and, transposed, the other way round.
     right: K::PerStrain<M::Variables>,
     below: K::PerStrain<M::Variables>,
     rest: M::Hessian,
@@ -40,17 +46,11 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Vector
         }
     }
 
-    /// The viscous stretches.
-    pub(super) fn dashpots() -> core::ops::Range<usize> {
-        Self::STRAINS..Self::ENTROPY
-    }
-
-    /// All entries.
     pub(super) fn entries(&self) -> impl Iterator<Item = S> + '_ {
         (0..Self::LEN).map(|index| self[index])
     }
 
-    /// The variables of the model with these γ, and what is given for measures and temperature.
+    /// The variables of the model with these γ, and the given measures and temperature.
     pub(super) fn variables(&self, measures: &[S], theta: S) -> M::Variables {
         let mut x = self.rest;
         x.as_mut()[..M::MEASURES].copy_from_slice(measures);
@@ -58,11 +58,6 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Vector
             x[M::MEASURES + M::DASHPOTS] = theta;
         }
         x
-    }
-
-    /// Takes γ and the last one from variables of the model.
-    pub(super) fn take_rest(&mut self, of: &M::Variables) {
-        self.rest = *of;
     }
 }
 
@@ -74,6 +69,28 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Matrix
             right: K::PerStrain::filled(zeros),
             below: K::PerStrain::filled(zeros),
             rest: M::Hessian::filled(zeros),
+        }
+    }
+
+    #[inline]
+    pub(super) fn at(&self, [row, column]: [usize; 2]) -> S {
+        let strains = Vector::<S, M, K, D>::STRAINS;
+        match (row.checked_sub(strains), column.checked_sub(strains)) {
+            (None, None) => self.strains[row][column],
+            (None, Some(beyond)) => self.right[row][M::MEASURES + beyond],
+            (Some(beyond), None) => self.below[column][M::MEASURES + beyond],
+            (Some(row), Some(column)) => self.rest[M::MEASURES + row][M::MEASURES + column],
+        }
+    }
+
+    #[inline]
+    pub(super) fn at_mut(&mut self, [row, column]: [usize; 2]) -> &mut S {
+        let strains = Vector::<S, M, K, D>::STRAINS;
+        match (row.checked_sub(strains), column.checked_sub(strains)) {
+            (None, None) => &mut self.strains[row][column],
+            (None, Some(beyond)) => &mut self.right[row][M::MEASURES + beyond],
+            (Some(beyond), None) => &mut self.below[column][M::MEASURES + beyond],
+            (Some(row), Some(column)) => &mut self.rest[M::MEASURES + row][M::MEASURES + column],
         }
     }
 }
@@ -130,34 +147,102 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexM
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Index<[usize; 2]>
-    for Matrix<S, M, K, D>
-{
-    type Output = S;
-
-    #[inline]
-    fn index(&self, [row, column]: [usize; 2]) -> &S {
-        let strains = Vector::<S, M, K, D>::STRAINS;
-        match (row.checked_sub(strains), column.checked_sub(strains)) {
-            (None, None) => &self.strains[row][column],
-            (None, Some(beyond)) => &self.right[row][M::MEASURES + beyond],
-            (Some(beyond), None) => &self.below[column][M::MEASURES + beyond],
-            (Some(row), Some(column)) => &self.rest[M::MEASURES + row][M::MEASURES + column],
+/// `∇ê` and `∇²ê` by `(C, γ, s)` from the derivatives of ψ by `x = (π, γ, θ)`.
+pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
+    kinematics: &K,
+    strain: &PerStrain<K, S, D>,
+    of_model: (&M::Variables, &M::Variables, &M::Hessian),
+) -> (Vector<S, M, K, D>, Matrix<S, M, K, D>) {
+    let (first, second) = by_entropy::<S, M>(of_model);
+    let along = kinematics.strain_slopes([strain, strain]);
+    let slopes = Vector {
+        strain: chained::<S, K, D>(&along, first.as_ref()),
+        rest: first,
+    };
+    let mut curvatures = Matrix::zero();
+    let turning = kinematics.strain_curvature(strain, &measures_in::<K, S, D>(&first));
+    let strains = Vector::<S, M, K, D>::STRAINS;
+    for column in 0..M::Variables::LEN {
+        let by_strain = chained::<S, K, D>(&along, second[column].as_ref());
+        for (q, &by) in by_strain.as_ref().iter().enumerate() {
+            match column.checked_sub(M::MEASURES) {
+                None => {
+                    for (p, &slope) in along[column].as_ref().iter().enumerate() {
+                        *curvatures.at_mut([q, p]) += by * slope;
+                    }
+                }
+                Some(beyond) => {
+                    *curvatures.at_mut([q, strains + beyond]) = by;
+                    *curvatures.at_mut([strains + beyond, q]) = by;
+                }
+            }
         }
     }
+    for (q, row) in turning.as_ref().iter().enumerate() {
+        for (p, &entry) in row.as_ref().iter().enumerate() {
+            *curvatures.at_mut([q, p]) += entry;
+        }
+    }
+    for (q, row) in second.as_ref().iter().skip(M::MEASURES).enumerate() {
+        for (p, &entry) in row.as_ref().iter().skip(M::MEASURES).enumerate() {
+            *curvatures.at_mut([strains + q, strains + p]) = entry;
+        }
+    }
+    (slopes, curvatures)
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexMut<[usize; 2]>
-    for Matrix<S, M, K, D>
-{
-    #[inline]
-    fn index_mut(&mut self, [row, column]: [usize; 2]) -> &mut S {
-        let strains = Vector::<S, M, K, D>::STRAINS;
-        match (row.checked_sub(strains), column.checked_sub(strains)) {
-            (None, None) => &mut self.strains[row][column],
-            (None, Some(beyond)) => &mut self.right[row][M::MEASURES + beyond],
-            (Some(beyond), None) => &mut self.below[column][M::MEASURES + beyond],
-            (Some(row), Some(column)) => &mut self.rest[M::MEASURES + row][M::MEASURES + column],
+/// The derivatives of the energy by `(π, γ, s)`.
+fn by_entropy<S: Real, M: FreeEnergy<S>>(
+    (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
+) -> (M::Variables, M::Hessian) {
+    let (mut first, mut second) = (*gradient, *hessian);
+    if !M::THERMAL {
+        return (first, second);
+    }
+    let last = M::Variables::LEN - 1;
+    let by_theta = hessian[last];
+    let per_capacity = -by_theta[last].recip();
+    for row in 0..last {
+        let response = per_capacity * by_theta[row];
+        for column in 0..last {
+            second[row][column] += response * by_theta[column];
+        }
+        (second[row][last], second[last][row]) = (response, response);
+    }
+    second[last][last] = per_capacity;
+    first[last] = x[last];
+    (first, second)
+}
+
+/// `Σ_a f_a P_a`.
+pub(super) fn chained<S: Real, K: QuadraticStrain<S, D>, const D: usize>(
+    slopes: &K::PerMeasure<PerStrain<K, S, D>>,
+    by_measure: &[S],
+) -> PerStrain<K, S, D> {
+    let mut sum = PerStrain::<K, S, D>::filled(S::zero());
+    for (row, &by) in slopes.as_ref().iter().zip(by_measure) {
+        for (sum, &slope) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+            *sum += by * slope;
         }
     }
+    sum
+}
+
+/// The magnitude of the second derivatives by some variables with these weights, and of the first ones over their unit. As
+/// a metric it vanishes only where all derivatives of the energy do.
+pub(super) fn steepness<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
+    (slopes, curvatures): (&Vector<S, M, K, D>, &Matrix<S, M, K, D>),
+    variables: Range<usize>,
+    counts: impl Fn(usize) -> S,
+    unit: S,
+) -> S {
+    let (mut curvature, mut slope) = (S::zero(), S::zero());
+    for row in variables.clone() {
+        slope = slope.hypot(slopes[row] / counts(row).sqrt());
+        for column in variables.clone() {
+            let counted = (counts(row) * counts(column)).sqrt();
+            curvature = curvature.hypot(curvatures.at([row, column]) / counted);
+        }
+    }
+    curvature + slope / unit
 }

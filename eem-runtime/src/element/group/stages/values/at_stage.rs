@@ -1,19 +1,19 @@
-//! One element at one stage: forces, rates of its internal variables, and their derivatives.
+//! One point at one stage: forces, rates of its internal variables, and their derivatives.
 
 use crate::element::conduction::HeatFlow;
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::Real;
 
-/// What a model says at a stage.
+/// The model at a stage.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct AtStage<S: Real, M: FreeEnergy<S>> {
     /// `∂ψ/∂x = (f, −g, −s)`.
     pub(super) gradient: M::Variables,
     /// `∂²ψ/∂x²`.
     pub(super) hessian: M::Hessian,
-    /// At the place of each dashpot `γ̇ = g/η`, m/s, at that of the temperature `Φ`, W/K.
+    /// `γ̇ = g/η` at the index of each dashpot, m/s, and `Φ` at that of the temperature, W/K.
     pub(super) rates: M::Variables,
-    /// Their derivatives by x, a row each; heat from other elements held.
+    /// Their derivatives by x, a row each, for constant heat from other elements.
     pub(super) rates_by: M::Hessian,
     /// `Σ g γ̇`, W.
     pub(super) dissipation: S,
@@ -68,8 +68,7 @@ impl<S: Real, M: FreeEnergy<S>> AtStage<S, M> {
         dissipation_by
     }
 
-    /// The rate `Φ` of the entropy at the temperature θ, with the heat received and the derivative
-    /// of the dissipation.
+    /// The rate `Φ` of the entropy at the temperature θ, with the heat received and `∂(Σ g γ̇)/∂x`.
     pub(super) fn warm(&mut self, theta: S, flow: &HeatFlow<S>, dissipation_by: &M::Variables) {
         let last = M::Variables::LEN - 1;
         let rate = (self.dissipation + flow.heat) / theta;

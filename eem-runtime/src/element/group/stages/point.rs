@@ -1,0 +1,225 @@
+//! One element at the stages of a step, and one of its points: the elimination of internal variables, and heat.
+//!
+//! The local unknowns u of a point, `γ…` and then `Θ` set after set, depend on the rest of the scene through the inputs y:
+//! measures (or increments of the strain), and heat from other elements. Solved, their equations are
+//! `δu = −(c + Σ_j by_j δy_j)`, stored as the constant c followed by the columns `by_j`.
+//!
+//! Heat between elements is a function of the coupled interface temperatures Θ,
+//!
+//! ```text
+//! Q_i = Σ κ (θ_i,partner − θ_i),   θ_i = Σ_k t_ik Θ_k
+//! ```
+//!
+//! except that a thermostat gives its `θ_i` directly.
+
+use super::site::{PerPair, StageSite};
+use crate::algebra::lu::{self, Singular};
+use crate::element::conduction::Partner;
+use crate::element::conjugates::PointRule;
+use crate::element::group::arms::{add_scaled, arms_in, change_in_set};
+use crate::element::group::member::Member;
+use crate::element::group::point::Point;
+use crate::element::group::site::Contact;
+use crate::element::group::view::{StepView, Trial};
+use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
+use eem_material::free_energy::Array;
+use eem_material::number::scalar::Real;
+
+/// The same element in a state, apart from any step.
+pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, PointRule, D>;
+
+/// One of its points.
+pub(super) type StatePoint<S, M, K, const D: usize> = Point<S, M, K, PointRule, D>;
+
+/// An element, whose points are [sources](super::source::Source) of conjugates.
+pub(crate) struct StageMember<K: Kinematics<S, D>, S: Real, C, const D: usize> {
+    pub(super) site: StageSite<K, S, D>,
+    /// On the heap: cells with many points are large.
+    pub(super) points: Vec<C>,
+}
+
+/// A point of an element, apart from its conjugates.
+pub(crate) struct StagePoint<K: Kinematics<S, D>, S: Real, const D: usize> {
+    pub(super) rule: &'static Tableau,
+    pub(super) kinematics: K,
+    /// The matrix indices of its coupled interface temperatures, if it conducts heat to other elements.
+    pub(super) contacts: Option<PerPair<Contact<K, S, D>>>,
+    /// s⁰, J/K; zero without temperature.
+    pub(super) entropy: S,
+    /// The temperatures of a thermostat at the stages, or at the supports of the path, K.
+    pub(super) prescribed: Option<[S; MOST_STAGES]>,
+    /// The unit of viscous stretches.
+    pub(super) viscous_unit: S,
+    /// The solved local system, see [`LocalStages`].
+    pub(super) solved: Vec<S>,
+}
+
+/// The arms of an element at a trial, m.
+pub(crate) struct StageArms<K: Kinematics<S, D>, S: Real, const D: usize> {
+    pub(super) old: Arms<K, S, D>,
+    /// Their changes at the stage of each set of unknowns.
+    pub(super) changes: [Arms<K, S, D>; MOST_SETS],
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> StageArms<K, S, D> {
+    /// The arms of the element with these nodes.
+    pub(super) fn new(
+        rule: &Tableau,
+        nodes: &K::PerNode<u32>,
+        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
+    ) -> Self {
+        let mut changes = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+        for (set, change) in changes.iter_mut().enumerate().take(rule.sets()) {
+            *change = change_in_set::<K, S, D>(nodes, trial, set);
+        }
+        let old = arms_in::<K, S, D>(nodes, &view.state.positions);
+        Self { old, changes }
+    }
+
+    /// The arms at the stage of a set of unknowns.
+    pub(super) fn of_set(&self, set: usize) -> Arms<K, S, D> {
+        let mut r = self.changes[set];
+        add_scaled::<K, S, D>(&mut r, S::one(), &self.old);
+        r
+    }
+}
+
+/// Workspace for the local systems of one group.
+#[derive(Clone, Debug)]
+pub(crate) struct LocalStages<S> {
+    /// `∂r/∂u`, row-major.
+    pub(super) matrix: Vec<S>,
+    pivots: Vec<usize>,
+    /// The derivatives of one quantity by the local unknowns.
+    pub(super) by_unknown: Vec<S>,
+    /// Its change for constant inputs, zero before the elimination of the local unknowns, then its derivatives by the inputs.
+    pub(super) row: Vec<S>,
+    /// Changes of the inputs.
+    pub(super) inputs: Vec<S>,
+}
+
+impl<S: Real> LocalStages<S> {
+    pub(super) fn new(unknowns: usize, inputs: usize) -> Self {
+        let zeros = |length: usize| vec![S::zero(); length];
+        Self {
+            matrix: zeros(unknowns * unknowns),
+            pivots: vec![0; unknowns],
+            by_unknown: zeros(unknowns),
+            row: zeros(1 + inputs),
+            inputs: zeros(inputs),
+        }
+    }
+
+    /// Number of local unknowns.
+    pub(super) fn unknowns(&self) -> usize {
+        self.pivots.len()
+    }
+
+    /// Starts another quantity.
+    pub(super) fn clear_row(&mut self) {
+        self.by_unknown.fill(S::zero());
+        self.row.fill(S::zero());
+    }
+
+    /// The change of a local unknown by the solved local system, for the changes of the inputs.
+    pub(super) fn change(&self, solved: &[S], unknown: usize) -> S {
+        let columns = solved[self.unknowns()..].chunks_exact(self.unknowns());
+        let terms = columns.zip(&self.inputs);
+        terms.fold(-solved[unknown], |change, (column, &input)| {
+            change - column[unknown] * input
+        })
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> StagePoint<K, S, D> {
+    /// Adds a multiple of the quantity in the row to an equation.
+    pub(super) fn add_row(&mut self, local: &mut LocalStages<S>, equation: usize, factor: S) {
+        let unknowns = local.unknowns();
+        let columns = self.solved.chunks_exact_mut(unknowns).zip(&local.row);
+        for (column, &entry) in columns.skip(1) {
+            column[equation] += factor * entry;
+        }
+        let row = local.matrix[equation * unknowns..].iter_mut();
+        for (sum, &entry) in row.zip(&local.by_unknown) {
+            *sum += factor * entry;
+        }
+    }
+
+    /// Solves the local equations.
+    pub(super) fn solve(&mut self, local: &mut LocalStages<S>) -> Result<(), Singular> {
+        lu::factor(&mut local.matrix, &mut local.pivots)?;
+        for column in self.solved.chunks_exact_mut(local.unknowns()) {
+            lu::solve::<S, 1>(&local.matrix, &local.pivots, column.as_chunks_mut().0);
+        }
+        Ok(())
+    }
+
+    /// Eliminates the local unknowns from the quantity in the row.
+    pub(super) fn eliminate(&self, local: &mut LocalStages<S>) {
+        if local.by_unknown.is_empty() {
+            return;
+        }
+        let solved = self.solved.chunks_exact(local.by_unknown.len());
+        for (entry, solved) in local.row.iter_mut().zip(solved) {
+            let pairs = local.by_unknown.iter().zip(solved);
+            *entry -= pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+        }
+    }
+
+    /// The change of Q at a stage by a global solution, W.
+    pub(super) fn heat_change(&self, stage: usize, solution: &[[S; 1]]) -> S {
+        let mut change = S::zero();
+        let contacts = self.contacts.iter().flatten().enumerate();
+        for (set, contacts) in contacts.take(self.rule.sets()) {
+            let share = S::from_f64(self.rule.share(stage, set));
+            let near = solution[contacts[set].unknown as usize][0];
+            for partner in &contacts[set].partners {
+                let far = solution[partner.unknown as usize][0];
+                change += share * partner.conductance * (far - near);
+            }
+        }
+        change
+    }
+}
+
+/// Q at a stage of the element with a thermal slot, W.
+pub(super) fn heat_received<S: Real, const D: usize>(
+    rule: &Tableau,
+    stage: usize,
+    slot: usize,
+    (view, trial): (&StepView<'_, S>, &Trial<S, D>),
+) -> S {
+    let mut heat = S::zero();
+    for link in view.conduction.links(slot) {
+        let Partner::Slot(partner) = link.partner else {
+            continue;
+        };
+        let mut drop = excess(rule, stage, partner, view) - excess(rule, stage, slot, view);
+        for (set, &share) in rule.temperatures[stage].iter().enumerate() {
+            let [near, far] = [slot, partner].map(|slot| trial.seen_of_set(set, slot));
+            drop += S::from_f64(share) * trial.seen.drop(near, far);
+        }
+        heat += link.conductance * drop;
+    }
+    heat
+}
+
+/// The difference of a prescribed temperature at a stage and the combination of interface temperatures there, K.
+fn excess<S: Real>(rule: &Tableau, stage: usize, slot: usize, view: &StepView<'_, S>) -> S {
+    let Some(prescribed) = view.prescribed_at_stages(slot) else {
+        return S::zero();
+    };
+    let shares = rule.temperatures[stage].iter().zip(rule.entropies);
+    shares.fold(prescribed[stage], |rest, (&share, balance)| {
+        rest - S::from_f64(share) * prescribed[balance.unknown]
+    })
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+    /// `Σ κ`, W/K.
+    pub(super) fn conductance(&self) -> S {
+        let partners = self.partners.iter();
+        partners.fold(S::zero(), |sum, partner| sum + partner.conductance)
+    }
+}
