@@ -56,7 +56,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         self.scratch.open.fill(true);
         self.find_energies(next)?;
-        self.book_thermostats(next);
+        self.book_thermostats(view.step, next);
         self.share_productions();
         loop {
             let mut has_asked = false;
@@ -92,26 +92,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Temperatures and energies of the elements of open components.
     fn find_energies(&mut self, next: &mut State<S>) -> Result<(), StateError> {
         let scratch = &mut self.scratch;
-        for (index, energy) in scratch.energies.iter_mut().enumerate() {
-            if scratch.open[index] {
-                energy.clear(scratch.waits[index]);
+        let open = scratch.open.iter().zip(&scratch.inactive);
+        for (energy, (&is_open, &inactive)) in scratch.energies.iter_mut().zip(open) {
+            if is_open {
+                energy.clear(inactive);
             }
         }
-        let offsets = self.offsets;
-        let (nodes, internal) = self.y.split_at_mut(offsets.viscous);
-        let (viscous, temperatures) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
         let mut view = ClosingView {
-            open: &self.scratch.open,
-            waits: &self.scratch.waits,
-            positions: &nodes[..offsets.momenta],
-            viscous,
-            temperatures,
-            held: &self.held,
-            capacities: &mut self.scratch.capacities,
-            bends: &mut self.scratch.bends,
-            unkept: &mut self.scratch.unkept,
+            open: &scratch.open,
+            inactive: &scratch.inactive,
+            stage: &mut self.stage,
+            capacities: &mut scratch.capacities,
+            unkept: &mut scratch.unkept,
             next,
-            energies: &mut self.scratch.energies,
+            energies: &mut scratch.energies,
         };
         self.evaluations += 1;
         for group in &mut self.groups {
@@ -122,14 +116,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Forces of the elements, with weights, in the components that ask for them: the gradient of the energy.
     fn find_forces(&mut self, view: &ExplicitView<'_, S, D>) {
-        let forces = self.scratch.forces.as_chunks_mut::<D>().0;
-        for (force, &mass) in forces.iter_mut().zip(&self.masses) {
-            *force = core::array::from_fn(|axis| mass * view.loads.gravity[axis]);
-        }
         let scratch = &mut self.scratch;
+        let gravity: [S; D] = view.loads.gravity.into();
+        for (force, place) in scratch.forces.iter_mut().zip(&self.stage.places) {
+            *force = gravity.map(|g| place.mass * g);
+        }
         for group in &self.groups {
-            let creeping = [&mut *scratch.creep, &mut *scratch.powers];
-            group.pull(&scratch.asked, &mut scratch.forces, creeping);
+            group.pull(&scratch.asked, &mut scratch.forces, &mut scratch.creep);
         }
     }
 }

@@ -7,10 +7,10 @@ use core::ops::Range;
 use std::collections::BTreeMap;
 
 use crate::element::conduction::{Conduction, Partner};
-use crate::element::group::PlaceOf;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use crate::scene::entry::ElementEntry;
+use super::guard::PerWeight;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 
@@ -53,10 +53,13 @@ impl<S: Real> Component<S> {
 pub(super) struct Path<S> {
     /// The thermal slot at one end, and at the other: reservoirs come behind all thermal slots.
     pub(super) ends: [u32; 2],
+    pub(super) component: u32,
     /// For a reservoir, which of the [shares](Components::shares) receives its entropy.
     pub(super) share: Option<u32>,
     /// κ, W/K.
     pub(super) conductance: S,
+    /// The temperatures of both ends at the stages with weights, K.
+    pub(super) seen: [PerWeight<S>; 2],
 }
 
 /// The entropy that a reservoir receives from a component.
@@ -160,28 +163,17 @@ impl<S: Real> Components<S> {
         components
     }
 
-    /// The places of nodes, of which anchors have one per component.
-    pub(super) fn places(&self) -> Places {
-        let placed = self.nodes.iter().zip(&self.of_place).enumerate();
-        let mut places = Places {
-            of_masses: vec![None; self.nodes.iter().max().map_or(0, |&last| last as usize + 1)],
-            of_anchors: BTreeMap::new(),
-        };
-        for (place, (&node, &component)) in placed {
-            if place < self.masses {
-                places.of_masses[node as usize] = Some(compact(place));
-            } else {
-                places.of_anchors.insert((component, node), compact(place));
-            }
-        }
-        places
+    /// The place of a node of an element by its component.
+    pub(super) fn place_of(&self) -> impl Fn(u32, u32) -> u32 + use<S> {
+        let owners = self.of_place.iter().copied().zip(self.nodes.iter().copied());
+        let places: BTreeMap<_, _> = owners.zip(0..).collect();
+        move |component, node| places[&(component, node)]
     }
 
     /// The mass at each place, zero for anchors, kg.
-    pub(super) fn masses_of(&self, masses: &Masses<S>) -> Vec<S> {
+    pub(super) fn masses_of(&self, masses: &Masses<S>) -> impl Iterator<Item = S> {
         let nodes = self.nodes.iter();
-        let of = |&node: &u32| masses.get(node as usize).unwrap_or(S::zero());
-        nodes.map(of).collect()
+        nodes.map(|&node| masses.get(node as usize).unwrap_or(S::zero()))
     }
 
     /// Place and node of all anchors.
@@ -275,9 +267,11 @@ impl<S: Real> Components<S> {
                 }
             };
             self.paths.push(Path {
+                component: compact(component),
                 ends: [slot, compact(far)],
                 share,
                 conductance: link.conductance,
+                seen: [[S::one(); _]; 2],
             });
         }
     }
@@ -293,21 +287,6 @@ impl<S: Real> Components<S> {
             reservoir,
         });
         compact(self.shares.len() - 1)
-    }
-}
-
-/// Where nodes are in the vectors of stages.
-pub(super) struct Places {
-    of_masses: Vec<Option<u32>>,
-    of_anchors: BTreeMap<(u32, u32), u32>,
-}
-
-impl PlaceOf for Places {
-    fn place_of(&self, component: u32, node: u32) -> u32 {
-        let mass = self.of_masses.get(node as usize).copied().flatten();
-        let anchor = || self.of_anchors.get(&(component, node)).copied();
-        mass.or_else(anchor)
-            .unwrap_or_else(|| unreachable!("nodes of elements have places"))
     }
 }
 

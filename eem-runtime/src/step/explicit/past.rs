@@ -25,9 +25,8 @@ pub(crate) struct SavedExplicit<S> {
     pub(crate) largest_momentum: S,
     pub(crate) residue: S,
     pub(crate) rates: Vec<S>,
-    pub(crate) powers: Vec<S>,
+    pub(crate) productions: Vec<S>,
     pub(crate) supply: Vec<S>,
-    pub(crate) reactions: Vec<S>,
     pub(crate) loads: Vec<S>,
     pub(crate) forces: Vec<S>,
 }
@@ -47,9 +46,8 @@ impl<S: Real> SavedExplicit<S> {
         let lists = [
             &mut self.held_energies,
             &mut self.rates,
-            &mut self.powers,
+            &mut self.productions,
             &mut self.supply,
-            &mut self.reactions,
             &mut self.loads,
             &mut self.forces,
         ];
@@ -59,12 +57,11 @@ impl<S: Real> SavedExplicit<S> {
     }
 
     /// All lists with their names.
-    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 7] {
+    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 6] {
         [
             ("rates", &self.rates),
-            ("powers of dashpots", &self.powers),
+            ("productions of dashpots", &self.productions),
             ("powers of thermostats", &self.supply),
-            ("reactions of anchors", &self.reactions),
             ("energies of thermostats", &self.held_energies),
             ("loads with weights", &self.loads),
             ("loads", &self.forces),

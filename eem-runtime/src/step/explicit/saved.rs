@@ -1,7 +1,7 @@
 //! An explicit scheme is saved and goes on from what was saved.
 
 use super::Explicit;
-use super::memory::{START, Target};
+use super::memory::Target;
 use super::past::SavedExplicit;
 use crate::element::state::State;
 use eem_material::number::compensated::Sum;
@@ -10,22 +10,30 @@ use eem_material::number::scalar::Real;
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// What the step from this state depends on besides.
     pub(crate) fn save(&self, state: &State<S>) -> SavedExplicit<S> {
+        // After an attempt that was not accepted the stage is elsewhere.
+        let has_left = self.has_left;
         let (books, start) = (&self.books, &self.start);
+        let booked = if has_left { &self.old_books } else { books };
+        let changed = if self.is_driven { booked } else { books };
+        let [productions, supply] = match has_left {
+            true => [&start.productions, &start.supply],
+            false => [&self.stage.productions, &self.stage.supply],
+        };
+        let outside = if has_left { &start.outside } else { &self.outside };
         let mut saved = SavedExplicit {
             is_new: !self.is_ready,
             state: state.digest(),
             is_motion_first: self.is_motion_first,
-            targets: saved_targets(&books.targets),
-            shares: books.shares.clone(),
-            held_energies: books.held_energies.clone(),
-            largest_momentum: books.largest_momentum,
-            residue: books.residue,
-            rates: self.rows[START][..self.offsets.size].to_vec(),
-            powers: start.powers.clone(),
-            supply: start.supply.clone(),
-            reactions: start.reactions.as_flattened().to_vec(),
-            loads: start.loads.clone(),
-            forces: start.forces.clone(),
+            targets: saved_targets(&changed.targets),
+            shares: booked.shares.clone(),
+            held_energies: changed.held_energies.clone(),
+            largest_momentum: booked.largest_momentum,
+            residue: booked.residue,
+            rates: self.saved_rates(),
+            productions: productions.clone(),
+            supply: supply.clone(),
+            loads: outside.loads.clone(),
+            forces: outside.forces.clone(),
         };
         if saved.is_new {
             saved.clear();
@@ -36,6 +44,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Goes on from what was saved of the same scene.
     pub(crate) fn restore(&mut self, saved: &SavedExplicit<S>) {
         self.is_ready = !saved.is_new;
+        self.has_left = true;
         self.is_motion_first = saved.is_motion_first;
         let (books, start) = (&mut self.books, &mut self.start);
         let mut sums = saved.targets.iter();
@@ -51,13 +60,36 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;
         books.terms = None;
-        self.rows[START][..self.offsets.size].copy_from_slice(&saved.rates);
-        start.powers.copy_from_slice(&saved.powers);
+        self.old_books.copy_from(books, true);
+        start.productions.copy_from_slice(&saved.productions);
         start.supply.copy_from_slice(&saved.supply);
-        start.loads.copy_from_slice(&saved.loads);
-        start.forces.copy_from_slice(&saved.forces);
-        let reactions = start.reactions.as_flattened_mut();
-        reactions.copy_from_slice(&saved.reactions);
+        start.outside.loads.copy_from_slice(&saved.loads);
+        start.outside.forces.copy_from_slice(&saved.forces);
+        let (places, inner) = saved.rates.split_at(2 * D * self.kept_places);
+        let places = places.as_chunks::<D>().0.as_chunks::<2>().0.iter();
+        for (place, rates) in self.stage.places.iter_mut().zip(places) {
+            place.past.rates[0] = *rates;
+        }
+        let pairs = inner.as_chunks::<2>().0.iter();
+        for (past, rates) in self.stage.inner_past.iter_mut().zip(pairs) {
+            past.rates[0] = [*rates];
+        }
+    }
+
+    /// The rates at the start of the next step.
+    fn saved_rates(&self) -> Vec<S> {
+        let stage = &self.stage;
+        let places = stage.places[..self.kept_places].iter();
+        let mut rates = Vec::new();
+        for place in places {
+            let own = if self.has_left { &place.past.rates[0] } else { &place.rates };
+            rates.extend_from_slice(own.as_flattened());
+        }
+        for (now, past) in stage.inner_rates.as_chunks::<2>().0.iter().zip(&stage.inner_past) {
+            let own = if self.has_left { &past.rates[0][0] } else { now };
+            rates.extend(own);
+        }
+        rates
     }
 }
 

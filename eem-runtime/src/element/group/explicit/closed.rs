@@ -73,17 +73,17 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
         }
     }
 
-    /// Something else was found; what was known before stays for the numbers that wait.
+    /// Stores a new evaluation; inactive lanes keep the old one.
     #[inline]
-    pub(super) fn replace(&mut self, waits: S::Mask, mut found: Self) {
-        if S::LANES > 1 && waits.any() {
-            found.keep(waits, self);
+    pub(super) fn replace(&mut self, inactive: S::Mask, mut found: Self) {
+        if S::LANES > 1 && inactive.any() {
+            found.keep(inactive, self);
         }
         *self = found;
     }
 
-    fn keep(&mut self, waits: S::Mask, old: &Self) {
-        let keep = |new: &mut S, old: S| *new = S::select(waits, old, *new);
+    fn keep(&mut self, inactive: S::Mask, old: &Self) {
+        let keep = |new: &mut S, old: S| *new = S::select(inactive, old, *new);
         keep(&mut self.theta, old.theta);
         keep(&mut self.values.magnitude, old.values.magnitude);
         keep(&mut self.values.terms, old.values.terms);

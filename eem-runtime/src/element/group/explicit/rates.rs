@@ -8,7 +8,7 @@ use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along};
 use crate::element::group::explicit::group::FreeGroup;
-use crate::element::group::explicit::view::{StageRates, StageView};
+use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
 use eem_material::free_energy::{Array, FreeEnergy, Material, Rates};
@@ -24,61 +24,48 @@ pub(super) struct Found<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, cons
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
-    pub(super) fn rates_of_all(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError> {
-        for (member, nodes) in self.elements.members.iter().zip(&self.places) {
-            // Positions and velocities are the first parts of their vectors.
-            let r = arms_of::<K, S, D>(nodes, view.y);
-            let motion = arms_of::<K, S, D>(nodes, rates.row);
-            let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
-            for point in member.points.as_ref() {
-                point.add_rates(view, [&r, &motion], rates, &mut pull)?;
+    pub(super) fn rates_of_all(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+        for (point, nodes) in self.placed() {
+            let r = arms_of::<K, S, D>(nodes, &stage.places, Place::q);
+            let measures = point.kinematics.measure(&r);
+            let gradient = point.kinematics.gradient(&r, &measures);
+            let theta = point.temperature_in(stage);
+            let found = point
+                .model
+                .rates(&point.variables_at(&measures, stage, theta));
+            let viscosities = match M::DASHPOTS {
+                0 => M::Viscosities::filled(S::zero()),
+                _ => point.model.viscosity(theta).0,
+            };
+            let found = Found {
+                theta,
+                rates: &found,
+                viscosities: &viscosities,
+                gradient: &gradient,
+            };
+            let is_sound = point.write_rates(nodes, &found, stage);
+            if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
+                return Err(point.refuse(&found, &r, &measures));
             }
-            pull_nodes::<K, S, D>(nodes, &pull, &mut rates.row[view.offsets.momenta..]);
         }
         Ok(())
     }
 }
 
-/// The arms of an element, or their rates, from coordinates stored node after node.
+/// The arms of an element, or their rates.
 #[inline]
 pub(super) fn arms_of<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
-    coordinates: &[S],
+    places: &[Place<S, D>],
+    of: impl Fn(&Place<S, D>) -> &[S; D],
 ) -> Arms<K, S, D> {
-    let points = coordinates.as_chunks::<D>().0;
-    let first = &points[nodes[0] as usize];
+    let first = of(&places[nodes[0] as usize]);
     let mut arms = Arms::<K, S, D>::filled([S::zero(); D]);
     for (index, arm) in arms.as_mut().iter_mut().enumerate() {
-        let other = &points[nodes[index + 1] as usize];
-        for axis in 0..D {
-            arm[axis] = other[axis] - first[axis];
-        }
+        let other = of(&places[nodes[index + 1] as usize]);
+        *arm = core::array::from_fn(|axis| other[axis] - first[axis]);
     }
     arms
-}
-
-/// Subtracts a pull along the arms from the forces on the nodes.
-#[inline]
-pub(super) fn pull_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
-    nodes: &K::PerNode<u32>,
-    pull: &Arms<K, S, D>,
-    forces: &mut [S],
-) {
-    let points = forces.as_chunks_mut::<D>().0;
-    for (index, arm) in pull.as_ref().iter().enumerate() {
-        let force = &mut points[nodes[index + 1] as usize];
-        for axis in 0..D {
-            force[axis] -= arm[axis];
-        }
-        let force = &mut points[nodes[0] as usize];
-        for axis in 0..D {
-            force[axis] += arm[axis];
-        }
-    }
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
@@ -87,16 +74,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
     pub(super) fn variables_at(
         &self,
         measures: &Measures<K, S, D>,
-        viscous: &[S],
+        stage: &Stage<S, D>,
         theta: S,
     ) -> M::Variables {
         let mut x = M::Variables::filled(S::zero());
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             x[a] = measure;
         }
-        let first = self.slots().viscous;
         for k in 0..M::DASHPOTS {
-            x[M::MEASURES + k] = viscous[first + k];
+            x[M::MEASURES + k] = stage.inner[self.slots().viscous + k];
         }
         if M::THERMAL {
             x[Self::TEMPERATURE] = theta;
@@ -106,46 +92,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
 
     /// Its temperature at a stage; zero without.
     #[inline]
-    pub(super) fn temperature_in(&self, temperatures: &[S]) -> S {
+    pub(super) fn temperature_in(&self, stage: &Stage<S, D>) -> S {
         match self.slots().thermal {
-            Some(slot) => temperatures[slot],
+            Some(slot) => stage.theta(slot),
             None => S::zero(),
         }
     }
 
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "arms and pull stay in registers")]
-    fn add_rates(
-        &self,
-        view: &StageView<'_, S>,
-        [r, motion]: [&Arms<K, S, D>; 2],
-        rates: &mut StageRates<'_, S>,
-        pull: &mut Arms<K, S, D>,
-    ) -> Result<(), StateError> {
-        let measures = self.kinematics.measure(r);
-        let gradient = self.kinematics.gradient(r, &measures);
-        let theta = self.temperature_in(&view.y[view.offsets.temperatures..]);
-        let x = self.variables_at(&measures, &view.y[view.offsets.viscous..], theta);
-        let found = self.model.rates(&x);
-        let viscosities = if M::DASHPOTS > 0 {
-            self.model.viscosity(theta).0
-        } else {
-            M::Viscosities::filled(S::zero())
-        };
-        let found = Found {
-            theta,
-            rates: &found,
-            viscosities: &viscosities,
-            gradient: &gradient,
-        };
-        let is_sound = self.write_rates(view, motion, &found, rates, pull);
-        if is_sound && self.kinematics.is_admissible(r, &measures) {
-            return Ok(());
-        }
-        Err(self.refuse(&found, r, &measures))
-    }
-
-    /// Adds its pull, and writes its rates; whether all of them are numbers.
+    /// Adds its forces on the nodes, and writes its rates; whether all of them are numbers.
     #[inline(always)]
     #[expect(
         clippy::inline_always,
@@ -153,28 +107,37 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
     )]
     pub(super) fn write_rates(
         &self,
-        view: &StageView<'_, S>,
-        motion: &Arms<K, S, D>,
+        nodes: &K::PerNode<u32>,
         found: &Found<'_, S, M, K, D>,
-        rates: &mut StageRates<'_, S>,
-        pull: &mut Arms<K, S, D>,
+        stage: &mut Stage<S, D>,
     ) -> bool {
+        let motion = arms_of::<K, S, D>(nodes, &stage.places, Place::velocity);
         let Rates { forces, slopes } = found.rates;
         let (mut drift, mut power) = (S::zero(), S::zero());
+        let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
         for a in 0..M::MEASURES {
-            add_scaled::<K, S, D>(pull, forces[a], &found.gradient[a]);
-            let speed = along::<K, S, D>(&found.gradient[a], motion);
+            add_scaled::<K, S, D>(&mut pull, forces[a], &found.gradient[a]);
+            let speed = along::<K, S, D>(&found.gradient[a], &motion);
             power += forces[a] * speed;
             drift += slopes[a] * speed;
         }
-        let first = self.slots().viscous;
-        let creeping = view.offsets.viscous + first;
+        for (index, arm) in pull.as_ref().iter().enumerate() {
+            for axis in 0..D {
+                stage.places[nodes[index + 1] as usize].rates[1][axis] -= arm[axis];
+                stage.places[nodes[0] as usize].rates[1][axis] += arm[axis];
+            }
+        }
+        let viscous = self.slots().viscous;
         let (mut heat, mut is_sound) = (S::zero(), true);
+        let per_theta = match M::THERMAL && M::DASHPOTS > 0 {
+            true => found.theta.recip(),
+            false => S::one(),
+        };
         for k in 0..M::DASHPOTS {
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
-            rates.row[creeping + k] = creep;
-            rates.powers[first + k] = g * creep;
+            stage.inner_rates[viscous + k] = creep;
+            stage.productions[viscous + k] = g * creep * per_theta;
             heat += g * creep;
             drift += slopes[M::MEASURES + k] * creep;
             is_sound &= S::zero().less(found.viscosities[k]).all() && creep.is_finite();
@@ -183,16 +146,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             return is_sound && power.is_finite();
         };
         let capacity = forces[Self::TEMPERATURE];
-        let heated = view.offsets.temperatures + slot;
-        let flow = rates.row[heated];
-        let heating = (flow + heat - found.theta * drift) / capacity;
-        if let Some(supply) = rates.supply.get_mut(slot) {
-            *supply = power + flow;
+        let rate = &mut stage.inner_rates[stage.temperatures + slot];
+        let flow = *rate;
+        *rate = (flow + heat - found.theta * drift) / capacity;
+        is_sound &= rate.is_finite();
+        if !stage.held.is_empty() {
+            stage.supply[slot] = power + flow;
+            if stage.held[slot] {
+                *rate = S::zero();
+            }
         }
-        let is_held = view.held.get(slot).copied().unwrap_or(false);
-        rates.row[heated] = if is_held { S::zero() } else { heating };
         let is_stable = S::zero().less(capacity) & S::zero().less(found.theta);
-        is_sound && is_stable.all() && heating.is_finite()
+        is_sound && is_stable.all()
     }
 
     /// Why there are no rates.

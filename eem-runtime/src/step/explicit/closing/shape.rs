@@ -5,7 +5,6 @@ use super::super::vector::{add, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use super::{FROZEN, MOST_TURNS, Verdict};
-use crate::element::group::points;
 use crate::element::state::State;
 use eem_material::number::scalar::{Discord, Mask, Real, unless};
 
@@ -45,7 +44,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         view: &ExplicitView<'_, S, D>,
         next: &mut State<S>,
     ) -> Result<Verdict, Discord> {
-        self.scratch.progress[index].seen = None;
         let progress = self.scratch.progress[index];
         let (defect, turns) = (progress.defect, progress.turns);
         if !defect.is_finite() {
@@ -75,7 +73,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if shifts.any() {
             let share = unless(!shifts, S::zero(), share);
             self.shift(index, (view, &means), share, next);
-            self.scratch.waits[index] = self.scratch.waits[index] & !shifts;
+            self.scratch.inactive[index] = self.scratch.inactive[index] & !shifts;
             self.restore_momenta(index);
         }
         let is_left = is_left & !shifts;
@@ -101,7 +99,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if !is_left.decide()? || progress.turns >= MOST_TURNS || !self.sink(index, defect, next)? {
             return Ok(false);
         }
-        self.scratch.waits[index] = S::Mask::none();
+        self.scratch.inactive[index] = S::Mask::none();
         Ok(true)
     }
 
@@ -122,19 +120,17 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// `Σ |F||q|`: times ε, by how much the rounding of positions changes the energy, J.
     fn granularity(&self, index: usize) -> S {
-        let forces = points::<S, D>(&self.scratch.forces);
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let masses = self.components.all[index].masses.clone();
-        masses.fold(S::zero(), |sum, place| {
-            let terms = forces[place].iter().zip(&positions[place]);
+        masses.fold(S::zero(), |sum, at| {
+            let terms = self.scratch.forces[at].iter().zip(self.stage.places[at].q());
             terms.fold(sum, |sum, (&force, &q)| sum + (force * q).abs())
         })
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {
         let (component, h) = (&self.components.all[index], view.step);
-        let rigid = self.rigid(component);
-        let forces = points::<S, D>(&self.scratch.forces);
+        let rigid = self.rigid(index);
+        let forces = &self.scratch.forces;
         let mut drift = [S::zero(); D];
         if component.support == Support::Free {
             for place in component.masses.clone() {
@@ -151,8 +147,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for place in component.masses.clone() {
             let own = self.inner_momentum(place, &rigid);
             let force = self.inner_force(place, &means);
-            means.motion += half * dot(&own, &own) * self.per_mass[place];
-            shape += dot(&force, &force) * self.per_mass[place];
+            let per_mass = self.stage.places[place].per_mass;
+            means.motion += half * dot(&own, &own) * per_mass;
+            shape += dot(&force, &force) * per_mass;
         }
         means.all = means.motion + means.motion + h * h * shape;
         means.all += h * self.creeping_power(index) + self.exchange(component, h);
@@ -161,19 +158,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// `Σ g²/η`, W.
     fn creeping_power(&self, index: usize) -> S {
-        let powers = self.scratch.powers.iter();
-        let owned = powers.zip(&self.components.of_dashpot);
+        let owned = self.scratch.creep.iter().zip(&self.components.of_dashpot);
         let own = owned.filter(|&(_, &owner)| owner as usize == index);
-        own.fold(S::zero(), |sum, (&power, _)| sum + power)
+        own.fold(S::zero(), |sum, (&[_, power], _)| sum + power)
     }
 
     /// `Σ 2hκ(Δθ)²/(θ_a + θ_b)` of the paths without a thermostat at an end, J.
     fn exchange(&self, component: &Component<S>, h: S) -> S {
         let mut sum = S::zero();
         for path in &self.components.paths[component.paths.clone()] {
-            let [a, b] = path
-                .ends
-                .map(|end| self.y[self.offsets.temperatures + end as usize]);
+            let [a, b] = path.ends.map(|end| self.stage.theta(end as usize));
             if !self.meets_thermostat(path.ends) {
                 let drop = a - b;
                 let heat = (h + h) * path.conductance * drop;
@@ -184,33 +178,29 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     fn meets_thermostat(&self, ends: [u32; 2]) -> bool {
-        let is_held = |end: u32| self.held.get(end as usize).copied().unwrap_or(false);
-        ends.into_iter().any(is_held)
+        ends.into_iter()
+            .any(|end| self.stage.is_held(end as usize))
     }
 
     /// The momentum of a mass that is no rigid motion.
     fn inner_momentum(&self, place: usize, rigid: &Rigid<S, D>) -> [S; D] {
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
-        let mass = self.masses[place];
-        let mut own = momenta[place];
-        let arm = rigid.origin.arm(&positions[place]);
-        add(&mut own, -mass, &rigid.velocity);
-        add(&mut own, -mass, &rigid.omega.turn(&arm));
+        let place = &self.stage.places[place];
+        let mut own = *place.p();
+        let arm = rigid.origin.arm(place.q());
+        add(&mut own, -place.mass, &rigid.velocity);
+        add(&mut own, -place.mass, &rigid.omega.turn(&arm));
         own
     }
 
     /// The gradient of the energy at fixed momenta, with its sign changed: the force less that of the
     /// rotation.
-    fn inner_force(&self, place: usize, means: &Means<S, D>) -> [S; D] {
-        let forces = points::<S, D>(&self.scratch.forces);
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let (mass, rigid) = (self.masses[place], &means.rigid);
-        let arm = rigid.origin.arm(&positions[place]);
+    fn inner_force(&self, at: usize, means: &Means<S, D>) -> [S; D] {
+        let (place, rigid) = (&self.stage.places[at], &means.rigid);
+        let arm = rigid.origin.arm(place.q());
         let toward = rigid.omega.turn(&rigid.omega.turn(&arm));
-        let mut force = forces[place];
-        add(&mut force, -mass, &toward);
-        add(&mut force, -mass, &means.drift);
+        let mut force = self.scratch.forces[at];
+        add(&mut force, -place.mass, &toward);
+        add(&mut force, -place.mass, &means.drift);
         force
     }
 
@@ -218,9 +208,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn scale_motion(&mut self, index: usize, rigid: &Rigid<S, D>, part: S) {
         for place in self.components.all[index].masses.clone() {
             let own = self.inner_momentum(place, rigid);
-            let momenta = &mut self.y[self.offsets.momenta..self.offsets.viscous];
-            add(&mut momenta.as_chunks_mut::<D>().0[place], part, &own);
+            add(&mut self.stage.places[place].now[1], part, &own);
         }
+        self.look_at_motion(index);
     }
 
     /// Moves all that can move along the gradient of the energy.
@@ -232,30 +222,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next: &mut State<S>,
     ) {
         let h = view.step;
-        let offsets = self.offsets;
         let masses = self.components.all[index].masses.clone();
-        for place in masses.clone() {
-            let own = self.inner_momentum(place, &means.rigid);
-            let force = self.inner_force(place, means);
-            // Positions are read again by no other place of the loop below.
-            let change = self.per_mass[place] * share * h * h;
-            let forces = &mut self.scratch.forces.as_chunks_mut::<D>().0[place];
-            *forces = force.map(|force| change * force);
-            let momenta = &mut self.y[offsets.momenta..offsets.viscous];
-            add(&mut momenta.as_chunks_mut::<D>().0[place], share, &own);
-        }
-        for place in masses {
-            let change = points::<S, D>(&self.scratch.forces)[place];
-            let positions = &mut self.y[..offsets.momenta];
-            add(
-                &mut positions.as_chunks_mut::<D>().0[place],
-                -S::one(),
-                &change,
-            );
+        for at in masses.clone() {
+            let own = self.inner_momentum(at, &means.rigid);
+            let force = self.inner_force(at, means);
+            let place = &mut self.stage.places[at];
+            let change = place.per_mass * share * h * h;
+            add(&mut place.now[1], share, &own);
+            add(&mut place.now[0], -change, &force);
         }
         for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
             if owner as usize == index {
-                self.y[offsets.viscous + dashpot] -= share * h * self.scratch.creep[dashpot];
+                self.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
             }
         }
         self.exchange_heat(index, share * h, next);
@@ -269,13 +247,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 continue;
             }
             let ends = path.ends.map(|end| end as usize);
-            let [a, b] = ends.map(|end| self.y[self.offsets.temperatures + end]);
+            let [a, b] = ends.map(|end| self.stage.theta(end));
             let entropy = (duration + duration) * path.conductance * (a - b) / (a + b);
             next.entropies.add(ends[0], entropy);
             match path.share {
                 None => next.entropies.add(ends[1], -entropy),
                 Some(share) => {
-                    self.new_books.shares.add(share as usize, -entropy);
+                    self.books.shares.add(share as usize, -entropy);
                     next.reservoir_entropies.add(ends[1] - slots, -entropy);
                 }
             }
@@ -301,18 +279,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let slots = self
             .slots_of(index)
             .map(|at| self.components.slots[at] as usize);
-        let takes =
-            |slot: &usize| self.produces[*slot] && !self.held.get(*slot).copied().unwrap_or(false);
-        let temperatures = &self.y[self.offsets.temperatures..];
+        let takes = |slot: &usize| self.produces[*slot] && !self.stage.is_held(*slot);
         let all = slots.filter(takes).fold(S::zero(), |all, slot| {
-            all + self.scratch.capacities[slot] * temperatures[slot]
+            all + self.scratch.capacities[slot][0] * self.stage.theta(slot)
         });
         if S::zero().less(all).decide()? {
             for at in self.slots_of(index) {
                 let slot = self.components.slots[at] as usize;
-                let is_held = self.held.get(slot).copied().unwrap_or(false);
-                if self.produces[slot] && !is_held {
-                    let entropy = self.scratch.capacities[slot] * (defect / all);
+                if self.produces[slot] && !self.stage.is_held(slot) {
+                    let entropy = self.scratch.capacities[slot][0] * (defect / all);
                     self.warm(index, slot, entropy, next);
                 }
             }
@@ -323,7 +298,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if loses {
             self.scratch.progress[index].lost += defect;
             next.dissipated.add(defect);
-            self.new_books.targets[index].lost.add(defect);
+            self.books.targets[index].lost.add(defect);
         }
         Ok(loses)
     }
