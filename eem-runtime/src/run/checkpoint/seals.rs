@@ -119,12 +119,14 @@ fn of_choice(saved: &SavedChoice) -> Entry {
 
 /// With what an explicit scheme goes on.
 fn of_explicit<S: Real>(explicit: &SavedExplicit<S>) -> Vec<Entry> {
-    let of_sums = explicit.sums().map(|(name, all)| sums(name, all));
+    let of_sums = explicit.sums().map(|(name, all)| {
+        let all = all.iter().map(|sum| (sum.value, sum.carry));
+        sums(name, all)
+    });
     let lists = explicit.lists();
     let flags = [explicit.is_new, explicit.is_motion_first];
     let lists = lists.map(|(name, list)| entry(name, list.iter().copied()));
     let booked = [
-        sums("shares of reservoirs", explicit.shares.sums()),
         entry("the largest momentum", [explicit.largest_momentum]),
         entry("what the energy is off by", [explicit.residue]),
         entry(

@@ -1,6 +1,7 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
 use super::demand::Demand;
+use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
@@ -36,8 +37,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ) -> Result<Attempt<S>, StepFailure> {
         let [start, h] = [view.state.time.value, view.step];
         let time = start + h;
-        self.prescribed.evaluate(view.loads, [start, h])?;
-        self.begin(view)?;
+        if self.is_driven {
+            self.prescribed.evaluate(view.loads, [start, h])?;
+        }
+        self.begin(view, next)?;
         self.go_through_stages(view)?;
         let scales = self.scales(time)?;
         let error = match demand {
@@ -90,29 +93,22 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Writes the closed state.
     fn store(&mut self, old: &State<S>, next: &mut State<S>) {
-        next.positions.copy_from(&old.positions);
-        next.momenta.copy_from(&old.momenta);
-        let placed = self.stage.places.iter().zip(&self.components.nodes);
-        next.positions.write(|values| {
-            let positions = values.as_chunks_mut::<D>().0;
-            for (place, &node) in placed.clone() {
-                positions[node as usize] = *place.q();
-            }
-            for (node, position, _) in self.prescribed.motions(super::tableau::STAGES - 1) {
-                positions[node] = *position;
-            }
-        });
-        next.momenta.write(|values| {
-            let momenta = values.as_chunks_mut::<D>().0;
-            for (place, &node) in placed.take(self.components.masses) {
-                momenta[node as usize] = *place.p();
-            }
-        });
+        for (place, &node) in self.stage.places.iter().zip(&self.components.nodes) {
+            next.positions.set_point(node as usize, place.q());
+            next.momenta.set_point(node as usize, place.p());
+        }
+        for (node, position, _) in self.prescribed.motions(STAGES - 1) {
+            next.positions.set_point(node, position);
+        }
         let (viscous, temperatures) = self.stage.inner.split_at(self.stage.temperatures);
-        next.viscous
-            .write(|values| values.copy_from_slice(viscous));
-        let count = next.temperatures.len();
-        next.temperatures.copy_from_slice(&temperatures[..count]);
-        self.conclude_thermostats(old, next);
+        for (dashpot, &stretch) in viscous.iter().enumerate() {
+            next.viscous.set(dashpot, stretch);
+        }
+        for (own, &theta) in next.temperatures.iter_mut().zip(temperatures) {
+            *own = theta;
+        }
+        if self.stage.has_thermostats {
+            self.conclude_thermostats(old, next);
+        }
     }
 }

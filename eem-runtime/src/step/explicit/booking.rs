@@ -50,7 +50,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 match path.share {
                     None => next.entropies.add(b, change),
                     Some(share) => {
-                        self.books.shares.add(share as usize, change);
+                        self.books.shares[share as usize].add(change);
                         next.reservoir_entropies.add(b - slots, change);
                     }
                 }

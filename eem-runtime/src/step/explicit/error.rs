@@ -2,10 +2,11 @@
 
 use super::demand::Scales;
 use super::stages::errors;
+use super::vector::dot;
 use super::{Explicit, ExplicitView};
 use crate::step::control::{Tolerance, norm};
 use crate::step::error::StepFailure;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real, Scalar};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// How large positions and momenta are at the end of the step before it is closed; all have to be finite.
@@ -14,12 +15,19 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let value = time.to_f64();
             return Err(StepFailure::Time { value });
         }
-        let masses = self.stage.places[..self.components.masses].iter();
-        let [position, momentum] =
-            [0, 1].map(|part| norm(masses.clone().flat_map(move |place| place.now[part])));
-        if !(position.is_finite() && momentum.is_finite()) {
+        let masses = &self.stage.places[..self.components.masses];
+        let mut squares = [S::zero(); 2];
+        for place in masses {
+            squares[0] += dot(place.q(), place.q());
+            squares[1] += dot(place.p(), place.p());
+        }
+        let mut sizes = squares.map(Scalar::sqrt);
+        let is_normal = |square: S| S::MIN_POSITIVE.less(square) & square.at_most(S::MAX);
+        if !(is_normal(squares[0]) & is_normal(squares[1])).all() {
+            sizes = [0, 1].map(|part| norm(masses.iter().flat_map(move |place| place.now[part])));
             self.expect_finite()?;
         }
+        let [position, momentum] = sizes;
         Ok(Scales {
             position,
             momentum: momentum.maximum(self.books.largest_momentum),

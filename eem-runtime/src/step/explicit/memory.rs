@@ -2,7 +2,7 @@
 
 use crate::algebra::bivector::{Bivector, planes};
 use crate::step::explicit::components::Components;
-use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
 /// The loads at the time of some rates.
@@ -55,7 +55,7 @@ pub(super) struct Books<S, const D: usize> {
     /// Per component.
     pub(super) targets: Vec<Target<S, D>>,
     /// What each reservoir has received from each component, J/K.
-    pub(super) shares: Compensated<S>,
+    pub(super) shares: Vec<Sum<S>>,
     /// The energies of elements with thermostats, per thermal slot, J; empty without.
     pub(super) held_energies: Vec<S>,
     /// The largest |p|₂ of all states so far, kg m/s.
@@ -94,7 +94,7 @@ impl<S: Real, const D: usize> Books<S, D> {
     pub(super) fn new(components: &Components<S>, held: usize) -> Self {
         Self {
             targets: vec![Target::none(); components.all.len()],
-            shares: Compensated::new(vec![S::zero(); components.shares.len()]),
+            shares: vec![Sum::new(S::zero()); components.shares.len()],
             held_energies: vec![S::zero(); held],
             largest_momentum: S::zero(),
             residue: S::zero(),
@@ -109,7 +109,7 @@ impl<S: Real, const D: usize> Books<S, D> {
             self.targets.copy_from_slice(&other.targets);
             self.held_energies.copy_from_slice(&other.held_energies);
         }
-        self.shares.copy_from(&other.shares);
+        self.shares.copy_from_slice(&other.shares);
         self.largest_momentum = other.largest_momentum;
         self.residue = other.residue;
         self.terms = other.terms;

@@ -1,6 +1,6 @@
 //! What an explicit scheme keeps between steps, as it is saved.
 
-use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::compensated::Sum;
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
@@ -20,7 +20,7 @@ pub(crate) struct SavedExplicit<S> {
     pub(crate) is_motion_first: bool,
     /// All sums of each component.
     pub(crate) targets: Vec<Sum<S>>,
-    pub(crate) shares: Compensated<S>,
+    pub(crate) shares: Vec<Sum<S>>,
     pub(crate) held_energies: Vec<S>,
     pub(crate) largest_momentum: S,
     pub(crate) residue: S,
@@ -33,15 +33,17 @@ pub(crate) struct SavedExplicit<S> {
 
 impl<S: Real> SavedExplicit<S> {
     /// All sums with their names.
-    pub(crate) fn sums(&self) -> [(&'static str, impl Iterator<Item = (S, S)> + Clone + '_); 1] {
-        let targets = self.targets.iter();
-        [("targets", targets.map(|sum| (sum.value, sum.carry)))]
+    pub(crate) fn sums(&self) -> [(&'static str, &[Sum<S>]); 2] {
+        [
+            ("targets", &self.targets),
+            ("shares of reservoirs", &self.shares),
+        ]
     }
 
     /// Forgets what belongs to no state.
     pub(super) fn clear(&mut self) {
         self.targets.fill(Sum::new(S::zero()));
-        self.shares.write(|shares| shares.fill(S::zero()));
+        self.shares.fill(Sum::new(S::zero()));
         (self.largest_momentum, self.residue) = (S::zero(), S::zero());
         let lists = [
             &mut self.held_energies,

@@ -55,7 +55,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 }
             });
         }
-        books.shares.copy_from(&saved.shares);
+        books.shares.copy_from_slice(&saved.shares);
         books.held_energies.copy_from_slice(&saved.held_energies);
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;

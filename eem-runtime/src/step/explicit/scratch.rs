@@ -1,9 +1,10 @@
 //! Working memory of the closing of a step.
 
 use crate::algebra::bivector::Bivector;
-use crate::element::group::{ComponentEnergy, UnkeptEntropy};
+use crate::element::group::{ComponentEnergy, Place, UnkeptEntropy};
 use crate::element::layout::Layout;
 use crate::step::explicit::components::Components;
+use crate::step::explicit::vector::{add, dot, size};
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::{Mask, Real};
 
@@ -16,6 +17,8 @@ pub(super) struct Progress<S: Real> {
     pub(super) has_heated: S::Mask,
     /// What is missing of the energy, J.
     pub(super) defect: S,
+    /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
+    pub(super) seen: Option<[S; 2]>,
     /// The magnitude of the terms of the energy where the closing began; zero before, J.
     pub(super) scale: S,
     /// The first defect over the scale.
@@ -97,6 +100,7 @@ impl<S: Real> Progress<S> {
             turns: 0,
             has_heated: S::Mask::none(),
             defect: S::zero(),
+            seen: None,
             scale: S::zero(),
             correction: S::zero(),
             lost: S::zero(),
@@ -121,6 +125,26 @@ impl<S: Real, const D: usize> Motion<S, D> {
             energy: Total::default(),
             magnitude: S::zero(),
             kinetic: S::zero(),
+        }
+    }
+
+    /// Adds a mass at the end of an arm.
+    #[inline]
+    pub(super) fn add(&mut self, place: &Place<S, D>, arm: &[S; D], gravity: Option<&[S; D]>) {
+        let (q, p) = (place.q(), place.p());
+        add(&mut self.linear, S::one(), p);
+        self.angular.add(S::one(), &Bivector::wedge(arm, p));
+        let momentum = size(p);
+        self.terms[0] += momentum;
+        self.terms[1] += size(arm).maximum(size(q)) * momentum;
+        let kinetic = S::from_f64(0.5) * dot(p, p) * place.per_mass;
+        self.energy.add(kinetic);
+        self.kinetic += kinetic;
+        self.magnitude += kinetic;
+        for (&g, &q) in gravity.into_iter().flatten().zip(q) {
+            let potential = -place.mass * g * q;
+            self.energy.add(potential);
+            self.magnitude += potential.abs();
         }
     }
 }

@@ -15,7 +15,7 @@ use eem_material::number::scalar::Real;
 const ROWS: [usize; STAGES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 2, 1];
 
 /// The rows of the stages with weights.
-const WEIGHTED_ROWS: [usize; WEIGHTED.len()] = rows(WEIGHTED);
+const WEIGHTED_ROWS: [usize; 8] = [0, 5, 6, 7, 8, 9, ROWS[10], ROWS[11]];
 
 /// Which of the stages with weights each stage is.
 const WEIGHT_OF: [Option<usize>; STAGES] = {
@@ -35,17 +35,6 @@ pub(super) enum From {
     Closing,
 }
 
-/// The rows of the rates of some stages.
-const fn rows<const T: usize>(stages: [usize; T]) -> [usize; T] {
-    let mut rows = stages;
-    let mut at = 0;
-    while at < T {
-        rows[at] = ROWS[stages[at]];
-        at += 1;
-    }
-    rows
-}
-
 /// `Σ E k` of both estimates.
 #[inline]
 pub(super) fn errors<S: Real, const N: usize, const P: usize>(
@@ -63,70 +52,66 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         &mut self,
         view: &ExplicitView<'_, S, D>,
     ) -> Result<(), StepFailure> {
-        let h = view.step;
-        for stage in 1..STAGES {
-            self.go_to(stage, h);
-            if self.is_driven {
-                self.move_to(stage);
-                let share = S::from_f64(TIMES[stage]);
-                self.evaluate_loads(view, view.state.time.value + share * h)?;
-            }
-            self.find_rates(From::Model, WEIGHT_OF[stage])?;
-        }
-        self.go_to(STAGES, h);
+        self.stage::<1, _>(view, [0], &ROW_1)?;
+        self.stage::<2, _>(view, [0, 1], &ROW_2)?;
+        self.stage::<3, _>(view, [0, 2], &ROW_3)?;
+        self.stage::<4, _>(view, [0, 2, 3], &ROW_4)?;
+        self.stage::<5, _>(view, [0, 3, 4], &ROW_5)?;
+        self.stage::<6, _>(view, [0, 3, 4, 5], &ROW_6)?;
+        self.stage::<7, _>(view, [0, 3, 4, 5, 6], &ROW_7)?;
+        self.stage::<8, _>(view, [0, 3, 4, 5, 6, 7], &ROW_8)?;
+        self.stage::<9, _>(view, [0, 3, 4, 5, 6, 7, 8], &ROW_9)?;
+        self.stage::<10, _>(view, [0, 3, 4, 5, 6, 7, 8, 9], &ROW_10)?;
+        self.stage::<11, _>(view, [0, 3, 4, 5, 6, 7, 8, 9, ROWS[10]], &ROW_11)?;
+        self.combine(STAGES - 1, view.step, WEIGHTED_ROWS, &WEIGHTS);
         if self.is_driven {
             self.move_to(STAGES - 1);
         }
         Ok(())
     }
 
-    /// Goes to a stage, or to the end of the step where there are no more stages.
-    fn go_to(&mut self, stage: usize, h: S) {
-        match stage {
-            1 => self.combine::<0, _>(h, [0], &ROW_1),
-            2 => self.combine::<1, _>(h, [0, 1], &ROW_2),
-            3 => self.combine::<2, _>(h, [0, 2], &ROW_3),
-            4 => self.combine::<3, _>(h, [0, 2, 3], &ROW_4),
-            5 => self.combine::<4, _>(h, [0, 3, 4], &ROW_5),
-            6 => self.combine::<5, _>(h, [0, 3, 4, 5], &ROW_6),
-            7 => self.combine::<6, _>(h, [0, 3, 4, 5, 6], &ROW_7),
-            8 => self.combine::<7, _>(h, [0, 3, 4, 5, 6, 7], &ROW_8),
-            9 => self.combine::<8, _>(h, [0, 3, 4, 5, 6, 7, 8], &ROW_9),
-            10 => self.combine::<9, _>(h, [0, 3, 4, 5, 6, 7, 8, 9], &ROW_10),
-            11 => self.combine::<10, _>(h, [0, 3, 4, 5, 6, 7, 8, 9, 10], &ROW_11),
-            _ => self.combine::<11, _>(h, WEIGHTED, &WEIGHTS),
-        }
-    }
-
-    /// Keeps the rates of the present stage, `LAST`, goes to `y = y⁰ + h Σ a k` with those of some stages, and begins
-    /// the rates there.
+    /// Goes to a stage and finds its rates.
     #[inline(always)]
     #[expect(
         clippy::inline_always,
         reason = "stages and coefficients are constants of the caller"
     )]
-    fn combine<const LAST: usize, const T: usize>(
+    fn stage<const STAGE: usize, const T: usize>(
         &mut self,
-        h: S,
-        stages: [usize; T],
+        view: &ExplicitView<'_, S, D>,
+        rows: [usize; T],
         a: &[f64; T],
-    ) {
-        let rows = rows(stages);
+    ) -> Result<(), StepFailure> {
+        self.combine(STAGE - 1, view.step, rows, a);
+        if self.is_driven {
+            self.move_to(STAGE);
+            let share = S::from_f64(TIMES[STAGE]);
+            self.evaluate_loads(view, view.state.time.value + share * view.step)?;
+        }
+        self.find_rates(From::Model, WEIGHT_OF[STAGE])?;
+        Ok(())
+    }
+
+    /// Keeps the rates of the last stage, goes to `y = y⁰ + h Σ a k` with those in some rows, and begins the rates
+    /// there.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as above")]
+    fn combine<const T: usize>(&mut self, last: usize, h: S, rows: [usize; T], a: &[f64; T]) {
         for place in &mut self.stage.places[..self.components.masses] {
-            if LAST == 0 {
+            if last == 0 {
                 place.past.start = place.now;
             }
-            place.past.rates[ROWS[LAST]] = place.rates;
+            place.past.rates[ROWS[last]] = place.rates;
             place.now = place.past.after(h, rows, a);
             place.begin_rates();
         }
         let variables = self.stage.inner.as_chunks_mut::<2>().0.iter_mut();
         let variables = variables.zip(self.stage.inner_rates.as_chunks_mut::<2>().0);
         for ((now, rates), past) in variables.zip(&mut self.stage.inner_past) {
-            if LAST == 0 {
+            if last == 0 {
                 past.start = [*now];
             }
-            past.rates[ROWS[LAST]] = [*rates];
+            past.rates[ROWS[last]] = [*rates];
             [*now] = past.after(h, rows, a);
             *rates = [S::zero(); 2];
         }
@@ -161,6 +146,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The rates of a stage, which have been begun, and its share in the integrals of the step.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as above")]
     pub(super) fn find_rates(
         &mut self,
         from: From,

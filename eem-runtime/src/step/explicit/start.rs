@@ -14,25 +14,26 @@ use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Puts the stage and the books to the start of a step, and begins its integrals.
-    pub(super) fn begin(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
-        let has_books = self.is_ready && self.has_left;
-        if has_books {
-            self.rewind(view);
-        } else if !self.is_ready {
+    pub(super) fn begin(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        next: &mut State<S>,
+    ) -> Result<(), StepFailure> {
+        if self.has_left || !self.is_ready {
+            // Steps write what moves; all else is the same in both states from now on.
+            next.copy_from(view.state);
             self.load(view);
-            self.set_anchors_going();
-            self.evaluate_loads(view, view.state.time.value)?;
-            self.find_rates(From::Model, None)?;
-            self.set_targets(view.state);
-            self.is_ready = true;
+            if self.is_ready {
+                self.rewind();
+            } else {
+                self.prepare(view)?;
+            }
         }
         self.old_books.copy_from(&self.books, self.is_driven);
-        let first = S::from_f64(WEIGHTS[0]);
-        let productions = self.stage.productions.iter();
-        let kept = self.start.productions.iter_mut().zip(productions);
+        let kept = self.start.productions.iter_mut().zip(&self.stage.productions);
         for (sum, (kept, &production)) in self.integrals.productions.iter_mut().zip(kept) {
             *kept = production;
-            *sum = first * production;
+            *sum = S::from_f64(WEIGHTS[0]) * production;
         }
         for path in &mut self.components.paths {
             for (seen, end) in path.seen.iter_mut().zip(path.ends) {
@@ -49,6 +50,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Takes the variables of a state.
+    #[cold]
     fn load(&mut self, view: &ExplicitView<'_, S, D>) {
         let (state, stage) = (view.state, &mut self.stage);
         let positions = points::<S, D>(state.positions.values());
@@ -66,10 +68,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Goes back to where the last attempt began.
+    /// Finds rates and targets.
     #[cold]
-    fn rewind(&mut self, view: &ExplicitView<'_, S, D>) {
-        self.load(view);
+    fn prepare(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
+        self.set_anchors_going();
+        self.evaluate_loads(view, view.state.time.value)?;
+        self.find_rates(From::Model, None)?;
+        self.set_targets(view.state);
+        self.is_ready = true;
+        Ok(())
+    }
+
+    /// Goes back to rates and books at the start of the last attempt.
+    #[cold]
+    fn rewind(&mut self) {
         for place in &mut self.stage.places[..self.kept_places] {
             place.rates = place.past.rates[0];
         }
@@ -97,7 +109,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Takes energy and momenta of this state as the conserved targets.
     fn set_targets(&mut self, state: &State<S>) {
-        self.books.shares.write(|shares| shares.fill(S::zero()));
+        self.books.shares.fill(Sum::new(S::zero()));
         (self.books.largest_momentum, self.books.residue) = (S::zero(), S::zero());
         self.books.terms = None;
         self.sum_energies(state);

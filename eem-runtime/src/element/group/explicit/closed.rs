@@ -1,5 +1,6 @@
 //! What is kept of an element that has been closed.
 
+use crate::element::group::explicit::rates::Found;
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use eem_material::free_energy::{Array, FreeEnergy, Rates};
 use eem_material::number::scalar::{Mask, Real, unless};
@@ -108,7 +109,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
     /// Forces and viscosities at a temperature that is nearly that of the evaluation:
     /// `∂f/∂θ = −∂s/∂λ`, `∂g/∂θ = ∂s/∂γ`.
     #[inline]
-    pub(super) fn at(&self, theta: S) -> (Rates<M::Variables>, M::Viscosities) {
+    pub(super) fn at(&self, theta: S) -> Found<S, M, K, D> {
         let change = theta - self.theta;
         let (mut rates, (mut viscosities, slopes)) = (self.rates, self.viscosities);
         for a in 0..M::MEASURES {
@@ -119,6 +120,11 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
             rates.forces[index] += rates.slopes[index] * change;
             viscosities[k] += slopes[k] * change;
         }
-        (rates, viscosities)
+        Found {
+            theta,
+            rates,
+            viscosities,
+            gradient: self.gradient,
+        }
     }
 }

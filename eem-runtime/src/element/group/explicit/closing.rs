@@ -6,7 +6,7 @@ use crate::element::error::StateError;
 use crate::element::group::arms::add_scaled;
 use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::group::FreeGroup;
-use crate::element::group::explicit::rates::{Found, arms_of};
+use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::explicit::temperature::Settled;
 use crate::element::group::explicit::view::ClosingView;
@@ -58,18 +58,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, 
     /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
     pub(super) fn finish_all(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
         for ((point, nodes), closed) in self.placed().zip(&self.closed) {
-            let theta = point.temperature_in(stage);
-            let (rates, viscosities) = closed.at(theta);
-            let found = Found {
-                theta,
-                rates: &rates,
-                viscosities: &viscosities,
-                gradient: &closed.gradient,
-            };
-            if !point.write_rates(nodes, &found, stage) {
-                let r = arms_of::<K, S, D>(nodes, &stage.places, Place::q);
-                let measures = point.kinematics.measure(&r);
-                return Err(point.refuse(&found, &r, &measures));
+            if !point.write_rates(nodes, &closed.at(point.temperature_in(stage)), stage) {
+                let r = arms_of::<K, S, D>(&nodes, &stage.places, Place::q);
+                return Err(point.refuse(&r, stage));
             }
         }
         Ok(())

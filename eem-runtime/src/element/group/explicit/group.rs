@@ -40,9 +40,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, 
     #[inline]
     pub(super) fn placed(
         &self,
-    ) -> impl Iterator<Item = (&Point<S, M, K, PointRule, D>, &K::PerNode<u32>)> {
+    ) -> impl Iterator<Item = (&Point<S, M, K, PointRule, D>, K::PerNode<u32>)> {
         let members = self.elements.members.iter().zip(&self.places);
-        members.map(|(member, (_, nodes))| (member.only(), nodes))
+        members.map(|(member, &(_, nodes))| (member.only(), nodes))
     }
 }
 

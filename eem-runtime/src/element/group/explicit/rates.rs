@@ -6,7 +6,7 @@
 
 use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, along};
+use crate::element::group::arms::{add_scaled, along, scale};
 use crate::element::group::explicit::group::FreeGroup;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::point::Point;
@@ -15,37 +15,23 @@ use eem_material::free_energy::{Array, FreeEnergy, Material, Rates};
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// What the rates of a point follow from.
-pub(super) struct Found<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
+pub(super) struct Found<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
     pub(super) theta: S,
-    pub(super) rates: &'a Rates<M::Variables>,
-    pub(super) viscosities: &'a M::Viscosities,
-    pub(super) gradient: &'a Gradient<K, S, D>,
+    pub(super) rates: Rates<M::Variables>,
+    pub(super) viscosities: M::Viscosities,
+    pub(super) gradient: Gradient<K, S, D>,
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
     pub(super) fn rates_of_all(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
         for (point, nodes) in self.placed() {
-            let r = arms_of::<K, S, D>(nodes, &stage.places, Place::q);
+            let r = arms_of::<K, S, D>(&nodes, &stage.places, Place::q);
             let measures = point.kinematics.measure(&r);
-            let gradient = point.kinematics.gradient(&r, &measures);
-            let theta = point.temperature_in(stage);
-            let found = point
-                .model
-                .rates(&point.variables_at(&measures, stage, theta));
-            let viscosities = match M::DASHPOTS {
-                0 => M::Viscosities::filled(S::zero()),
-                _ => point.model.viscosity(theta).0,
-            };
-            let found = Found {
-                theta,
-                rates: &found,
-                viscosities: &viscosities,
-                gradient: &gradient,
-            };
+            let found = point.found_at(&r, &measures, stage);
             let is_sound = point.write_rates(nodes, &found, stage);
             if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
-                return Err(point.refuse(&found, &r, &measures));
+                return Err(point.refuse(&r, stage));
             }
         }
         Ok(())
@@ -69,6 +55,28 @@ pub(super) fn arms_of<K: Kinematics<S, D>, S: Real, const D: usize>(
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "what was found stays in registers")]
+    fn found_at(
+        &self,
+        r: &Arms<K, S, D>,
+        measures: &Measures<K, S, D>,
+        stage: &Stage<S, D>,
+    ) -> Found<S, M, K, D> {
+        let theta = self.temperature_in(stage);
+        // First, as fewer numbers have to be put aside for a call of `exp`.
+        let viscosities = match M::DASHPOTS {
+            0 => M::Viscosities::filled(S::zero()),
+            _ => self.model.viscosity(theta).0,
+        };
+        Found {
+            theta,
+            rates: self.model.rates(&self.variables_at(measures, stage, theta)),
+            viscosities,
+            gradient: self.kinematics.gradient(r, measures),
+        }
+    }
+
     /// The variables at a stage with these measures.
     #[inline]
     pub(super) fn variables_at(
@@ -107,15 +115,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
     )]
     pub(super) fn write_rates(
         &self,
-        nodes: &K::PerNode<u32>,
-        found: &Found<'_, S, M, K, D>,
+        nodes: K::PerNode<u32>,
+        found: &Found<S, M, K, D>,
         stage: &mut Stage<S, D>,
     ) -> bool {
-        let motion = arms_of::<K, S, D>(nodes, &stage.places, Place::velocity);
-        let Rates { forces, slopes } = found.rates;
-        let (mut drift, mut power) = (S::zero(), S::zero());
-        let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
-        for a in 0..M::MEASURES {
+        let motion = arms_of::<K, S, D>(&nodes, &stage.places, Place::velocity);
+        let Rates { forces, slopes } = &found.rates;
+        let mut pull = found.gradient[0];
+        scale::<K, S, D>(&mut pull, forces[0]);
+        let speed = along::<K, S, D>(&found.gradient[0], &motion);
+        let (mut power, mut drift) = (forces[0] * speed, slopes[0] * speed);
+        for a in 1..M::MEASURES {
             add_scaled::<K, S, D>(&mut pull, forces[a], &found.gradient[a]);
             let speed = along::<K, S, D>(&found.gradient[a], &motion);
             power += forces[a] * speed;
@@ -140,7 +150,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             stage.productions[viscous + k] = g * creep * per_theta;
             heat += g * creep;
             drift += slopes[M::MEASURES + k] * creep;
-            is_sound &= S::zero().less(found.viscosities[k]).all() && creep.is_finite();
+            is_sound &= S::zero().less(found.viscosities[k]).all();
+            // With temperature its heat is part of θ̇.
+            is_sound &= M::THERMAL || creep.is_finite();
         }
         let Some(slot) = self.slots().thermal else {
             return is_sound && power.is_finite();
@@ -150,7 +162,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         let flow = *rate;
         *rate = (flow + heat - found.theta * drift) / capacity;
         is_sound &= rate.is_finite();
-        if !stage.held.is_empty() {
+        if stage.has_thermostats {
             stage.supply[slot] = power + flow;
             if stage.held[slot] {
                 *rate = S::zero();
@@ -162,16 +174,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
 
     /// Why there are no rates.
     #[cold]
-    pub(super) fn refuse(
-        &self,
-        found: &Found<'_, S, M, K, D>,
-        r: &Arms<K, S, D>,
-        measures: &Measures<K, S, D>,
-    ) -> StateError {
+    pub(super) fn refuse(&self, r: &Arms<K, S, D>, stage: &Stage<S, D>) -> StateError {
         let element = self.element;
-        if !self.kinematics.is_admissible(r, measures) {
+        let measures = self.kinematics.measure(r);
+        if !self.kinematics.is_admissible(r, &measures) {
             return self.kinematics.refusal(element, r);
         }
+        let found = self.found_at(r, &measures, stage);
         let theta = found.theta;
         if M::THERMAL && !is_positive(theta) {
             let value = theta.to_f64();

@@ -63,6 +63,7 @@ impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
 
 /// A mass, or an anchor for one of the components that it holds.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
 pub(crate) struct Place<S, const D: usize> {
     /// q, m, and p, kg m/s.
     pub(crate) now: [[S; D]; 2],
@@ -128,6 +129,7 @@ pub(crate) struct Stage<S: Real, const D: usize> {
     pub(crate) supply: Vec<S>,
     /// Whether a thermostat gives the temperature, per thermal slot; empty without thermostats.
     pub(crate) held: Vec<bool>,
+    pub(crate) has_thermostats: bool,
 }
 
 impl<S: Real, const D: usize> Stage<S, D> {
@@ -151,6 +153,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
             temperatures: layout.viscous,
             productions: vec![S::zero(); layout.viscous],
             supply: vec![S::zero(); held.len()],
+            has_thermostats: !held.is_empty(),
             held,
         }
     }

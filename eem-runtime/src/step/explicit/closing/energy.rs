@@ -2,9 +2,8 @@
 
 use super::super::Explicit;
 use super::super::scratch::Motion;
-use super::super::vector::{add, dot, size};
+use super::super::vector::dot;
 use super::Verdict;
-use crate::algebra::bivector::Bivector;
 use crate::element::group::is_met;
 use crate::element::state::State;
 use core::ops::Range;
@@ -24,26 +23,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     pub(in super::super) fn look_at_motion(&mut self, index: usize) {
         let component = &self.components.all[index];
         let origin = Self::origin(&self.stage.places, component);
-        let (half, mut motion) = (S::from_f64(0.5), Motion::none());
+        let mut motion = Motion::none();
         for place in &self.stage.places[component.masses.clone()] {
-            let (q, p) = (place.q(), place.p());
-            let arm = origin.arm(q);
-            add(&mut motion.linear, S::one(), p);
-            motion.angular.add(S::one(), &Bivector::wedge(&arm, p));
-            let momentum = size(p);
-            motion.terms[0] += momentum;
-            motion.terms[1] += size(&arm).maximum(size(q)) * momentum;
-            let kinetic = half * dot(p, p) * place.per_mass;
-            motion.energy.add(kinetic);
-            motion.kinetic += kinetic;
-            motion.magnitude += kinetic;
-            if let Some(gravity) = &self.gravity {
-                for (&g, &q) in gravity.iter().zip(q) {
-                    let potential = -place.mass * g * q;
-                    motion.energy.add(potential);
-                    motion.magnitude += potential.abs();
-                }
-            }
+            motion.add(place, &origin.arm(place.q()), self.gravity.as_ref());
         }
         self.scratch.motions[index] = motion;
     }
@@ -61,7 +43,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir as usize;
             let theta = self.stage.theta(self.components.elements.len() + reservoir);
-            let sum = self.books.shares.sum(share);
+            let sum = self.books.shares[share];
             energy.add(theta * sum.value);
             energy.add(theta * sum.carry);
             magnitude += (theta * sum.value).abs();
@@ -120,8 +102,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Looks at the energy of a component; whether it is a number.
     fn look(&mut self, index: usize) -> bool {
-        let [defect, magnitude] = self.defect_of(index);
+        let seen = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
+        progress.seen = Some(seen);
+        let [defect, magnitude] = seen;
         progress.defect = defect;
         let begins = progress.scale.equal(S::zero());
         if begins.any() {
@@ -175,6 +159,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             self.books.targets[index].lost.add(change);
         }
         scratch.progress[index].factor *= S::one() + part;
+        scratch.progress[index].seen = None;
         let mut is_small = !S::Mask::none();
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;

@@ -4,6 +4,7 @@ use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
 use super::super::inertia::{Inertia, Moments, WEAK};
+use super::super::scratch::Motion;
 use super::super::vector::{Origin, add, dot};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::Place;
@@ -104,17 +105,22 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         moments
     }
 
-    /// Adds a rigid motion to the momenta, except in inactive lanes.
+    /// Adds a rigid motion to the momenta, except in inactive lanes, and looks at what the masses have then.
     fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>, inactive: S::Mask) {
         let masses = self.components.all[index].masses.clone();
+        let mut motion = Motion::none();
         for place in &mut self.stage.places[masses] {
-            let turning = rigid.omega.turn(&rigid.origin.arm(place.q()));
+            let arm = rigid.origin.arm(place.q());
+            let turning = rigid.omega.turn(&arm);
             let mut momentum = *place.p();
-            add(&mut momentum, place.mass, &rigid.velocity);
-            add(&mut momentum, place.mass, &turning);
+            for axis in 0..D {
+                momentum[axis] += place.mass * (rigid.velocity[axis] + turning[axis]);
+            }
             place.now[1] =
                 core::array::from_fn(|axis| unless(inactive, place.now[1][axis], momentum[axis]));
+            motion.add(place, &arm, self.gravity.as_ref());
         }
+        self.scratch.motions[index] = motion;
     }
 
     /// Puts the momenta back to their targets; in space again where the rounding of a correction matters.
@@ -152,7 +158,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let component = &self.components.all[index];
             let rigid = body.motion(component, (&linear, &angular));
             self.add_rigid(index, &rigid, correct);
-            self.look_at_motion(index);
             let [_, terms] = self.scratch.motions[index].terms;
             // The rotation is known to ε/WEAK of itself.
             correct = correct | angular.largest().at_most(S::from_f64(WEAK) * terms);

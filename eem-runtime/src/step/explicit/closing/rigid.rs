@@ -50,13 +50,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir as usize;
             // One by one: their difference would be rounded to ε of what is taken back.
-            let [new, old] = [&self.books, &self.old_books].map(|books| books.shares.sum(share));
+            let [new, old] = [&self.books, &self.old_books].map(|books| books.shares[share]);
             for change in [-new.value, old.value, -new.carry, old.carry] {
                 next.reservoir_entropies.add(reservoir, change);
             }
-            self.books
-                .shares
-                .advance(share, &self.old_books.shares, S::zero());
+            self.books.shares[share] = old;
         }
         if self.is_driven {
             let old = self.old_books.targets[index].lost;
@@ -66,6 +64,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let progress = &mut self.scratch.progress[index];
         progress.is_rigid = true;
+        progress.seen = None;
         progress.production = Total::default();
         progress.factor = S::zero();
         self.scratch.inactive[index] = S::Mask::none();

@@ -44,6 +44,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         view: &ExplicitView<'_, S, D>,
         next: &mut State<S>,
     ) -> Result<Verdict, Discord> {
+        self.scratch.progress[index].seen = None;
         let progress = self.scratch.progress[index];
         let (defect, turns) = (progress.defect, progress.turns);
         if !defect.is_finite() {
@@ -253,7 +254,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             match path.share {
                 None => next.entropies.add(ends[1], -entropy),
                 Some(share) => {
-                    self.books.shares.add(share as usize, -entropy);
+                    self.books.shares[share as usize].add(-entropy);
                     next.reservoir_entropies.add(ends[1] - slots, -entropy);
                 }
             }
