@@ -45,7 +45,7 @@ use crate::scene::loads::Loads;
 use components::Components;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
-use memory::{Books, Integrals, LoadSums, Outside};
+use memory::{Books, LoadSums, Outside};
 use prescribed::Prescribed;
 use scratch::Scratch;
 
@@ -68,12 +68,12 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     is_driven: bool,
     /// The places whose rates are kept: masses, and anchors where some are moved.
     kept_places: usize,
-    /// The present stage, between steps that at the end of the last one with its rates; and what acts there.
+    /// The present stage, between steps that at the end of the last one with its rates.
     stage: Stage<S, D>,
+    /// The loads there, at the start of the step, and what they have done since to each component; empty without.
     outside: Outside<S>,
-    /// What belongs to the rates at the start of the step.
-    start: Start<S>,
-    integrals: Integrals<S, D>,
+    start_outside: Outside<S>,
+    load_sums: Vec<LoadSums<S, D>>,
     /// The books of the step, and as they were before it.
     books: Books<S, D>,
     old_books: Books<S, D>,
@@ -87,14 +87,6 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     has_left: bool,
     /// How often all elements have been evaluated.
     evaluations: u64,
-}
-
-/// What dashpots and thermostats do, and what acts from outside, at the start of a step.
-#[derive(Clone, Debug)]
-struct Start<S> {
-    productions: Vec<S>,
-    supply: Vec<S>,
-    outside: Outside<S>,
 }
 
 /// What a step needs besides the memory of the scheme.
@@ -144,16 +136,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let books = Books::new(&components, stage.held.len());
         Self {
             produces: produces(&components, site.layout, &dashpot_slots),
-            integrals: Integrals {
-                productions: stage.productions.clone(),
-                supply: stage.supply.clone(),
-                loads: vec![LoadSums::none(); if has_loads { components.all.len() } else { 0 }],
-            },
-            start: Start {
-                productions: stage.productions.clone(),
-                supply: stage.supply.clone(),
-                outside: outside.clone(),
-            },
+            load_sums: vec![LoadSums::none(); if has_loads { components.all.len() } else { 0 }],
+            start_outside: outside.clone(),
             old_books: books.clone(),
             books,
             scratch: Scratch::new(&components, site.layout, site.masses.len()),

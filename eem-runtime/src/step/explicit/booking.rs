@@ -61,10 +61,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn book_dashpots(&mut self, h: S, next: &mut State<S>) {
         let scratch = &mut self.scratch;
         let slots = scratch.produced.len();
-        let integrals = self.integrals.productions.iter().zip(&self.dashpot_slots);
-        for ((&integral, &slot), &component) in integrals.zip(&self.components.of_dashpot) {
+        let integrals = self.stage.productions.iter().zip(&self.dashpot_slots);
+        for ((integral, &slot), &component) in integrals.zip(&self.components.of_dashpot) {
             let (slot, progress) = (slot as usize, &mut scratch.progress[component as usize]);
-            let production = guarded(h * integral);
+            let production = guarded(h * integral.sum);
             if slot >= slots {
                 // The heat of an element without temperature leaves the scene.
                 progress.lost += production;
@@ -86,7 +86,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     fn book_loads(&mut self, h: S, next: &mut State<S>) {
-        for (target, sums) in self.books.targets.iter_mut().zip(&self.integrals.loads) {
+        for (target, sums) in self.books.targets.iter_mut().zip(&self.load_sums) {
             target.energy.add(h * sums.work);
             next.work.add(h * sums.work);
             for (linear, &impulse) in target.linear.iter_mut().zip(&sums.impulse) {
@@ -136,7 +136,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for (slot, _) in self.stage.held.iter().enumerate().filter(|&(_, &is)| is) {
             let element = self.components.elements[slot] as usize;
             let change = next.energies[element].value - self.books.held_energies[slot];
-            let heat = change - h * self.integrals.supply[slot];
+            let heat = change - h * self.stage.supply[slot].sum;
             let component = self.components.of_element[element] as usize;
             self.books.targets[component].energy.add(heat);
             next.heat.add(heat);

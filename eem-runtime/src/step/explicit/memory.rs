@@ -14,17 +14,6 @@ pub(super) struct Outside<S> {
     pub(super) forces: Vec<S>,
 }
 
-/// The integrals of a step.
-#[derive(Clone, Debug)]
-pub(super) struct Integrals<S, const D: usize> {
-    /// What each dashpot produces, J/K, or its heat without temperature, J.
-    pub(super) productions: Vec<S>,
-    /// `f λ̇` and the heat that flows in, per thermal slot, J; empty without thermostats.
-    pub(super) supply: Vec<S>,
-    /// Per component; empty without loads and moved anchors.
-    pub(super) loads: Vec<LoadSums<S, D>>,
-}
-
 /// What loads have done to a component in a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LoadSums<S, const D: usize> {

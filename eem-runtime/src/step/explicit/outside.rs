@@ -38,23 +38,24 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Begins the integrals of a step at its start, and keeps the rates of anchors.
     pub(super) fn begin_outside(&mut self) {
-        self.integrals.supply.fill(S::zero());
-        self.integrals.loads.fill(LoadSums::none());
+        self.start_outside.copy_from(&self.outside);
+        self.load_sums.fill(LoadSums::none());
+        self.stage.weight = S::from_f64(WEIGHTS[0]);
+        for supply in &mut self.stage.supply {
+            supply.begin(self.stage.weight);
+        }
         for place in &mut self.stage.places[self.components.masses..self.kept_places] {
             place.past.rates[0] = place.rates;
         }
-        self.integrate_outside(S::from_f64(WEIGHTS[0]));
+        self.integrate_outside();
     }
 
-    /// Adds the power of thermostats, and power, force and torque of loads and moved anchors at the present stage.
-    pub(super) fn integrate_outside(&mut self, weight: S) {
-        let supply = self.stage.supply.iter();
-        for (sum, &supply) in self.integrals.supply.iter_mut().zip(supply) {
-            *sum += weight * supply;
-        }
-        for index in 0..self.integrals.loads.len() {
+    /// Adds power, force and torque of loads and moved anchors at the present stage.
+    pub(super) fn integrate_outside(&mut self) {
+        let weight = self.stage.weight;
+        for index in 0..self.load_sums.len() {
             let component = &self.components.all[index];
-            let sums = &mut self.integrals.loads[index];
+            let sums = &mut self.load_sums[index];
             let origin = Self::origin(&self.stage.places, component);
             let mut momentum = [S::zero(); D];
             for at in component.masses.clone() {
@@ -75,7 +76,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for at in self.components.masses..self.kept_places {
             let component = self.components.of_place[at] as usize;
             let [velocity, reaction] = &self.stage.places[at].rates;
-            self.integrals.loads[component].work -= weight * dot(reaction, velocity);
+            self.load_sums[component].work -= weight * dot(reaction, velocity);
         }
     }
 }

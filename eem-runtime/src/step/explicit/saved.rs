@@ -3,6 +3,7 @@
 use super::Explicit;
 use super::memory::Target;
 use super::past::SavedExplicit;
+use crate::element::group::Integral;
 use crate::element::state::State;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
@@ -12,14 +13,17 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     pub(crate) fn save(&self, state: &State<S>) -> SavedExplicit<S> {
         // After an attempt that was not accepted the stage is elsewhere.
         let has_left = self.has_left;
-        let (books, start) = (&self.books, &self.start);
+        let books = &self.books;
         let booked = if has_left { &self.old_books } else { books };
         let changed = if self.is_driven { booked } else { books };
-        let [productions, supply] = match has_left {
-            true => [&start.productions, &start.supply],
-            false => [&self.stage.productions, &self.stage.supply],
+        let outside = match has_left {
+            true => &self.start_outside,
+            false => &self.outside,
         };
-        let outside = if has_left { &start.outside } else { &self.outside };
+        let rates = |integrals: &[Integral<S>]| {
+            let rates = integrals.iter();
+            rates.map(|of| if has_left { of.start } else { of.rate }).collect()
+        };
         let mut saved = SavedExplicit {
             is_new: !self.is_ready,
             state: state.digest(),
@@ -30,8 +34,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             largest_momentum: booked.largest_momentum,
             residue: booked.residue,
             rates: self.saved_rates(),
-            productions: productions.clone(),
-            supply: supply.clone(),
+            productions: rates(&self.stage.productions),
+            supply: rates(&self.stage.supply),
             loads: outside.loads.clone(),
             forces: outside.forces.clone(),
         };
@@ -46,7 +50,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.is_ready = !saved.is_new;
         self.has_left = true;
         self.is_motion_first = saved.is_motion_first;
-        let (books, start) = (&mut self.books, &mut self.start);
+        let (books, outside) = (&mut self.books, &mut self.start_outside);
         let mut sums = saved.targets.iter();
         for target in &mut books.targets {
             target.each_mut(|own| {
@@ -61,10 +65,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         books.residue = saved.residue;
         books.terms = None;
         self.old_books.copy_from(books, true);
-        start.productions.copy_from_slice(&saved.productions);
-        start.supply.copy_from_slice(&saved.supply);
-        start.outside.loads.copy_from_slice(&saved.loads);
-        start.outside.forces.copy_from_slice(&saved.forces);
+        outside.loads.copy_from_slice(&saved.loads);
+        outside.forces.copy_from_slice(&saved.forces);
+        let stage = &mut self.stage;
+        let integrals = stage.productions.iter_mut().chain(&mut stage.supply);
+        for (own, &rate) in integrals.zip(saved.productions.iter().chain(&saved.supply)) {
+            own.start = rate;
+        }
         let (places, inner) = saved.rates.split_at(2 * D * self.kept_places);
         let places = places.as_chunks::<D>().0.as_chunks::<2>().0.iter();
         for (place, rates) in self.stage.places.iter_mut().zip(places) {

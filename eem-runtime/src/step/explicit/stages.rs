@@ -153,6 +153,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         from: From,
         weight: Option<usize>,
     ) -> Result<(), StateError> {
+        self.stage.weight = weight.map_or(S::zero(), |at| S::from_f64(WEIGHTS[at]));
         let (inner, first) = (&self.stage.inner, self.stage.temperatures);
         for path in &mut self.components.paths {
             let [a, b] = path.ends.map(|end| first + end as usize);
@@ -174,15 +175,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
         }
         self.evaluations += u64::from(from == From::Model);
-        if let Some(at) = weight {
-            let weight = S::from_f64(WEIGHTS[at]);
-            let productions = self.stage.productions.iter();
-            for (sum, &production) in self.integrals.productions.iter_mut().zip(productions) {
-                *sum += weight * production;
-            }
-            if self.is_driven {
-                self.integrate_outside(weight);
-            }
+        if self.is_driven && weight.is_some() {
+            self.integrate_outside();
         }
         Ok(())
     }

@@ -30,10 +30,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
         }
         self.old_books.copy_from(&self.books, self.is_driven);
-        let kept = self.start.productions.iter_mut().zip(&self.stage.productions);
-        for (sum, (kept, &production)) in self.integrals.productions.iter_mut().zip(kept) {
-            *kept = production;
-            *sum = S::from_f64(WEIGHTS[0]) * production;
+        for production in &mut self.stage.productions {
+            production.begin(S::from_f64(WEIGHTS[0]));
         }
         for path in &mut self.components.paths {
             for (seen, end) in path.seen.iter_mut().zip(path.ends) {
@@ -41,8 +39,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
         }
         if self.is_driven {
-            self.start.supply.copy_from_slice(&self.stage.supply);
-            self.start.outside.copy_from(&self.outside);
             self.begin_outside();
         }
         self.has_left = true;
@@ -89,10 +85,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for (rates, past) in pairs.zip(&self.stage.inner_past) {
             [*rates] = past.rates[0];
         }
-        let start = &self.start;
-        self.stage.productions.copy_from_slice(&start.productions);
-        self.stage.supply.copy_from_slice(&start.supply);
-        self.outside.copy_from(&start.outside);
+        let stage = &mut self.stage;
+        for integral in stage.productions.iter_mut().chain(&mut stage.supply) {
+            integral.rate = integral.start;
+        }
+        self.outside.copy_from(&self.start_outside);
         self.books.copy_from(&self.old_books, self.is_driven);
     }
 

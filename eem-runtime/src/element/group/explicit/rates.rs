@@ -147,8 +147,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
             stage.inner_rates[viscous + k] = creep;
-            stage.productions[viscous + k] = g * creep * per_theta;
-            heat += g * creep;
+            let power = g * creep;
+            stage.productions[viscous + k].add(stage.weight, power * per_theta);
+            heat += power;
             drift += slopes[M::MEASURES + k] * creep;
             is_sound &= S::zero().less(found.viscosities[k]).all();
             // With temperature its heat is part of θ̇.
@@ -163,7 +164,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         *rate = (flow + heat - found.theta * drift) / capacity;
         is_sound &= rate.is_finite();
         if stage.has_thermostats {
-            stage.supply[slot] = power + flow;
+            stage.supply[slot].add(stage.weight, power + flow);
             if stage.held[slot] {
                 *rate = S::zero();
             }

@@ -110,6 +110,35 @@ impl<S: Real, const D: usize> Place<S, D> {
     }
 }
 
+/// A rate at the present stage and at the start of the step, and its sum over the stages between with their weights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Integral<S> {
+    pub(crate) rate: S,
+    pub(crate) start: S,
+    pub(crate) sum: S,
+}
+
+impl<S: Real> Integral<S> {
+    fn none() -> Self {
+        let (rate, start, sum) = (S::zero(), S::zero(), S::zero());
+        Self { rate, start, sum }
+    }
+
+    /// Begins a step, with the weight of its start.
+    #[inline]
+    pub(crate) fn begin(&mut self, weight: S) {
+        self.start = self.rate;
+        self.sum = weight * self.rate;
+    }
+
+    /// Adds a stage of this weight.
+    #[inline]
+    pub(crate) fn add(&mut self, weight: S, rate: S) {
+        self.rate = rate;
+        self.sum += weight * rate;
+    }
+}
+
 /// All variables at a stage. Internal ones are the viscous stretches, m, then the temperatures of thermal slots and of
 /// reservoirs, K.
 #[derive(Clone, Debug)]
@@ -123,10 +152,12 @@ pub(crate) struct Stage<S: Real, const D: usize> {
     pub(crate) inner_past: Vec<Past<S, 2, 1>>,
     /// Where temperatures begin among the internal variables.
     pub(crate) temperatures: usize,
-    /// What dashpots produce, `g γ̇/θ`, W/K; `g γ̇` of those without temperature, W.
-    pub(crate) productions: Vec<S>,
+    /// What each dashpot produces, `g γ̇/θ`, W/K, or `g γ̇` without temperature, W.
+    pub(crate) productions: Vec<Integral<S>>,
+    /// The weight of this stage.
+    pub(crate) weight: S,
     /// `f λ̇` and the heat that flows in, of each thermal slot, W; empty without thermostats.
-    pub(crate) supply: Vec<S>,
+    pub(crate) supply: Vec<Integral<S>>,
     /// Whether a thermostat gives the temperature, per thermal slot; empty without thermostats.
     pub(crate) held: Vec<bool>,
     pub(crate) has_thermostats: bool,
@@ -151,8 +182,9 @@ impl<S: Real, const D: usize> Stage<S, D> {
             inner_rates: vec![S::zero(); 2 * pairs],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
-            productions: vec![S::zero(); layout.viscous],
-            supply: vec![S::zero(); held.len()],
+            productions: vec![Integral::none(); layout.viscous],
+            weight: S::zero(),
+            supply: vec![Integral::none(); held.len()],
             has_thermostats: !held.is_empty(),
             held,
         }

@@ -25,7 +25,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             return Err(Discord.into());
         }
         let largest = demand.largest_turn();
-        let is_loaded = !self.integrals.loads.is_empty() || self.gravity.is_some();
+        let is_loaded = !self.load_sums.is_empty() || self.gravity.is_some();
         let has_thermostat = self
             .slots_of(index)
             .any(|at| self.stage.is_held(self.components.slots[at] as usize));
