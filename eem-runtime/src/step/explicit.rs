@@ -15,7 +15,6 @@ mod attempt;
 mod booking;
 mod closing;
 mod components;
-mod demand;
 mod error;
 mod guard;
 mod inertia;
@@ -49,7 +48,7 @@ use memory::{Books, LoadSums, Outside};
 use prescribed::Prescribed;
 use scratch::Scratch;
 
-pub(crate) use demand::Demand;
+pub(crate) use error::Demand;
 pub(crate) use past::SavedExplicit;
 
 /// An explicit scheme at work on a scene.
@@ -130,7 +129,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let has_loads = loads.has_total_force() || prescribed.moves();
         let outside = Outside::new(loads.total_force.len());
         let masses = components.masses_of(site.masses);
-        let stage = Stage::new(masses, site.layout, reservoirs, held);
+        let stage = Stage::new(masses, site.layout, reservoirs.len(), held);
         let temperatures = site.layout.thermal + reservoirs.len();
         let dashpot_slots = dashpot_slots(site.layout, temperatures);
         let books = Books::new(&components, stage.held.len());

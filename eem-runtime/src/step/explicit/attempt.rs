@@ -1,6 +1,6 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
-use super::demand::Demand;
+use super::error::Demand;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
@@ -100,12 +100,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for (node, position, _) in self.prescribed.motions(STAGES - 1) {
             next.positions.set_point(node, position);
         }
-        let (viscous, temperatures) = self.stage.inner.split_at(self.stage.temperatures);
-        for (dashpot, &stretch) in viscous.iter().enumerate() {
-            next.viscous.set(dashpot, stretch);
+        for dashpot in 0..self.stage.temperatures {
+            next.viscous.set(dashpot, self.stage.inner[dashpot]);
         }
-        for (own, &theta) in next.temperatures.iter_mut().zip(temperatures) {
-            *own = theta;
+        for (slot, theta) in next.temperatures.iter_mut().enumerate() {
+            *theta = self.stage.theta(slot);
         }
         if self.stage.has_thermostats {
             self.conclude_thermostats(old, next);

@@ -1,6 +1,6 @@
 //! What the integrals of a step make of entropies and targets.
 
-use super::guard::{PathRates, Weights, guarded};
+use super::guard::{PathRates, guarded};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
 use crate::element::state::State;
@@ -28,12 +28,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let (stage, scratch) = (&self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
         let is_fixed = |end: usize| end >= slots || stage.is_held(end);
-        let weights = Weights::new(h);
         for (path, kept) in self.components.paths.iter().zip(&mut scratch.paths) {
             let [a, b] = path.ends.map(|end| end as usize);
             let progress = &mut scratch.progress[path.component as usize];
             let rates = PathRates::new(path.conductance, [&path.seen[0], &path.seen[1]]);
-            let ([flow, production], _) = rates.guarded(&weights);
+            let [flow, production] = rates.guarded(h);
             *kept = production;
             progress.production.add(production);
             // What no end takes up the closing does not change.

@@ -18,28 +18,11 @@ pub(super) struct PathRates<S> {
     productions: PerWeight<S>,
 }
 
-/// The weights of a step, s.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Weights<S> {
-    pub(super) usual: PerWeight<S>,
-    positive: PerWeight<S>,
-}
-
-impl<S: Real> Weights<S> {
-    /// Of a step of this size.
-    pub(super) fn new(h: S) -> Self {
-        Self {
-            usual: WEIGHTS.map(|weight| h * S::from_f64(weight)),
-            positive: POSITIVE_WEIGHTS.map(|weight| h * S::from_f64(weight)),
-        }
-    }
-}
-
 /// `Σ w x`.
 #[inline]
-pub(super) fn integral<S: Real>(weights: &PerWeight<S>, rates: &PerWeight<S>) -> S {
+fn integral<S: Real>(weights: &[f64; WEIGHTED.len()], rates: &PerWeight<S>) -> S {
     let terms = weights.iter().zip(rates);
-    terms.fold(S::zero(), |sum, (&weight, &rate)| sum + weight * rate)
+    terms.fold(S::zero(), |sum, (&weight, &rate)| sum + S::from_f64(weight) * rate)
 }
 
 impl<S: Real> PathRates<S> {
@@ -55,16 +38,20 @@ impl<S: Real> PathRates<S> {
         Self { flows, productions }
     }
 
-    /// The flow and the production in a step that count, J/K; whether the guard has acted.
+    /// The flow and the production in a step of the size h that count, J/K.
     #[inline]
-    pub(super) fn guarded(&self, weights: &Weights<S>) -> ([S; 2], bool) {
-        let sums = |weights| [&self.flows, &self.productions].map(|rates| integral(weights, rates));
-        let usual = sums(&weights.usual);
-        if usual[1].less(S::zero()).any() {
-            (mixed(usual, sums(&weights.positive)), true)
-        } else {
-            (usual, false)
-        }
+    pub(super) fn guarded(&self, h: S) -> [S; 2] {
+        let usual = self.integrals(&WEIGHTS);
+        let counting = match usual[1].less(S::zero()).any() {
+            true => mixed(usual, self.integrals(&POSITIVE_WEIGHTS)),
+            false => usual,
+        };
+        counting.map(|sum| h * sum)
+    }
+
+    #[inline]
+    fn integrals(&self, weights: &[f64; WEIGHTED.len()]) -> [S; 2] {
+        [&self.flows, &self.productions].map(|rates| integral(weights, rates))
     }
 }
 
@@ -102,16 +89,13 @@ mod tests {
 
     /// Flow and production by both weights.
     fn sums(path: &PathRates<f64>) -> [[f64; 2]; 2] {
-        let weights = Weights::new(1.0);
-        [&weights.usual, &weights.positive]
-            .map(|weights| [&path.flows, &path.productions].map(|rates| integral(weights, rates)))
+        [&WEIGHTS, &POSITIVE_WEIGHTS].map(|weights| path.integrals(weights))
     }
 
     #[test]
     fn honest_stages_pass_unchanged() {
         let path = path([[300.0, 310.0]; 8]);
-        let ([flow, production], has_acted) = path.guarded(&Weights::new(1.0));
-        assert!(!has_acted);
+        let [flow, production] = path.guarded(1.0);
         let [usual, _] = sums(&path);
         assert_eq!(
             [flow, production].map(f64::to_bits),
@@ -128,8 +112,7 @@ mod tests {
         let path = path(stages);
         let [usual, positive] = sums(&path);
         assert!(usual[1] < 0.0 && positive[1] > 0.0);
-        let ([flow, production], has_acted) = path.guarded(&Weights::new(1.0));
-        assert!(has_acted);
+        let [flow, production] = path.guarded(1.0);
         assert_eq!(production.to_bits(), 0.0_f64.to_bits());
         // Between the two flows, in proportion to the productions.
         let share = usual[1] / (usual[1] - positive[1]);

@@ -91,6 +91,15 @@ impl<S: Real, const D: usize> Books<S, D> {
         }
     }
 
+    /// Nothing is booked.
+    pub(super) fn clear(&mut self) {
+        self.targets.fill(Target::none());
+        self.shares.fill(Sum::new(S::zero()));
+        self.held_energies.fill(S::zero());
+        (self.largest_momentum, self.residue) = (S::zero(), S::zero());
+        self.terms = None;
+    }
+
     /// Takes over those of the same scene; targets only where steps change them.
     #[inline]
     pub(super) fn copy_from(&mut self, other: &Self, change_targets: bool) {

@@ -2,7 +2,6 @@
 
 use eem_material::number::compensated::Sum;
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 
 /// Targets, what reservoirs have received from each component, and the rates of the present state, bit for
 /// bit.
@@ -24,14 +23,13 @@ pub(crate) struct SavedExplicit<S> {
     pub(crate) held_energies: Vec<S>,
     pub(crate) largest_momentum: S,
     pub(crate) residue: S,
+    /// Of the stage vector, of dashpots and of thermostats.
     pub(crate) rates: Vec<S>,
-    pub(crate) productions: Vec<S>,
-    pub(crate) supply: Vec<S>,
+    /// With weights, then without.
     pub(crate) loads: Vec<S>,
-    pub(crate) forces: Vec<S>,
 }
 
-impl<S: Real> SavedExplicit<S> {
+impl<S> SavedExplicit<S> {
     /// All sums with their names.
     pub(crate) fn sums(&self) -> [(&'static str, &[Sum<S>]); 2] {
         [
@@ -40,33 +38,12 @@ impl<S: Real> SavedExplicit<S> {
         ]
     }
 
-    /// Forgets what belongs to no state.
-    pub(super) fn clear(&mut self) {
-        self.targets.fill(Sum::new(S::zero()));
-        self.shares.fill(Sum::new(S::zero()));
-        (self.largest_momentum, self.residue) = (S::zero(), S::zero());
-        let lists = [
-            &mut self.held_energies,
-            &mut self.rates,
-            &mut self.productions,
-            &mut self.supply,
-            &mut self.loads,
-            &mut self.forces,
-        ];
-        for list in lists {
-            list.fill(S::zero());
-        }
-    }
-
     /// All lists with their names.
-    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 6] {
+    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 3] {
         [
             ("rates", &self.rates),
-            ("productions of dashpots", &self.productions),
-            ("powers of thermostats", &self.supply),
             ("energies of thermostats", &self.held_energies),
-            ("loads with weights", &self.loads),
-            ("loads", &self.forces),
+            ("loads", &self.loads),
         ]
     }
 }

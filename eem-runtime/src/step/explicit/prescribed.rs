@@ -118,11 +118,6 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
         }
     }
 
-    /// Whether there is nothing.
-    pub(super) fn is_none(&self) -> bool {
-        self.moved.is_empty() && self.held.is_empty()
-    }
-
     /// Whether some anchor is moved.
     pub(super) fn moves(&self) -> bool {
         !self.moved.is_empty()

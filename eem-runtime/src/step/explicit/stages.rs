@@ -105,9 +105,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             place.now = place.past.after(h, rows, a);
             place.begin_rates();
         }
-        let variables = self.stage.inner.as_chunks_mut::<2>().0.iter_mut();
-        let variables = variables.zip(self.stage.inner_rates.as_chunks_mut::<2>().0);
-        for ((now, rates), past) in variables.zip(&mut self.stage.inner_past) {
+        let inner = self.stage.inner.as_chunks_mut::<2>().0.iter_mut();
+        let inner = inner.zip(self.stage.inner_rates.as_chunks_mut::<2>().0);
+        for ((now, rates), past) in inner.zip(&mut self.stage.inner_past) {
             if last == 0 {
                 past.start = [*now];
             }
@@ -154,10 +154,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         weight: Option<usize>,
     ) -> Result<(), StateError> {
         self.stage.weight = weight.map_or(S::zero(), |at| S::from_f64(WEIGHTS[at]));
-        let (inner, first) = (&self.stage.inner, self.stage.temperatures);
+        let first = self.stage.temperatures;
         for path in &mut self.components.paths {
             let [a, b] = path.ends.map(|end| first + end as usize);
-            let [near, far] = [inner[a], inner[b]];
+            let [near, far] = [self.stage.inner[a], self.stage.inner[b]];
             let flow = path.conductance * (far - near);
             self.stage.inner_rates[a] += flow;
             // A reservoir keeps its temperature.

@@ -55,13 +55,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             place.now = [positions[node as usize], momenta[node as usize]];
             place.begin_rates();
         }
-        stage.inner_rates.fill(S::zero());
         let viscous = state.viscous.values().iter();
         let temperatures = state.temperatures.iter();
         let inner = viscous.chain(temperatures).chain(&view.conduction.reservoirs);
         for (own, &value) in stage.inner.iter_mut().zip(inner) {
             *own = value;
         }
+        stage.inner_rates.fill(S::zero());
     }
 
     /// Finds rates and targets.
@@ -78,16 +78,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Goes back to rates and books at the start of the last attempt.
     #[cold]
     fn rewind(&mut self) {
-        for place in &mut self.stage.places[..self.kept_places] {
-            place.rates = place.past.rates[0];
-        }
-        let pairs = self.stage.inner_rates.as_chunks_mut::<2>().0.iter_mut();
-        for (rates, past) in pairs.zip(&self.stage.inner_past) {
-            [*rates] = past.rates[0];
-        }
-        let stage = &mut self.stage;
-        for integral in stage.productions.iter_mut().chain(&mut stage.supply) {
-            integral.rate = integral.start;
+        for [start, now] in self.stage.rates_mut(self.kept_places) {
+            *now = *start;
         }
         self.outside.copy_from(&self.start_outside);
         self.books.copy_from(&self.old_books, self.is_driven);
@@ -106,16 +98,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Takes energy and momenta of this state as the conserved targets.
     fn set_targets(&mut self, state: &State<S>) {
-        self.books.shares.fill(Sum::new(S::zero()));
-        (self.books.largest_momentum, self.books.residue) = (S::zero(), S::zero());
-        self.books.terms = None;
+        self.books.clear();
         self.sum_energies(state);
         for (slot, energy) in self.books.held_energies.iter_mut().enumerate() {
             let element = self.components.elements[slot] as usize;
             *energy = state.energies[element].value;
         }
         for index in 0..self.components.all.len() {
-            self.books.targets[index] = Target::none();
             self.look_at_motion(index);
             let motion = &self.scratch.motions[index];
             let mut target = Target::none();

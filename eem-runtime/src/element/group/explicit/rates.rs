@@ -161,14 +161,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         let capacity = forces[Self::TEMPERATURE];
         let rate = &mut stage.inner_rates[stage.temperatures + slot];
         let flow = *rate;
-        *rate = (flow + heat - found.theta * drift) / capacity;
-        is_sound &= rate.is_finite();
+        let heating = (flow + heat - found.theta * drift) / capacity;
+        *rate = heating;
         if stage.has_thermostats {
             stage.supply[slot].add(stage.weight, power + flow);
             if stage.held[slot] {
                 *rate = S::zero();
             }
         }
+        is_sound &= heating.is_finite();
         let is_stable = S::zero().less(capacity) & S::zero().less(found.theta);
         is_sound && is_stable.all()
     }

@@ -168,17 +168,14 @@ impl<S: Real, const D: usize> Stage<S, D> {
     pub(crate) fn new(
         masses: impl Iterator<Item = S>,
         layout: &Layout,
-        reservoirs: &[S],
+        reservoirs: usize,
         held: Vec<bool>,
     ) -> Self {
         let size = layout.viscous + layout.thermal;
         let pairs = size.div_ceil(2);
-        let mut inner = vec![S::one(); size];
-        inner.extend(reservoirs);
-        inner.resize(inner.len().max(2 * pairs), S::one());
         Self {
             places: masses.map(Place::new).collect(),
-            inner,
+            inner: vec![S::one(); (size + reservoirs).max(2 * pairs)],
             inner_rates: vec![S::zero(); 2 * pairs],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
@@ -188,6 +185,11 @@ impl<S: Real, const D: usize> Stage<S, D> {
             has_thermostats: !held.is_empty(),
             held,
         }
+    }
+
+    /// An internal variable at the start of the step.
+    pub(crate) fn inner_start(&self, index: usize) -> S {
+        self.inner_past[index / 2].start[0][index % 2]
     }
 
     /// The temperature of a thermal slot, or of a reservoir, which come behind them, K.
@@ -201,9 +203,33 @@ impl<S: Real, const D: usize> Stage<S, D> {
         &mut self.inner[self.temperatures + slot]
     }
 
-    /// An internal variable at the start of the step.
-    pub(crate) fn inner_start(&self, index: usize) -> S {
-        self.inner_past[index / 2].start[0][index % 2]
+    /// All rates at the start of the step, and now, with those of the first places.
+    pub(crate) fn rates(&self, places: usize) -> impl Iterator<Item = [S; 2]> + '_ {
+        let places = self.places[..places].iter().flat_map(|of| {
+            let starts = of.past.rates[0].as_flattened().iter();
+            starts.zip(of.rates.as_flattened())
+        });
+        let inner = self.inner_past.iter().flat_map(|of| &of.rates[0][0]);
+        let inner = inner.zip(&self.inner_rates);
+        let integrals = self.productions.iter().chain(&self.supply);
+        let integrals = integrals.map(|of| (&of.start, &of.rate));
+        let all = places.chain(inner).chain(integrals);
+        all.map(|(&start, &now)| [start, now])
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn rates_mut(&mut self, places: usize) -> impl Iterator<Item = [&mut S; 2]> + '_ {
+        let places = self.places[..places].iter_mut().flat_map(|of| {
+            let starts = of.past.rates[0].as_flattened_mut().iter_mut();
+            starts.zip(of.rates.as_flattened_mut())
+        });
+        let inner = self.inner_past.iter_mut();
+        let inner = inner.flat_map(|of| &mut of.rates[0][0]);
+        let inner = inner.zip(&mut self.inner_rates);
+        let integrals = self.productions.iter_mut().chain(&mut self.supply);
+        let integrals = integrals.map(|of| (&mut of.start, &mut of.rate));
+        let all = places.chain(inner).chain(integrals);
+        all.map(|(start, now)| [start, now])
     }
 
     /// Whether a thermostat gives the temperature of a thermal slot.
