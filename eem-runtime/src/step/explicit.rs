@@ -52,6 +52,10 @@ pub(crate) use error::Demand;
 pub(crate) use past::SavedExplicit;
 
 /// An explicit scheme at work on a scene.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each says something of its own"
+)]
 pub(crate) struct Explicit<S: Real, const D: usize> {
     groups: Vec<Box<dyn ExplicitGroup<S, D>>>,
     components: Components<S>,
@@ -141,9 +145,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             books,
             scratch: Scratch::new(&components, site.layout, site.masses.len()),
             is_driven: has_loads || !stage.held.is_empty() || !components.losing.is_empty(),
-            kept_places: match prescribed.moves() {
-                true => components.nodes.len(),
-                false => components.masses,
+            kept_places: if prescribed.moves() {
+                components.nodes.len()
+            } else {
+                components.masses
             },
             stage,
             outside,

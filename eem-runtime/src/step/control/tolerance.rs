@@ -154,7 +154,8 @@ impl<S: Real> Scales<S> {
         let of = |size: S, absolute: S| relative * size + share * absolute;
         let size = |of: &dyn Fn(&State<S>) -> S| of(old).maximum(of(new));
         let positions = size(&|state| norm(state.positions.values().iter().copied()));
-        let momenta = size(&|state| norm(state.momenta.values().iter().copied())).maximum(largest_momentum);
+        let momenta =
+            size(&|state| norm(state.momenta.values().iter().copied())).maximum(largest_momentum);
         Self {
             position: of(positions, tolerance.position),
             momentum: of(momenta, tolerance.momentum),
@@ -207,9 +208,7 @@ pub(crate) fn norm<S: Real>(x: impl Iterator<Item = S> + Clone) -> S {
     if is_normal.all() {
         return sum.sqrt();
     }
-    let most = x
-        .clone()
-        .fold(S::zero(), |most, x| most.maximum(x.abs()));
+    let most = x.clone().fold(S::zero(), |most, x| most.maximum(x.abs()));
     let scaled = x.map(|x| x / most);
     let scaled = most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt();
     let has_none = most.equal(S::zero());

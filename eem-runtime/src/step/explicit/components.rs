@@ -6,11 +6,11 @@
 use core::ops::Range;
 use std::collections::BTreeMap;
 
+use super::guard::PerWeight;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use crate::scene::entry::ElementEntry;
-use super::guard::PerWeight;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 
@@ -165,7 +165,11 @@ impl<S: Real> Components<S> {
 
     /// The place of a node of an element by its component.
     pub(super) fn place_of(&self) -> impl Fn(u32, u32) -> u32 + use<S> {
-        let owners = self.of_place.iter().copied().zip(self.nodes.iter().copied());
+        let owners = self
+            .of_place
+            .iter()
+            .copied()
+            .zip(self.nodes.iter().copied());
         let places: BTreeMap<_, _> = owners.zip(0..).collect();
         move |component, node| places[&(component, node)]
     }

@@ -22,7 +22,9 @@ pub(super) struct PathRates<S> {
 #[inline]
 fn integral<S: Real>(weights: &[f64; WEIGHTED.len()], rates: &PerWeight<S>) -> S {
     let terms = weights.iter().zip(rates);
-    terms.fold(S::zero(), |sum, (&weight, &rate)| sum + S::from_f64(weight) * rate)
+    terms.fold(S::zero(), |sum, (&weight, &rate)| {
+        sum + S::from_f64(weight) * rate
+    })
 }
 
 impl<S: Real> PathRates<S> {
@@ -42,9 +44,10 @@ impl<S: Real> PathRates<S> {
     #[inline]
     pub(super) fn guarded(&self, h: S) -> [S; 2] {
         let usual = self.integrals(&WEIGHTS);
-        let counting = match usual[1].less(S::zero()).any() {
-            true => mixed(usual, self.integrals(&POSITIVE_WEIGHTS)),
-            false => usual,
+        let counting = if usual[1].less(S::zero()).any() {
+            mixed(usual, self.integrals(&POSITIVE_WEIGHTS))
+        } else {
+            usual
         };
         counting.map(|sum| h * sum)
     }

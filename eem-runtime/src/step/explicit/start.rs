@@ -57,7 +57,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let viscous = state.viscous.values().iter();
         let temperatures = state.temperatures.iter();
-        let inner = viscous.chain(temperatures).chain(&view.conduction.reservoirs);
+        let inner = viscous
+            .chain(temperatures)
+            .chain(&view.conduction.reservoirs);
         for (own, &value) in stage.inner.iter_mut().zip(inner) {
             *own = value;
         }

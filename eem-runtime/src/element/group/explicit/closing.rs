@@ -42,9 +42,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, 
                 add_scaled::<K, S, D>(&mut pull, force, &closed.gradient[a]);
             }
             for (index, arm) in pull.as_ref().iter().enumerate() {
-                for axis in 0..D {
-                    forces[nodes[index + 1] as usize][axis] -= arm[axis];
-                    forces[nodes[0] as usize][axis] += arm[axis];
+                for (axis, &pull) in arm.iter().enumerate() {
+                    forces[nodes[index + 1] as usize][axis] -= pull;
+                    forces[nodes[0] as usize][axis] += pull;
                 }
             }
             for k in 0..M::DASHPOTS {

@@ -132,16 +132,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             drift += slopes[a] * speed;
         }
         for (index, arm) in pull.as_ref().iter().enumerate() {
-            for axis in 0..D {
-                stage.places[nodes[index + 1] as usize].rates[1][axis] -= arm[axis];
-                stage.places[nodes[0] as usize].rates[1][axis] += arm[axis];
+            for (axis, &pull) in arm.iter().enumerate() {
+                stage.places[nodes[index + 1] as usize].rates[1][axis] -= pull;
+                stage.places[nodes[0] as usize].rates[1][axis] += pull;
             }
         }
         let viscous = self.slots().viscous;
         let (mut heat, mut is_sound) = (S::zero(), true);
-        let per_theta = match M::THERMAL && M::DASHPOTS > 0 {
-            true => found.theta.recip(),
-            false => S::one(),
+        let per_theta = if M::THERMAL && M::DASHPOTS > 0 {
+            found.theta.recip()
+        } else {
+            S::one()
         };
         for k in 0..M::DASHPOTS {
             let g = forces[M::MEASURES + k];

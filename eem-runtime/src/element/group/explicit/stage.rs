@@ -1,5 +1,7 @@
 //! The state of a scene at a stage of an explicit step, and its rates.
 
+use core::array;
+
 use crate::element::layout::Layout;
 use eem_material::number::scalar::Real;
 
@@ -29,17 +31,15 @@ impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
         reason = "rows and coefficients are constants of the caller"
     )]
     pub(crate) fn combined<const T: usize>(&self, rows: [usize; T], a: &[f64; T]) -> [[S; N]; P] {
-        let mut sums = [[S::zero(); N]; P];
-        for part in 0..P {
-            for index in 0..N {
+        array::from_fn(|part| {
+            array::from_fn(|index| {
                 let mut sum = S::from_f64(a[0]) * self.rates[rows[0]][part][index];
                 for term in 1..T {
                     sum += S::from_f64(a[term]) * self.rates[rows[term]][part][index];
                 }
-                sums[part][index] = sum;
-            }
-        }
-        sums
+                sum
+            })
+        })
     }
 
     /// `y = y⁰ + h Σ a k`.
@@ -51,13 +51,10 @@ impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
         rows: [usize; T],
         a: &[f64; T],
     ) -> [[S; N]; P] {
-        let mut y = self.combined(rows, a);
-        for part in 0..P {
-            for index in 0..N {
-                y[part][index] = self.start[part][index] + h * y[part][index];
-            }
-        }
-        y
+        let sums = self.combined(rows, a);
+        array::from_fn(|part| {
+            array::from_fn(|index| self.start[part][index] + h * sums[part][index])
+        })
     }
 }
 

@@ -186,10 +186,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let target = self.angular_target(index);
         let mut across = target;
         across.add(-S::one(), &Bivector::wedge(along, &target.turn(along)));
-        !across
-            .largest()
-            .at_most(self.own_rounding(index))
-            .all()
+        !across.largest().at_most(self.own_rounding(index)).all()
     }
 
     /// The angular momentum that is left to the momenta.

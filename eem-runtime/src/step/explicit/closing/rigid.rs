@@ -140,11 +140,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 }
 
 /// Position and momentum of a mass that has turned with its component since the start of the step.
-fn turned<S: Real, const D: usize>(
-    place: &Place<S, D>,
-    rigid: &Rigid<S, D>,
-    h: S,
-) -> [[S; D]; 2] {
+fn turned<S: Real, const D: usize>(place: &Place<S, D>, rigid: &Rigid<S, D>, h: S) -> [[S; D]; 2] {
     let [position, momentum] = &place.past.start;
     let speed = rigid.omega.square().sqrt();
     let is_turning = S::zero().less(speed).all();

@@ -123,7 +123,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn granularity(&self, index: usize) -> S {
         let masses = self.components.all[index].masses.clone();
         masses.fold(S::zero(), |sum, at| {
-            let terms = self.scratch.forces[at].iter().zip(self.stage.places[at].q());
+            let terms = self.scratch.forces[at]
+                .iter()
+                .zip(self.stage.places[at].q());
             terms.fold(sum, |sum, (&force, &q)| sum + (force * q).abs())
         })
     }
@@ -179,8 +181,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     fn meets_thermostat(&self, ends: [u32; 2]) -> bool {
-        ends.into_iter()
-            .any(|end| self.stage.is_held(end as usize))
+        ends.into_iter().any(|end| self.stage.is_held(end as usize))
     }
 
     /// The momentum of a mass that is no rigid motion.
