@@ -42,7 +42,6 @@ use crate::element::state::State;
 use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use components::Components;
-use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 use memory::{Books, LoadSums, Outside};
 use prescribed::Prescribed;
@@ -59,8 +58,6 @@ pub(crate) use past::SavedExplicit;
 pub(crate) struct Explicit<S: Real, const D: usize> {
     groups: Vec<Box<dyn ExplicitGroup<S, D>>>,
     components: Components<S>,
-    /// The thermal slot of each dashpot; behind slots and reservoirs without.
-    dashpot_slots: Vec<u32>,
     /// Whether each thermal slot has a path of heat or a dashpot.
     produces: Vec<bool>,
     prescribed: Prescribed<S, D>,
@@ -134,17 +131,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let outside = Outside::new(loads.total_force.len());
         let masses = components.masses_of(site.masses);
         let stage = Stage::new(masses, site.layout, reservoirs.len(), held);
-        let temperatures = site.layout.thermal + reservoirs.len();
-        let dashpot_slots = dashpot_slots(site.layout, temperatures);
         let books = Books::new(&components, stage.held.len());
         Self {
-            produces: produces(&components, site.layout, &dashpot_slots),
+            produces: produces(&components, site.layout),
             load_sums: vec![LoadSums::none(); if has_loads { components.all.len() } else { 0 }],
             start_outside: outside.clone(),
             old_books: books.clone(),
             books,
             scratch: Scratch::new(&components, site.layout, site.masses.len()),
-            is_driven: has_loads || !stage.held.is_empty() || !components.losing.is_empty(),
+            is_driven: has_loads || !stage.held.is_empty() || components.loses_heat(None),
             kept_places: if prescribed.moves() {
                 components.nodes.len()
             } else {
@@ -152,7 +147,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             },
             stage,
             outside,
-            dashpot_slots,
             groups,
             components,
             prescribed,
@@ -205,23 +199,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 }
 
-/// The thermal slot of each dashpot; behind all temperatures without.
-fn dashpot_slots(layout: &Layout, temperatures: usize) -> Vec<u32> {
-    let mut slots = vec![compact(temperatures); layout.viscous];
-    let ends = layout.elements.iter().skip(1).map(|slots| slots.viscous);
-    for (own, end) in layout.elements.iter().zip(ends.chain([layout.viscous])) {
-        if let Some(slot) = own.thermal {
-            slots[own.viscous..end].fill(compact(slot));
-        }
-    }
-    slots
-}
-
 /// Whether each thermal slot has a path of heat or a dashpot.
-fn produces<S>(components: &Components<S>, layout: &Layout, dashpot_slots: &[u32]) -> Vec<bool> {
+fn produces<S>(components: &Components<S>, layout: &Layout) -> Vec<bool> {
     let mut produces = vec![false; layout.thermal];
     let ends = components.paths.iter().flat_map(|path| path.ends);
-    for slot in ends.chain(dashpot_slots.iter().copied()) {
+    let dashpots = components.dashpots.iter();
+    for slot in ends.chain(dashpots.filter_map(|dashpot| dashpot.slot)) {
         if let Some(produces) = produces.get_mut(slot as usize) {
             *produces = true;
         }

@@ -59,18 +59,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     fn book_dashpots(&mut self, h: S, next: &mut State<S>) {
         let scratch = &mut self.scratch;
-        let slots = scratch.produced.len();
-        let integrals = self.stage.productions.iter().zip(&self.dashpot_slots);
-        for ((integral, &slot), &component) in integrals.zip(&self.components.of_dashpot) {
-            let (slot, progress) = (slot as usize, &mut scratch.progress[component as usize]);
+        let integrals = self.stage.productions.iter();
+        for (integral, dashpot) in integrals.zip(&self.components.dashpots) {
+            let component = dashpot.component as usize;
+            let progress = &mut scratch.progress[component];
             let production = guarded(h * integral.sum);
-            if slot >= slots {
-                // The heat of an element without temperature leaves the scene.
+            let Some(slot) = dashpot.slot else {
                 progress.lost += production;
                 next.dissipated.add(production);
-                self.books.targets[component as usize].lost.add(production);
+                self.books.targets[component].lost.add(production);
                 continue;
-            }
+            };
+            let slot = slot as usize;
             next.entropies.add(slot, production);
             scratch.produced[slot] += production;
             progress.production.add(production);

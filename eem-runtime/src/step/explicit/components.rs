@@ -83,13 +83,19 @@ pub(super) struct Components<S> {
     pub(super) slots: Vec<u32>,
     pub(super) paths: Vec<Path<S>>,
     pub(super) shares: Vec<Share>,
-    /// The component of each element, and of each dashpot.
+    /// The component of each element.
     pub(super) of_element: Vec<u32>,
-    pub(super) of_dashpot: Vec<u32>,
+    pub(super) dashpots: Vec<Dashpot>,
     /// The element of each thermal slot.
     pub(super) elements: Vec<u32>,
-    /// The component and the dashpots of each element without temperature that has dashpots.
-    pub(super) losing: Vec<(u32, Range<usize>)>,
+}
+
+/// A dashpot.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dashpot {
+    pub(super) component: u32,
+    /// The thermal slot of its element; without temperature its heat leaves the scene.
+    pub(super) slot: Option<u32>,
 }
 
 /// Sets that are merged: each points to another of the same set, the first to itself.
@@ -152,9 +158,8 @@ impl<S: Real> Components<S> {
             slots: Vec::new(),
             paths: Vec::new(),
             shares: Vec::new(),
-            of_dashpot: dashpots(layout, &numbers[nodes..]),
+            dashpots: dashpots(layout, &numbers[nodes..]),
             of_element: numbers[nodes..].to_vec(),
-            losing: losing(layout, &numbers[nodes..]),
             elements: slot_elements,
         };
         components.place_masses(&numbers, count, masses);
@@ -178,6 +183,15 @@ impl<S: Real> Components<S> {
     pub(super) fn masses_of(&self, masses: &Masses<S>) -> impl Iterator<Item = S> {
         let nodes = self.nodes.iter();
         nodes.map(|&node| masses.get(node as usize).unwrap_or(S::zero()))
+    }
+
+    /// Whether some dashpot, or one of a component, has no temperature that takes its heat.
+    pub(super) fn loses_heat(&self, component: Option<usize>) -> bool {
+        let mut dashpots = self.dashpots.iter();
+        dashpots.any(|dashpot| {
+            let is_own = component.is_none_or(|own| own == dashpot.component as usize);
+            is_own && dashpot.slot.is_none()
+        })
     }
 
     /// Place and node of all anchors.
@@ -314,27 +328,14 @@ fn numbered<S: Real>(sets: &mut Sets, masses: &Masses<S>, nodes: usize) -> (Vec<
     (numbers, count)
 }
 
-/// The dashpots of each element.
-fn ranges(layout: &Layout) -> impl Iterator<Item = Range<usize>> + '_ {
+/// The dashpots of elements in these components.
+fn dashpots(layout: &Layout, components: &[u32]) -> Vec<Dashpot> {
+    let mut all = Vec::with_capacity(layout.viscous);
     let ends = layout.elements.iter().skip(1).map(|slots| slots.viscous);
     let ends = ends.chain([layout.viscous]);
-    let elements = layout.elements.iter().zip(ends);
-    elements.map(|(slots, end)| slots.viscous..end)
-}
-
-/// The component of each dashpot.
-fn dashpots(layout: &Layout, components: &[u32]) -> Vec<u32> {
-    let own = ranges(layout).zip(components);
-    own.flat_map(|(dashpots, &component)| dashpots.map(move |_| component))
-        .collect()
-}
-
-/// Elements whose dashpots lose their heat.
-fn losing(layout: &Layout, components: &[u32]) -> Vec<(u32, Range<usize>)> {
-    let elements = layout.elements.iter().zip(ranges(layout)).zip(components);
-    let losing =
-        elements.filter(|((slots, dashpots), _)| slots.thermal.is_none() && !dashpots.is_empty());
-    losing
-        .map(|((_, dashpots), &component)| (component, dashpots))
-        .collect()
+    for ((slots, end), &component) in layout.elements.iter().zip(ends).zip(components) {
+        let slot = slots.thermal.map(compact);
+        all.resize(end, Dashpot { component, slot });
+    }
+    all
 }

@@ -32,14 +32,6 @@ const CHANGE: f64 = 2.0;
 const UNIMPORTANT: f64 = 8.0;
 
 impl<S: Real> Values<S> {
-    /// Never evaluated.
-    const fn none(zero: S) -> Self {
-        Self {
-            magnitude: zero,
-            terms: zero,
-        }
-    }
-
     /// Evaluates the magnitude of ψ where it may matter, given the terms of the energy; otherwise it is the last
     /// one that was found.
     #[inline]
@@ -70,7 +62,10 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
             },
             viscosities: (viscosities, viscosities),
             gradient: Gradient::<K, S, D>::filled(nowhere),
-            values: Values::none(S::zero()),
+            values: Values {
+                magnitude: S::zero(),
+                terms: S::zero(),
+            },
         }
     }
 

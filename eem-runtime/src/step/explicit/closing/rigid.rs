@@ -35,8 +35,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 time: (view.state.time.value + view.step).to_f64(),
             });
         }
-        for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
-            if owner as usize == index {
+        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
+            if own.component as usize == index {
                 self.stage.inner[dashpot] = self.stage.inner_start(dashpot);
             }
         }
@@ -124,8 +124,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             see(length(&difference(&position, place.q())), scales.position);
             see(length(&difference(&momentum, place.p())), scales.momentum);
         }
-        for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
-            if owner as usize == index {
+        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
+            if own.component as usize == index {
                 let change = self.stage.inner[dashpot] - self.stage.inner_start(dashpot);
                 see(change, scales.position);
             }

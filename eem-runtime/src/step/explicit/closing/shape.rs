@@ -161,8 +161,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// `Σ g²/η`, W.
     fn creeping_power(&self, index: usize) -> S {
-        let owned = self.scratch.creep.iter().zip(&self.components.of_dashpot);
-        let own = owned.filter(|&(_, &owner)| owner as usize == index);
+        let owned = self.scratch.creep.iter().zip(&self.components.dashpots);
+        let own = owned.filter(|&(_, dashpot)| dashpot.component as usize == index);
         own.fold(S::zero(), |sum, (&[_, power], _)| sum + power)
     }
 
@@ -233,8 +233,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             add(&mut place.now[1], share, &own);
             add(&mut place.now[0], -change, &force);
         }
-        for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
-            if owner as usize == index {
+        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
+            if own.component as usize == index {
                 self.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
             }
         }
@@ -295,8 +295,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
             return Ok(true);
         }
-        let mut losing = self.components.losing.iter();
-        let loses = losing.any(|&(component, _)| component as usize == index);
+        let loses = self.components.loses_heat(Some(index));
         if loses {
             self.scratch.progress[index].lost += defect;
             next.dissipated.add(defect);
