@@ -24,22 +24,22 @@ use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::Real;
 
-/// Changes of a component after which its closing is given up.
-const MOST_TURNS: usize = 10;
+/// Corrections of a component after which its closing fails.
+const MOST_ITERATIONS: usize = 10;
 
-/// Roundings, in ε, that a component may lack where nothing can give them.
+/// The defect of a component, in ε, that is accepted where no correction is possible.
 pub(super) const FROZEN: f64 = 8.0;
 
-/// What a look at the energy of a component says.
+/// How far the energy of a component is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Verdict {
-    /// It is what it has to be.
+enum Status {
+    /// Within tolerance.
     Closed,
     /// Its elements have to be evaluated again.
     Changed,
-    /// Its forces have to be known.
-    Asks,
-    /// Nothing can give it what it lacks.
+    /// Its forces have to be known for a correction.
+    NeedsForces,
+    /// No correction is possible.
     Failed,
 }
 
@@ -59,24 +59,24 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.book_thermostats(view.step, next);
         self.share_productions();
         loop {
-            let mut has_asked = false;
-            self.scratch.asked.fill(false);
+            let mut needs_forces = false;
+            self.scratch.needs_forces.fill(false);
             for index in 0..self.components.all.len() {
                 if !self.scratch.open[index] {
                     continue;
                 }
-                let verdict = self.balance(index, next);
-                self.scratch.open[index] = verdict == Verdict::Changed;
-                self.scratch.asked[index] = verdict == Verdict::Asks;
-                has_asked |= verdict == Verdict::Asks;
+                let status = self.balance(index, next);
+                self.scratch.open[index] = status == Status::Changed;
+                self.scratch.needs_forces[index] = status == Status::NeedsForces;
+                needs_forces |= status == Status::NeedsForces;
             }
-            if has_asked {
+            if needs_forces {
                 self.find_forces(view);
                 for index in 0..self.components.all.len() {
-                    if self.scratch.asked[index] {
-                        let verdict = self.reshape(index, view, next)?;
-                        self.scratch.open[index] = verdict == Verdict::Changed;
-                        if verdict == Verdict::Failed {
+                    if self.scratch.needs_forces[index] {
+                        let status = self.reshape(index, view, next)?;
+                        self.scratch.open[index] = status == Status::Changed;
+                        if status == Status::Failed {
                             self.turn_rigidly(index, (view, demand, scales), next)?;
                         }
                     }
@@ -122,7 +122,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             *force = gravity.map(|g| place.mass * g);
         }
         for group in &self.groups {
-            group.pull(&scratch.asked, &mut scratch.forces, &mut scratch.creep);
+            group.pull(
+                &scratch.needs_forces,
+                &mut scratch.forces,
+                &mut scratch.creep,
+            );
         }
     }
 }

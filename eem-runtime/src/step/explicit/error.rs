@@ -54,27 +54,33 @@ pub(super) struct Scales<S> {
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// How large positions and momenta are at the end of the step before it is closed; all have to be finite.
+    /// How large positions and momenta are before the step is closed; all have to be finite.
     pub(super) fn scales(&self, time: S) -> Result<Scales<S>, StepFailure> {
         if !time.is_finite() {
             let value = time.to_f64();
             return Err(StepFailure::Time { value });
         }
         let masses = &self.stage.places[..self.components.masses];
-        let mut squares = [S::zero(); 2];
+        let mut squares = [S::zero(); 3];
         for place in masses {
-            squares[0] += dot(place.q(), place.q());
-            squares[1] += dot(place.p(), place.p());
+            let parts = [&place.past.start[0], place.q(), place.p()];
+            for (square, part) in squares.iter_mut().zip(parts) {
+                *square += dot(part, part);
+            }
         }
         let mut sizes = squares.map(Scalar::sqrt);
-        let is_normal = |square: S| S::MIN_POSITIVE.less(square) & square.at_most(S::MAX);
-        if !(is_normal(squares[0]) & is_normal(squares[1])).all() {
-            sizes = [0, 1].map(|part| norm(masses.iter().flat_map(move |place| place.now[part])));
+        let are_normal = squares.map(|sum| S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX));
+        if !are_normal.into_iter().all(Mask::all) {
             self.expect_finite()?;
+            sizes = [
+                norm(masses.iter().flat_map(|place| place.past.start[0])),
+                norm(masses.iter().flat_map(|place| place.now[0])),
+                norm(masses.iter().flat_map(|place| place.now[1])),
+            ];
         }
-        let [position, momentum] = sizes;
+        let [start, end, momentum] = sizes;
         Ok(Scales {
-            position,
+            position: start.maximum(end),
             momentum: momentum.maximum(self.books.largest_momentum),
         })
     }
@@ -125,8 +131,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             if has_scale { scale.recip() } else { S::zero() }
         };
         let masses = &self.stage.places[..self.components.masses];
-        let starts = masses.iter().flat_map(|place| place.past.start[0]);
-        let position = per_scale(scales.position.maximum(norm(starts)), tolerance.position);
+        let position = per_scale(scales.position, tolerance.position);
         let momentum = per_scale(scales.momentum, tolerance.momentum);
         for place in masses {
             let [fifth, third] = errors(&place.past);

@@ -11,8 +11,8 @@ use eem_material::number::scalar::{Mask, Real};
 /// How far the closing of a component is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Progress<S: Real> {
-    /// Changes so far that were followed by another look at the energy.
-    pub(super) turns: usize,
+    /// Number of corrections so far.
+    pub(super) iterations: usize,
     /// Whether heat has been among them.
     pub(super) has_heated: S::Mask,
     /// What is missing of the energy, J.
@@ -34,7 +34,7 @@ pub(super) struct Progress<S: Real> {
     pub(super) granularity: S,
     /// Whether the energy is what it has to be, and whether forces have to be known to make it so.
     pub(super) is_closed: S::Mask,
-    pub(super) is_asking: S::Mask,
+    pub(super) needs_forces: S::Mask,
     /// The component has turned like a rigid body, since it was closed in no other way.
     pub(super) is_rigid: bool,
 }
@@ -71,9 +71,9 @@ pub(super) struct Scratch<S: Real, const D: usize> {
     pub(super) progress: Vec<Progress<S>>,
     pub(super) motions: Vec<Motion<S, D>>,
     pub(super) energies: Vec<ComponentEnergy<S>>,
-    /// Whether it has to be evaluated; whether its forces are asked for.
+    /// Whether it has to be evaluated; whether its forces are needed.
     pub(super) open: Vec<bool>,
-    pub(super) asked: Vec<bool>,
+    pub(super) needs_forces: Vec<bool>,
     /// Lanes that have not changed and are inactive while the others are evaluated.
     pub(super) inactive: Vec<S::Mask>,
     /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
@@ -83,7 +83,7 @@ pub(super) struct Scratch<S: Real, const D: usize> {
     pub(super) unkept: Option<UnkeptEntropy>,
     /// Entropy that an element with a thermostat has received otherwise, J/K.
     pub(super) received: Vec<S>,
-    /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are asked for, N, m/s and W.
+    /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are needed, N, m/s and W.
     pub(super) forces: Vec<[S; D]>,
     pub(super) creep: Vec<[S; 2]>,
     /// Π of the paths of heat, J/K.
@@ -97,7 +97,7 @@ pub(super) struct Scratch<S: Real, const D: usize> {
 impl<S: Real> Progress<S> {
     pub(super) fn none() -> Self {
         Self {
-            turns: 0,
+            iterations: 0,
             has_heated: S::Mask::none(),
             defect: S::zero(),
             seen: None,
@@ -109,7 +109,7 @@ impl<S: Real> Progress<S> {
             factor: S::one(),
             granularity: S::zero(),
             is_closed: S::Mask::none(),
-            is_asking: S::Mask::none(),
+            needs_forces: S::Mask::none(),
             is_rigid: false,
         }
     }
@@ -158,7 +158,7 @@ impl<S: Real, const D: usize> Scratch<S, D> {
             motions: vec![Motion::none(); count],
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
-            asked: vec![false; count],
+            needs_forces: vec![false; count],
             inactive: vec![S::Mask::none(); count],
             capacities: vec![[S::zero(); 2]; thermal],
             produced: vec![S::zero(); thermal],

@@ -3,7 +3,7 @@
 use super::super::Explicit;
 use super::super::scratch::Motion;
 use super::super::vector::dot;
-use super::Verdict;
+use super::Status;
 use crate::element::group::is_met;
 use crate::element::state::State;
 use core::ops::Range;
@@ -12,10 +12,10 @@ use eem_material::number::scalar::{Mask, Real, unless};
 /// The part of what elements produce in a step that heat may change.
 const HEAT_SHARE: f64 = 0.003;
 
-/// Turns in which heat is tried.
-const HEAT_TURNS: usize = 3;
+/// Corrections by heat.
+const HEAT_ITERATIONS: usize = 3;
 
-/// Roundings, in u = ε/2, of the magnitude of the energy up to which it is what it has to be.
+/// The tolerance of the defect, in u = ε/2, relative to the magnitude of the energy.
 const ENOUGH: f64 = 2.0;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
@@ -75,32 +75,32 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Puts energy back by heat as long as no element has to be evaluated for it.
     ///
-    /// Of several numbers each goes the way that it would go alone.
-    pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Verdict {
+    /// Each lane goes the way that it would go alone.
+    pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Status {
         loop {
             let is_finite = self.look(index);
             let progress = &mut self.scratch.progress[index];
             if progress.is_rigid || progress.is_closed.all() {
-                return Verdict::Closed;
+                return Status::Closed;
             }
-            let turns = progress.turns;
-            progress.turns += 1;
+            let iterations = progress.iterations;
+            progress.iterations += 1;
             let mut heats = S::Mask::none();
-            if turns < HEAT_TURNS && is_finite && !self.is_motion_first {
+            if iterations < HEAT_ITERATIONS && is_finite && !self.is_motion_first {
                 heats = self.heat_within_share(index, next);
             }
             let progress = &mut self.scratch.progress[index];
-            progress.is_asking = !(heats | progress.is_closed);
-            if progress.is_asking.any() {
-                return Verdict::Asks;
+            progress.needs_forces = !(heats | progress.is_closed);
+            if progress.needs_forces.any() {
+                return Status::NeedsForces;
             }
             if !self.scratch.inactive[index].all() {
-                return Verdict::Changed;
+                return Status::Changed;
             }
         }
     }
 
-    /// Looks at the energy of a component; whether it is a number.
+    /// Finds the defect of a component; whether it is finite.
     fn look(&mut self, index: usize) -> bool {
         let seen = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
@@ -147,8 +147,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         })
     }
 
-    /// Every element gets the part ε of what it has produced itself. Whether energy, temperatures and forces
-    /// are known without another evaluation.
+    /// Scales each element's entropy production by 1 + ε. Returns the lanes in which the second-order update is
+    /// accurate to rounding.
     pub(super) fn heat(&mut self, index: usize, part: S, next: &mut State<S>) -> S::Mask {
         let scratch = &mut self.scratch;
         let lost = &mut scratch.progress[index].lost;

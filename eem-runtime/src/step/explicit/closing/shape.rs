@@ -4,7 +4,7 @@ use super::super::components::{Component, Support};
 use super::super::vector::{add, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
-use super::{FROZEN, MOST_TURNS, Verdict};
+use super::{FROZEN, MOST_ITERATIONS, Status};
 use crate::element::state::State;
 use eem_material::number::scalar::{Discord, Mask, Real, unless};
 
@@ -17,10 +17,10 @@ const LARGEST_PART: f64 = 0.1;
 /// After heat, motion gives what is left if it is this small a part of it.
 const REST_OF_HEAT: f64 = 1e-9;
 
-/// Turns in which the shape changes.
-const SHAPE_TURNS: usize = 5;
+/// Corrections by shape.
+const SHAPE_ITERATIONS: usize = 5;
 
-/// Roundings, in ε, of what an element has produced that are never taken back: each of its up to [`MOST_TURNS`] changes,
+/// Roundings, in ε, of what an element has produced that are never taken back: each of its up to [`MOST_ITERATIONS`] changes,
 /// and the share of each path of heat, is rounded once.
 const ROUNDED: f64 = 16.0;
 
@@ -37,18 +37,18 @@ struct Means<S, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Gives a component its energy by other means than heat, where it is asked for.
+    /// Corrects the energy of a component by other means than heat, in the lanes that need it.
     pub(super) fn reshape(
         &mut self,
         index: usize,
         view: &ExplicitView<'_, S, D>,
         next: &mut State<S>,
-    ) -> Result<Verdict, Discord> {
+    ) -> Result<Status, Discord> {
         self.scratch.progress[index].seen = None;
         let progress = self.scratch.progress[index];
-        let (defect, turns) = (progress.defect, progress.turns);
+        let (defect, iterations) = (progress.defect, progress.iterations);
         if !defect.is_finite() {
-            return Ok(Verdict::Failed);
+            return Ok(Status::Failed);
         }
         let means = self.means(index, view);
         let share = defect / means.all;
@@ -58,7 +58,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let rest = S::from_f64(REST_OF_HEAT) * means.motion;
         let is_rest = progress.has_heated & defect.abs().at_most(rest);
         let has_motion = S::zero().less(means.motion);
-        let moves = progress.is_asking & has_motion & (is_rest | (is_small & moves));
+        let moves = progress.needs_forces & has_motion & (is_rest | (is_small & moves));
         if moves.any() {
             let x = defect / means.motion;
             let part = x / (S::one() + (S::one() + x).sqrt());
@@ -66,9 +66,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let is_closed = progress.is_closed | moves;
         self.scratch.progress[index].is_closed = is_closed;
-        let is_left = progress.is_asking & !moves;
+        let is_left = progress.needs_forces & !moves;
         let mut shifts = is_left & is_small;
-        if turns >= MOST_TURNS || turns > SHAPE_TURNS {
+        if iterations >= MOST_ITERATIONS || iterations > SHAPE_ITERATIONS {
             shifts = S::Mask::none();
         }
         if shifts.any() {
@@ -82,13 +82,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             return Ok(self.unless_rounding(index, is_left));
         }
         Ok(if is_closed.all() {
-            Verdict::Closed
+            Status::Closed
         } else {
-            Verdict::Changed
+            Status::Changed
         })
     }
 
-    /// Energy to entropy or back where nothing else is left, unless the turns are over; whether there is where.
+    /// Last resort: converts the defect to entropy or back. False if no element can take it or the limit of corrections
+    /// is reached.
     fn sinks(
         &mut self,
         index: usize,
@@ -97,7 +98,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ) -> Result<bool, Discord> {
         let progress = &self.scratch.progress[index];
         let defect = progress.defect;
-        if !is_left.decide()? || progress.turns >= MOST_TURNS || !self.sink(index, defect, next)? {
+        if !is_left.decide()?
+            || progress.iterations >= MOST_ITERATIONS
+            || !self.sink(index, defect, next)?
+        {
             return Ok(false);
         }
         self.scratch.inactive[index] = S::Mask::none();
@@ -105,7 +109,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// What is left is rounding, or nothing can give it.
-    fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Verdict {
+    fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Status {
         let granularity = self.granularity(index);
         let progress = &mut self.scratch.progress[index];
         progress.granularity = granularity;
@@ -113,9 +117,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let is_rounding = progress.defect.abs().at_most(bound);
         progress.is_closed = progress.is_closed | (is_left & is_rounding);
         if progress.is_closed.all() {
-            Verdict::Closed
+            Status::Closed
         } else {
-            Verdict::Failed
+            Status::Failed
         }
     }
 
