@@ -43,7 +43,7 @@ use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use components::Components;
 use eem_material::number::scalar::Real;
-use memory::{Books, LoadSums, Outside};
+use memory::{Books, LoadSums};
 use prescribed::Prescribed;
 use scratch::Scratch;
 
@@ -63,16 +63,16 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     prescribed: Prescribed<S, D>,
     /// The acceleration of free fall, m/s², if there is any.
     gravity: Option<[S; D]>,
+    /// The loads at the present stage, and at the start of the step.
     loads: StepLoads<S>,
+    start_loads: StepLoads<S>,
     /// Whether loads, moved anchors, thermostats or dashpots that lose heat act, so that integrals of the step change targets.
     is_driven: bool,
     /// The places whose rates are kept: masses, and anchors where some are moved.
     kept_places: usize,
     /// The present stage, between steps that at the end of the last one with its rates.
     stage: Stage<S, D>,
-    /// The loads there, at the start of the step, and what they have done since to each component; empty without.
-    outside: Outside<S>,
-    start_outside: Outside<S>,
+    /// What loads have done to each component since the start of the step; empty without.
     load_sums: Vec<LoadSums<S, D>>,
     /// The books of the step, and as they were before it.
     books: Books<S, D>,
@@ -120,36 +120,35 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             group.join(&components.of_element, &place_of);
         }
         let reservoirs = &site.conduction.reservoirs;
-        let prescribed = Prescribed::new(site.loads, site.layout);
+        let prescribed = Prescribed::new(site.loads, site.layout, &components);
         let mut held = Vec::new();
-        for slot in prescribed.slots() {
+        for own in &prescribed.held {
             held.resize(site.layout.thermal, false);
-            held[slot] = true;
+            held[own.slot] = true;
         }
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
-        let has_loads = loads.has_total_force() || prescribed.moves();
-        let outside = Outside::new(loads.total_force.len());
+        let moves = !prescribed.moved.is_empty();
+        let has_loads = loads.has_total_force() || moves;
         let masses = components.masses_of(site.masses);
         let stage = Stage::new(masses, site.layout, reservoirs.len(), held);
         let books = Books::new(&components, stage.held.len());
         Self {
             produces: produces(&components, site.layout),
             load_sums: vec![LoadSums::none(); if has_loads { components.all.len() } else { 0 }],
-            start_outside: outside.clone(),
             old_books: books.clone(),
             books,
             scratch: Scratch::new(&components, site.layout, site.masses.len()),
             is_driven: has_loads || !stage.held.is_empty() || components.loses_heat(None),
-            kept_places: if prescribed.moves() {
+            kept_places: if moves {
                 components.nodes.len()
             } else {
                 components.masses
             },
             stage,
-            outside,
             groups,
             components,
             prescribed,
+            start_loads: loads.clone(),
             loads,
             gravity: site.loads.have_weight().then(|| site.loads.gravity.into()),
             is_motion_first: false,

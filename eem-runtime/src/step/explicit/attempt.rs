@@ -97,8 +97,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.positions.set_point(node as usize, place.q());
             next.momenta.set_point(node as usize, place.p());
         }
-        for (node, position, _) in self.prescribed.motions(STAGES - 1) {
-            next.positions.set_point(node, position);
+        for moved in &self.prescribed.moved {
+            let end = &moved.positions[STAGES - 1];
+            next.positions.set_point(moved.node.index, end);
         }
         for dashpot in 0..self.stage.temperatures {
             next.viscous.set(dashpot, self.stage.inner[dashpot]);

@@ -194,10 +194,10 @@ impl<S: Real> Components<S> {
         })
     }
 
-    /// Place and node of all anchors.
-    pub(super) fn anchors(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let placed = self.nodes.iter().enumerate().skip(self.masses);
-        placed.map(|(place, &node)| (place, node as usize))
+    /// The places of an anchor.
+    pub(super) fn anchors_of(&self, node: usize) -> impl Iterator<Item = usize> {
+        let anchors = self.nodes.iter().enumerate().skip(self.masses);
+        anchors.filter_map(move |(place, &own)| (own as usize == node).then_some(place))
     }
 
     /// Gives the masses their places, component after component.

@@ -1,18 +1,9 @@
-//! What an explicit scheme keeps from step to step: targets, books, and what acts from outside.
+//! What an explicit scheme keeps from step to step: targets and books.
 
 use crate::algebra::bivector::{Bivector, planes};
 use crate::step::explicit::components::Components;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
-
-/// The loads at the time of some rates.
-#[derive(Clone, Debug)]
-pub(super) struct Outside<S> {
-    /// Those on the nodes of the scene, with their weights, N; empty without.
-    pub(super) loads: Vec<S>,
-    /// The same without weights.
-    pub(super) forces: Vec<S>,
-}
 
 /// What loads have done to a component in a step.
 #[derive(Clone, Copy, Debug)]
@@ -111,20 +102,6 @@ impl<S: Real, const D: usize> Books<S, D> {
         self.largest_momentum = other.largest_momentum;
         self.residue = other.residue;
         self.terms = other.terms;
-    }
-}
-
-impl<S: Real> Outside<S> {
-    pub(super) fn new(loads: usize) -> Self {
-        Self {
-            loads: vec![S::zero(); loads],
-            forces: vec![S::zero(); loads],
-        }
-    }
-
-    pub(super) fn copy_from(&mut self, other: &Self) {
-        self.loads.copy_from_slice(&other.loads);
-        self.forces.copy_from_slice(&other.forces);
     }
 }
 

@@ -2,43 +2,40 @@
 
 use super::Explicit;
 use super::components::Support;
-use super::memory::{LoadSums, Outside};
+use super::memory::LoadSums;
 use super::tableau::WEIGHTS;
 use super::vector::{add, dot};
 use crate::algebra::bivector::Bivector;
-use crate::element::group::points;
+use crate::element::loads::StepLoads;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Moves anchors and sets thermostats to where they are at a stage.
     pub(super) fn move_to(&mut self, stage: usize) {
-        for (slot, theta) in self.prescribed.temperatures(stage) {
-            *self.stage.theta_mut(slot) = theta;
+        for held in &self.prescribed.held {
+            *self.stage.theta_mut(held.slot) = held.temperatures[stage];
         }
-        for (place, node) in self.components.anchors() {
-            for (moved, position, velocity) in self.prescribed.motions(stage) {
-                if moved == node {
-                    self.stage.places[place].now[0] = *position;
-                    self.stage.places[place].rates = [*velocity, [S::zero(); D]];
-                }
+        for moved in &self.prescribed.moved {
+            for &place in &moved.places {
+                let place = &mut self.stage.places[place];
+                place.now[0] = moved.positions[stage];
+                place.rates = [moved.velocities[stage], [S::zero(); D]];
             }
         }
     }
 
     /// Gives anchors the velocities with which they start.
     pub(super) fn set_anchors_going(&mut self) {
-        for (place, node) in self.components.anchors() {
-            for (moved, _, velocity) in self.prescribed.motions(0) {
-                if moved == node {
-                    self.stage.places[place].rates[0] = *velocity;
-                }
+        for moved in &self.prescribed.moved {
+            for &place in &moved.places {
+                self.stage.places[place].rates[0] = moved.velocities[0];
             }
         }
     }
 
     /// Begins the integrals of a step at its start, and keeps the rates of anchors.
     pub(super) fn begin_outside(&mut self) {
-        self.start_outside.copy_from(&self.outside);
+        copy_loads(&mut self.start_loads, &self.loads);
         self.load_sums.fill(LoadSums::none());
         self.stage.weight = S::from_f64(WEIGHTS[0]);
         for supply in &mut self.stage.supply {
@@ -62,8 +59,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 let place = &self.stage.places[at];
                 let arm = origin.arm(place.q());
                 let node = self.components.nodes[at] as usize;
-                let load = self.outside.on(node, component.support);
-                sums.add(weight, [&arm, place.velocity()], load);
+                let (force, load) = (self.loads.force(node), self.loads.total_force(node));
+                sums.work += weight * dot(&force, place.velocity());
+                add(&mut sums.impulse, weight, &load);
+                // Weights have no torque about the centre of mass.
+                let is_free = component.support == Support::Free;
+                let turning = if is_free { force } else { load };
+                sums.torque.add(weight, &Bivector::wedge(&arm, &turning));
                 add(&mut momentum, S::one(), place.p());
             }
             if let Support::Anchor(anchor) = component.support {
@@ -81,32 +83,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 }
 
-impl<S: Real> Outside<S> {
-    /// On a node the force that does work, what changes the linear and what the angular momentum, N. Weights
-    /// have no torque about the centre of mass.
-    fn on<const D: usize>(&self, node: usize, support: Support) -> [[S; D]; 3] {
-        let zero = [S::zero(); D];
-        let of = |loads: &[S]| points::<S, D>(loads).get(node).copied().unwrap_or(zero);
-        let (force, load) = (of(&self.forces), of(&self.loads));
-        let turning = if support == Support::Free {
-            force
-        } else {
-            load
-        };
-        [force, load, turning]
-    }
-}
-
-impl<S: Real, const D: usize> LoadSums<S, D> {
-    #[inline]
-    fn add(
-        &mut self,
-        weight: S,
-        [arm, velocity]: [&[S; D]; 2],
-        [force, load, turning]: [[S; D]; 3],
-    ) {
-        self.work += weight * dot(&force, velocity);
-        add(&mut self.impulse, weight, &load);
-        self.torque.add(weight, &Bivector::wedge(arm, &turning));
-    }
+/// Takes over the forces of others.
+pub(super) fn copy_loads<S: Real>(own: &mut StepLoads<S>, other: &StepLoads<S>) {
+    own.total_force.copy_from_slice(&other.total_force);
+    own.force.copy_from_slice(&other.force);
 }

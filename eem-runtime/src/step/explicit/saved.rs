@@ -15,14 +15,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for [start, now] in self.stage.rates(self.kept_places) {
             rates.push(if self.has_left { start } else { now });
         }
-        let outside = if self.has_left {
+        let own = if self.has_left {
             // After an attempt that was not accepted.
             books.copy_from(&self.old_books, self.is_driven);
-            &self.start_outside
+            &self.start_loads
         } else {
-            &self.outside
+            &self.loads
         };
-        loads.extend(outside.loads.iter().chain(&outside.forces));
+        loads.extend(own.total_force.iter().chain(&own.force));
         if !self.is_ready {
             books.clear();
             rates.fill(S::zero());
@@ -66,8 +66,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for ([start, _], rate) in own.zip(&saved.rates) {
             *start = *rate;
         }
-        let outside = &mut self.start_outside;
-        let loads = outside.loads.iter_mut().chain(&mut outside.forces);
+        let loads = &mut self.start_loads;
+        let loads = loads.total_force.iter_mut().chain(&mut loads.force);
         for (own, load) in loads.zip(&saved.loads) {
             *own = *load;
         }

@@ -6,7 +6,7 @@ use super::tableau::{
 };
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::{Past, points};
+use crate::element::group::Past;
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::Real;
 
@@ -128,20 +128,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         self.loads
             .evaluate_forces_at(view.loads, view.masses, time)?;
-        self.outside.loads.copy_from_slice(&self.loads.total_force);
-        if self.loads.has_force() {
-            self.outside.forces.copy_from_slice(&self.loads.force);
-        }
         self.apply_loads();
         Ok(())
     }
 
     /// The loads are the first of the forces.
     fn apply_loads(&mut self) {
-        let loads = points::<S, D>(&self.outside.loads);
         let masses = self.stage.places[..self.components.masses].iter_mut();
         for (place, &node) in masses.zip(&self.components.nodes) {
-            place.rates[1] = loads[node as usize];
+            place.rates[1] = self.loads.total_force(node as usize);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::components::{Component, Support};
 use super::memory::Target;
+use super::outside::copy_loads;
 use super::stages::From;
 use super::tableau::WEIGHTS;
 use super::vector::Origin;
@@ -83,7 +84,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for [start, now] in self.stage.rates_mut(self.kept_places) {
             *now = *start;
         }
-        self.outside.copy_from(&self.start_outside);
+        copy_loads(&mut self.loads, &self.start_loads);
         self.books.copy_from(&self.old_books, self.is_driven);
     }
 
