@@ -15,6 +15,7 @@ mod attempt;
 mod booking;
 mod closing;
 mod components;
+mod demand;
 mod error;
 mod guard;
 mod inertia;
@@ -47,7 +48,7 @@ use memory::{Books, LoadSums};
 use prescribed::Prescribed;
 use scratch::Scratch;
 
-pub(crate) use error::Demand;
+pub(crate) use demand::Demand;
 pub(crate) use past::SavedExplicit;
 
 /// An explicit scheme at work on a scene.

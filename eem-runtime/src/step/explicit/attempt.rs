@@ -1,6 +1,6 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
-use super::error::Demand;
+use super::demand::Demand;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;

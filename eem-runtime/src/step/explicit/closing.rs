@@ -16,7 +16,7 @@ mod momenta;
 mod rigid;
 mod shape;
 
-use super::error::{Demand, Scales};
+use super::demand::{Demand, Scales};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::element::group::ClosingView;

@@ -66,7 +66,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         })
     }
 
-    /// What the energy of a component lacks, and the magnitude of its terms, J.
+    /// The defect of the energy of a component, and the magnitude of its terms, J.
     pub(in super::super) fn defect_of(&self, index: usize) -> [S; 2] {
         let [energy, magnitude] = self.energy_of(index);
         let target = self.books.targets[index].energy;

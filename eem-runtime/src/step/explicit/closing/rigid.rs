@@ -1,6 +1,6 @@
 //! A component that nothing can close turns like a rigid body, if it nearly does so anyway.
 
-use super::super::error::{Demand, Scales};
+use super::super::demand::{Demand, Scales};
 use super::super::vector::{add, difference, length};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;

@@ -1,0 +1,50 @@
+//! How accurate a step has to be, and in which units.
+
+use crate::step::control::Tolerance;
+use eem_material::number::scalar::Real;
+
+/// How accurate a step has to be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Demand<S> {
+    /// As its size makes it.
+    None,
+    /// Its error is within this tolerance.
+    Within(Tolerance<S>),
+}
+
+/// The largest correction of a fixed step that counts as truncation. A vibration at half of the limit of stability
+/// loses 1 − |R(2.98 i)|² = 2.9e-3 of its energy in a step; one whose frequency rises by an eighth meanwhile loses this.
+const LARGEST_FIXED_CORRECTION: f64 = 1e-2;
+
+/// Up to this difference from a rigid rotation a fixed step may be replaced by one.
+const LARGEST_FIXED_TURN: f64 = 1e-7;
+
+/// The part of the tolerance that a rigid rotation may differ by.
+const TURN_SHARE: f64 = 0.1;
+
+impl<S: Real> Demand<S> {
+    /// The largest correction before closing, relative to the terms of the energy.
+    pub(super) fn largest_correction(self) -> S {
+        match self {
+            Self::None => S::from_f64(LARGEST_FIXED_CORRECTION),
+            Self::Within(tolerance) => tolerance.relative,
+        }
+    }
+
+    /// By how much a rigid rotation may differ from what the stages say, relatively.
+    pub(super) fn largest_turn(self) -> S {
+        match self {
+            Self::None => S::from_f64(LARGEST_FIXED_TURN),
+            Self::Within(tolerance) => S::from_f64(TURN_SHARE) * tolerance.relative,
+        }
+    }
+}
+
+/// How large positions and momenta are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scales<S> {
+    /// |q|₂ of all masses, m.
+    pub(super) position: S,
+    /// |p|₂, the largest so far, kg m/s.
+    pub(super) momentum: S,
+}
