@@ -1,9 +1,16 @@
-//! What is kept of an element that has been closed.
+//! What is found of an element at a stage, and kept where a step is closed.
 
-use crate::element::group::explicit::rates::Found;
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use eem_material::free_energy::{Array, FreeEnergy, Rates};
 use eem_material::number::scalar::{Mask, Real, unless};
+
+/// What the rates of a point follow from.
+pub(super) struct Found<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
+    pub(super) theta: S,
+    pub(super) rates: Rates<M::Variables>,
+    pub(super) viscosities: M::Viscosities,
+    pub(super) gradient: Gradient<K, S, D>,
+}
 
 /// What was found of a point when it was closed last.
 #[derive(Clone, Copy)]

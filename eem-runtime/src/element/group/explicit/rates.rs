@@ -7,20 +7,13 @@
 use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, scale};
+use crate::element::group::explicit::closed::Found;
 use crate::element::group::explicit::group::FreeGroup;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::point::Point;
-use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
-use eem_material::free_energy::{Array, FreeEnergy, Material, Rates};
+use crate::element::kinematics::{Arms, Kinematics, Measures};
+use eem_material::free_energy::{Array, Material, Rates};
 use eem_material::number::scalar::{Mask, Real, is_positive};
-
-/// What the rates of a point follow from.
-pub(super) struct Found<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
-    pub(super) theta: S,
-    pub(super) rates: Rates<M::Variables>,
-    pub(super) viscosities: M::Viscosities,
-    pub(super) gradient: Gradient<K, S, D>,
-}
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
