@@ -152,9 +152,9 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
     /// Temperatures and energies of the open components.
     fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError>;
 
-    /// Adds the forces on places that were found when components were last closed, for those that are asked for, and
-    /// writes `γ̇` and `g γ̇` of dashpots.
-    fn pull(&self, asked: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]);
+    /// Adds the forces on places that were found when some components were last closed, and writes `γ̇` and `g γ̇` of
+    /// their dashpots.
+    fn pull(&self, components: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]);
 
     /// The rates of the closed state, at temperatures that differ from those of the last
     /// [`close`](Self::close) by little.

@@ -25,7 +25,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Gives anchors the velocities with which they start.
-    pub(super) fn set_anchors_going(&mut self) {
+    pub(super) fn start_anchors(&mut self) {
         for moved in &self.prescribed.moved {
             for &place in &moved.places {
                 self.stage.places[place].rates[0] = moved.velocities[0];

@@ -70,7 +70,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Finds rates and targets.
     #[cold]
     fn prepare(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
-        self.set_anchors_going();
+        self.start_anchors();
         self.evaluate_loads(view, view.state.time.value)?;
         self.find_rates(From::Model, None)?;
         self.set_targets(view.state);

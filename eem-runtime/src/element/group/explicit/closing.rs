@@ -30,10 +30,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, 
     }
 
     /// See [`ExplicitGroup::pull`](super::ExplicitGroup::pull).
-    pub(super) fn pull_all(&self, asked: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]) {
+    pub(super) fn pull_all(
+        &self,
+        components: &[bool],
+        forces: &mut [[S; D]],
+        creep: &mut [[S; 2]],
+    ) {
         let members = self.elements.members.iter().zip(&self.places);
         for ((member, (component, nodes)), closed) in members.zip(&self.closed) {
-            if !asked[*component as usize] {
+            if !components[*component as usize] {
                 continue;
             }
             let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);

@@ -79,8 +79,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Explicit
         self.close_all(view)
     }
 
-    fn pull(&self, asked: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]) {
-        self.pull_all(asked, forces, creep);
+    fn pull(&self, components: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]) {
+        self.pull_all(components, forces, creep);
     }
 
     fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {

@@ -176,7 +176,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Gives entropy to an element as if it had produced it: `θ (1 + r + r²/2)` with `r = x/c`, and
-    /// `e + θ x (1 + r/2)`. Whether that is exact to rounding, and θ to what the entropy that is kept asks.
+    /// `e + θ x (1 + r/2)`. Returns the lanes in which that is exact
+    /// to rounding, and θ meets the kept entropy.
     pub(super) fn warm(
         &mut self,
         index: usize,

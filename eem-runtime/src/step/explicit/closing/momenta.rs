@@ -172,7 +172,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         inactive | left.largest().at_most(self.own_rounding(index))
     }
 
-    /// What linear and angular momentum of a component lack.
+    /// The defects of linear and angular momentum of a component.
     pub(in super::super) fn missing_momenta(&self, index: usize) -> ([S; D], Bivector<S, D>) {
         let (motion, target) = (&self.scratch.motions[index], &self.books.targets[index]);
         let linear = core::array::from_fn(|axis| target.linear[axis].beyond(motion.linear[axis]));
