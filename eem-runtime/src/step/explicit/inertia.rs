@@ -97,31 +97,28 @@ impl<S: Real, const D: usize> Inertia<S, D> {
     }
 }
 
-/// The inverse of the inertia tensor `I = tr M − M` of a body in space, by its cofactors.
+/// The inverse of the inertia tensor `I = tr M − M` of a body in space: its cofactors over its determinant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Inverse<S>([[S; 3]; 3]);
+pub(super) struct Inverse<S> {
+    cofactors: [[S; 3]; 3],
+    determinant: S,
+}
 
 impl<S: Real> Inverse<S> {
     /// Nothing if the body is weak about an axis.
     fn of<const D: usize>(moments: &Moments<S, D>) -> Option<Self> {
-        let own = |i: usize| moments.0[i % 3][i % 3];
-        let tensor = |i: usize, j: usize| match (i % 3, j % 3) {
-            (i, j) if i == j => own(i + 1) + own(i + 2),
-            (i, j) => -moments.0[i.min(j)][i.max(j)],
-        };
-        let cofactor = |i: usize, j: usize| {
-            tensor(i + 1, j + 1) * tensor(i + 2, j + 2)
-                - tensor(i + 1, j + 2) * tensor(i + 2, j + 1)
-        };
-        let cofactors: [[S; 3]; 3] =
-            core::array::from_fn(|i| core::array::from_fn(|j| cofactor(i.min(j), i.max(j))));
-        let [first, second, third] = [0, 1, 2].map(|i| tensor(0, i) * cofactors[0][i]);
-        let determinant = first + second + third;
-        // About the weakest axis the inertia is nearly their quotient.
-        let minors = cofactors[0][0] + cofactors[1][1] + cofactors[2][2];
-        let is_strong = (S::from_f64(WEAK) * moments.trace() * minors).less(determinant);
-        let inverse = cofactors.map(|row| row.map(|cofactor| cofactor / determinant));
-        is_strong.all().then_some(Self(inverse))
+        let m = &moments.0;
+        let [a, b, c] = [m[1][1] + m[2][2], m[0][0] + m[2][2], m[0][0] + m[1][1]];
+        let [d, e, f] = [-m[0][1], -m[0][2], -m[1][2]];
+        let [xx, yy, zz] = [b * c - f * f, a * c - e * e, a * b - d * d];
+        let [xy, xz, yz] = [e * f - d * c, d * f - e * b, d * e - a * f];
+        let determinant = a * xx + d * xy + e * xz;
+        // About the weakest axis the inertia is nearly the determinant over the sum of principal minors.
+        let least = S::from_f64(WEAK) * moments.trace() * (xx + yy + zz);
+        least.less(determinant).all().then_some(Self {
+            cofactors: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
+            determinant,
+        })
     }
 
     /// The rotation about the axes (1, 2), (2, 0) and (0, 1).
@@ -132,7 +129,9 @@ impl<S: Real> Inverse<S> {
             -momentum.at([0, 2]),
             momentum.at([0, 1]),
         ];
-        let [x, y, z] = self.0.map(|row| dot(&row, &right));
+        let [x, y, z] = self
+            .cofactors
+            .map(|row| dot(&row, &right) / self.determinant);
         let mut rotation = Bivector::zero();
         *rotation.at_mut([1, 2]) = x;
         *rotation.at_mut([0, 2]) = -y;
