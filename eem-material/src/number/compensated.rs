@@ -61,6 +61,13 @@ impl<S: Scalar> Compensated<S> {
         self.carries[index] = S::zero();
     }
 
+    /// Restarts the sums of one point of `D` coordinates.
+    #[inline]
+    pub fn set_point<const D: usize>(&mut self, point: usize, values: &[S; D]) {
+        self.values.as_chunks_mut().0[point] = *values;
+        self.carries.as_chunks_mut().0[point] = [S::zero(); D];
+    }
+
     /// Replaces all sums, exactly.
     pub fn write(&mut self, values: impl FnOnce(&mut [S])) {
         values(&mut self.values);

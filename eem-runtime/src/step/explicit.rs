@@ -5,10 +5,10 @@
 //! puts energy and momenta back to their targets to rounding.
 //!
 //! ```text
-//! attempt    stages, and what they say of their error                    (attempt, stages, error)
-//! book       entropies and targets from the integrals of the step        (quadrature, guard, booking)
+//! stages     stage vectors, their rates, and the integrals of the step   (stages, outside, error)
+//! book       entropies and targets from the integrals                    (booking, guard)
 //! close      momenta, then energy: by heat, by motion, by shape          (closing)
-//! finish     the rates with which the next step begins                   (attempt)
+//! prove      what is left of all laws has to be rounding                 (proof)
 //! ```
 
 mod attempt;
@@ -20,9 +20,10 @@ mod error;
 mod guard;
 mod inertia;
 mod memory;
+mod outside;
 mod past;
 mod prescribed;
-mod quadrature;
+mod proof;
 mod saved;
 mod scratch;
 mod stability;
@@ -34,7 +35,7 @@ mod vector;
 use core::mem;
 
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, ExplicitGroup, Loose, Offsets};
+use crate::element::group::{Elements, ExplicitGroup, Loose, Stage};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -42,9 +43,8 @@ use crate::element::state::State;
 use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use components::Components;
-use eem_material::number::compact::compact;
-use eem_material::number::scalar::{Mask, Real};
-use memory::{Books, Quadrature, Rows, Sample};
+use eem_material::number::scalar::Real;
+use memory::{Books, LoadSums};
 use prescribed::Prescribed;
 use scratch::Scratch;
 
@@ -52,41 +52,40 @@ pub(crate) use demand::Demand;
 pub(crate) use past::SavedExplicit;
 
 /// An explicit scheme at work on a scene.
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each says something of its own"
+)]
 pub(crate) struct Explicit<S: Real, const D: usize> {
     groups: Vec<Box<dyn ExplicitGroup<S, D>>>,
     components: Components<S>,
-    offsets: Offsets,
-    /// m and 1/m per place; zero for anchors.
-    masses: Vec<S>,
-    per_mass: Vec<S>,
-    /// The place of the temperature of each dashpot among those of slots and reservoirs; behind them without.
-    dashpot_slots: Vec<u32>,
-    /// Whether each thermal slot has a thermostat; empty without any.
-    held: Vec<bool>,
     /// Whether each thermal slot has a path of heat or a dashpot.
     produces: Vec<bool>,
     prescribed: Prescribed<S, D>,
     /// The acceleration of free fall, m/s², if there is any.
     gravity: Option<[S; D]>,
+    /// The loads at the present stage, and at the start of the step.
     loads: StepLoads<S>,
-    /// The stage vector at the start of the step and at the present stage.
-    y0: Vec<S>,
-    y: Vec<S>,
-    /// The rates of all stages.
-    rows: Rows<S>,
-    /// What belongs to the rates at the start of the step, and at its end.
-    start: Sample<S, D>,
-    end: Sample<S, D>,
-    quadrature: Quadrature<S, D>,
+    start_loads: StepLoads<S>,
+    /// Whether loads, moved anchors, thermostats or dashpots that lose heat act, so that integrals of the step change targets.
+    is_driven: bool,
+    /// The places whose rates are kept: masses, and anchors where some are moved.
+    kept_places: usize,
+    /// The present stage, between steps that at the end of the last one with its rates.
+    stage: Stage<S, D>,
+    /// What loads have done to each component since the start of the step; empty without.
+    load_sums: Vec<LoadSums<S, D>>,
+    /// The books of the step, and as they were before it.
     books: Books<S, D>,
-    new_books: Books<S, D>,
-    scratch: Scratch<S>,
+    old_books: Books<S, D>,
+    scratch: Scratch<S, D>,
     /// Energy defects are closed by motion before heat.
     is_motion_first: bool,
-    /// Rates and targets are those of the present state.
+    /// Rates and targets are those of the state; the same before the last attempt.
     is_ready: bool,
-    /// The same before the last attempt.
     was_ready: bool,
+    /// The stage has left the start of a step that was not made: variables, rates and books are to be restored.
+    has_left: bool,
     /// How often all elements have been evaluated.
     evaluations: u64,
 }
@@ -117,61 +116,46 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// For these groups, which know their entropies already.
     pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<S, D>>>, site: Site<'_, S, D>) -> Self {
         let components = Components::new(site.masses, site.elements, site.layout, site.conduction);
-        let places = components.places();
+        let place_of = components.place_of();
         for group in &mut groups {
-            group.join(&components.of_element, &places);
+            group.join(&components.of_element, &place_of);
         }
         let reservoirs = &site.conduction.reservoirs;
-        let offsets = Offsets::new(components.nodes.len() * D, site.layout, reservoirs.len());
-        let prescribed = Prescribed::new(site.loads, site.layout);
+        let prescribed = Prescribed::new(site.loads, site.layout, &components);
         let mut held = Vec::new();
-        for slot in prescribed.slots() {
+        for own in &prescribed.held {
             held.resize(site.layout.thermal, false);
-            held[slot] = true;
+            held[own.slot] = true;
         }
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
-        let has_loads = loads.has_total_force() || prescribed.moves();
-        let counts = [held.len(), if has_loads { components.all.len() } else { 0 }];
+        let moves = !prescribed.moved.is_empty();
+        let has_loads = loads.has_total_force() || moves;
         let masses = components.masses_of(site.masses);
-        let per_mass = masses.iter().map(|&mass| {
-            let is_anchor = mass.equal(S::zero()).all();
-            if is_anchor { mass } else { mass.recip() }
-        });
-        let anchors = components.nodes.len() - components.masses;
-        let sample = Sample::new(offsets, anchors, [held.len(), loads.total_force.len()]);
-        let vector = || vec![S::zero(); offsets.padded];
-        let temperatures = offsets.size - offsets.temperatures;
-        let dashpot_slots = dashpot_slots(site.layout, temperatures);
-        let produces = produces(&components, site.layout, &dashpot_slots);
-        let sizes = [site.masses.len(), components.nodes.len() * D];
+        let stage = Stage::new(masses, site.layout, reservoirs.len(), held);
+        let books = Books::new(&components, stage.held.len());
         Self {
-            per_mass: per_mass.collect(),
-            masses,
-            produces,
-            quadrature: Quadrature::new(
-                [site.layout.thermal, site.layout.viscous],
-                reservoirs,
-                counts,
-            ),
-            y0: vector(),
-            y: vector(),
-            rows: core::array::from_fn(|_| vector()),
-            end: sample.clone(),
-            start: sample,
-            books: Books::new(&components, held.len()),
-            new_books: Books::new(&components, held.len()),
-            scratch: Scratch::new(&components, site.layout, sizes),
-            dashpot_slots,
+            produces: produces(&components, site.layout),
+            load_sums: vec![LoadSums::none(); if has_loads { components.all.len() } else { 0 }],
+            old_books: books.clone(),
+            books,
+            scratch: Scratch::new(&components, site.layout, site.masses.len()),
+            is_driven: has_loads || !stage.held.is_empty() || components.loses_heat(None),
+            kept_places: if moves {
+                components.nodes.len()
+            } else {
+                components.masses
+            },
+            stage,
             groups,
             components,
-            offsets,
-            held,
             prescribed,
+            start_loads: loads.clone(),
             loads,
             gravity: site.loads.have_weight().then(|| site.loads.gravity.into()),
             is_motion_first: false,
             is_ready: false,
             was_ready: false,
+            has_left: false,
             evaluations: 0,
         }
     }
@@ -215,23 +199,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 }
 
-/// The place of the temperature of each dashpot; behind all temperatures for one without.
-fn dashpot_slots(layout: &Layout, temperatures: usize) -> Vec<u32> {
-    let mut slots = vec![compact(temperatures); layout.viscous];
-    let ends = layout.elements.iter().skip(1).map(|slots| slots.viscous);
-    for (own, end) in layout.elements.iter().zip(ends.chain([layout.viscous])) {
-        if let Some(slot) = own.thermal {
-            slots[own.viscous..end].fill(compact(slot));
-        }
-    }
-    slots
-}
-
 /// Whether each thermal slot has a path of heat or a dashpot.
-fn produces<S>(components: &Components<S>, layout: &Layout, dashpot_slots: &[u32]) -> Vec<bool> {
+fn produces<S>(components: &Components<S>, layout: &Layout) -> Vec<bool> {
     let mut produces = vec![false; layout.thermal];
     let ends = components.paths.iter().flat_map(|path| path.ends);
-    for slot in ends.chain(dashpot_slots.iter().copied()) {
+    let dashpots = components.dashpots.iter();
+    for slot in ends.chain(dashpots.filter_map(|dashpot| dashpot.slot)) {
         if let Some(produces) = produces.get_mut(slot as usize) {
             *produces = true;
         }

@@ -251,9 +251,6 @@ fn what_follows_from_the_steps() {
     let newton = [("/past/forces/0/0", "forces")];
     let explicit = [
         ("/explicit/rates/0", "rates"),
-        ("/explicit/powers/0", "powers of dashpots"),
-        ("/explicit/supply/1", "powers of thermostats"),
-        ("/explicit/reactions/0", "reactions of anchors"),
         ("/explicit/held_energies/1", "energies of thermostats"),
         ("/explicit/targets/0/0", "targets"),
         ("/explicit/largest_momentum", "the largest momentum"),

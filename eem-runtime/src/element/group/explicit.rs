@@ -12,12 +12,12 @@ mod closed;
 mod closing;
 mod group;
 mod rates;
+pub(super) mod stage;
 mod stiffness;
 mod temperature;
 pub(super) mod view;
 
 pub(crate) use group::FreeGroup;
+pub(crate) use stage::{Past, Place, Stage};
 pub(crate) use temperature::is_met;
-pub(crate) use view::{
-    ClosingView, ComponentEnergy, Offsets, PlaceOf, StageRates, StageView, UnkeptEntropy,
-};
+pub(crate) use view::{ClosingView, ComponentEnergy, UnkeptEntropy};

@@ -3,7 +3,8 @@
 use core::any::Any;
 use core::fmt::Debug;
 
-use super::explicit::view::{ClosingView, NodeStiffness, PlaceOf, StageRates, StageView};
+use super::explicit::stage::Stage;
+use super::explicit::view::{ClosingView, NodeStiffness};
 use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::Conjugates;
@@ -141,31 +142,23 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
     /// The elements without a scheme.
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>>;
 
-    /// Learns to which component each element belongs, and where its nodes are in the vectors of stages;
-    /// once per scene.
-    fn join(&mut self, component_of: &[u32], places: &dyn PlaceOf);
+    /// Learns to which component each element belongs, and the places of its nodes by component and node; once per
+    /// scene.
+    fn join(&mut self, component_of: &[u32], place_of: &dyn Fn(u32, u32) -> u32);
 
     /// Forces and rates at a stage.
-    fn rates(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError>;
+    fn rates(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
 
     /// Temperatures and energies of the open components.
-    fn close(&mut self, view: &mut ClosingView<'_, S>) -> Result<(), StateError>;
+    fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError>;
 
-    /// Adds the forces on the nodes that were found when components were last closed, for those that are
-    /// asked for, and writes `γ̇` and `g γ̇`.
-    fn pull(&self, asked: &[bool], forces: &mut [S], creeping: [&mut [S]; 2]);
+    /// Adds the forces on places that were found when some components were last closed, and writes `γ̇` and `g γ̇` of
+    /// their dashpots.
+    fn pull(&self, components: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]);
 
     /// The rates of the closed state, at temperatures that differ from those of the last
     /// [`close`](Self::close) by little.
-    fn finish(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError>;
+    fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
 
     /// How stiff elements are in a state, one after the other.
     fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>));

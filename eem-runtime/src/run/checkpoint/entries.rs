@@ -167,21 +167,17 @@ impl<S: Real> Checkpoint<S> {
             entries.push(Entry::new("choice of a scheme", FiniteNotNegative, numbers).sealed());
         }
         if let Some(explicit) = &self.explicit {
-            let targets = explicit.targets.iter();
-            let targets = targets.flat_map(|sum| [sum.value, sum.carry]);
             let momentum = explicit.largest_momentum;
             let flags = [explicit.is_new, explicit.is_motion_first];
             let flags = flags.map(|flag| S::from_f64(f64::from(u8::from(flag))));
+            entries.extend(explicit.sums().map(|(name, sums)| {
+                let pairs = sums.iter().flat_map(|sum| [sum.value, sum.carry]);
+                let entry = Entry::new(name, Rule::Sum, pairs);
+                entry.counted(sums.len()).sealed()
+            }));
             let lists = explicit.lists();
-            let count = explicit.targets.len();
-            entries.push(
-                Entry::new("targets", Rule::Sum, targets)
-                    .counted(count)
-                    .sealed(),
-            );
             entries.extend(lists.map(|(name, numbers)| Entry::list(name, numbers).sealed()));
             entries.extend([
-                Entry::sums("shares of reservoirs", &explicit.shares).sealed(),
                 Entry::new("the largest momentum", NotNegative, [momentum]).sealed(),
                 Entry::new("the energy defect", Rule::None, [explicit.residue]).sealed(),
                 Entry::new("the start of a step", Rule::None, flags).sealed(),

@@ -240,7 +240,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn accept(&self, control: &mut Control<S>) {
         let memory = &mut control.memory;
         memory.statistics.accepted += 1;
-        let momentum = norm(self.state.momenta.values());
+        let momentum = norm(self.state.momenta.values().iter().copied());
         memory.largest_momentum = memory.largest_momentum.maximum(momentum);
     }
 

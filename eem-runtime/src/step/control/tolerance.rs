@@ -153,8 +153,9 @@ impl<S: Real> Scales<S> {
         let share = relative / tolerance.relative;
         let of = |size: S, absolute: S| relative * size + share * absolute;
         let size = |of: &dyn Fn(&State<S>) -> S| of(old).maximum(of(new));
-        let positions = size(&|state| norm(state.positions.values()));
-        let momenta = size(&|state| norm(state.momenta.values())).maximum(largest_momentum);
+        let positions = size(&|state| norm(state.positions.values().iter().copied()));
+        let momenta =
+            size(&|state| norm(state.momenta.values().iter().copied())).maximum(largest_momentum);
         Self {
             position: of(positions, tolerance.position),
             momentum: of(momenta, tolerance.momentum),
@@ -201,14 +202,14 @@ impl<S: Real> Scales<S> {
 }
 
 /// `|x|₂`, scaled where squares would under- or overflow.
-pub(crate) fn norm<S: Real>(x: &[S]) -> S {
-    let sum = x.iter().fold(S::zero(), |sum, &x| sum + x * x);
+pub(crate) fn norm<S: Real>(x: impl Iterator<Item = S> + Clone) -> S {
+    let sum = x.clone().fold(S::zero(), |sum, x| sum + x * x);
     let is_normal = S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX);
     if is_normal.all() {
         return sum.sqrt();
     }
-    let most = x.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
-    let scaled = x.iter().map(|&x| x / most);
+    let most = x.clone().fold(S::zero(), |most, x| most.maximum(x.abs()));
+    let scaled = x.map(|x| x / most);
     let scaled = most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt();
     let has_none = most.equal(S::zero());
     S::select(is_normal, sum.sqrt(), S::select(has_none, most, scaled))

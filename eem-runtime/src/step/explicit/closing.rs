@@ -24,22 +24,22 @@ use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::Real;
 
-/// Changes of a component after which its closing is given up.
-const MOST_TURNS: usize = 10;
+/// Corrections of a component after which its closing fails.
+const MOST_ITERATIONS: usize = 10;
 
-/// Roundings, in ε, that a component may lack where nothing can give them.
+/// The defect of a component, in ε, that is accepted where no correction is possible.
 pub(super) const FROZEN: f64 = 8.0;
 
-/// What a look at the energy of a component says.
+/// How far the energy of a component is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Verdict {
-    /// It is what it has to be.
+enum Status {
+    /// Within tolerance.
     Closed,
     /// Its elements have to be evaluated again.
     Changed,
-    /// Its forces have to be known.
-    Asks,
-    /// Nothing can give it what it lacks.
+    /// Its forces have to be known for a correction.
+    NeedsForces,
+    /// No correction is possible.
     Failed,
 }
 
@@ -56,27 +56,27 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         self.scratch.open.fill(true);
         self.find_energies(next)?;
-        self.book_thermostats(next);
+        self.book_thermostats(view.step, next);
         self.share_productions();
         loop {
-            let mut has_asked = false;
-            self.scratch.asked.fill(false);
+            let mut needs_forces = false;
+            self.scratch.needs_forces.fill(false);
             for index in 0..self.components.all.len() {
                 if !self.scratch.open[index] {
                     continue;
                 }
-                let verdict = self.balance(index, next);
-                self.scratch.open[index] = verdict == Verdict::Changed;
-                self.scratch.asked[index] = verdict == Verdict::Asks;
-                has_asked |= verdict == Verdict::Asks;
+                let status = self.balance(index, next);
+                self.scratch.open[index] = status == Status::Changed;
+                self.scratch.needs_forces[index] = status == Status::NeedsForces;
+                needs_forces |= status == Status::NeedsForces;
             }
-            if has_asked {
+            if needs_forces {
                 self.find_forces(view);
                 for index in 0..self.components.all.len() {
-                    if self.scratch.asked[index] {
-                        let verdict = self.reshape(index, view, next)?;
-                        self.scratch.open[index] = verdict == Verdict::Changed;
-                        if verdict == Verdict::Failed {
+                    if self.scratch.needs_forces[index] {
+                        let status = self.reshape(index, view, next)?;
+                        self.scratch.open[index] = status == Status::Changed;
+                        if status == Status::Failed {
                             self.turn_rigidly(index, (view, demand, scales), next)?;
                         }
                     }
@@ -92,26 +92,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Temperatures and energies of the elements of open components.
     fn find_energies(&mut self, next: &mut State<S>) -> Result<(), StateError> {
         let scratch = &mut self.scratch;
-        for (index, energy) in scratch.energies.iter_mut().enumerate() {
-            if scratch.open[index] {
-                energy.clear(scratch.waits[index]);
+        let open = scratch.open.iter().zip(&scratch.inactive);
+        for (energy, (&is_open, &inactive)) in scratch.energies.iter_mut().zip(open) {
+            if is_open {
+                energy.clear(inactive);
             }
         }
-        let offsets = self.offsets;
-        let (nodes, internal) = self.y.split_at_mut(offsets.viscous);
-        let (viscous, temperatures) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
         let mut view = ClosingView {
-            open: &self.scratch.open,
-            waits: &self.scratch.waits,
-            positions: &nodes[..offsets.momenta],
-            viscous,
-            temperatures,
-            held: &self.held,
-            capacities: &mut self.scratch.capacities,
-            bends: &mut self.scratch.bends,
-            unkept: &mut self.scratch.unkept,
+            open: &scratch.open,
+            inactive: &scratch.inactive,
+            stage: &mut self.stage,
+            capacities: &mut scratch.capacities,
+            unkept: &mut scratch.unkept,
             next,
-            energies: &mut self.scratch.energies,
+            energies: &mut scratch.energies,
         };
         self.evaluations += 1;
         for group in &mut self.groups {
@@ -122,14 +116,17 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Forces of the elements, with weights, in the components that ask for them: the gradient of the energy.
     fn find_forces(&mut self, view: &ExplicitView<'_, S, D>) {
-        let forces = self.scratch.forces.as_chunks_mut::<D>().0;
-        for (force, &mass) in forces.iter_mut().zip(&self.masses) {
-            *force = core::array::from_fn(|axis| mass * view.loads.gravity[axis]);
-        }
         let scratch = &mut self.scratch;
+        let gravity: [S; D] = view.loads.gravity.into();
+        for (force, place) in scratch.forces.iter_mut().zip(&self.stage.places) {
+            *force = gravity.map(|g| place.mass * g);
+        }
         for group in &self.groups {
-            let creeping = [&mut *scratch.creep, &mut *scratch.powers];
-            group.pull(&scratch.asked, &mut scratch.forces, creeping);
+            group.pull(
+                &scratch.needs_forces,
+                &mut scratch.forces,
+                &mut scratch.creep,
+            );
         }
     }
 }

@@ -6,8 +6,8 @@
 use core::ops::Range;
 use std::collections::BTreeMap;
 
+use super::guard::PerWeight;
 use crate::element::conduction::{Conduction, Partner};
-use crate::element::group::PlaceOf;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use crate::scene::entry::ElementEntry;
@@ -53,10 +53,13 @@ impl<S: Real> Component<S> {
 pub(super) struct Path<S> {
     /// The thermal slot at one end, and at the other: reservoirs come behind all thermal slots.
     pub(super) ends: [u32; 2],
+    pub(super) component: u32,
     /// For a reservoir, which of the [shares](Components::shares) receives its entropy.
     pub(super) share: Option<u32>,
     /// κ, W/K.
     pub(super) conductance: S,
+    /// The temperatures of both ends at the stages with weights, K.
+    pub(super) seen: [PerWeight<S>; 2],
 }
 
 /// The entropy that a reservoir receives from a component.
@@ -80,13 +83,19 @@ pub(super) struct Components<S> {
     pub(super) slots: Vec<u32>,
     pub(super) paths: Vec<Path<S>>,
     pub(super) shares: Vec<Share>,
-    /// The component of each element, and of each dashpot.
+    /// The component of each element.
     pub(super) of_element: Vec<u32>,
-    pub(super) of_dashpot: Vec<u32>,
+    pub(super) dashpots: Vec<Dashpot>,
     /// The element of each thermal slot.
     pub(super) elements: Vec<u32>,
-    /// The component and the dashpots of each element without temperature that has dashpots.
-    pub(super) losing: Vec<(u32, Range<usize>)>,
+}
+
+/// A dashpot.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dashpot {
+    pub(super) component: u32,
+    /// The thermal slot of its element; without temperature its heat leaves the scene.
+    pub(super) slot: Option<u32>,
 }
 
 /// Sets that are merged: each points to another of the same set, the first to itself.
@@ -149,9 +158,8 @@ impl<S: Real> Components<S> {
             slots: Vec::new(),
             paths: Vec::new(),
             shares: Vec::new(),
-            of_dashpot: dashpots(layout, &numbers[nodes..]),
+            dashpots: dashpots(layout, &numbers[nodes..]),
             of_element: numbers[nodes..].to_vec(),
-            losing: losing(layout, &numbers[nodes..]),
             elements: slot_elements,
         };
         components.place_masses(&numbers, count, masses);
@@ -160,34 +168,36 @@ impl<S: Real> Components<S> {
         components
     }
 
-    /// The places of nodes, of which anchors have one per component.
-    pub(super) fn places(&self) -> Places {
-        let placed = self.nodes.iter().zip(&self.of_place).enumerate();
-        let mut places = Places {
-            of_masses: vec![None; self.nodes.iter().max().map_or(0, |&last| last as usize + 1)],
-            of_anchors: BTreeMap::new(),
-        };
-        for (place, (&node, &component)) in placed {
-            if place < self.masses {
-                places.of_masses[node as usize] = Some(compact(place));
-            } else {
-                places.of_anchors.insert((component, node), compact(place));
-            }
-        }
-        places
+    /// The place of a node of an element by its component.
+    pub(super) fn place_of(&self) -> impl Fn(u32, u32) -> u32 + use<S> {
+        let owners = self
+            .of_place
+            .iter()
+            .copied()
+            .zip(self.nodes.iter().copied());
+        let places: BTreeMap<_, _> = owners.zip(0..).collect();
+        move |component, node| places[&(component, node)]
     }
 
     /// The mass at each place, zero for anchors, kg.
-    pub(super) fn masses_of(&self, masses: &Masses<S>) -> Vec<S> {
+    pub(super) fn masses_of(&self, masses: &Masses<S>) -> impl Iterator<Item = S> {
         let nodes = self.nodes.iter();
-        let of = |&node: &u32| masses.get(node as usize).unwrap_or(S::zero());
-        nodes.map(of).collect()
+        nodes.map(|&node| masses.get(node as usize).unwrap_or(S::zero()))
     }
 
-    /// Place and node of all anchors.
-    pub(super) fn anchors(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let placed = self.nodes.iter().enumerate().skip(self.masses);
-        placed.map(|(place, &node)| (place, node as usize))
+    /// Whether some dashpot, or one of a component, has no temperature that takes its heat.
+    pub(super) fn loses_heat(&self, component: Option<usize>) -> bool {
+        let mut dashpots = self.dashpots.iter();
+        dashpots.any(|dashpot| {
+            let is_own = component.is_none_or(|own| own == dashpot.component as usize);
+            is_own && dashpot.slot.is_none()
+        })
+    }
+
+    /// The places of an anchor.
+    pub(super) fn anchors_of(&self, node: usize) -> impl Iterator<Item = usize> {
+        let anchors = self.nodes.iter().enumerate().skip(self.masses);
+        anchors.filter_map(move |(place, &own)| (own as usize == node).then_some(place))
     }
 
     /// Gives the masses their places, component after component.
@@ -275,9 +285,11 @@ impl<S: Real> Components<S> {
                 }
             };
             self.paths.push(Path {
+                component: compact(component),
                 ends: [slot, compact(far)],
                 share,
                 conductance: link.conductance,
+                seen: [[S::one(); _]; 2],
             });
         }
     }
@@ -293,21 +305,6 @@ impl<S: Real> Components<S> {
             reservoir,
         });
         compact(self.shares.len() - 1)
-    }
-}
-
-/// Where nodes are in the vectors of stages.
-pub(super) struct Places {
-    of_masses: Vec<Option<u32>>,
-    of_anchors: BTreeMap<(u32, u32), u32>,
-}
-
-impl PlaceOf for Places {
-    fn place_of(&self, component: u32, node: u32) -> u32 {
-        let mass = self.of_masses.get(node as usize).copied().flatten();
-        let anchor = || self.of_anchors.get(&(component, node)).copied();
-        mass.or_else(anchor)
-            .unwrap_or_else(|| unreachable!("nodes of elements have places"))
     }
 }
 
@@ -331,27 +328,14 @@ fn numbered<S: Real>(sets: &mut Sets, masses: &Masses<S>, nodes: usize) -> (Vec<
     (numbers, count)
 }
 
-/// The dashpots of each element.
-fn ranges(layout: &Layout) -> impl Iterator<Item = Range<usize>> + '_ {
+/// The dashpots of elements in these components.
+fn dashpots(layout: &Layout, components: &[u32]) -> Vec<Dashpot> {
+    let mut all = Vec::with_capacity(layout.viscous);
     let ends = layout.elements.iter().skip(1).map(|slots| slots.viscous);
     let ends = ends.chain([layout.viscous]);
-    let elements = layout.elements.iter().zip(ends);
-    elements.map(|(slots, end)| slots.viscous..end)
-}
-
-/// The component of each dashpot.
-fn dashpots(layout: &Layout, components: &[u32]) -> Vec<u32> {
-    let own = ranges(layout).zip(components);
-    own.flat_map(|(dashpots, &component)| dashpots.map(move |_| component))
-        .collect()
-}
-
-/// Elements whose dashpots lose their heat.
-fn losing(layout: &Layout, components: &[u32]) -> Vec<(u32, Range<usize>)> {
-    let elements = layout.elements.iter().zip(ranges(layout)).zip(components);
-    let losing =
-        elements.filter(|((slots, dashpots), _)| slots.thermal.is_none() && !dashpots.is_empty());
-    losing
-        .map(|((_, dashpots), &component)| (component, dashpots))
-        .collect()
+    for ((slots, end), &component) in layout.elements.iter().zip(ends).zip(components) {
+        let slot = slots.thermal.map(compact);
+        all.resize(end, Dashpot { component, slot });
+    }
+    all
 }

@@ -1,19 +1,61 @@
 //! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
 
-use super::Explicit;
 use super::demand::Scales;
+use super::stages::errors;
+use super::vector::dot;
+use super::{Explicit, ExplicitView};
 use crate::step::control::{Tolerance, norm};
-use eem_material::number::scalar::{Mask, Real};
+use crate::step::error::StepFailure;
+use eem_material::number::scalar::{Mask, Real, Scalar};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// The scales of the step, at its end before it is closed.
-    pub(super) fn scales(&self) -> Scales<S> {
-        let size = self.components.masses * D;
-        let momenta = self.offsets.momenta..self.offsets.momenta + size;
-        Scales {
-            position: norm(&self.y0[..size]).maximum(norm(&self.y[..size])),
-            momentum: norm(&self.y[momenta]).maximum(self.books.largest_momentum),
+    /// How large positions and momenta are before the step is closed; all have to be finite.
+    pub(super) fn scales(&self, time: S) -> Result<Scales<S>, StepFailure> {
+        if !time.is_finite() {
+            let value = time.to_f64();
+            return Err(StepFailure::Time { value });
         }
+        let masses = &self.stage.places[..self.components.masses];
+        let mut squares = [S::zero(); 3];
+        for place in masses {
+            let parts = [&place.past.start[0], place.q(), place.p()];
+            for (square, part) in squares.iter_mut().zip(parts) {
+                *square += dot(part, part);
+            }
+        }
+        let mut sizes = squares.map(Scalar::sqrt);
+        let are_normal = squares.map(|sum| S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX));
+        if !are_normal.into_iter().all(Mask::all) {
+            self.expect_finite()?;
+            sizes = [
+                norm(masses.iter().flat_map(|place| place.past.start[0])),
+                norm(masses.iter().flat_map(|place| place.now[0])),
+                norm(masses.iter().flat_map(|place| place.now[1])),
+            ];
+        }
+        let [start, end, momentum] = sizes;
+        Ok(Scales {
+            position: start.maximum(end),
+            momentum: momentum.maximum(self.books.largest_momentum),
+        })
+    }
+
+    #[cold]
+    fn expect_finite(&self) -> Result<(), StepFailure> {
+        let masses = self.stage.places[..self.components.masses].iter();
+        for (place, &node) in masses.zip(&self.components.nodes) {
+            for (quantity, vector) in ["position", "momentum"].into_iter().zip(place.now) {
+                if let Some(axis) = vector.iter().position(|value| !value.is_finite()) {
+                    return Err(StepFailure::Unbounded {
+                        node: node as usize,
+                        axis,
+                        quantity,
+                        value: vector[axis].to_f64(),
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The error of the step in units of the tolerance,
@@ -24,13 +66,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ///
     /// with the scales of a [`Tolerance`]: |q| for positions and viscous stretches, the largest |p| so far for
     /// momenta, and θ.
-    pub(super) fn estimate(&mut self, h: S, tolerance: &Tolerance<S>, scales: Scales<S>) -> S {
-        self.find_errors(h);
-        let [fifth, third] = self.errors();
+    pub(super) fn estimate(
+        &self,
+        view: &ExplicitView<'_, S, D>,
+        tolerance: &Tolerance<S>,
+        scales: Scales<S>,
+    ) -> S {
         let mut sums = [S::zero(); 2];
-        let mut see = |index: usize, per_scale: S| {
-            for (sum, errors) in sums.iter_mut().zip([fifth, third]) {
-                let error = errors[index] * per_scale;
+        let mut see = |errors: [S; 2], per_scale: S| {
+            for (sum, error) in sums.iter_mut().zip(errors) {
+                let error = view.step * error * per_scale;
                 *sum += error * error;
             }
         };
@@ -40,18 +85,28 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let has_scale = S::zero().less(scale).all();
             if has_scale { scale.recip() } else { S::zero() }
         };
-        let offsets = self.offsets;
-        let size = self.components.masses * D;
+        let masses = &self.stage.places[..self.components.masses];
         let position = per_scale(scales.position, tolerance.position);
-        for index in (0..size).chain(offsets.viscous..offsets.temperatures) {
-            see(index, position);
-        }
         let momentum = per_scale(scales.momentum, tolerance.momentum);
-        for index in offsets.momenta..offsets.momenta + size {
-            see(index, momentum);
+        for place in masses {
+            let [fifth, third] = errors(&place.past);
+            for (part, per_scale) in [position, momentum].into_iter().enumerate() {
+                for axis in 0..D {
+                    see([fifth[part][axis], third[part][axis]], per_scale);
+                }
+            }
         }
-        for index in offsets.temperatures..offsets.reservoirs {
-            see(index, per_scale(self.y0[index], tolerance.temperature));
+        let first = self.stage.temperatures;
+        for (pair, past) in self.stage.inner_past.iter().enumerate() {
+            let [[fifth], [third]] = errors(past);
+            for at in 0..2 {
+                let per_scale = if 2 * pair + at < first {
+                    position
+                } else {
+                    per_scale(past.start[0][at], tolerance.temperature)
+                };
+                see([fifth[at], third[at]], per_scale);
+            }
         }
         let [five, three] = sums;
         if five.at_most(S::zero()).all() {

@@ -13,7 +13,7 @@ mod moments;
 mod principal;
 pub(super) mod turning;
 
-use super::vector::length;
+use super::vector::{dot, length};
 use crate::algebra::bivector::{Bivector, planes};
 use eem_material::number::scalar::{Mask, Real};
 
@@ -27,8 +27,8 @@ pub(super) enum Inertia<S, const D: usize> {
     Single(S),
     /// One arm by construction, a single mass on an anchor or a free pair: its direction and `Σ m r²`.
     Line { along: [S; D], moment: S },
-    /// In space, factors of the inertia tensor.
-    Space(Factors<S>),
+    /// In space.
+    Space(Inverse<S>),
     /// Nearly on a line, or of more dimensions.
     Principal(Principal<D>),
     /// Of several lanes, each with a shape of its own.
@@ -45,9 +45,9 @@ impl<S: Real, const D: usize> Inertia<S, D> {
             return Self::Lanes(moments);
         }
         if D == 3
-            && let Some(factors) = Factors::of(&moments)
+            && let Some(inverse) = Inverse::of(&moments)
         {
-            return Self::Space(factors);
+            return Self::Space(inverse);
         }
         Self::Principal(Principal::of(&moments.lane(0)))
     }
@@ -78,7 +78,7 @@ impl<S: Real, const D: usize> Inertia<S, D> {
                 let speed = turning.map(|w| S::select(is_none, S::zero(), w / *moment));
                 Bivector::wedge(along, &speed)
             }
-            Self::Space(factors) => factors.solve(momentum),
+            Self::Space(inverse) => inverse.solve(momentum),
             Self::Principal(principal) => {
                 let omega = principal.solve(&momentum.map(0.0, |j| j.lane(0)));
                 omega.map(S::zero(), S::from_f64)
@@ -97,84 +97,45 @@ impl<S: Real, const D: usize> Inertia<S, D> {
     }
 }
 
-/// The inertia tensor of a body in space, `tr M − M`, eliminated with the largest diagonal entry that is left as
-/// pivot: its factors `L D Lᵀ`.
+/// The inverse of the inertia tensor `I = tr M − M` of a body in space: its cofactors over its determinant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Factors<S> {
-    matrix: [[S; 3]; 3],
-    order: [usize; 3],
+pub(super) struct Inverse<S> {
+    cofactors: [[S; 3]; 3],
+    determinant: S,
 }
 
-impl<S: Real> Factors<S> {
+impl<S: Real> Inverse<S> {
     /// Nothing if the body is weak about an axis.
     fn of<const D: usize>(moments: &Moments<S, D>) -> Option<Self> {
-        let trace = moments.trace();
-        let entry = |i: usize, j: usize| moments.0[i.min(j)][i.max(j)];
-        let mut matrix: [[S; 3]; 3] = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                if i == j {
-                    trace - entry(i, i)
-                } else {
-                    -entry(i, j)
-                }
-            })
-        });
-        let least = S::from_f64(WEAK) * trace;
-        let mut order = [0, 1, 2];
-        for step in 0..3 {
-            let mut best = step;
-            for other in step + 1..3 {
-                let [own, found] = [order[other], order[best]].map(|axis| matrix[axis][axis]);
-                if found.less(own).all() {
-                    best = other;
-                }
-            }
-            order.swap(step, best);
-            let pivot = order[step];
-            if !least.less(matrix[pivot][pivot]).all() {
-                return None;
-            }
-            for &row in &order[step + 1..] {
-                let factor = matrix[row][pivot] / matrix[pivot][pivot];
-                for &column in &order[step + 1..] {
-                    matrix[row][column] -= factor * matrix[pivot][column];
-                }
-                // Not needed any more, but the factor is.
-                matrix[row][pivot] = factor;
-            }
-        }
-        Some(Self { matrix, order })
+        let m = &moments.0;
+        let [a, b, c] = [m[1][1] + m[2][2], m[0][0] + m[2][2], m[0][0] + m[1][1]];
+        let [d, e, f] = [-m[0][1], -m[0][2], -m[1][2]];
+        let [xx, yy, zz] = [b * c - f * f, a * c - e * e, a * b - d * d];
+        let [xy, xz, yz] = [e * f - d * c, d * f - e * b, d * e - a * f];
+        let determinant = a * xx + d * xy + e * xz;
+        // About the weakest axis the inertia is nearly the determinant over the sum of principal minors.
+        let least = S::from_f64(WEAK) * moments.trace() * (xx + yy + zz);
+        least.less(determinant).all().then_some(Self {
+            cofactors: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
+            determinant,
+        })
     }
 
     /// The rotation about the axes (1, 2), (2, 0) and (0, 1).
     #[inline]
     fn solve<const D: usize>(&self, momentum: &Bivector<S, D>) -> Bivector<S, D> {
-        let (matrix, order) = (&self.matrix, &self.order);
-        let mut right = [
+        let right = [
             momentum.at([1, 2]),
             -momentum.at([0, 2]),
             momentum.at([0, 1]),
         ];
-        for step in 0..3 {
-            let pivot = order[step];
-            for &row in &order[step + 1..] {
-                right[row] -= matrix[row][pivot] * right[pivot];
-            }
-        }
-        let mut omega = [S::zero(); 3];
-        for step in (0..3).rev() {
-            let pivot = order[step];
-            let rest = order[step + 1..]
-                .iter()
-                .fold(right[pivot], |rest, &column| {
-                    rest - matrix[pivot][column] * omega[column]
-                });
-            omega[pivot] = rest / matrix[pivot][pivot];
-        }
+        let [x, y, z] = self
+            .cofactors
+            .map(|row| dot(&row, &right) / self.determinant);
         let mut rotation = Bivector::zero();
-        *rotation.at_mut([1, 2]) = omega[0];
-        *rotation.at_mut([0, 2]) = -omega[1];
-        *rotation.at_mut([0, 1]) = omega[2];
+        *rotation.at_mut([1, 2]) = x;
+        *rotation.at_mut([0, 2]) = -y;
+        *rotation.at_mut([0, 1]) = z;
         rotation
     }
 }

@@ -1,8 +1,7 @@
 //! What an explicit scheme keeps between steps, as it is saved.
 
-use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::compensated::Sum;
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 
 /// Targets, what reservoirs have received from each component, and the rates of the present state, bit for
 /// bit.
@@ -20,48 +19,31 @@ pub(crate) struct SavedExplicit<S> {
     pub(crate) is_motion_first: bool,
     /// All sums of each component.
     pub(crate) targets: Vec<Sum<S>>,
-    pub(crate) shares: Compensated<S>,
+    pub(crate) shares: Vec<Sum<S>>,
     pub(crate) held_energies: Vec<S>,
     pub(crate) largest_momentum: S,
     pub(crate) residue: S,
+    /// Of the stage vector, of dashpots and of thermostats.
     pub(crate) rates: Vec<S>,
-    pub(crate) powers: Vec<S>,
-    pub(crate) supply: Vec<S>,
-    pub(crate) reactions: Vec<S>,
+    /// With weights, then without.
     pub(crate) loads: Vec<S>,
-    pub(crate) forces: Vec<S>,
 }
 
-impl<S: Real> SavedExplicit<S> {
-    /// Forgets what belongs to no state.
-    pub(super) fn clear(&mut self) {
-        self.targets.fill(Sum::new(S::zero()));
-        self.shares.write(|shares| shares.fill(S::zero()));
-        (self.largest_momentum, self.residue) = (S::zero(), S::zero());
-        let lists = [
-            &mut self.held_energies,
-            &mut self.rates,
-            &mut self.powers,
-            &mut self.supply,
-            &mut self.reactions,
-            &mut self.loads,
-            &mut self.forces,
-        ];
-        for list in lists {
-            list.fill(S::zero());
-        }
+impl<S> SavedExplicit<S> {
+    /// All sums with their names.
+    pub(crate) fn sums(&self) -> [(&'static str, &[Sum<S>]); 2] {
+        [
+            ("targets", &self.targets),
+            ("shares of reservoirs", &self.shares),
+        ]
     }
 
     /// All lists with their names.
-    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 7] {
+    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 3] {
         [
             ("rates", &self.rates),
-            ("powers of dashpots", &self.powers),
-            ("powers of thermostats", &self.supply),
-            ("reactions of anchors", &self.reactions),
             ("energies of thermostats", &self.held_energies),
-            ("loads with weights", &self.loads),
-            ("loads", &self.forces),
+            ("loads", &self.loads),
         ]
     }
 }

@@ -10,6 +10,7 @@ use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
+use crate::step::explicit::components::Components;
 use crate::step::explicit::tableau::{STAGES, TIMES};
 use eem_material::number::scalar::{Real, is_positive};
 
@@ -57,42 +58,45 @@ impl<S: Real> Interpolation<S> {
 
 /// An anchor that is moved.
 #[derive(Clone, Debug)]
-struct Moved<S, const D: usize> {
-    node: Node,
+pub(super) struct Moved<S, const D: usize> {
+    pub(super) node: Node,
+    /// Its places among those of a stage.
+    pub(super) places: Vec<usize>,
     /// Which of the motions of the scene.
     motion: usize,
     /// Of the stages, m and m/s.
-    positions: [[S; D]; STAGES],
-    velocities: [[S; D]; STAGES],
+    pub(super) positions: [[S; D]; STAGES],
+    pub(super) velocities: [[S; D]; STAGES],
 }
 
 /// An element with a thermostat.
 #[derive(Clone, Debug)]
-struct Held<S> {
+pub(super) struct Held<S> {
     element: Element,
-    slot: usize,
+    pub(super) slot: usize,
     /// Which of the temperatures of the scene.
     temperature: usize,
     /// Of the stages, K.
-    temperatures: [S; STAGES],
+    pub(super) temperatures: [S; STAGES],
 }
 
 /// All that is prescribed in a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Prescribed<S, const D: usize> {
     interpolation: Interpolation<S>,
-    moved: Vec<Moved<S, D>>,
-    held: Vec<Held<S>>,
+    pub(super) moved: Vec<Moved<S, D>>,
+    pub(super) held: Vec<Held<S>>,
 }
 
 impl<S: Real, const D: usize> Prescribed<S, D> {
-    pub(super) fn new(loads: &Loads<S, D>, layout: &Layout) -> Self {
+    pub(super) fn new(loads: &Loads<S, D>, layout: &Layout, components: &Components<S>) -> Self {
         // Of several motions of one anchor the last one counts, as in the implicit schemes.
         let mut moved: Vec<Moved<S, D>> = Vec::new();
         for (motion, (node, _)) in loads.motions.iter().enumerate() {
             moved.retain(|moved| moved.node != *node);
             moved.push(Moved {
                 node: *node,
+                places: components.anchors_of(node.index).collect(),
                 motion,
                 positions: [[S::zero(); D]; STAGES],
                 velocities: [[S::zero(); D]; STAGES],
@@ -116,39 +120,6 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
             moved,
             held,
         }
-    }
-
-    /// Whether there is nothing.
-    pub(super) fn is_none(&self) -> bool {
-        self.moved.is_empty() && self.held.is_empty()
-    }
-
-    /// Whether some anchor is moved.
-    pub(super) fn moves(&self) -> bool {
-        !self.moved.is_empty()
-    }
-
-    /// The thermal slots with thermostats.
-    pub(super) fn slots(&self) -> impl Iterator<Item = usize> + '_ {
-        self.held.iter().map(|held| held.slot)
-    }
-
-    /// `(slot, θ)` of all thermostats at a stage.
-    pub(super) fn temperatures(&self, stage: usize) -> impl Iterator<Item = (usize, S)> + '_ {
-        let held = self.held.iter();
-        held.map(move |held| (held.slot, held.temperatures[stage]))
-    }
-
-    /// Node, position and velocity of all moved anchors at a stage.
-    pub(super) fn motions(
-        &self,
-        stage: usize,
-    ) -> impl Iterator<Item = (usize, &[S; D], &[S; D])> + '_ {
-        let moved = self.moved.iter();
-        moved.map(move |moved| {
-            let at = moved.node.index;
-            (at, &moved.positions[stage], &moved.velocities[stage])
-        })
     }
 
     /// Evaluates everything in the step from `time` by `step`.

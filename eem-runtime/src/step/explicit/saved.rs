@@ -1,7 +1,7 @@
 //! An explicit scheme is saved and goes on from what was saved.
 
 use super::Explicit;
-use super::memory::{START, Target};
+use super::memory::Books;
 use super::past::SavedExplicit;
 use crate::element::state::State;
 use eem_material::number::compensated::Sum;
@@ -10,34 +10,44 @@ use eem_material::number::scalar::Real;
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// What the step from this state depends on besides.
     pub(crate) fn save(&self, state: &State<S>) -> SavedExplicit<S> {
-        let (books, start) = (&self.books, &self.start);
-        let mut saved = SavedExplicit {
+        let mut books = self.books.clone();
+        let (mut rates, mut loads) = (Vec::new(), Vec::new());
+        for [start, now] in self.stage.rates(self.kept_places) {
+            rates.push(if self.has_left { start } else { now });
+        }
+        let own = if self.has_left {
+            // After an attempt that was not accepted.
+            books.copy_from(&self.old_books, self.is_driven);
+            &self.start_loads
+        } else {
+            &self.loads
+        };
+        loads.extend(own.total_force.iter().chain(&own.force));
+        if !self.is_ready {
+            books.clear();
+            rates.fill(S::zero());
+            loads.fill(S::zero());
+        }
+        SavedExplicit {
             is_new: !self.is_ready,
             state: state.digest(),
             is_motion_first: self.is_motion_first,
-            targets: saved_targets(&books.targets),
-            shares: books.shares.clone(),
-            held_energies: books.held_energies.clone(),
+            targets: sums_of(&mut books),
+            shares: books.shares,
+            held_energies: books.held_energies,
             largest_momentum: books.largest_momentum,
             residue: books.residue,
-            rates: self.rows[START][..self.offsets.size].to_vec(),
-            powers: start.powers.clone(),
-            supply: start.supply.clone(),
-            reactions: start.reactions.as_flattened().to_vec(),
-            loads: start.loads.clone(),
-            forces: start.forces.clone(),
-        };
-        if saved.is_new {
-            saved.clear();
+            rates,
+            loads,
         }
-        saved
     }
 
     /// Goes on from what was saved of the same scene.
     pub(crate) fn restore(&mut self, saved: &SavedExplicit<S>) {
         self.is_ready = !saved.is_new;
+        self.has_left = true;
         self.is_motion_first = saved.is_motion_first;
-        let (books, start) = (&mut self.books, &mut self.start);
+        let books = &mut self.books;
         let mut sums = saved.targets.iter();
         for target in &mut books.targets {
             target.each_mut(|own| {
@@ -46,25 +56,28 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 }
             });
         }
-        books.shares.copy_from(&saved.shares);
+        books.shares.copy_from_slice(&saved.shares);
         books.held_energies.copy_from_slice(&saved.held_energies);
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;
         books.terms = None;
-        self.rows[START][..self.offsets.size].copy_from_slice(&saved.rates);
-        start.powers.copy_from_slice(&saved.powers);
-        start.supply.copy_from_slice(&saved.supply);
-        start.loads.copy_from_slice(&saved.loads);
-        start.forces.copy_from_slice(&saved.forces);
-        let reactions = start.reactions.as_flattened_mut();
-        reactions.copy_from_slice(&saved.reactions);
+        self.old_books.copy_from(books, true);
+        let own = self.stage.rates_mut(self.kept_places);
+        for ([start, _], rate) in own.zip(&saved.rates) {
+            *start = *rate;
+        }
+        let loads = &mut self.start_loads;
+        let loads = loads.total_force.iter_mut().chain(&mut loads.force);
+        for (own, load) in loads.zip(&saved.loads) {
+            *own = *load;
+        }
     }
 }
 
-fn saved_targets<S: Real, const D: usize>(targets: &[Target<S, D>]) -> Vec<Sum<S>> {
+fn sums_of<S: Real, const D: usize>(books: &mut Books<S, D>) -> Vec<Sum<S>> {
     let mut sums = Vec::new();
-    for target in targets {
-        { *target }.each_mut(|sum| sums.push(*sum));
+    for target in &mut books.targets {
+        target.each_mut(|sum| sums.push(*sum));
     }
     sums
 }

@@ -1,22 +1,24 @@
 //! Working memory of the closing of a step.
 
-use crate::element::group::{ComponentEnergy, UnkeptEntropy};
+use crate::algebra::bivector::Bivector;
+use crate::element::group::{ComponentEnergy, Place, UnkeptEntropy};
 use crate::element::layout::Layout;
 use crate::step::explicit::components::Components;
+use crate::step::explicit::vector::{add, dot, size};
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::{Mask, Real};
 
 /// How far the closing of a component is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Progress<S: Real> {
-    /// Changes so far that were followed by another look at the energy.
-    pub(super) turns: usize,
+    /// Number of corrections so far.
+    pub(super) iterations: usize,
     /// Whether heat has been among them.
     pub(super) has_heated: S::Mask,
     /// What is missing of the energy, J.
     pub(super) defect: S,
-    /// The last look at the energy, see `defect_of`, while nothing has changed since.
-    pub(super) seen: Option<[S; 3]>,
+    /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
+    pub(super) seen: Option<[S; 2]>,
     /// The magnitude of the terms of the energy where the closing began; zero before, J.
     pub(super) scale: S,
     /// The first defect over the scale.
@@ -32,9 +34,24 @@ pub(super) struct Progress<S: Real> {
     pub(super) granularity: S,
     /// Whether the energy is what it has to be, and whether forces have to be known to make it so.
     pub(super) is_closed: S::Mask,
-    pub(super) is_asking: S::Mask,
+    pub(super) needs_forces: S::Mask,
     /// The component has turned like a rigid body, since it was closed in no other way.
     pub(super) is_rigid: bool,
+}
+
+/// Sums over the masses of a component.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<S, const D: usize> {
+    /// L, kg m/s, and J about the origin of the component, kg m²/s.
+    pub(super) linear: [S; D],
+    pub(super) angular: Bivector<S, D>,
+    /// `Σ |p|` and `Σ |q||p|` by sums of magnitudes, with coordinates q or arms about the origin, whichever are larger:
+    /// positions are rounded to ε of their coordinates.
+    pub(super) terms: [S; 2],
+    /// Kinetic energy and that of weights, and the magnitude of its terms, J.
+    pub(super) energy: Total<S>,
+    pub(super) magnitude: S,
+    pub(super) kinetic: S,
 }
 
 /// Sums of rows of matrices, which say how fast the fastest motion can be.
@@ -49,28 +66,26 @@ pub(super) struct RowSums<S> {
 
 /// Working memory of the closing of a step.
 #[derive(Clone, Debug)]
-pub(super) struct Scratch<S: Real> {
+pub(super) struct Scratch<S: Real, const D: usize> {
     /// Per component.
     pub(super) progress: Vec<Progress<S>>,
+    pub(super) motions: Vec<Motion<S, D>>,
     pub(super) energies: Vec<ComponentEnergy<S>>,
-    /// Whether it has to be evaluated; whether its forces are asked for.
+    /// Whether it has to be evaluated; whether its forces are needed.
     pub(super) open: Vec<bool>,
-    pub(super) asked: Vec<bool>,
-    /// Of several numbers, those that have not changed and wait while the others are evaluated.
-    pub(super) waits: Vec<S::Mask>,
-    /// c per thermal slot, and what it has produced itself in this step, J/K.
-    pub(super) capacities: Vec<S>,
+    pub(super) needs_forces: Vec<bool>,
+    /// Lanes that have not changed and are inactive while the others are evaluated.
+    pub(super) inactive: Vec<S::Mask>,
+    /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
+    pub(super) capacities: Vec<[S; 2]>,
     pub(super) produced: Vec<S>,
-    /// `|∂c/∂ ln θ|` per thermal slot, J/K.
-    pub(super) bends: Vec<S>,
     /// An entropy that the closing has not met.
     pub(super) unkept: Option<UnkeptEntropy>,
     /// Entropy that an element with a thermostat has received otherwise, J/K.
     pub(super) received: Vec<S>,
-    /// The forces of the elements, `γ̇` and `g γ̇`, where they are asked for, N, m/s and W.
-    pub(super) forces: Vec<S>,
-    pub(super) creep: Vec<S>,
-    pub(super) powers: Vec<S>,
+    /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are needed, N, m/s and W.
+    pub(super) forces: Vec<[S; D]>,
+    pub(super) creep: Vec<[S; 2]>,
     /// Π of the paths of heat, J/K.
     pub(super) paths: Vec<S>,
     /// The smallest production of paths of heat between thermostats and reservoirs; the largest number without any,
@@ -82,7 +97,7 @@ pub(super) struct Scratch<S: Real> {
 impl<S: Real> Progress<S> {
     pub(super) fn none() -> Self {
         Self {
-            turns: 0,
+            iterations: 0,
             has_heated: S::Mask::none(),
             defect: S::zero(),
             seen: None,
@@ -94,34 +109,63 @@ impl<S: Real> Progress<S> {
             factor: S::one(),
             granularity: S::zero(),
             is_closed: S::Mask::none(),
-            is_asking: S::Mask::none(),
+            needs_forces: S::Mask::none(),
             is_rigid: false,
         }
     }
 }
 
-impl<S: Real> Scratch<S> {
-    /// For so many nodes of the scene, and so many coordinates of those that the scheme moves.
-    pub(super) fn new(
-        components: &Components<S>,
-        layout: &Layout,
-        [nodes, coordinates]: [usize; 2],
-    ) -> Self {
+impl<S: Real, const D: usize> Motion<S, D> {
+    /// Of no masses.
+    pub(super) fn none() -> Self {
+        Self {
+            linear: [S::zero(); D],
+            angular: Bivector::zero(),
+            terms: [S::zero(); 2],
+            energy: Total::default(),
+            magnitude: S::zero(),
+            kinetic: S::zero(),
+        }
+    }
+
+    /// Adds a mass at the end of an arm.
+    #[inline]
+    pub(super) fn add(&mut self, place: &Place<S, D>, arm: &[S; D], gravity: Option<&[S; D]>) {
+        let (q, p) = (place.q(), place.p());
+        add(&mut self.linear, S::one(), p);
+        self.angular.add(S::one(), &Bivector::wedge(arm, p));
+        let momentum = size(p);
+        self.terms[0] += momentum;
+        self.terms[1] += size(arm).maximum(size(q)) * momentum;
+        let kinetic = S::from_f64(0.5) * dot(p, p) * place.per_mass;
+        self.energy.add(kinetic);
+        self.kinetic += kinetic;
+        self.magnitude += kinetic;
+        for (&g, &q) in gravity.into_iter().flatten().zip(q) {
+            let potential = -place.mass * g * q;
+            self.energy.add(potential);
+            self.magnitude += potential.abs();
+        }
+    }
+}
+
+impl<S: Real, const D: usize> Scratch<S, D> {
+    /// For so many nodes of the scene.
+    pub(super) fn new(components: &Components<S>, layout: &Layout, nodes: usize) -> Self {
         let (count, thermal) = (components.all.len(), layout.thermal);
         Self {
             progress: vec![Progress::none(); count],
+            motions: vec![Motion::none(); count],
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
-            asked: vec![false; count],
-            waits: vec![S::Mask::none(); count],
-            capacities: vec![S::zero(); thermal],
+            needs_forces: vec![false; count],
+            inactive: vec![S::Mask::none(); count],
+            capacities: vec![[S::zero(); 2]; thermal],
             produced: vec![S::zero(); thermal],
-            bends: vec![S::zero(); thermal],
             unkept: None,
             received: vec![S::zero(); thermal],
-            forces: vec![S::zero(); coordinates],
-            creep: vec![S::zero(); layout.viscous],
-            powers: vec![S::zero(); layout.viscous],
+            forces: vec![[S::zero(); D]; components.nodes.len()],
+            creep: vec![[S::zero(); 2]; layout.viscous],
             paths: vec![S::zero(); components.paths.len()],
             least: S::MAX,
             stability: RowSums {
@@ -130,5 +174,14 @@ impl<S: Real> Scratch<S> {
                 flows: vec![S::zero(); thermal],
             },
         }
+    }
+
+    /// Begins to close a step.
+    pub(super) fn clear(&mut self) {
+        self.progress.fill(Progress::none());
+        self.inactive.fill(S::Mask::none());
+        self.produced.fill(S::zero());
+        self.unkept = None;
+        self.least = S::MAX;
     }
 }

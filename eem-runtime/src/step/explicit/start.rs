@@ -1,54 +1,91 @@
-//! Rates and targets of a state from which nothing is known yet: the first, or one that was changed.
+//! The start of a step: where the last one ended, or a state of which nothing is known yet.
 
-use super::components::Component;
-use super::components::Support;
+use super::components::{Component, Support};
 use super::memory::Target;
-use super::memory::{END, START};
+use super::outside::copy_loads;
 use super::stages::From;
-use super::vector::{Origin, add};
+use super::tableau::WEIGHTS;
+use super::vector::Origin;
 use super::{Explicit, ExplicitView};
-use crate::algebra::bivector::Bivector;
-use crate::element::group::{ComponentEnergy, points};
+use crate::element::group::{ComponentEnergy, Place, points};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Takes the start of a step from a state.
-    pub(super) fn load(&mut self, view: &ExplicitView<'_, S, D>) {
-        let (state, offsets) = (view.state, self.offsets);
-        let nodes = &self.components.nodes;
-        let y0 = &mut self.y0;
-        let (moving, internal) = y0.split_at_mut(offsets.viscous);
-        let (positions, momenta) = moving.split_at_mut(offsets.momenta);
-        let placed = positions.as_chunks_mut::<D>().0.iter_mut();
-        let placed = placed.zip(momenta.as_chunks_mut::<D>().0);
-        let old = points::<S, D>(state.positions.values());
-        let old_momenta = points::<S, D>(state.momenta.values());
-        for ((position, momentum), &node) in placed.zip(nodes) {
-            *position = old[node as usize];
-            *momentum = old_momenta[node as usize];
+    /// Puts the stage and the books to the start of a step, and begins its integrals.
+    pub(super) fn begin(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        next: &mut State<S>,
+    ) -> Result<(), StepFailure> {
+        if self.has_left || !self.is_ready {
+            // Steps write what moves; all else is the same in both states from now on.
+            next.copy_from(view.state);
+            self.load(view);
+            if self.is_ready {
+                self.rewind();
+            } else {
+                self.prepare(view)?;
+            }
         }
-        let (viscous, temperatures) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
-        let (temperatures, reservoirs) =
-            temperatures.split_at_mut(offsets.reservoirs - offsets.temperatures);
-        viscous.copy_from_slice(state.viscous.values());
-        temperatures.copy_from_slice(&state.temperatures);
-        let (reservoirs, _) = reservoirs.split_at_mut(offsets.size - offsets.reservoirs);
-        reservoirs.copy_from_slice(&view.conduction.reservoirs);
+        self.old_books.copy_from(&self.books, self.is_driven);
+        for production in &mut self.stage.productions {
+            production.begin(S::from_f64(WEIGHTS[0]));
+        }
+        for path in &mut self.components.paths {
+            for (seen, end) in path.seen.iter_mut().zip(path.ends) {
+                seen[0] = self.stage.theta(end as usize);
+            }
+        }
+        if self.is_driven {
+            self.begin_outside();
+        }
+        self.has_left = true;
+        Ok(())
     }
 
-    /// Finds rates and targets of a state that is loaded.
-    pub(super) fn prepare(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
-        self.y.copy_from_slice(&self.y0);
+    /// Takes the variables of a state.
+    #[cold]
+    fn load(&mut self, view: &ExplicitView<'_, S, D>) {
+        let (state, stage) = (view.state, &mut self.stage);
+        let positions = points::<S, D>(state.positions.values());
+        let momenta = points::<S, D>(state.momenta.values());
+        for (place, &node) in stage.places.iter_mut().zip(&self.components.nodes) {
+            place.now = [positions[node as usize], momenta[node as usize]];
+            place.begin_rates();
+        }
+        let viscous = state.viscous.values().iter();
+        let temperatures = state.temperatures.iter();
+        let inner = viscous
+            .chain(temperatures)
+            .chain(&view.conduction.reservoirs);
+        for (own, &value) in stage.inner.iter_mut().zip(inner) {
+            *own = value;
+        }
+        stage.inner_rates.fill(S::zero());
+    }
+
+    /// Finds rates and targets.
+    #[cold]
+    fn prepare(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
+        self.start_anchors();
         self.evaluate_loads(view, view.state.time.value)?;
-        self.find_rates(0, From::Model, END)?;
-        core::mem::swap(&mut self.start, &mut self.end);
-        self.rows.swap(START, END);
+        self.find_rates(From::Model, None)?;
         self.set_targets(view.state);
         self.is_ready = true;
         Ok(())
+    }
+
+    /// Goes back to rates and books at the start of the last attempt.
+    #[cold]
+    fn rewind(&mut self) {
+        for [start, now] in self.stage.rates_mut(self.kept_places) {
+            *now = *start;
+        }
+        copy_loads(&mut self.loads, &self.start_loads);
+        self.books.copy_from(&self.old_books, self.is_driven);
     }
 
     /// Sums the energies of the elements of a state.
@@ -62,72 +99,38 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Energy and momenta of the state are what they have to be from now on.
+    /// Takes energy and momenta of this state as the conserved targets.
     fn set_targets(&mut self, state: &State<S>) {
-        self.books.shares.write(|shares| shares.fill(S::zero()));
-        (self.books.largest_momentum, self.books.residue) = (S::zero(), S::zero());
-        self.books.terms = None;
-        self.new_books.copy_from(&self.books);
+        self.books.clear();
         self.sum_energies(state);
-        for slot in 0..self.held.len() {
+        for (slot, energy) in self.books.held_energies.iter_mut().enumerate() {
             let element = self.components.elements[slot] as usize;
-            self.books.held_energies[slot] = state.energies[element].value;
+            *energy = state.energies[element].value;
         }
         for index in 0..self.components.all.len() {
-            self.books.targets[index] = Target::none();
-            self.new_books.targets[index] = Target::none();
-            let [energy, ..] = self.energy_of(index);
-            let component = &self.components.all[index];
-            let momenta = self.origin(component);
-            let momenta = momenta.map(|origin| self.momenta_about(component, &origin));
-            let (linear, angular) = momenta.unwrap_or(([S::zero(); D], Bivector::zero()));
+            self.look_at_motion(index);
+            let motion = &self.scratch.motions[index];
             let mut target = Target::none();
-            target.energy = Sum::new(energy);
-            for (sum, value) in target.linear.iter_mut().zip(linear) {
-                *sum = Sum::new(value);
+            if self.components.all[index].support != Support::Several {
+                target.linear = motion.linear.map(Sum::new);
+                target.angular = motion.angular.map(Sum::new(S::zero()), Sum::new);
             }
-            target.angular = angular.map(Sum::new(S::zero()), Sum::new);
+            let [energy, _] = self.energy_of(index);
+            target.energy = Sum::new(energy);
             self.books.targets[index] = target;
         }
     }
 
-    /// The point about which a component keeps its angular momentum: its anchor or its centre of mass; none with
-    /// several anchors.
-    pub(super) fn origin(&self, component: &Component<S>) -> Option<Origin<S, D>> {
-        self.origin_in(component, points::<S, D>(&self.y[..self.offsets.momenta]))
-    }
-
-    /// The same for other positions than those of the present stage vector.
-    pub(super) fn origin_in(
-        &self,
-        component: &Component<S>,
-        positions: &[[S; D]],
-    ) -> Option<Origin<S, D>> {
+    /// The point about which a component keeps its angular momentum: its anchor or its centre of mass; the origin
+    /// with several anchors, where it keeps none.
+    pub(super) fn origin(places: &[Place<S, D>], component: &Component<S>) -> Origin<S, D> {
         match component.support {
             Support::Free => {
-                let masses = component.masses.clone();
-                let masses = masses.map(|place| (self.masses[place], &positions[place]));
-                Some(Origin::center(masses, component.mass))
+                let masses = places[component.masses.clone()].iter();
+                Origin::center(masses.map(|place| (place.mass, place.q())), component.mass)
             }
-            Support::Anchor(place) => Some(Origin::at(&positions[place])),
-            Support::Several => None,
+            Support::Anchor(place) => Origin::at(places[place].q()),
+            Support::Several => Origin::at(&[S::zero(); D]),
         }
-    }
-
-    /// Linear momentum, and angular momentum about the anchor, or about the centre of mass.
-    pub(super) fn momenta_about(
-        &self,
-        component: &Component<S>,
-        origin: &Origin<S, D>,
-    ) -> ([S; D], Bivector<S, D>) {
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
-        let (mut linear, mut angular) = ([S::zero(); D], Bivector::zero());
-        for place in component.masses.clone() {
-            let arm = origin.arm(&positions[place]);
-            add(&mut linear, S::one(), &momenta[place]);
-            angular.add(S::one(), &Bivector::wedge(&arm, &momenta[place]));
-        }
-        (linear, angular)
     }
 }

@@ -28,34 +28,22 @@ pub(super) const TIMES: [f64; STAGES] = [
     1.0,
 ];
 
-/// a of stage 1, for the stages 0.
+/// a of each stage, for the stages that use it.
 pub(super) const ROW_1: [f64; 1] = [0.05260015195876773];
-
-/// a of stage 2, for the stages 0, 1.
 pub(super) const ROW_2: [f64; 2] = [0.0197250569845379, 0.0591751709536137];
-
-/// a of stage 3, for the stages 0, 2.
 pub(super) const ROW_3: [f64; 2] = [0.02958758547680685, 0.08876275643042054];
-
-/// a of stage 4, for the stages 0, 2, 3.
 pub(super) const ROW_4: [f64; 3] = [0.2413651341592667, -0.8845494793282861, 0.924834003261792];
-
-/// a of stage 5, for the stages 0, 3, 4.
 pub(super) const ROW_5: [f64; 3] = [
     0.037037037037037035,
     0.17082860872947386,
     0.12546768756682242,
 ];
-
-/// a of stage 6, for the stages 0, 3, 4, 5.
 pub(super) const ROW_6: [f64; 4] = [
     0.037109375,
     0.17025221101954405,
     0.06021653898045596,
     -0.017578125,
 ];
-
-/// a of stage 7, for the stages 0, 3, 4, 5, 6.
 pub(super) const ROW_7: [f64; 5] = [
     0.03709200011850479,
     0.17038392571223998,
@@ -63,8 +51,6 @@ pub(super) const ROW_7: [f64; 5] = [
     -0.015319437748624402,
     0.008273789163814023,
 ];
-
-/// a of stage 8, for the stages 0, 3, 4, 5, 6, 7.
 pub(super) const ROW_8: [f64; 6] = [
     0.6241109587160757,
     -3.3608926294469414,
@@ -73,8 +59,6 @@ pub(super) const ROW_8: [f64; 6] = [
     20.154067550477894,
     -43.48988418106996,
 ];
-
-/// a of stage 9, for the stages 0, 3, 4, 5, 6, 7, 8.
 pub(super) const ROW_9: [f64; 7] = [
     0.47766253643826434,
     -2.4881146199716677,
@@ -84,8 +68,6 @@ pub(super) const ROW_9: [f64; 7] = [
     -33.28821096898486,
     -0.020331201708508627,
 ];
-
-/// a of stage 10, for the stages 0, 3, 4, 5, 6, 7, 8, 9.
 pub(super) const ROW_10: [f64; 8] = [
     -0.9371424300859873,
     5.186372428844064,
@@ -96,8 +78,6 @@ pub(super) const ROW_10: [f64; 8] = [
     2.4936055526796523,
     -3.0467644718982196,
 ];
-
-/// a of stage 11, for the stages 0, 3, 4, 5, 6, 7, 8, 9, 10.
 pub(super) const ROW_11: [f64; 9] = [
     2.273310147516538,
     -10.53449546673725,

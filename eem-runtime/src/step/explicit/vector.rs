@@ -66,3 +66,8 @@ impl<S: Real, const D: usize> Origin<S, D> {
         core::array::from_fn(|axis| self.base[axis] + (self.offset[axis] + by[axis]))
     }
 }
+
+/// The largest `|a_i|`.
+pub(super) fn largest<S: Real, const D: usize>(a: &[S; D]) -> S {
+    a.iter().fold(S::zero(), |most, x| most.maximum(x.abs()))
+}

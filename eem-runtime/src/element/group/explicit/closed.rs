@@ -1,8 +1,16 @@
-//! What is kept of an element that has been closed.
+//! What is found of an element at a stage, and kept where a step is closed.
 
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use eem_material::free_energy::{Array, FreeEnergy, Rates};
 use eem_material::number::scalar::{Mask, Real, unless};
+
+/// What the rates of a point follow from.
+pub(super) struct Found<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
+    pub(super) theta: S,
+    pub(super) rates: Rates<M::Variables>,
+    pub(super) viscosities: M::Viscosities,
+    pub(super) gradient: Gradient<K, S, D>,
+}
 
 /// What was found of a point when it was closed last.
 #[derive(Clone, Copy)]
@@ -31,14 +39,6 @@ const CHANGE: f64 = 2.0;
 const UNIMPORTANT: f64 = 8.0;
 
 impl<S: Real> Values<S> {
-    /// Never evaluated.
-    const fn none(zero: S) -> Self {
-        Self {
-            magnitude: zero,
-            terms: zero,
-        }
-    }
-
     /// Evaluates the magnitude of ψ where it may matter, given the terms of the energy; otherwise it is the last
     /// one that was found.
     #[inline]
@@ -69,21 +69,24 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
             },
             viscosities: (viscosities, viscosities),
             gradient: Gradient::<K, S, D>::filled(nowhere),
-            values: Values::none(S::zero()),
+            values: Values {
+                magnitude: S::zero(),
+                terms: S::zero(),
+            },
         }
     }
 
-    /// Something else was found; what was known before stays for the numbers that wait.
+    /// Stores a new evaluation; inactive lanes keep the old one.
     #[inline]
-    pub(super) fn replace(&mut self, waits: S::Mask, mut found: Self) {
-        if S::LANES > 1 && waits.any() {
-            found.keep(waits, self);
+    pub(super) fn replace(&mut self, inactive: S::Mask, mut found: Self) {
+        if S::LANES > 1 && inactive.any() {
+            found.keep(inactive, self);
         }
         *self = found;
     }
 
-    fn keep(&mut self, waits: S::Mask, old: &Self) {
-        let keep = |new: &mut S, old: S| *new = S::select(waits, old, *new);
+    fn keep(&mut self, inactive: S::Mask, old: &Self) {
+        let keep = |new: &mut S, old: S| *new = S::select(inactive, old, *new);
         keep(&mut self.theta, old.theta);
         keep(&mut self.values.magnitude, old.values.magnitude);
         keep(&mut self.values.terms, old.values.terms);
@@ -108,7 +111,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
     /// Forces and viscosities at a temperature that is nearly that of the evaluation:
     /// `∂f/∂θ = −∂s/∂λ`, `∂g/∂θ = ∂s/∂γ`.
     #[inline]
-    pub(super) fn at(&self, theta: S) -> (Rates<M::Variables>, M::Viscosities) {
+    pub(super) fn at(&self, theta: S) -> Found<S, M, K, D> {
         let change = theta - self.theta;
         let (mut rates, (mut viscosities, slopes)) = (self.rates, self.viscosities);
         for a in 0..M::MEASURES {
@@ -119,6 +122,11 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
             rates.forces[index] += rates.slopes[index] * change;
             viscosities[k] += slopes[k] * change;
         }
-        (rates, viscosities)
+        Found {
+            theta,
+            rates,
+            viscosities,
+            gradient: self.gradient,
+        }
     }
 }

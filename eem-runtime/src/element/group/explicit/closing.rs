@@ -6,9 +6,10 @@ use crate::element::error::StateError;
 use crate::element::group::arms::add_scaled;
 use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::group::FreeGroup;
-use crate::element::group::explicit::rates::{Found, arms_of, pull_nodes};
+use crate::element::group::explicit::rates::arms_of;
+use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::explicit::temperature::Settled;
-use crate::element::group::explicit::view::{ClosingView, StageRates, StageView};
+use crate::element::group::explicit::view::ClosingView;
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
@@ -17,17 +18,12 @@ use eem_material::number::scalar::{Real, unless};
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::close`](super::ExplicitGroup::close).
-    pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, S>) -> Result<(), StateError> {
-        let mut closed = self.closed.iter_mut();
-        let placed = self.components.iter().zip(&self.places);
-        for (member, (&component, nodes)) in self.elements.members.iter().zip(placed) {
-            if !view.open[component as usize] {
-                closed.by_ref().take(member.points.as_ref().len()).count();
-                continue;
-            }
-            let r = arms_of::<K, S, D>(nodes, view.positions);
-            for (point, closed) in member.points.as_ref().iter().zip(&mut closed) {
-                point.close_at(&r, component, view, closed)?;
+    pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError> {
+        let members = self.elements.members.iter().zip(&self.places);
+        for ((member, &(component, ref nodes)), closed) in members.zip(&mut self.closed) {
+            if view.open[component as usize] {
+                let r = arms_of::<K, S, D>(nodes, &view.stage.places, Place::q);
+                member.only().close_at(&r, component, view, closed)?;
             }
         }
         Ok(())
@@ -36,60 +32,41 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, 
     /// See [`ExplicitGroup::pull`](super::ExplicitGroup::pull).
     pub(super) fn pull_all(
         &self,
-        asked: &[bool],
-        forces: &mut [S],
-        [creep, powers]: [&mut [S]; 2],
+        components: &[bool],
+        forces: &mut [[S; D]],
+        creep: &mut [[S; 2]],
     ) {
-        let mut closed = self.closed.iter();
-        let placed = self.components.iter().zip(&self.places);
-        for (member, (&component, nodes)) in self.elements.members.iter().zip(placed) {
+        let members = self.elements.members.iter().zip(&self.places);
+        for ((member, (component, nodes)), closed) in members.zip(&self.closed) {
+            if !components[*component as usize] {
+                continue;
+            }
             let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
-            for (point, closed) in member.points.as_ref().iter().zip(&mut closed) {
-                if asked[component as usize] {
-                    for a in 0..M::MEASURES {
-                        let force = closed.rates.forces[a];
-                        add_scaled::<K, S, D>(&mut pull, force, &closed.gradient[a]);
-                    }
-                    for k in 0..M::DASHPOTS {
-                        let g = closed.rates.forces[M::MEASURES + k];
-                        let at = point.slots().viscous + k;
-                        creep[at] = g / closed.viscosities.0[k];
-                        powers[at] = g * creep[at];
-                    }
+            for a in 0..M::MEASURES {
+                let force = closed.rates.forces[a];
+                add_scaled::<K, S, D>(&mut pull, force, &closed.gradient[a]);
+            }
+            for (index, arm) in pull.as_ref().iter().enumerate() {
+                for (axis, &pull) in arm.iter().enumerate() {
+                    forces[nodes[index + 1] as usize][axis] -= pull;
+                    forces[nodes[0] as usize][axis] += pull;
                 }
             }
-            if asked[component as usize] {
-                pull_nodes::<K, S, D>(nodes, &pull, forces);
+            for k in 0..M::DASHPOTS {
+                let g = closed.rates.forces[M::MEASURES + k];
+                let rate = g / closed.viscosities.0[k];
+                creep[member.only().slots().viscous + k] = [rate, g * rate];
             }
         }
     }
 
     /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
-    pub(super) fn finish_all(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError> {
-        let mut closed = self.closed.iter();
-        for (member, nodes) in self.elements.members.iter().zip(&self.places) {
-            let motion = arms_of::<K, S, D>(nodes, rates.row);
-            let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
-            for (point, closed) in member.points.as_ref().iter().zip(&mut closed) {
-                let theta = point.temperature_in(&view.y[view.offsets.temperatures..]);
-                let (of_point, viscosities) = closed.at(theta);
-                let found = Found {
-                    theta,
-                    rates: &of_point,
-                    viscosities: &viscosities,
-                    gradient: &closed.gradient,
-                };
-                if !point.write_rates(view, &motion, &found, rates, &mut pull) {
-                    let r = arms_of::<K, S, D>(nodes, view.y);
-                    let measures = point.kinematics.measure(&r);
-                    return Err(point.refuse(&found, &r, &measures));
-                }
+    pub(super) fn finish_all(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+        for ((point, nodes), closed) in self.placed().zip(&self.closed) {
+            if !point.write_rates(nodes, &closed.at(point.temperature_in(stage)), stage) {
+                let r = arms_of::<K, S, D>(&nodes, &stage.places, Place::q);
+                return Err(point.refuse(&r, stage));
             }
-            pull_nodes::<K, S, D>(nodes, &pull, &mut rates.row[view.offsets.momenta..]);
         }
         Ok(())
     }
@@ -102,19 +79,19 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         &self,
         r: &Arms<K, S, D>,
         component: u32,
-        view: &mut ClosingView<'_, S>,
+        view: &mut ClosingView<'_, S, D>,
         closed: &mut Closed<S, M, K, D>,
     ) -> Result<(), StateError> {
         let measures = self.kinematics.measure(r);
         if !self.kinematics.is_admissible(r, &measures) {
             return Err(self.kinematics.refusal(self.element, r));
         }
-        let waits = view.waits[component as usize];
-        let theta = self.temperature_in(view.temperatures);
-        let x = self.variables_at(&measures, view.viscous, theta);
+        let inactive = view.inactive[component as usize];
+        let theta = self.temperature_in(view.stage);
+        let x = self.variables_at(&measures, view.stage, theta);
         let at = self.model.rates_at(x);
         let thermal = self.slots().thermal;
-        let free = thermal.filter(|&slot| !view.held.get(slot).copied().unwrap_or(false));
+        let free = thermal.filter(|&slot| !view.stage.is_held(slot));
         let settled = match free.map(|slot| view.next.entropies.values()[slot]) {
             Some(entropy) => self.temperature_of(&x, &at, [entropy, theta], view.unkept)?,
             None => Settled::given(theta, at(theta)),
@@ -136,7 +113,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         if let Some(slot) = thermal {
             let mut kept = view.next.entropies.values()[slot];
             if free.is_none() {
-                kept = unless(waits, kept, entropy);
+                kept = unless(inactive, kept, entropy);
                 view.next.entropies.set(slot, kept);
             }
             let capacity = rates.forces[Self::TEMPERATURE];
@@ -147,10 +124,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             let heat = theta * (kept.abs() + capacity);
             energy.magnitude = energy.value.abs() + heat;
             energy.terms += heat;
-            view.keep_heat(slot, waits, [settled.corrected, capacity, settled.bend]);
+            let theta = view.stage.theta_mut(slot);
+            *theta = unless(inactive, *theta, settled.corrected);
+            let own = &mut view.capacities[slot];
+            *own = [
+                unless(inactive, own[0], capacity),
+                unless(inactive, own[1], settled.bend),
+            ];
         }
         self.add_bounds_of(r, x, &mut found, &mut energy);
-        closed.replace(waits, found);
+        closed.replace(inactive, found);
         self.write_energy(component, &energy, view);
         Ok(())
     }
@@ -174,15 +157,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         }));
     }
 
-    /// Writes the energy in a new state and adds it to that of the component, except for numbers that wait.
+    /// Writes the energy in a new state and adds it to that of the component, except in inactive lanes.
     #[inline]
-    fn write_energy(&self, component: u32, energy: &Energy<S>, view: &mut ClosingView<'_, S>) {
-        let waits = view.waits[component as usize];
-        view.energies[component as usize].add(waits, energy);
+    fn write_energy(&self, component: u32, energy: &Energy<S>, view: &mut ClosingView<'_, S, D>) {
+        let inactive = view.inactive[component as usize];
+        view.energies[component as usize].add(inactive, energy);
         let stored = &mut view.next.energies[self.element.index()];
-        stored.value = unless(waits, stored.value, energy.value);
-        stored.magnitude = unless(waits, stored.magnitude, energy.magnitude);
-        stored.terms = unless(waits, stored.terms, energy.terms);
-        stored.excess = unless(waits, stored.excess, energy.excess);
+        stored.value = unless(inactive, stored.value, energy.value);
+        stored.magnitude = unless(inactive, stored.magnitude, energy.magnitude);
+        stored.terms = unless(inactive, stored.terms, energy.terms);
+        stored.excess = unless(inactive, stored.excess, energy.excess);
     }
 }

@@ -4,39 +4,45 @@ use crate::element::conjugates::PointRule;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::explicit::closed::Closed;
-use crate::element::group::explicit::view::{
-    ClosingView, NodeStiffness, PlaceOf, StageRates, StageView,
-};
+use crate::element::group::explicit::stage::Stage;
+use crate::element::group::explicit::view::{ClosingView, NodeStiffness};
 use crate::element::group::interface::{Elements, ExplicitGroup, Loose};
 use crate::element::group::loose::LooseElements;
+use crate::element::group::point::Point;
 use crate::element::group::view::Placed;
 use crate::element::kinematics::{Kinematics, QuadraticStrain};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// Elements of the model `M` with the kinematics `K`. Their forces follow from the state alone.
+/// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
 pub(crate) struct FreeGroup<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> {
     /// What they are in a state.
     pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
-    /// The component of each member.
-    pub(super) components: Vec<u32>,
-    /// Where its nodes are in the vectors of stages.
-    pub(super) places: Vec<K::PerNode<u32>>,
-    /// Per point, what was found when it was closed last.
+    /// The component of each, and where its nodes are among the places of a stage.
+    pub(super) places: Vec<(u32, K::PerNode<u32>)>,
+    /// What was found when it was closed last.
     pub(super) closed: Vec<Closed<S, M, K, D>>,
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     pub(crate) fn new(elements: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
         let elements = ElementGroup::new(PointRule::Variational, elements, placed);
-        let points = elements.points().count();
+        let count = elements.members.len();
         Self {
-            components: vec![0; elements.members.len()],
-            places: vec![K::PerNode::filled(0); elements.members.len()],
-            closed: (0..points).map(|_| Closed::none()).collect(),
+            places: vec![(0, K::PerNode::filled(0)); count],
+            closed: (0..count).map(|_| Closed::none()).collect(),
             elements,
         }
+    }
+
+    /// All elements, each with the places of its nodes.
+    #[inline]
+    pub(super) fn placed(
+        &self,
+    ) -> impl Iterator<Item = (&Point<S, M, K, PointRule, D>, K::PerNode<u32>)> {
+        let members = self.elements.members.iter().zip(&self.places);
+        members.map(|(member, &(_, nodes))| (member.only(), nodes))
     }
 }
 
@@ -55,38 +61,30 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Explicit
         Box::new(self.elements.into_loose())
     }
 
-    fn join(&mut self, component_of: &[u32], places: &dyn PlaceOf) {
-        let own = self.components.iter_mut().zip(&mut self.places);
-        for (member, (component, own)) in self.elements.members.iter().zip(own) {
+    fn join(&mut self, component_of: &[u32], place_of: &dyn Fn(u32, u32) -> u32) {
+        let members = self.elements.members.iter().zip(&mut self.places);
+        for (member, (component, places)) in members {
             *component = component_of[member.only().element.index()];
-            for (place, &node) in own.as_mut().iter_mut().zip(member.site.nodes.as_ref()) {
-                *place = places.place_of(*component, node);
+            for (place, &node) in places.as_mut().iter_mut().zip(member.site.nodes.as_ref()) {
+                *place = place_of(*component, node);
             }
         }
     }
 
-    fn rates(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError> {
-        self.rates_of_all(view, rates)
+    fn rates(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+        self.rates_of_all(stage)
     }
 
-    fn close(&mut self, view: &mut ClosingView<'_, S>) -> Result<(), StateError> {
+    fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError> {
         self.close_all(view)
     }
 
-    fn pull(&self, asked: &[bool], forces: &mut [S], creeping: [&mut [S]; 2]) {
-        self.pull_all(asked, forces, creeping);
+    fn pull(&self, components: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]) {
+        self.pull_all(components, forces, creep);
     }
 
-    fn finish(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError> {
-        self.finish_all(view, rates)
+    fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+        self.finish_all(stage)
     }
 
     fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>)) {

@@ -6,97 +6,84 @@
 
 use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, along};
+use crate::element::group::arms::{add_scaled, along, scale};
+use crate::element::group::explicit::closed::Found;
 use crate::element::group::explicit::group::FreeGroup;
-use crate::element::group::explicit::view::{StageRates, StageView};
+use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::point::Point;
-use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
-use eem_material::free_energy::{Array, FreeEnergy, Material, Rates};
+use crate::element::kinematics::{Arms, Kinematics, Measures};
+use eem_material::free_energy::{Array, Material, Rates};
 use eem_material::number::scalar::{Mask, Real, is_positive};
-
-/// What the rates of a point follow from.
-pub(super) struct Found<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
-    pub(super) theta: S,
-    pub(super) rates: &'a Rates<M::Variables>,
-    pub(super) viscosities: &'a M::Viscosities,
-    pub(super) gradient: &'a Gradient<K, S, D>,
-}
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
-    pub(super) fn rates_of_all(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError> {
-        for (member, nodes) in self.elements.members.iter().zip(&self.places) {
-            // Positions and velocities are the first parts of their vectors.
-            let r = arms_of::<K, S, D>(nodes, view.y);
-            let motion = arms_of::<K, S, D>(nodes, rates.row);
-            let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
-            for point in member.points.as_ref() {
-                point.add_rates(view, [&r, &motion], rates, &mut pull)?;
+    pub(super) fn rates_of_all(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+        for (point, nodes) in self.placed() {
+            let r = arms_of::<K, S, D>(&nodes, &stage.places, Place::q);
+            let measures = point.kinematics.measure(&r);
+            let found = point.found_at(&r, &measures, stage);
+            let is_sound = point.write_rates(nodes, &found, stage);
+            if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
+                return Err(point.refuse(&r, stage));
             }
-            pull_nodes::<K, S, D>(nodes, &pull, &mut rates.row[view.offsets.momenta..]);
         }
         Ok(())
     }
 }
 
-/// The arms of an element, or their rates, from coordinates stored node after node.
+/// The arms of an element, or their rates.
 #[inline]
 pub(super) fn arms_of<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
-    coordinates: &[S],
+    places: &[Place<S, D>],
+    of: impl Fn(&Place<S, D>) -> &[S; D],
 ) -> Arms<K, S, D> {
-    let points = coordinates.as_chunks::<D>().0;
-    let first = &points[nodes[0] as usize];
+    let first = of(&places[nodes[0] as usize]);
     let mut arms = Arms::<K, S, D>::filled([S::zero(); D]);
     for (index, arm) in arms.as_mut().iter_mut().enumerate() {
-        let other = &points[nodes[index + 1] as usize];
-        for axis in 0..D {
-            arm[axis] = other[axis] - first[axis];
-        }
+        let other = of(&places[nodes[index + 1] as usize]);
+        *arm = core::array::from_fn(|axis| other[axis] - first[axis]);
     }
     arms
 }
 
-/// Subtracts a pull along the arms from the forces on the nodes.
-#[inline]
-pub(super) fn pull_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
-    nodes: &K::PerNode<u32>,
-    pull: &Arms<K, S, D>,
-    forces: &mut [S],
-) {
-    let points = forces.as_chunks_mut::<D>().0;
-    for (index, arm) in pull.as_ref().iter().enumerate() {
-        let force = &mut points[nodes[index + 1] as usize];
-        for axis in 0..D {
-            force[axis] -= arm[axis];
-        }
-        let force = &mut points[nodes[0] as usize];
-        for axis in 0..D {
-            force[axis] += arm[axis];
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "what was found stays in registers")]
+    fn found_at(
+        &self,
+        r: &Arms<K, S, D>,
+        measures: &Measures<K, S, D>,
+        stage: &Stage<S, D>,
+    ) -> Found<S, M, K, D> {
+        let theta = self.temperature_in(stage);
+        // First, as fewer numbers have to be put aside for a call of `exp`.
+        let viscosities = match M::DASHPOTS {
+            0 => M::Viscosities::filled(S::zero()),
+            _ => self.model.viscosity(theta).0,
+        };
+        Found {
+            theta,
+            rates: self.model.rates(&self.variables_at(measures, stage, theta)),
+            viscosities,
+            gradient: self.kinematics.gradient(r, measures),
         }
     }
-}
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
     /// The variables at a stage with these measures.
     #[inline]
     pub(super) fn variables_at(
         &self,
         measures: &Measures<K, S, D>,
-        viscous: &[S],
+        stage: &Stage<S, D>,
         theta: S,
     ) -> M::Variables {
         let mut x = M::Variables::filled(S::zero());
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             x[a] = measure;
         }
-        let first = self.slots().viscous;
         for k in 0..M::DASHPOTS {
-            x[M::MEASURES + k] = viscous[first + k];
+            x[M::MEASURES + k] = stage.inner[self.slots().viscous + k];
         }
         if M::THERMAL {
             x[Self::TEMPERATURE] = theta;
@@ -106,46 +93,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
 
     /// Its temperature at a stage; zero without.
     #[inline]
-    pub(super) fn temperature_in(&self, temperatures: &[S]) -> S {
+    pub(super) fn temperature_in(&self, stage: &Stage<S, D>) -> S {
         match self.slots().thermal {
-            Some(slot) => temperatures[slot],
+            Some(slot) => stage.theta(slot),
             None => S::zero(),
         }
     }
 
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "arms and pull stay in registers")]
-    fn add_rates(
-        &self,
-        view: &StageView<'_, S>,
-        [r, motion]: [&Arms<K, S, D>; 2],
-        rates: &mut StageRates<'_, S>,
-        pull: &mut Arms<K, S, D>,
-    ) -> Result<(), StateError> {
-        let measures = self.kinematics.measure(r);
-        let gradient = self.kinematics.gradient(r, &measures);
-        let theta = self.temperature_in(&view.y[view.offsets.temperatures..]);
-        let x = self.variables_at(&measures, &view.y[view.offsets.viscous..], theta);
-        let found = self.model.rates(&x);
-        let viscosities = if M::DASHPOTS > 0 {
-            self.model.viscosity(theta).0
-        } else {
-            M::Viscosities::filled(S::zero())
-        };
-        let found = Found {
-            theta,
-            rates: &found,
-            viscosities: &viscosities,
-            gradient: &gradient,
-        };
-        let is_sound = self.write_rates(view, motion, &found, rates, pull);
-        if is_sound && self.kinematics.is_admissible(r, &measures) {
-            return Ok(());
-        }
-        Err(self.refuse(&found, r, &measures))
-    }
-
-    /// Adds its pull, and writes its rates; whether all of them are numbers.
+    /// Adds its forces on the nodes, and writes its rates; whether all of them are numbers.
     #[inline(always)]
     #[expect(
         clippy::inline_always,
@@ -153,60 +108,75 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
     )]
     pub(super) fn write_rates(
         &self,
-        view: &StageView<'_, S>,
-        motion: &Arms<K, S, D>,
-        found: &Found<'_, S, M, K, D>,
-        rates: &mut StageRates<'_, S>,
-        pull: &mut Arms<K, S, D>,
+        nodes: K::PerNode<u32>,
+        found: &Found<S, M, K, D>,
+        stage: &mut Stage<S, D>,
     ) -> bool {
-        let Rates { forces, slopes } = found.rates;
-        let (mut drift, mut power) = (S::zero(), S::zero());
-        for a in 0..M::MEASURES {
-            add_scaled::<K, S, D>(pull, forces[a], &found.gradient[a]);
-            let speed = along::<K, S, D>(&found.gradient[a], motion);
+        let motion = arms_of::<K, S, D>(&nodes, &stage.places, Place::velocity);
+        let Rates { forces, slopes } = &found.rates;
+        let mut pull = found.gradient[0];
+        scale::<K, S, D>(&mut pull, forces[0]);
+        let speed = along::<K, S, D>(&found.gradient[0], &motion);
+        let (mut power, mut drift) = (forces[0] * speed, slopes[0] * speed);
+        for a in 1..M::MEASURES {
+            add_scaled::<K, S, D>(&mut pull, forces[a], &found.gradient[a]);
+            let speed = along::<K, S, D>(&found.gradient[a], &motion);
             power += forces[a] * speed;
             drift += slopes[a] * speed;
         }
-        let first = self.slots().viscous;
-        let creeping = view.offsets.viscous + first;
+        for (index, arm) in pull.as_ref().iter().enumerate() {
+            for (axis, &pull) in arm.iter().enumerate() {
+                stage.places[nodes[index + 1] as usize].rates[1][axis] -= pull;
+                stage.places[nodes[0] as usize].rates[1][axis] += pull;
+            }
+        }
+        let viscous = self.slots().viscous;
         let (mut heat, mut is_sound) = (S::zero(), true);
+        let per_theta = if M::THERMAL && M::DASHPOTS > 0 {
+            found.theta.recip()
+        } else {
+            S::one()
+        };
         for k in 0..M::DASHPOTS {
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
-            rates.row[creeping + k] = creep;
-            rates.powers[first + k] = g * creep;
-            heat += g * creep;
+            stage.inner_rates[viscous + k] = creep;
+            let power = g * creep;
+            stage.productions[viscous + k].add(stage.weight, power * per_theta);
+            heat += power;
             drift += slopes[M::MEASURES + k] * creep;
-            is_sound &= S::zero().less(found.viscosities[k]).all() && creep.is_finite();
+            is_sound &= S::zero().less(found.viscosities[k]).all();
+            // With temperature its heat is part of θ̇.
+            is_sound &= M::THERMAL || creep.is_finite();
         }
         let Some(slot) = self.slots().thermal else {
             return is_sound && power.is_finite();
         };
         let capacity = forces[Self::TEMPERATURE];
-        let heated = view.offsets.temperatures + slot;
-        let flow = rates.row[heated];
+        let rate = &mut stage.inner_rates[stage.temperatures + slot];
+        let flow = *rate;
         let heating = (flow + heat - found.theta * drift) / capacity;
-        if let Some(supply) = rates.supply.get_mut(slot) {
-            *supply = power + flow;
+        *rate = heating;
+        if stage.has_thermostats {
+            stage.supply[slot].add(stage.weight, power + flow);
+            if stage.held[slot] {
+                *rate = S::zero();
+            }
         }
-        let is_held = view.held.get(slot).copied().unwrap_or(false);
-        rates.row[heated] = if is_held { S::zero() } else { heating };
+        is_sound &= heating.is_finite();
         let is_stable = S::zero().less(capacity) & S::zero().less(found.theta);
-        is_sound && is_stable.all() && heating.is_finite()
+        is_sound && is_stable.all()
     }
 
     /// Why there are no rates.
     #[cold]
-    pub(super) fn refuse(
-        &self,
-        found: &Found<'_, S, M, K, D>,
-        r: &Arms<K, S, D>,
-        measures: &Measures<K, S, D>,
-    ) -> StateError {
+    pub(super) fn refuse(&self, r: &Arms<K, S, D>, stage: &Stage<S, D>) -> StateError {
         let element = self.element;
-        if !self.kinematics.is_admissible(r, measures) {
+        let measures = self.kinematics.measure(r);
+        if !self.kinematics.is_admissible(r, &measures) {
             return self.kinematics.refusal(element, r);
         }
+        let found = self.found_at(r, &measures, stage);
         let theta = found.theta;
         if M::THERMAL && !is_positive(theta) {
             let value = theta.to_f64();

@@ -16,11 +16,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, 
         for member in &self.elements.members {
             let nodes = member.site.nodes.as_ref();
             let r = member.arms_in(state);
-            for point in member.points.as_ref() {
-                let x = point.variables_in(&r, state);
-                let ends = [nodes[0], nodes[nodes.len() - 1]].map(|node| node as usize);
-                see(point.stiffness_at(&x, ends));
-            }
+            let point = member.only();
+            let x = point.variables_in(&r, state);
+            let ends = [nodes[0], nodes[nodes.len() - 1]].map(|node| node as usize);
+            see(point.stiffness_at(&x, ends));
         }
     }
 }

@@ -61,7 +61,7 @@ pub(crate) fn is_met<S: Real>(change: S, [capacity, bend]: [S; 2]) -> S::Mask {
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
     /// The temperature of an entropy near a guess by Newton's method in ln θ.
     ///
-    /// Of several numbers each stops where it would alone, and waits for the others.
+    /// Each lane stops where it would alone.
     #[inline]
     pub(super) fn temperature_of<T>(
         &self,
@@ -139,7 +139,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         let theta = S::select(is_settled, settled, found);
         let (rates, values) = at(theta);
         let capacity = rates.forces[Self::TEMPERATURE];
-        let lacking = entropy - values.as_ref()[0];
+        let defect = entropy - values.as_ref()[0];
         let slopes = rates.slopes.as_ref()[..Self::TEMPERATURE].iter();
         let slopes = slopes.zip(x.as_ref());
         let terms = slopes.fold(
@@ -147,14 +147,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             |sum, (&slope, &x)| sum + (slope * x).abs(),
         );
         let bound = S::from_f64(KEPT_ROUNDINGS) * S::EPSILON * terms;
-        let left = unless(is_settled, S::zero(), lacking.abs());
+        let left = unless(is_settled, S::zero(), defect.abs());
         if !left.at_most(bound).all() && unkept.is_none() {
             *unkept = Some(UnkeptEntropy {
                 element: self.element,
                 sizes: [left.to_f64(), bound.to_f64()],
             });
         }
-        let correction = lacking / capacity;
+        let correction = defect / capacity;
         Ok(Settled {
             theta,
             evaluated: (rates, values),

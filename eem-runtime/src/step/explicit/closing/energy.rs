@@ -1,73 +1,63 @@
 //! The energy of a component, and heat that puts it back.
 
 use super::super::Explicit;
-use super::Verdict;
-use crate::element::group::{is_met, points};
+use super::super::scratch::Motion;
+use super::super::vector::dot;
+use super::Status;
+use crate::element::group::is_met;
 use crate::element::state::State;
 use core::ops::Range;
-use eem_material::number::compensated::Total;
 use eem_material::number::scalar::{Mask, Real, unless};
 
 /// The part of what elements produce in a step that heat may change.
 const HEAT_SHARE: f64 = 0.003;
 
-/// Turns in which heat is tried.
-const HEAT_TURNS: usize = 3;
+/// Corrections by heat.
+const HEAT_ITERATIONS: usize = 3;
 
-/// Roundings, in u = ε/2, of the magnitude of the energy up to which it is what it has to be.
+/// The tolerance of the defect, in u = ε/2, relative to the magnitude of the energy.
 const ENOUGH: f64 = 2.0;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// The energy of a component, the magnitude of its terms and the kinetic energy among them, J.
-    pub(in super::super) fn energy_of(&self, index: usize) -> [S; 3] {
+    /// Sums over the masses of a component, as they are now.
+    pub(in super::super) fn look_at_motion(&mut self, index: usize) {
         let component = &self.components.all[index];
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
-        let (mut energy, half) = (Total::default(), S::from_f64(0.5));
-        let (mut magnitude, mut motion) = (self.scratch.energies[index].magnitude, S::zero());
-        for place in component.masses.clone() {
-            let mut square = S::zero();
-            for p in momenta[place] {
-                square += p * p;
-            }
-            let kinetic = half * square * self.per_mass[place];
-            energy.add(kinetic);
-            magnitude += kinetic;
-            motion += kinetic;
-            if let Some(gravity) = &self.gravity {
-                for (&g, &q) in gravity.iter().zip(&positions[place]) {
-                    let potential = -self.masses[place] * g * q;
-                    energy.add(potential);
-                    magnitude += potential.abs();
-                }
-            }
+        let origin = Self::origin(&self.stage.places, component);
+        let mut motion = Motion::none();
+        for place in &self.stage.places[component.masses.clone()] {
+            motion.add(place, &origin.arm(place.q()), self.gravity.as_ref());
         }
-        let inner = self.scratch.energies[index].value.value();
-        let books = &self.new_books;
-        let lost = books.targets[index].lost;
-        for term in [inner, lost.value, lost.carry] {
-            energy.add(term);
+        self.scratch.motions[index] = motion;
+    }
+
+    /// The energy of a component, and the magnitude of its terms, J.
+    pub(in super::super) fn energy_of(&self, index: usize) -> [S; 2] {
+        let (motion, inner) = (&self.scratch.motions[index], &self.scratch.energies[index]);
+        let (mut energy, mut magnitude) = (motion.energy, motion.magnitude + inner.magnitude);
+        energy.add(inner.value.value());
+        if self.is_driven {
+            let lost = self.books.targets[index].lost;
+            energy.add_sum(lost);
+            magnitude += lost.value.abs();
         }
-        magnitude += lost.value.abs();
-        for share in component.shares.clone() {
+        for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir as usize;
-            let theta = self.y0[self.offsets.reservoirs + reservoir];
-            let sum = books.shares.sum(share);
+            let theta = self.stage.theta(self.components.elements.len() + reservoir);
+            let sum = self.books.shares[share];
             energy.add(theta * sum.value);
             energy.add(theta * sum.carry);
             magnitude += (theta * sum.value).abs();
         }
-        [energy.value(), magnitude, motion]
+        [energy.value(), magnitude]
     }
 
     /// What the bound of a step counts of the state that it starts from, and the terms of the energies there, J.
     #[cold]
     pub(in super::super) fn terms_at_start(&self, state: &State<S>) -> [S; 2] {
-        let momenta = &self.y0[self.offsets.momenta..self.offsets.viscous];
         let mut motion = S::zero();
-        for (p, &per_mass) in points::<S, D>(momenta).iter().zip(&self.per_mass) {
-            let square = p.iter().fold(S::zero(), |square, &p| square + p * p);
-            motion += S::from_f64(0.5) * square * per_mass;
+        for place in &self.stage.places[..self.components.masses] {
+            let p = &place.past.start[1];
+            motion += S::from_f64(0.5) * dot(p, p) * place.per_mass;
         }
         let energies = state.energies.iter();
         energies.fold([motion; 2], |[counted, terms], energy| {
@@ -76,50 +66,46 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         })
     }
 
-    /// What the energy of a component lacks, the magnitude of its terms and the kinetic energy, J.
-    pub(in super::super) fn defect_of(&self, index: usize) -> [S; 3] {
-        let [energy, magnitude, motion] = self.energy_of(index);
-        let target = self.new_books.targets[index].energy;
-        [
-            target.beyond(energy),
-            magnitude + target.value.abs(),
-            motion,
-        ]
+    /// The defect of the energy of a component, and the magnitude of its terms, J.
+    pub(in super::super) fn defect_of(&self, index: usize) -> [S; 2] {
+        let [energy, magnitude] = self.energy_of(index);
+        let target = self.books.targets[index].energy;
+        [target.beyond(energy), magnitude + target.value.abs()]
     }
 
     /// Puts energy back by heat as long as no element has to be evaluated for it.
     ///
-    /// Of several numbers each goes the way that it would go alone.
-    pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Verdict {
+    /// Each lane goes the way that it would go alone.
+    pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Status {
         loop {
             let is_finite = self.look(index);
             let progress = &mut self.scratch.progress[index];
             if progress.is_rigid || progress.is_closed.all() {
-                return Verdict::Closed;
+                return Status::Closed;
             }
-            let turns = progress.turns;
-            progress.turns += 1;
+            let iterations = progress.iterations;
+            progress.iterations += 1;
             let mut heats = S::Mask::none();
-            if turns < HEAT_TURNS && is_finite && !self.is_motion_first {
+            if iterations < HEAT_ITERATIONS && is_finite && !self.is_motion_first {
                 heats = self.heat_within_share(index, next);
             }
             let progress = &mut self.scratch.progress[index];
-            progress.is_asking = !(heats | progress.is_closed);
-            if progress.is_asking.any() {
-                return Verdict::Asks;
+            progress.needs_forces = !(heats | progress.is_closed);
+            if progress.needs_forces.any() {
+                return Status::NeedsForces;
             }
-            if !self.scratch.waits[index].all() {
-                return Verdict::Changed;
+            if !self.scratch.inactive[index].all() {
+                return Status::Changed;
             }
         }
     }
 
-    /// Looks at the energy of a component; whether it is a number.
+    /// Finds the defect of a component; whether it is finite.
     fn look(&mut self, index: usize) -> bool {
         let seen = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
         progress.seen = Some(seen);
-        let [defect, magnitude, _] = seen;
+        let [defect, magnitude] = seen;
         progress.defect = defect;
         let begins = progress.scale.equal(S::zero());
         if begins.any() {
@@ -130,7 +116,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
         progress.is_closed = progress.is_closed | defect.abs().at_most(enough);
-        self.scratch.waits[index] = !S::Mask::none();
+        self.scratch.inactive[index] = !S::Mask::none();
         defect.is_finite()
     }
 
@@ -146,7 +132,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             progress.has_heated = progress.has_heated | heats;
             let part = unless(!heats, S::zero(), defect / produced);
             let is_known = self.heat(index, part, next);
-            self.scratch.waits[index] = is_known | !heats;
+            self.scratch.inactive[index] = is_known | !heats;
         }
         heats
     }
@@ -154,16 +140,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.
     pub(super) fn produced_heat(&self, index: usize) -> S {
         let slots = &self.components.slots[self.components.all[index].slots.clone()];
-        let temperatures = &self.y[self.offsets.temperatures..];
         let lost = self.scratch.progress[index].lost;
         slots.iter().fold(lost, |sum, &slot| {
             let slot = slot as usize;
-            sum + self.scratch.produced[slot] * temperatures[slot]
+            sum + self.scratch.produced[slot] * self.stage.theta(slot)
         })
     }
 
-    /// Every element gets the part ε of what it has produced itself. Whether energy, temperatures and forces
-    /// are known without another evaluation.
+    /// Scales each element's entropy production by 1 + ε. Returns the lanes in which the second-order update is
+    /// accurate to rounding.
     pub(super) fn heat(&mut self, index: usize, part: S, next: &mut State<S>) -> S::Mask {
         let scratch = &mut self.scratch;
         let lost = &mut scratch.progress[index].lost;
@@ -171,7 +156,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if !change.equal(S::zero()).all() {
             *lost += change;
             next.dissipated.add(change);
-            self.new_books.targets[index].lost.add(change);
+            self.books.targets[index].lost.add(change);
         }
         scratch.progress[index].factor *= S::one() + part;
         scratch.progress[index].seen = None;
@@ -191,7 +176,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Gives entropy to an element as if it had produced it: `θ (1 + r + r²/2)` with `r = x/c`, and
-    /// `e + θ x (1 + r/2)`. Whether that is exact to rounding, and θ to what the entropy that is kept asks.
+    /// `e + θ x (1 + r/2)`. Returns the lanes in which that is exact
+    /// to rounding, and θ meets the kept entropy.
     pub(super) fn warm(
         &mut self,
         index: usize,
@@ -200,9 +186,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next: &mut State<S>,
     ) -> S::Mask {
         let half = S::from_f64(0.5);
-        let theta = &mut self.y[self.offsets.temperatures + slot];
-        let scratch = &mut self.scratch;
-        let capacity = scratch.capacities[slot];
+        let (theta, scratch) = (self.stage.theta_mut(slot), &mut self.scratch);
+        let [capacity, bend] = scratch.capacities[slot];
         let ratio = entropy / capacity;
         let energy = *theta * entropy * (S::one() + half * ratio);
         next.entropies.add(slot, entropy);
@@ -214,6 +199,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         *theta += *theta * ratio * (S::one() + half * ratio);
         // 2 √u: what is left out is the cube, and the second order of forces.
         let small = (S::EPSILON + S::EPSILON).sqrt();
-        ratio.abs().less(small) & is_met(ratio, [capacity, scratch.bends[slot]])
+        ratio.abs().less(small) & is_met(ratio, [capacity, bend])
     }
 }

@@ -4,9 +4,10 @@ use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
 use super::super::inertia::{Inertia, Moments, WEAK};
-use super::super::vector::{Origin, add, dot, size};
+use super::super::scratch::Motion;
+use super::super::vector::{Origin, add, dot};
 use crate::algebra::bivector::Bivector;
-use crate::element::group::points;
+use crate::element::group::Place;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::{MOST_LANES, Mask, Real, unless};
 
@@ -60,18 +61,16 @@ impl<S: Real, const D: usize> Body<S, D> {
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// The rigid motion of a component with the momenta that it has.
-    pub(super) fn rigid(&self, component: &Component<S>) -> Rigid<S, D> {
+    pub(super) fn rigid(&self, index: usize) -> Rigid<S, D> {
+        let (component, motion) = (&self.components.all[index], &self.scratch.motions[index]);
         let body = self.body(component);
-        let (linear, angular) = self.momenta_about(component, &body.origin);
-        body.motion(component, (&linear, &angular))
+        body.motion(component, (&motion.linear, &motion.angular))
     }
 
     /// A component as it would turn as a rigid body.
     fn body(&self, component: &Component<S>) -> Body<S, D> {
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let origin = self.origin(component);
         let mut body = Body {
-            origin: origin.unwrap_or(Origin::at(&[S::zero(); D])),
+            origin: Self::origin(&self.stage.places, component),
             inertia: None,
         };
         let lonely = match component.support {
@@ -83,14 +82,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if D < 2 || count <= lonely {
             return body;
         }
-        let arm = |place: usize| body.origin.arm(&positions[place]);
+        let masses = &self.stage.places[component.masses.clone()];
+        let arm = |place: &Place<S, D>| body.origin.arm(place.q());
         body.inertia = Some(if count == lonely + 1 {
             // The other mass of a pair is on the same line through the centre.
-            let moment = component.masses.clone().fold(S::zero(), |sum, place| {
+            let moment = masses.iter().fold(S::zero(), |sum, place| {
                 let arm = arm(place);
-                sum + self.masses[place] * dot(&arm, &arm)
+                sum + place.mass * dot(&arm, &arm)
             });
-            Inertia::of_line(&arm(component.masses.start), moment)
+            Inertia::of_line(&arm(&masses[0]), moment)
         } else {
             Inertia::of_body(self.moments(component, &body.origin))
         });
@@ -98,158 +98,118 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     fn moments(&self, component: &Component<S>, origin: &Origin<S, D>) -> Moments<S, D> {
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let mut moments = Moments::none();
-        for place in component.masses.clone() {
-            let arm = origin.arm(&positions[place]);
-            moments.add(self.masses[place], &arm);
+        for place in &self.stage.places[component.masses.clone()] {
+            moments.add(place.mass, &origin.arm(place.q()));
         }
         moments
     }
 
-    /// Adds a rigid motion to the momenta, except for numbers that wait.
-    fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>, waits: S::Mask) {
-        let component = &self.components.all[index];
-        let offsets = self.offsets;
-        let (positions, momenta) = self.y[..offsets.viscous].split_at_mut(offsets.momenta);
-        let positions = points::<S, D>(positions);
-        let momenta = momenta.as_chunks_mut::<D>().0;
-        for place in component.masses.clone() {
-            let arm = rigid.origin.arm(&positions[place]);
+    /// Adds a rigid motion to the momenta, except in inactive lanes, and looks at what the masses have then.
+    fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>, inactive: S::Mask) {
+        let masses = self.components.all[index].masses.clone();
+        let mut motion = Motion::none();
+        for place in &mut self.stage.places[masses] {
+            let arm = rigid.origin.arm(place.q());
             let turning = rigid.omega.turn(&arm);
-            let mut momentum = momenta[place];
-            add(&mut momentum, self.masses[place], &rigid.velocity);
-            add(&mut momentum, self.masses[place], &turning);
-            momenta[place] =
-                core::array::from_fn(|i| unless(waits, momenta[place][i], momentum[i]));
+            let mut momentum = *place.p();
+            for axis in 0..D {
+                momentum[axis] += place.mass * (rigid.velocity[axis] + turning[axis]);
+            }
+            place.now[1] =
+                core::array::from_fn(|axis| unless(inactive, place.now[1][axis], momentum[axis]));
+            motion.add(place, &arm, self.gravity.as_ref());
         }
+        self.scratch.motions[index] = motion;
     }
 
     /// Puts the momenta back to their targets; in space again where the rounding of a correction matters.
     /// Positions turn where momenta alone cannot do it.
     pub(super) fn restore_momenta(&mut self, index: usize) {
+        self.look_at_motion(index);
         if self.components.all[index].support == Support::Several {
             return;
         }
-        let mut waits = self.scratch.waits[index];
+        let mut inactive = self.scratch.inactive[index];
         for _ in 0..most_turns::<D>() {
-            waits = self.approach_momenta(index, waits);
-            if waits.all() {
+            inactive = self.approach_momenta(index, inactive);
+            if inactive.all() {
                 return;
             }
         }
     }
 
-    /// A rotation of the body where it is needed, and corrections of its momenta, except for numbers that wait; then
-    /// those wait, too, whose momenta are right to their rounding.
-    fn approach_momenta(&mut self, index: usize, waits: S::Mask) -> S::Mask {
+    /// A rotation of the body where it is needed, and corrections of its momenta, except in inactive lanes; also inactive
+    /// are then those whose momenta are right to their rounding.
+    fn approach_momenta(&mut self, index: usize, inactive: S::Mask) -> S::Mask {
         let mut body = self.body(&self.components.all[index]);
         let is_weak = match &body.inertia {
-            Some(Inertia::Line { along, .. }) => self.leaves_plane(index, (&body.origin, along)),
+            Some(Inertia::Line { along, .. }) => self.leaves_plane(index, along),
             Some(Inertia::Principal(_) | Inertia::Lanes(_)) => true,
             _ => false,
         };
-        if is_weak && self.turn_body(index, &body, waits) {
+        if is_weak && self.turn_body(index, &body, inactive) {
+            self.look_at_motion(index);
             body = self.body(&self.components.all[index]);
         }
-        let mut angular = self.correct_momenta(index, &body, waits);
-        if D < 3 {
-            return waits;
-        }
-        let [_, terms] = self.momentum_terms(index, &body.origin);
-        let mut correct = waits;
-        for _ in 0..MOST_CORRECTIONS {
+        let mut correct = inactive;
+        for _ in 0..=MOST_CORRECTIONS {
+            let (linear, angular) = self.missing_momenta(index);
+            let component = &self.components.all[index];
+            let rigid = body.motion(component, (&linear, &angular));
+            self.add_rigid(index, &rigid, correct);
+            let [_, terms] = self.scratch.motions[index].terms;
             // The rotation is known to ε/WEAK of itself.
             correct = correct | angular.largest().at_most(S::from_f64(WEAK) * terms);
-            if correct.all() {
+            if D < 3 || correct.all() {
                 break;
             }
-            angular = self.correct_momenta(index, &body, correct);
         }
         if D < 4 {
-            return waits;
+            return inactive;
         }
-        let (_, left) = self.missing_momenta(index, &body.origin);
-        waits
-            | left
-                .largest()
-                .at_most(self.own_rounding(index, &body.origin))
+        let (_, left) = self.missing_momenta(index);
+        inactive | left.largest().at_most(self.own_rounding(index))
     }
 
-    /// Adds the rigid motion with what the momenta lack, except for numbers that wait; the angular momentum that they
-    /// lacked.
-    fn correct_momenta(
-        &mut self,
-        index: usize,
-        body: &Body<S, D>,
-        waits: S::Mask,
-    ) -> Bivector<S, D> {
-        let component = &self.components.all[index];
-        let (linear, angular) = self.missing_momenta(index, &body.origin);
-        let rigid = body.motion(component, (&linear, &angular));
-        self.add_rigid(index, &rigid, waits);
-        angular
-    }
-
-    /// What linear and angular momentum of a component lack.
-    pub(in super::super) fn missing_momenta(
-        &self,
-        index: usize,
-        origin: &Origin<S, D>,
-    ) -> ([S; D], Bivector<S, D>) {
-        let (linear, angular) = self.momenta_about(&self.components.all[index], origin);
-        let target = &self.new_books.targets[index];
-        let linear = core::array::from_fn(|axis| target.linear[axis].beyond(linear[axis]));
-        let angular = target.angular.zip(&angular, S::zero(), Sum::beyond);
+    /// The defects of linear and angular momentum of a component.
+    pub(in super::super) fn missing_momenta(&self, index: usize) -> ([S; D], Bivector<S, D>) {
+        let (motion, target) = (&self.scratch.motions[index], &self.books.targets[index]);
+        let linear = core::array::from_fn(|axis| target.linear[axis].beyond(motion.linear[axis]));
+        let angular = target.angular.zip(&motion.angular, S::zero(), Sum::beyond);
         (linear, angular)
-    }
-
-    /// `Σ |p|` and `Σ |q||p|` of a component by sums of magnitudes, with coordinates q or arms about a point, whichever
-    /// are larger: positions are rounded to ε of their coordinates.
-    pub(in super::super) fn momentum_terms(&self, index: usize, origin: &Origin<S, D>) -> [S; 2] {
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
-        let masses = self.components.all[index].masses.clone();
-        masses.fold([S::zero(); 2], |[linear, angular], place| {
-            let momentum = size(&momenta[place]);
-            let arm = size(&origin.arm(&positions[place]));
-            let arm = arm.maximum(size(&positions[place]));
-            [linear + momentum, angular + arm * momentum]
-        })
     }
 
     /// Whether the angular momentum that masses on a line have to get has a part in planes across the line, which no
     /// momentum gives them.
-    fn leaves_plane(&self, index: usize, (origin, along): (&Origin<S, D>, &[S; D])) -> bool {
+    fn leaves_plane(&self, index: usize, along: &[S; D]) -> bool {
         let target = self.angular_target(index);
         let mut across = target;
         across.add(-S::one(), &Bivector::wedge(along, &target.turn(along)));
-        !across
-            .largest()
-            .at_most(self.own_rounding(index, origin))
-            .all()
+        !across.largest().at_most(self.own_rounding(index)).all()
     }
 
     /// The angular momentum that is left to the momenta.
-    fn own_rounding(&self, index: usize, origin: &Origin<S, D>) -> S {
-        let [_, terms] = self.momentum_terms(index, origin);
+    fn own_rounding(&self, index: usize) -> S {
+        let [_, terms] = self.scratch.motions[index].terms;
         S::from_f64(OWN_ROUNDINGS) * S::EPSILON * terms
     }
 
     fn angular_target(&self, index: usize) -> Bivector<S, D> {
-        let target = &self.new_books.targets[index].angular;
+        let target = &self.books.targets[index].angular;
         target.map(S::zero(), |sum| sum.value)
     }
 
-    /// Turns positions and momenta of a component, except for numbers that wait, so that its momenta can be put back;
+    /// Turns positions and momenta of a component, except in inactive lanes, so that its momenta can be put back;
     /// whether it has turned.
     #[cold]
-    fn turn_body(&mut self, index: usize, body: &Body<S, D>, waits: S::Mask) -> bool {
+    fn turn_body(&mut self, index: usize, body: &Body<S, D>, inactive: S::Mask) -> bool {
         let (component, origin) = (&self.components.all[index], &body.origin);
-        let (linear, present) = self.momenta_about(component, origin);
+        let motion = &self.scratch.motions[index];
+        let (linear, present) = (motion.linear, motion.angular);
         let target = self.angular_target(index);
-        let rounding = self.own_rounding(index, origin);
-        let moves = S::select(waits, S::zero(), S::one());
+        let rounding = self.own_rounding(index);
+        let moves = S::select(inactive, S::zero(), S::one());
         let change = |lane: usize| {
             if moves.lane(lane) < 1.0 {
                 return None;
@@ -277,17 +237,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             core::array::from_fn(|j| S::pack(|lane| changes[lane].map_or(0.0, |by| by[i][j])))
         });
         let velocity = component.velocity(&linear);
-        let (masses, offsets) = (component.masses.clone(), self.offsets);
-        let (positions, momenta) = self.y[..offsets.viscous].split_at_mut(offsets.momenta);
-        let positions = positions.as_chunks_mut::<D>().0;
-        let momenta = momenta.as_chunks_mut::<D>().0;
-        for place in masses {
-            let arm = origin.arm(&positions[place]);
-            let mut own = momenta[place];
-            add(&mut own, -self.masses[place], &velocity);
+        let masses = component.masses.clone();
+        for place in &mut self.stage.places[masses] {
+            let arm = origin.arm(place.q());
+            let mut own = *place.p();
+            add(&mut own, -place.mass, &velocity);
             for (row, change) in change.iter().enumerate() {
-                positions[place][row] += dot(change, &arm);
-                momenta[place][row] += dot(change, &own);
+                place.now[0][row] += dot(change, &arm);
+                place.now[1][row] += dot(change, &own);
             }
         }
         true

@@ -5,7 +5,7 @@ use super::super::vector::{add, difference, length};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use crate::algebra::bivector::Bivector;
-use crate::element::group::points;
+use crate::element::group::Place;
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Total;
@@ -25,49 +25,49 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             return Err(Discord.into());
         }
         let largest = demand.largest_turn();
-        let is_loaded = !self.quadrature.loads.is_empty() || self.gravity.is_some();
+        let is_loaded = !self.load_sums.is_empty() || self.gravity.is_some();
         let has_thermostat = self
             .slots_of(index)
-            .any(|at| self.held.get(self.components.slots[at] as usize) == Some(&true));
+            .any(|at| self.stage.is_held(self.components.slots[at] as usize));
         if is_loaded || has_thermostat || !self.takes_turn(index, view.step, largest, scales) {
             return Err(StepFailure::NotClosed {
                 defect: self.scratch.progress[index].defect.to_f64(),
                 time: (view.state.time.value + view.step).to_f64(),
             });
         }
-        let offsets = self.offsets;
-        for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
-            if owner as usize == index {
-                self.y[offsets.viscous + dashpot] = self.y0[offsets.viscous + dashpot];
+        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
+            if own.component as usize == index {
+                self.stage.inner[dashpot] = self.stage.inner_start(dashpot);
             }
         }
         let old = view.state;
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;
-            self.y[offsets.temperatures + slot] = self.y0[offsets.temperatures + slot];
+            let at = self.stage.temperatures + slot;
+            self.stage.inner[at] = self.stage.inner_start(at);
             next.entropies.advance(slot, &old.entropies, S::zero());
         }
         for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir as usize;
             // One by one: their difference would be rounded to ε of what is taken back.
-            let [new, old] = [&self.new_books, &self.books].map(|books| books.shares.sum(share));
+            let [new, old] = [&self.books, &self.old_books].map(|books| books.shares[share]);
             for change in [-new.value, old.value, -new.carry, old.carry] {
                 next.reservoir_entropies.add(reservoir, change);
             }
-            self.new_books
-                .shares
-                .advance(share, &self.books.shares, S::zero());
+            self.books.shares[share] = old;
         }
-        let lost = &mut self.new_books.targets[index].lost;
-        next.dissipated
-            .add(-lost.change(self.books.targets[index].lost));
-        *lost = self.books.targets[index].lost;
+        if self.is_driven {
+            let old = self.old_books.targets[index].lost;
+            let lost = &mut self.books.targets[index].lost;
+            next.dissipated.add(-lost.change(old));
+            *lost = old;
+        }
         let progress = &mut self.scratch.progress[index];
         progress.is_rigid = true;
         progress.seen = None;
         progress.production = Total::default();
         progress.factor = S::zero();
-        self.scratch.waits[index] = S::Mask::none();
+        self.scratch.inactive[index] = S::Mask::none();
         self.restore_momenta(index);
         self.scratch.open[index] = true;
         Ok(())
@@ -80,44 +80,25 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             // It may turn in several planes at once.
             return false;
         }
-        core::mem::swap(&mut self.y, &mut self.y0);
-        let component = &self.components.all[index];
-        let rigid = self.rigid(component);
-        core::mem::swap(&mut self.y, &mut self.y0);
+        self.swap_start(index);
+        self.look_at_motion(index);
+        let rigid = self.rigid(index);
+        self.swap_start(index);
         let difference = self.difference_from_turn(index, &rigid, h, scales);
         if !difference.at_most(largest).all() {
             return false;
         }
-        for place in self.components.all[index].masses.clone() {
-            let [position, momentum] = self.turned(place, &rigid, h);
-            let (positions, momenta) =
-                self.y[..self.offsets.viscous].split_at_mut(self.offsets.momenta);
-            positions.as_chunks_mut::<D>().0[place] = position;
-            momenta.as_chunks_mut::<D>().0[place] = momentum;
+        for place in &mut self.stage.places[self.components.all[index].masses.clone()] {
+            place.now = turned(place, &rigid, h);
         }
         true
     }
 
-    /// Position and momentum of a mass that has turned with its component since the start of the step.
-    fn turned(&self, place: usize, rigid: &Rigid<S, D>, h: S) -> [[S; D]; 2] {
-        let positions = points::<S, D>(&self.y0[..self.offsets.momenta]);
-        let momenta = points::<S, D>(&self.y0[self.offsets.momenta..self.offsets.viscous]);
-        let speed = rigid.omega.square().sqrt();
-        let is_turning = S::zero().less(speed).all();
-        let zero = S::zero();
-        let about = rigid
-            .omega
-            .map(zero, |w| if is_turning { w / speed } else { w });
-        let mut along = [S::zero(); D];
-        add(&mut along, self.masses[place], &rigid.velocity);
-        let arm = rigid.origin.arm(&positions[place]);
-        let mut way = rotated(&arm, &about, speed * h);
-        add(&mut way, h, &rigid.velocity);
-        let position = rigid.origin.moved(&way);
-        let own = difference(&momenta[place], &along);
-        let mut momentum = rotated(&own, &about, speed * h);
-        add(&mut momentum, S::one(), &along);
-        [position, momentum]
+    /// Swaps positions and momenta with those at the start of the step.
+    fn swap_start(&mut self, index: usize) {
+        for place in &mut self.stage.places[self.components.all[index].masses.clone()] {
+            core::mem::swap(&mut place.now, &mut place.past.start);
+        }
     }
 
     /// The largest relative difference of the present stage vector from the turned old state.
@@ -128,9 +109,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         h: S,
         scales: Scales<S>,
     ) -> S {
-        let offsets = self.offsets;
-        let positions = points::<S, D>(&self.y[..offsets.momenta]);
-        let momenta = points::<S, D>(&self.y[offsets.momenta..offsets.viscous]);
         let mut largest = S::zero();
         let mut see = |difference: S, scale: S| {
             let is_none = difference.equal(S::zero()).all();
@@ -141,29 +119,42 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             };
             largest = largest.maximum(part);
         };
-        for place in self.components.all[index].masses.clone() {
-            let [position, momentum] = self.turned(place, rigid, h);
-            see(
-                length(&difference(&position, &positions[place])),
-                scales.position,
-            );
-            see(
-                length(&difference(&momentum, &momenta[place])),
-                scales.momentum,
-            );
+        for place in &self.stage.places[self.components.all[index].masses.clone()] {
+            let [position, momentum] = turned(place, rigid, h);
+            see(length(&difference(&position, place.q())), scales.position);
+            see(length(&difference(&momentum, place.p())), scales.momentum);
         }
-        for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
-            let at = offsets.viscous + dashpot;
-            if owner as usize == index {
-                see(self.y[at] - self.y0[at], scales.position);
+        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
+            if own.component as usize == index {
+                let change = self.stage.inner[dashpot] - self.stage.inner_start(dashpot);
+                see(change, scales.position);
             }
         }
         for at in self.slots_of(index) {
-            let at = offsets.temperatures + self.components.slots[at] as usize;
-            see(self.y[at] - self.y0[at], self.y0[at]);
+            let at = self.stage.temperatures + self.components.slots[at] as usize;
+            let start = self.stage.inner_start(at);
+            see(self.stage.inner[at] - start, start);
         }
         largest
     }
+}
+
+/// Position and momentum of a mass that has turned with its component since the start of the step.
+fn turned<S: Real, const D: usize>(place: &Place<S, D>, rigid: &Rigid<S, D>, h: S) -> [[S; D]; 2] {
+    let [position, momentum] = &place.past.start;
+    let speed = rigid.omega.square().sqrt();
+    let is_turning = S::zero().less(speed).all();
+    let zero = S::zero();
+    let about = rigid
+        .omega
+        .map(zero, |w| if is_turning { w / speed } else { w });
+    let mut along = [S::zero(); D];
+    add(&mut along, place.mass, &rigid.velocity);
+    let mut way = rotated(&rigid.origin.arm(position), &about, speed * h);
+    add(&mut way, h, &rigid.velocity);
+    let mut turned = rotated(&difference(momentum, &along), &about, speed * h);
+    add(&mut turned, S::one(), &along);
+    [rigid.origin.moved(&way), turned]
 }
 
 /// A vector turned in a plane, that of a bivector of length one (Rodrigues).

@@ -4,8 +4,7 @@ use super::super::components::{Component, Support};
 use super::super::vector::{add, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
-use super::{FROZEN, MOST_TURNS, Verdict};
-use crate::element::group::points;
+use super::{FROZEN, MOST_ITERATIONS, Status};
 use crate::element::state::State;
 use eem_material::number::scalar::{Discord, Mask, Real, unless};
 
@@ -18,10 +17,10 @@ const LARGEST_PART: f64 = 0.1;
 /// After heat, motion gives what is left if it is this small a part of it.
 const REST_OF_HEAT: f64 = 1e-9;
 
-/// Turns in which the shape changes.
-const SHAPE_TURNS: usize = 5;
+/// Corrections by shape.
+const SHAPE_ITERATIONS: usize = 5;
 
-/// Roundings, in ε, of what an element has produced that are never taken back: each of its up to [`MOST_TURNS`] changes,
+/// Roundings, in ε, of what an element has produced that are never taken back: each of its up to [`MOST_ITERATIONS`] changes,
 /// and the share of each path of heat, is rounded once.
 const ROUNDED: f64 = 16.0;
 
@@ -38,18 +37,18 @@ struct Means<S, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Gives a component its energy by other means than heat, where it is asked for.
+    /// Corrects the energy of a component by other means than heat, in the lanes that need it.
     pub(super) fn reshape(
         &mut self,
         index: usize,
         view: &ExplicitView<'_, S, D>,
         next: &mut State<S>,
-    ) -> Result<Verdict, Discord> {
+    ) -> Result<Status, Discord> {
         self.scratch.progress[index].seen = None;
         let progress = self.scratch.progress[index];
-        let (defect, turns) = (progress.defect, progress.turns);
+        let (defect, iterations) = (progress.defect, progress.iterations);
         if !defect.is_finite() {
-            return Ok(Verdict::Failed);
+            return Ok(Status::Failed);
         }
         let means = self.means(index, view);
         let share = defect / means.all;
@@ -59,7 +58,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let rest = S::from_f64(REST_OF_HEAT) * means.motion;
         let is_rest = progress.has_heated & defect.abs().at_most(rest);
         let has_motion = S::zero().less(means.motion);
-        let moves = progress.is_asking & has_motion & (is_rest | (is_small & moves));
+        let moves = progress.needs_forces & has_motion & (is_rest | (is_small & moves));
         if moves.any() {
             let x = defect / means.motion;
             let part = x / (S::one() + (S::one() + x).sqrt());
@@ -67,15 +66,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let is_closed = progress.is_closed | moves;
         self.scratch.progress[index].is_closed = is_closed;
-        let is_left = progress.is_asking & !moves;
+        let is_left = progress.needs_forces & !moves;
         let mut shifts = is_left & is_small;
-        if turns >= MOST_TURNS || turns > SHAPE_TURNS {
+        if iterations >= MOST_ITERATIONS || iterations > SHAPE_ITERATIONS {
             shifts = S::Mask::none();
         }
         if shifts.any() {
             let share = unless(!shifts, S::zero(), share);
             self.shift(index, (view, &means), share, next);
-            self.scratch.waits[index] = self.scratch.waits[index] & !shifts;
+            self.scratch.inactive[index] = self.scratch.inactive[index] & !shifts;
             self.restore_momenta(index);
         }
         let is_left = is_left & !shifts;
@@ -83,13 +82,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             return Ok(self.unless_rounding(index, is_left));
         }
         Ok(if is_closed.all() {
-            Verdict::Closed
+            Status::Closed
         } else {
-            Verdict::Changed
+            Status::Changed
         })
     }
 
-    /// Energy to entropy or back where nothing else is left, unless the turns are over; whether there is where.
+    /// Last resort: converts the defect to entropy or back. False if no element can take it or the limit of corrections
+    /// is reached.
     fn sinks(
         &mut self,
         index: usize,
@@ -98,15 +98,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ) -> Result<bool, Discord> {
         let progress = &self.scratch.progress[index];
         let defect = progress.defect;
-        if !is_left.decide()? || progress.turns >= MOST_TURNS || !self.sink(index, defect, next)? {
+        if !is_left.decide()?
+            || progress.iterations >= MOST_ITERATIONS
+            || !self.sink(index, defect, next)?
+        {
             return Ok(false);
         }
-        self.scratch.waits[index] = S::Mask::none();
+        self.scratch.inactive[index] = S::Mask::none();
         Ok(true)
     }
 
     /// What is left is rounding, or nothing can give it.
-    fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Verdict {
+    fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Status {
         let granularity = self.granularity(index);
         let progress = &mut self.scratch.progress[index];
         progress.granularity = granularity;
@@ -114,27 +117,27 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let is_rounding = progress.defect.abs().at_most(bound);
         progress.is_closed = progress.is_closed | (is_left & is_rounding);
         if progress.is_closed.all() {
-            Verdict::Closed
+            Status::Closed
         } else {
-            Verdict::Failed
+            Status::Failed
         }
     }
 
     /// `Σ |F||q|`: times ε, by how much the rounding of positions changes the energy, J.
     fn granularity(&self, index: usize) -> S {
-        let forces = points::<S, D>(&self.scratch.forces);
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let masses = self.components.all[index].masses.clone();
-        masses.fold(S::zero(), |sum, place| {
-            let terms = forces[place].iter().zip(&positions[place]);
+        masses.fold(S::zero(), |sum, at| {
+            let terms = self.scratch.forces[at]
+                .iter()
+                .zip(self.stage.places[at].q());
             terms.fold(sum, |sum, (&force, &q)| sum + (force * q).abs())
         })
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {
         let (component, h) = (&self.components.all[index], view.step);
-        let rigid = self.rigid(component);
-        let forces = points::<S, D>(&self.scratch.forces);
+        let rigid = self.rigid(index);
+        let forces = &self.scratch.forces;
         let mut drift = [S::zero(); D];
         if component.support == Support::Free {
             for place in component.masses.clone() {
@@ -151,8 +154,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for place in component.masses.clone() {
             let own = self.inner_momentum(place, &rigid);
             let force = self.inner_force(place, &means);
-            means.motion += half * dot(&own, &own) * self.per_mass[place];
-            shape += dot(&force, &force) * self.per_mass[place];
+            let per_mass = self.stage.places[place].per_mass;
+            means.motion += half * dot(&own, &own) * per_mass;
+            shape += dot(&force, &force) * per_mass;
         }
         means.all = means.motion + means.motion + h * h * shape;
         means.all += h * self.creeping_power(index) + self.exchange(component, h);
@@ -161,19 +165,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// `Σ g²/η`, W.
     fn creeping_power(&self, index: usize) -> S {
-        let powers = self.scratch.powers.iter();
-        let owned = powers.zip(&self.components.of_dashpot);
-        let own = owned.filter(|&(_, &owner)| owner as usize == index);
-        own.fold(S::zero(), |sum, (&power, _)| sum + power)
+        let owned = self.scratch.creep.iter().zip(&self.components.dashpots);
+        let own = owned.filter(|&(_, dashpot)| dashpot.component as usize == index);
+        own.fold(S::zero(), |sum, (&[_, power], _)| sum + power)
     }
 
     /// `Σ 2hκ(Δθ)²/(θ_a + θ_b)` of the paths without a thermostat at an end, J.
     fn exchange(&self, component: &Component<S>, h: S) -> S {
         let mut sum = S::zero();
         for path in &self.components.paths[component.paths.clone()] {
-            let [a, b] = path
-                .ends
-                .map(|end| self.y[self.offsets.temperatures + end as usize]);
+            let [a, b] = path.ends.map(|end| self.stage.theta(end as usize));
             if !self.meets_thermostat(path.ends) {
                 let drop = a - b;
                 let heat = (h + h) * path.conductance * drop;
@@ -184,33 +185,28 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     fn meets_thermostat(&self, ends: [u32; 2]) -> bool {
-        let is_held = |end: u32| self.held.get(end as usize).copied().unwrap_or(false);
-        ends.into_iter().any(is_held)
+        ends.into_iter().any(|end| self.stage.is_held(end as usize))
     }
 
     /// The momentum of a mass that is no rigid motion.
     fn inner_momentum(&self, place: usize, rigid: &Rigid<S, D>) -> [S; D] {
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
-        let mass = self.masses[place];
-        let mut own = momenta[place];
-        let arm = rigid.origin.arm(&positions[place]);
-        add(&mut own, -mass, &rigid.velocity);
-        add(&mut own, -mass, &rigid.omega.turn(&arm));
+        let place = &self.stage.places[place];
+        let mut own = *place.p();
+        let arm = rigid.origin.arm(place.q());
+        add(&mut own, -place.mass, &rigid.velocity);
+        add(&mut own, -place.mass, &rigid.omega.turn(&arm));
         own
     }
 
     /// The gradient of the energy at fixed momenta, with its sign changed: the force less that of the
     /// rotation.
-    fn inner_force(&self, place: usize, means: &Means<S, D>) -> [S; D] {
-        let forces = points::<S, D>(&self.scratch.forces);
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let (mass, rigid) = (self.masses[place], &means.rigid);
-        let arm = rigid.origin.arm(&positions[place]);
+    fn inner_force(&self, at: usize, means: &Means<S, D>) -> [S; D] {
+        let (place, rigid) = (&self.stage.places[at], &means.rigid);
+        let arm = rigid.origin.arm(place.q());
         let toward = rigid.omega.turn(&rigid.omega.turn(&arm));
-        let mut force = forces[place];
-        add(&mut force, -mass, &toward);
-        add(&mut force, -mass, &means.drift);
+        let mut force = self.scratch.forces[at];
+        add(&mut force, -place.mass, &toward);
+        add(&mut force, -place.mass, &means.drift);
         force
     }
 
@@ -218,9 +214,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn scale_motion(&mut self, index: usize, rigid: &Rigid<S, D>, part: S) {
         for place in self.components.all[index].masses.clone() {
             let own = self.inner_momentum(place, rigid);
-            let momenta = &mut self.y[self.offsets.momenta..self.offsets.viscous];
-            add(&mut momenta.as_chunks_mut::<D>().0[place], part, &own);
+            add(&mut self.stage.places[place].now[1], part, &own);
         }
+        self.look_at_motion(index);
     }
 
     /// Moves all that can move along the gradient of the energy.
@@ -232,30 +228,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next: &mut State<S>,
     ) {
         let h = view.step;
-        let offsets = self.offsets;
         let masses = self.components.all[index].masses.clone();
-        for place in masses.clone() {
-            let own = self.inner_momentum(place, &means.rigid);
-            let force = self.inner_force(place, means);
-            // Positions are read again by no other place of the loop below.
-            let change = self.per_mass[place] * share * h * h;
-            let forces = &mut self.scratch.forces.as_chunks_mut::<D>().0[place];
-            *forces = force.map(|force| change * force);
-            let momenta = &mut self.y[offsets.momenta..offsets.viscous];
-            add(&mut momenta.as_chunks_mut::<D>().0[place], share, &own);
+        for at in masses.clone() {
+            let own = self.inner_momentum(at, &means.rigid);
+            let force = self.inner_force(at, means);
+            let place = &mut self.stage.places[at];
+            let change = place.per_mass * share * h * h;
+            add(&mut place.now[1], share, &own);
+            add(&mut place.now[0], -change, &force);
         }
-        for place in masses {
-            let change = points::<S, D>(&self.scratch.forces)[place];
-            let positions = &mut self.y[..offsets.momenta];
-            add(
-                &mut positions.as_chunks_mut::<D>().0[place],
-                -S::one(),
-                &change,
-            );
-        }
-        for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
-            if owner as usize == index {
-                self.y[offsets.viscous + dashpot] -= share * h * self.scratch.creep[dashpot];
+        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
+            if own.component as usize == index {
+                self.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
             }
         }
         self.exchange_heat(index, share * h, next);
@@ -269,13 +253,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 continue;
             }
             let ends = path.ends.map(|end| end as usize);
-            let [a, b] = ends.map(|end| self.y[self.offsets.temperatures + end]);
+            let [a, b] = ends.map(|end| self.stage.theta(end));
             let entropy = (duration + duration) * path.conductance * (a - b) / (a + b);
             next.entropies.add(ends[0], entropy);
             match path.share {
                 None => next.entropies.add(ends[1], -entropy),
                 Some(share) => {
-                    self.new_books.shares.add(share as usize, -entropy);
+                    self.books.shares[share as usize].add(-entropy);
                     next.reservoir_entropies.add(ends[1] - slots, -entropy);
                 }
             }
@@ -301,29 +285,25 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let slots = self
             .slots_of(index)
             .map(|at| self.components.slots[at] as usize);
-        let takes =
-            |slot: &usize| self.produces[*slot] && !self.held.get(*slot).copied().unwrap_or(false);
-        let temperatures = &self.y[self.offsets.temperatures..];
+        let takes = |slot: &usize| self.produces[*slot] && !self.stage.is_held(*slot);
         let all = slots.filter(takes).fold(S::zero(), |all, slot| {
-            all + self.scratch.capacities[slot] * temperatures[slot]
+            all + self.scratch.capacities[slot][0] * self.stage.theta(slot)
         });
         if S::zero().less(all).decide()? {
             for at in self.slots_of(index) {
                 let slot = self.components.slots[at] as usize;
-                let is_held = self.held.get(slot).copied().unwrap_or(false);
-                if self.produces[slot] && !is_held {
-                    let entropy = self.scratch.capacities[slot] * (defect / all);
+                if self.produces[slot] && !self.stage.is_held(slot) {
+                    let entropy = self.scratch.capacities[slot][0] * (defect / all);
                     self.warm(index, slot, entropy, next);
                 }
             }
             return Ok(true);
         }
-        let mut losing = self.components.losing.iter();
-        let loses = losing.any(|&(component, _)| component as usize == index);
+        let loses = self.components.loses_heat(Some(index));
         if loses {
             self.scratch.progress[index].lost += defect;
             next.dissipated.add(defect);
-            self.new_books.targets[index].lost.add(defect);
+            self.books.targets[index].lost.add(defect);
         }
         Ok(loses)
     }

@@ -1,0 +1,245 @@
+//! The state of a scene at a stage of an explicit step, and its rates.
+
+use crate::element::layout::Layout;
+use eem_material::number::scalar::Real;
+
+/// The rates of stages that are kept at the same time.
+pub(crate) const KEPT: usize = 10;
+
+/// Variables at the start of a step, and their rates at its stages.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Past<S, const N: usize, const P: usize> {
+    pub(crate) start: [[S; N]; P],
+    pub(crate) rates: [[[S; N]; P]; KEPT],
+}
+
+impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
+    fn none() -> Self {
+        let none = [[S::zero(); N]; P];
+        Self {
+            start: none,
+            rates: [none; KEPT],
+        }
+    }
+
+    /// `Σ a k` with some of the rates.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "rows and coefficients are constants of the caller"
+    )]
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "with `array::from_fn` a step takes a quarter more instructions"
+    )]
+    pub(crate) fn combined<const T: usize>(&self, rows: [usize; T], a: &[f64; T]) -> [[S; N]; P] {
+        let mut sums = [[S::zero(); N]; P];
+        for part in 0..P {
+            for index in 0..N {
+                let mut sum = S::from_f64(a[0]) * self.rates[rows[0]][part][index];
+                for term in 1..T {
+                    sum += S::from_f64(a[term]) * self.rates[rows[term]][part][index];
+                }
+                sums[part][index] = sum;
+            }
+        }
+        sums
+    }
+
+    /// `y = y⁰ + h Σ a k`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as above")]
+    #[expect(clippy::needless_range_loop, reason = "as above")]
+    pub(crate) fn after<const T: usize>(
+        &self,
+        h: S,
+        rows: [usize; T],
+        a: &[f64; T],
+    ) -> [[S; N]; P] {
+        let mut y = self.combined(rows, a);
+        for part in 0..P {
+            for index in 0..N {
+                y[part][index] = self.start[part][index] + h * y[part][index];
+            }
+        }
+        y
+    }
+}
+
+/// A mass, or an anchor for one of the components that it holds.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
+pub(crate) struct Place<S, const D: usize> {
+    /// q, m, and p, kg m/s.
+    pub(crate) now: [[S; D]; 2],
+    /// Their rates: v, m/s, and F, N; of an anchor the reaction, N, which counts where anchors are moved.
+    pub(crate) rates: [[S; D]; 2],
+    /// m and 1/m; zero for anchors.
+    pub(crate) mass: S,
+    pub(crate) per_mass: S,
+    pub(crate) past: Past<S, D, 2>,
+}
+
+impl<S: Real, const D: usize> Place<S, D> {
+    /// At rest at the origin; an anchor has the mass zero.
+    pub(crate) fn new(mass: S) -> Self {
+        let is_anchor = mass.equal(S::zero());
+        Self {
+            now: [[S::zero(); D]; 2],
+            rates: [[S::zero(); D]; 2],
+            mass,
+            per_mass: S::branch(is_anchor, S::zero, || mass.recip()),
+            past: Past::none(),
+        }
+    }
+
+    /// The rates that follow from the momentum; forces are added to them.
+    #[inline]
+    pub(crate) fn begin_rates(&mut self) {
+        self.rates = [self.now[1].map(|p| p * self.per_mass), [S::zero(); D]];
+    }
+
+    #[inline]
+    pub(crate) const fn q(&self) -> &[S; D] {
+        &self.now[0]
+    }
+
+    #[inline]
+    pub(crate) const fn p(&self) -> &[S; D] {
+        &self.now[1]
+    }
+
+    #[inline]
+    pub(crate) const fn velocity(&self) -> &[S; D] {
+        &self.rates[0]
+    }
+}
+
+/// A rate at the present stage and at the start of the step, and its sum over the stages between with their weights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Integral<S> {
+    pub(crate) rate: S,
+    pub(crate) start: S,
+    pub(crate) sum: S,
+}
+
+impl<S: Real> Integral<S> {
+    fn none() -> Self {
+        let (rate, start, sum) = (S::zero(), S::zero(), S::zero());
+        Self { rate, start, sum }
+    }
+
+    /// Begins a step, with the weight of its start.
+    #[inline]
+    pub(crate) fn begin(&mut self, weight: S) {
+        self.start = self.rate;
+        self.sum = weight * self.rate;
+    }
+
+    /// Adds a stage of this weight.
+    #[inline]
+    pub(crate) fn add(&mut self, weight: S, rate: S) {
+        self.rate = rate;
+        self.sum += weight * rate;
+    }
+}
+
+/// All variables at a stage. Internal ones are the viscous stretches, m, then the temperatures of thermal slots and of
+/// reservoirs, K.
+#[derive(Clone, Debug)]
+pub(crate) struct Stage<S: Real, const D: usize> {
+    /// Masses, then anchors.
+    pub(crate) places: Vec<Place<S, D>>,
+    pub(crate) inner: Vec<S>,
+    /// `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into each thermal slot, W.
+    pub(crate) inner_rates: Vec<S>,
+    /// Of two internal variables each.
+    pub(crate) inner_past: Vec<Past<S, 2, 1>>,
+    /// Where temperatures begin among the internal variables.
+    pub(crate) temperatures: usize,
+    /// What each dashpot produces, `g γ̇/θ`, W/K, or `g γ̇` without temperature, W.
+    pub(crate) productions: Vec<Integral<S>>,
+    /// The weight of this stage.
+    pub(crate) weight: S,
+    /// `f λ̇` and the heat that flows in, of each thermal slot, W; empty without thermostats.
+    pub(crate) supply: Vec<Integral<S>>,
+    /// Whether a thermostat gives the temperature, per thermal slot; empty without thermostats.
+    pub(crate) held: Vec<bool>,
+    pub(crate) has_thermostats: bool,
+}
+
+impl<S: Real, const D: usize> Stage<S, D> {
+    /// Of places with these masses.
+    pub(crate) fn new(
+        masses: impl Iterator<Item = S>,
+        layout: &Layout,
+        reservoirs: usize,
+        held: Vec<bool>,
+    ) -> Self {
+        let size = layout.viscous + layout.thermal;
+        let pairs = size.div_ceil(2);
+        Self {
+            places: masses.map(Place::new).collect(),
+            inner: vec![S::one(); (size + reservoirs).max(2 * pairs)],
+            inner_rates: vec![S::zero(); 2 * pairs],
+            inner_past: vec![Past::none(); pairs],
+            temperatures: layout.viscous,
+            productions: vec![Integral::none(); layout.viscous],
+            weight: S::zero(),
+            supply: vec![Integral::none(); held.len()],
+            has_thermostats: !held.is_empty(),
+            held,
+        }
+    }
+
+    /// An internal variable at the start of the step.
+    pub(crate) fn inner_start(&self, index: usize) -> S {
+        self.inner_past[index / 2].start[0][index % 2]
+    }
+
+    /// The temperature of a thermal slot, or of a reservoir, which come behind them, K.
+    #[inline]
+    pub(crate) fn theta(&self, slot: usize) -> S {
+        self.inner[self.temperatures + slot]
+    }
+
+    #[inline]
+    pub(crate) fn theta_mut(&mut self, slot: usize) -> &mut S {
+        &mut self.inner[self.temperatures + slot]
+    }
+
+    /// All rates at the start of the step, and now, with those of the first places.
+    pub(crate) fn rates(&self, places: usize) -> impl Iterator<Item = [S; 2]> + '_ {
+        let places = self.places[..places].iter().flat_map(|of| {
+            let starts = of.past.rates[0].as_flattened().iter();
+            starts.zip(of.rates.as_flattened())
+        });
+        let inner = self.inner_past.iter().flat_map(|of| &of.rates[0][0]);
+        let inner = inner.zip(&self.inner_rates);
+        let integrals = self.productions.iter().chain(&self.supply);
+        let integrals = integrals.map(|of| (&of.start, &of.rate));
+        let all = places.chain(inner).chain(integrals);
+        all.map(|(&start, &now)| [start, now])
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn rates_mut(&mut self, places: usize) -> impl Iterator<Item = [&mut S; 2]> + '_ {
+        let places = self.places[..places].iter_mut().flat_map(|of| {
+            let starts = of.past.rates[0].as_flattened_mut().iter_mut();
+            starts.zip(of.rates.as_flattened_mut())
+        });
+        let inner = self.inner_past.iter_mut();
+        let inner = inner.flat_map(|of| &mut of.rates[0][0]);
+        let inner = inner.zip(&mut self.inner_rates);
+        let integrals = self.productions.iter_mut().chain(&mut self.supply);
+        let integrals = integrals.map(|of| (&mut of.start, &mut of.rate));
+        let all = places.chain(inner).chain(integrals);
+        all.map(|(start, now)| [start, now])
+    }
+
+    /// Whether a thermostat gives the temperature of a thermal slot.
+    #[inline]
+    pub(crate) fn is_held(&self, slot: usize) -> bool {
+        self.held.get(slot) == Some(&true)
+    }
+}

@@ -1,0 +1,90 @@
+//! Loads, moved anchors and thermostats at the stages of a step, and what they do to it.
+
+use super::Explicit;
+use super::components::Support;
+use super::memory::LoadSums;
+use super::tableau::WEIGHTS;
+use super::vector::{add, dot};
+use crate::algebra::bivector::Bivector;
+use crate::element::loads::StepLoads;
+use eem_material::number::scalar::Real;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// Moves anchors and sets thermostats to where they are at a stage.
+    pub(super) fn move_to(&mut self, stage: usize) {
+        for held in &self.prescribed.held {
+            *self.stage.theta_mut(held.slot) = held.temperatures[stage];
+        }
+        for moved in &self.prescribed.moved {
+            for &place in &moved.places {
+                let place = &mut self.stage.places[place];
+                place.now[0] = moved.positions[stage];
+                place.rates = [moved.velocities[stage], [S::zero(); D]];
+            }
+        }
+    }
+
+    /// Gives anchors the velocities with which they start.
+    pub(super) fn start_anchors(&mut self) {
+        for moved in &self.prescribed.moved {
+            for &place in &moved.places {
+                self.stage.places[place].rates[0] = moved.velocities[0];
+            }
+        }
+    }
+
+    /// Begins the integrals of a step at its start, and keeps the rates of anchors.
+    pub(super) fn begin_outside(&mut self) {
+        copy_loads(&mut self.start_loads, &self.loads);
+        self.load_sums.fill(LoadSums::none());
+        self.stage.weight = S::from_f64(WEIGHTS[0]);
+        for supply in &mut self.stage.supply {
+            supply.begin(self.stage.weight);
+        }
+        for place in &mut self.stage.places[self.components.masses..self.kept_places] {
+            place.past.rates[0] = place.rates;
+        }
+        self.integrate_outside();
+    }
+
+    /// Adds power, force and torque of loads and moved anchors at the present stage.
+    pub(super) fn integrate_outside(&mut self) {
+        let weight = self.stage.weight;
+        for index in 0..self.load_sums.len() {
+            let component = &self.components.all[index];
+            let sums = &mut self.load_sums[index];
+            let origin = Self::origin(&self.stage.places, component);
+            let mut momentum = [S::zero(); D];
+            for at in component.masses.clone() {
+                let place = &self.stage.places[at];
+                let arm = origin.arm(place.q());
+                let node = self.components.nodes[at] as usize;
+                let (force, load) = (self.loads.force(node), self.loads.total_force(node));
+                sums.work += weight * dot(&force, place.velocity());
+                add(&mut sums.impulse, weight, &load);
+                // Weights have no torque about the centre of mass.
+                let is_free = component.support == Support::Free;
+                let turning = if is_free { force } else { load };
+                sums.torque.add(weight, &Bivector::wedge(&arm, &turning));
+                add(&mut momentum, S::one(), place.p());
+            }
+            if let Support::Anchor(anchor) = component.support {
+                // The angular momentum is about the anchor, wherever it goes.
+                let velocity = self.stage.places[anchor].velocity();
+                let change = Bivector::wedge(velocity, &momentum);
+                sums.torque.add(-weight, &change);
+            }
+        }
+        for at in self.components.masses..self.kept_places {
+            let component = self.components.of_place[at] as usize;
+            let [velocity, reaction] = &self.stage.places[at].rates;
+            self.load_sums[component].work -= weight * dot(reaction, velocity);
+        }
+    }
+}
+
+/// Takes over the forces of others.
+pub(super) fn copy_loads<S: Real>(own: &mut StepLoads<S>, other: &StepLoads<S>) {
+    own.total_force.copy_from_slice(&other.total_force);
+    own.force.copy_from_slice(&other.force);
+}

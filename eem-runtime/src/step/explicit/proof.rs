@@ -1,0 +1,105 @@
+//! What is left of the defects of all laws in the closed state has to be rounding.
+
+use super::Explicit;
+use super::closing::FROZEN;
+use super::components::Support;
+use super::vector::largest;
+use crate::element::group::UnkeptEntropy;
+use crate::element::state::State;
+use crate::step::certificate::is_wide;
+use crate::step::error::StepFailure;
+use crate::step::law::Law;
+use crate::step::outcome::Outcome;
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::{Mask, Real};
+
+/// Roundings of the magnitude of the energy that a step may be off by, as in the certificate.
+const ROUNDINGS: f64 = 64.0;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// What is left of all defects, formed with energies of the state, has to be rounding.
+    pub(super) fn prove(
+        &mut self,
+        correction: S,
+        (start, time): (&State<S>, S),
+    ) -> Result<Outcome<S>, StepFailure> {
+        if let Some(UnkeptEntropy { element, sizes }) = self.scratch.unkept {
+            let sizes = sizes.map(S::from_f64);
+            return Err(Law::KeptEntropy.not_kept(sizes, Some(element), time));
+        }
+        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let known = self.books.terms;
+        let [old, mut terms] = known.unwrap_or_else(|| self.terms_at_start(start));
+        let (mut residue, mut counted, mut own) = (S::zero(), S::zero(), S::zero());
+        for index in 0..self.components.all.len() {
+            let seen = self.scratch.progress[index].seen;
+            let [defect, magnitude] = seen.unwrap_or_else(|| self.defect_of(index));
+            let granularity = self.scratch.progress[index].granularity;
+            let magnitude = magnitude + S::from_f64(FROZEN / ROUNDINGS) * granularity;
+            expect(Law::Energy, [-defect, rounding * magnitude], time)?;
+            self.prove_momenta(index, time)?;
+            residue -= defect;
+            let energy = &self.scratch.energies[index];
+            counted += magnitude + energy.excess;
+            own += self.scratch.motions[index].kinetic + energy.terms;
+        }
+        terms += own;
+        let mut bound = rounding * (old + counted);
+        let old_residue = core::mem::replace(&mut self.books.residue, residue);
+        if known.is_none() {
+            // After a restart the terms are not those of the step that left the old residue.
+            bound += old_residue.abs();
+        }
+        self.books.terms = Some([counted, own]);
+        let (mut production, mut least) = (Total::default(), self.scratch.least);
+        for progress in &self.scratch.progress {
+            production.add_total(progress.production);
+            let has_produced = progress.least.less(S::MAX);
+            // The factor is rounded to ε of what was produced before the closing.
+            let closed = (progress.least * progress.factor).minimum(progress.production.value());
+            least = least.minimum(S::select(has_produced, closed, S::MAX));
+        }
+        let has_produced = least.less(S::MAX);
+        let least_production = S::select(has_produced, least, S::zero());
+        expect(
+            Law::Production,
+            [least_production.minimum(S::zero()), S::zero()],
+            time,
+        )?;
+        Ok(Outcome {
+            defect: residue - old_residue,
+            bound,
+            is_bound_wide: is_wide(bound, terms),
+            production: production.value(),
+            least_production,
+            correction,
+        })
+    }
+
+    /// The momenta of the state that a component keeps have to be their targets, in all planes.
+    fn prove_momenta(&self, index: usize, time: S) -> Result<(), StepFailure> {
+        let support = self.components.all[index].support;
+        if support == Support::Several {
+            return Ok(());
+        }
+        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let (linear, angular) = self.missing_momenta(index);
+        // Sums of magnitudes are at most √D times a length.
+        let [momenta, moments] = self.scratch.motions[index].terms;
+        let dimension = (0..D).fold(S::zero(), |sum, _| sum + S::one());
+        if support == Support::Free {
+            let bound = rounding * (momenta / dimension.sqrt());
+            expect(Law::LinearMomentum, [largest(&linear), bound], time)?;
+        }
+        let bound = rounding * (moments / dimension);
+        expect(Law::AngularMomentum, [angular.largest(), bound], time)
+    }
+}
+
+/// An error where a law is off by more than its bound, or by what is no number.
+fn expect<S: Real>(law: Law, [defect, bound]: [S; 2], time: S) -> Result<(), StepFailure> {
+    if defect.abs().at_most(bound).all() {
+        return Ok(());
+    }
+    Err(law.not_kept([defect, bound], None, time))
+}
