@@ -315,7 +315,7 @@ impl<S: Real> Certificate<S> {
 }
 
 /// The factor by which the terms of the forces at the end of a step, which are found by their secants, may be too large: 24
-/// in a million random steps, beside the core of a Lennard-Jones spring.
+/// in a million random steps, near the core of a Lennard-Jones spring.
 const SECANT: f64 = 64.0;
 
 /// Whether a bound is far above the rounding of these terms of energies, J, or not a number.
