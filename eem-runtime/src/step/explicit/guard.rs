@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_dashpot_never_takes_entropy() {
-        assert_eq!(guarded(-1e-3).to_bits(), 0.0_f64.to_bits());
-        assert_eq!(guarded(1e-3).to_bits(), 1e-3_f64.to_bits());
+        assert_eq!(guarded(-1e-3_f64).to_bits(), 0.0_f64.to_bits());
+        assert_eq!(guarded(1e-3_f64).to_bits(), 1e-3_f64.to_bits());
     }
 }
