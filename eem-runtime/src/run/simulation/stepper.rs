@@ -19,6 +19,9 @@ use crate::step::solver::{SavedPast, Solver};
 use crate::step::systems::Systems;
 use eem_material::number::scalar::Real;
 
+/// The elements of a scene without a scheme, a set per model.
+type Models<S, const D: usize> = Vec<Box<dyn Loose<S, D>>>;
+
 /// The solver of a scheme with the elements of a scene.
 pub(super) enum Stepper<S: Real, const D: usize> {
     /// Newton's method.
@@ -63,12 +66,12 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     /// For elements in a state. `begin` is called with them before memory for the solver is reserved; if it fails, they
     /// are returned.
     pub(super) fn new<E>(
-        elements: Vec<Box<dyn Loose<S, D>>>,
+        elements: Models<S, D>,
         systems: Systems<S, D>,
         parts: Parts<'_, S, D>,
         state: &mut State<S>,
         begin: impl FnOnce(&mut State<S>, &mut [&mut dyn Elements<S, D>]) -> Result<(), E>,
-    ) -> Result<Self, (E, Vec<Box<dyn Loose<S, D>>>)> {
+    ) -> Result<Self, (E, Models<S, D>)> {
         let placed = Placed {
             nodes: parts.elements,
             layout: parts.layout,
@@ -104,7 +107,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     }
 
     /// Takes its elements out, after which it cannot step.
-    pub(super) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
+    pub(super) fn take_elements(&mut self) -> Models<S, D> {
         match self {
             Self::Newton(newton) => {
                 let groups = mem::take(&mut newton.groups).into_iter();
