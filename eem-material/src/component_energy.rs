@@ -80,6 +80,7 @@ impl<
     const THERMAL: bool = M::THERMAL;
     const PER_VOLUME: bool = true;
     const VISCOUS_STRAIN: usize = K - M::DASHPOTS;
+    const HAS_CONSTANT_CAPACITY: bool = M::HAS_CONSTANT_CAPACITY;
     const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
@@ -202,6 +203,18 @@ impl<
             .entropy_form_response(&own, &variables, corners);
         let mean = tensors.mean(&Self::tensors(x1));
         Self::conjugates(&mean, response.as_ref(), -S::one())
+    }
+
+    fn mixed_states(
+        &self,
+        x0: &[S; N],
+        old: &[S; A],
+        x1: &[S; N],
+        corners: &M::Corners,
+    ) -> [M::Corners; 2] {
+        let (own, _) = Self::split(old);
+        let [x0, x1] = [x0, x1].map(Self::variables);
+        self.material.mixed_states(&x0, &own, &x1, corners)
     }
 
     fn temperature_form_old(&self, x0: &[S; N]) -> [S; B] {
