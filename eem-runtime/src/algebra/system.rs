@@ -215,11 +215,6 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         })
     }
 
-    /// Number of unknowns.
-    pub(crate) fn unknowns(&self) -> usize {
-        self.unknowns
-    }
-
     /// The place of a row of B; the scratch row without an unknown.
     pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
         unknown.unwrap_or(self.unknowns)

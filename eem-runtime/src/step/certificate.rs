@@ -47,8 +47,7 @@ mod internal;
 mod motion;
 
 use crate::element::handle::Element;
-use crate::element::recount::Recount;
-use crate::element::tally::{ROUNDINGS, Tally};
+use crate::element::tally::{ROUNDINGS, Recount, Tally};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use eem_material::number::scalar::{Mask, Real};

@@ -14,10 +14,9 @@ use crate::element::group::loose::LooseElements;
 use crate::element::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Kinematics, QuadraticStrain};
-use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
-use crate::element::tally::Tally;
+use crate::element::tally::{Recount, Tally};
 use eem_material::free_energy::Material;
 use eem_material::number::scalar::Real;
 

@@ -5,7 +5,7 @@ use core::ops::Range;
 use super::ProjectedPoint;
 use super::derivatives::derivatives;
 use super::vector::{Matrix, Vector};
-use crate::element::group::element_group::variables;
+use crate::element::group::point::variables;
 use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, QuadraticStrain};

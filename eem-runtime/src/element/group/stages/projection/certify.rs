@@ -6,10 +6,9 @@ use super::vector::Vector;
 use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{PerStrain, QuadraticStrain};
-use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
-use crate::element::tally::{Care, Tally};
+use crate::element::tally::{Care, Recount, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
