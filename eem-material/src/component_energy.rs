@@ -81,6 +81,7 @@ impl<
     const THERMAL: bool = M::THERMAL;
     const PER_VOLUME: bool = true;
     const VISCOUS_STRAIN: usize = K - M::DASHPOTS;
+    const HAS_CONSTANT_CAPACITY: bool = M::HAS_CONSTANT_CAPACITY;
     const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
@@ -194,6 +195,18 @@ impl<
         let (material, variables) = (&self.material, M::variables(x1));
         let response = material.entropy_form_response(&own, &variables, corners);
         M::response(&tensors, x1, &response)
+    }
+
+    fn mixed_states(
+        &self,
+        x0: &[S; N],
+        old: &[S; A],
+        x1: &[S; N],
+        corners: &M::Corners,
+    ) -> [M::Corners; 2] {
+        let (own, _) = M::split(old);
+        let [x0, x1] = [x0, x1].map(M::variables);
+        self.material.mixed_states(&x0, &own, &x1, corners)
     }
 
     fn temperature_form_old(&self, x0: &[S; N]) -> [S; B] {

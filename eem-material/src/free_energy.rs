@@ -115,6 +115,8 @@ pub trait FreeEnergy<S: Scalar> {
     const PER_VOLUME: bool = false;
     /// The number of dashpots, the last ones, that are components of a viscous strain tensor.
     const VISCOUS_STRAIN: usize = 0;
+    /// Whether the heat capacity does not depend on the temperature.
+    const HAS_CONSTANT_CAPACITY: bool = false;
     /// The name of the struct.
     const MODEL: &'static str;
     /// The names of the parameters that the model uses.
@@ -269,6 +271,31 @@ pub trait FreeEnergy<S: Scalar> {
         corners: &Self::Corners,
     ) -> Self::Response {
         self.entropy_form(old, x1, corners).0
+    }
+
+    /// By how much the entropies of the [`Corners`](Self::Corners) at trial temperatures exceed those that they must
+    /// have, and their heat capacities, J/K.
+    ///
+    /// The entropies that they must have are those of `x0` for the first half and of `x1` for the second. The derive
+    /// sums up divided differences, which keep the digits of small changes.
+    fn mixed_states(
+        &self,
+        x0: &Self::Variables,
+        _old: &Self::EntropyFormOld,
+        x1: &Self::Variables,
+        corners: &Self::Corners,
+    ) -> [Self::Corners; 2] {
+        let mut found = [*corners; 2];
+        let steps = Self::Corners::LEN / 2;
+        let wanted = [x0, x1].map(|x| self.caloric(x).entropy);
+        for index in 0..Self::Corners::LEN {
+            let (is_second, new) = (index >= steps, index % steps + 1);
+            let [before, after] = if is_second { [x1, x0] } else { [x0, x1] };
+            let caloric = self.caloric_between(before, after, new)(corners[index]).0;
+            found[0][index] = caloric.entropy - wanted[usize::from(is_second)];
+            found[1][index] = caloric.heat_capacity;
+        }
+        found
     }
 
     /// The values of the old state for [`temperature_form`](Self::temperature_form).

@@ -85,6 +85,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     const DASHPOTS: usize = M::DASHPOTS;
     const THERMAL: bool = M::THERMAL;
     const VISCOUS_STRAIN: usize = M::VISCOUS_STRAIN;
+    const HAS_CONSTANT_CAPACITY: bool = M::HAS_CONSTANT_CAPACITY;
     const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
@@ -193,6 +194,17 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         corners: &M::Corners,
     ) -> M::Response {
         self.scaled_response(self.density.entropy_form_response(old, x1, corners))
+    }
+
+    fn mixed_states(
+        &self,
+        x0: &M::Variables,
+        old: &M::EntropyFormOld,
+        x1: &M::Variables,
+        corners: &M::Corners,
+    ) -> [M::Corners; 2] {
+        let found = self.density.mixed_states(x0, old, x1, corners);
+        found.map(|values| self.scaled(values))
     }
 
     fn temperature_form_old(&self, x0: &M::Variables) -> M::TemperatureFormOld {

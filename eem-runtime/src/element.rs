@@ -14,7 +14,6 @@ pub(crate) mod lineage;
 pub(crate) mod loads;
 pub(crate) mod masses;
 pub(crate) mod phase;
-pub(crate) mod recount;
 pub(crate) mod state;
 pub(crate) mod tableau;
 pub(crate) mod tally;

@@ -14,10 +14,12 @@ mod elastic;
 mod entropy_form;
 mod latent;
 mod logarithm;
+mod mixed_states;
 mod step;
 mod temperature_form;
 
 pub(crate) use elastic::elastic_form;
 pub(crate) use entropy_form::entropy_form;
+pub(crate) use mixed_states::mixed_states;
 pub(crate) use step::Step;
 pub(crate) use temperature_form::temperature_form;

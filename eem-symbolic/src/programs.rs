@@ -4,6 +4,7 @@ mod point;
 
 use crate::discrete::{self, Step};
 use crate::model::Model;
+use crate::node::Symbol;
 use crate::program::Program;
 use crate::verify_error::VerifyError;
 use point::PointPrograms;
@@ -46,6 +47,11 @@ pub struct Programs {
     pub entropy_form: Program,
     /// The same outputs in temperature form, without corners; none without a temperature.
     pub temperature_form: Option<Program>,
+    /// `[S(c) − s_c …, θ ∂s/∂θ …]` of the corners c of the entropy form, at trial temperatures; none without a
+    /// temperature.
+    pub mixed_states: Option<Program>,
+    /// Whether `θ ∂s/∂θ` does not depend on θ.
+    pub has_constant_capacity: bool,
 }
 
 impl Programs {
@@ -71,6 +77,7 @@ impl Programs {
             &self.entropy_hessian,
             &self.viscosity,
             &self.drag,
+            &self.mixed_states,
             &self.temperature_form,
         ];
         let sometimes = sometimes.into_iter().flatten();
@@ -100,6 +107,10 @@ impl Model {
             viscosity: (!self.viscosities.is_empty()).then(|| point.viscosity(&self.viscosities)),
             drag: self.drag.map(|law| point.viscosity(&[law])),
             entropy_form: self.entropy_form(),
+            has_constant_capacity: self
+                .temperature
+                .is_some_and(|theta| point.is_capacity_constant(theta)),
+            mixed_states: self.temperature.map(|theta| self.mixed_states(theta)),
             temperature_form: self.temperature.map(|_| self.temperature_form()),
         }
     }
@@ -110,6 +121,12 @@ impl Model {
             Some(_) => discrete::entropy_form(&mut step),
             None => discrete::elastic_form(&mut step),
         };
+        step.program(&form)
+    }
+
+    fn mixed_states(&self, theta: Symbol) -> Program {
+        let mut step = Step::new(self, true);
+        let form = discrete::mixed_states(&mut step, theta);
         step.program(&form)
     }
 

@@ -4,7 +4,7 @@ use eem_symbolic::Programs;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::forms::kept;
+use super::forms::{kept, kept_in_entropy_form};
 use super::inputs::Inputs;
 use crate::ast;
 use crate::checked::Checked;
@@ -23,6 +23,9 @@ pub(super) fn constants(
     let (dashpots, thermal) = (Literal::usize_unsuffixed(inputs.dashpots), inputs.thermal);
     let measures = Literal::usize_unsuffixed(inputs.measures());
     let per_volume = per_volume(checked.per_volume());
+    let constant_capacity = programs.has_constant_capacity.then(|| {
+        quote! { const HAS_CONSTANT_CAPACITY: __eem::core::primitive::bool = true; }
+    });
     let name = ast::name(&checked.original.ident);
     let names = checked.parameters.iter().map(|p| &p.name);
     let (scalar, parameters) = (&inputs.scalar, &inputs.parameters);
@@ -32,6 +35,7 @@ pub(super) fn constants(
         const DASHPOTS: __eem::core::primitive::usize = #dashpots;
         const THERMAL: __eem::core::primitive::bool = #thermal;
         #per_volume
+        #constant_capacity
         const MODEL: &'static __eem::core::primitive::str = #name;
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[#(#names),*];
 
@@ -63,7 +67,7 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let (viscosities, drag) = (array(inputs.viscosities), array(inputs.drags));
     let corners = array(inputs.corners());
     let (response, tangent) = (array(inputs.responses()), matrix(inputs.responses()));
-    let entropy = array(kept(&programs.entropy_form, inputs).len());
+    let entropy = array(kept_in_entropy_form(programs, inputs));
     let temperature = programs
         .temperature_form
         .as_ref()

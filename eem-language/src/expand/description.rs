@@ -85,6 +85,7 @@ fn costs(programs: &Programs) -> impl Iterator<Item = TokenStream> {
         ("viscosity", programs.viscosity.as_ref(), false),
         ("drag", programs.drag.as_ref(), false),
         ("entropy_form", Some(&programs.entropy_form), true),
+        ("mixed_states", programs.mixed_states.as_ref(), true),
         ("temperature_form", programs.temperature_form.as_ref(), true),
     ];
     let rows = rows.into_iter();

@@ -15,7 +15,7 @@ use super::statements::{Statements, value};
 
 /// Both forms.
 pub(super) fn forms(programs: &Programs, inputs: &Inputs) -> TokenStream {
-    let entropy = entropy_form(&programs.entropy_form, inputs);
+    let entropy = entropy_form(programs, inputs);
     let temperature = match &programs.temperature_form {
         Some(program) => temperature_form(program, inputs),
         None => the_same_form(),
@@ -23,8 +23,19 @@ pub(super) fn forms(programs: &Programs, inputs: &Inputs) -> TokenStream {
     quote! { #entropy #temperature }
 }
 
-fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
-    let (old, new) = (old_stage(program, inputs), new_stage(program, inputs));
+fn entropy_form(programs: &Programs, inputs: &Inputs) -> TokenStream {
+    let program = &programs.entropy_form;
+    let (mut old, new) = (old_stage(program, inputs), new_stage(program, inputs));
+    let mut mixed_states = None;
+    if let Some(mixed) = &programs.mixed_states {
+        let first = kept(program, inputs).len();
+        let parts = [
+            (old, first),
+            (old_stage(mixed, inputs), kept(mixed, inputs).len()),
+        ];
+        old = joined(&parts, inputs);
+        mixed_states = Some(mixed_states_function(mixed, inputs, first));
+    }
     let old_docs = docs::old_stage(
         "Entropy form: what depends on the old state alone.",
         program,
@@ -61,6 +72,47 @@ fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
             __x1: &Self::Variables,
             #corners: &Self::Corners,
         ) -> Self::Response { #response }
+        #mixed_states
+    }
+}
+
+// Expands to: `let __form = { … }; let __mixed = { … }; [__form[0], __mixed[0]]`.
+fn joined([form, mixed]: &[(TokenStream, usize); 2], inputs: &Inputs) -> TokenStream {
+    let scalar = &inputs.scalar;
+    let names = [quote!(__form), quote!(__mixed)];
+    let (mut lets, mut entries) = (TokenStream::new(), Vec::new());
+    for (name, (array, count)) in names.iter().zip([form, mixed]) {
+        let length = Literal::usize_unsuffixed(*count);
+        lets.extend(quote! { let #name: [#scalar; #length] = { #array }; });
+        let places = (0..*count).map(Literal::usize_unsuffixed);
+        entries.extend(places.map(|place| quote!(#name[#place])));
+    }
+    quote! { #lets [#(#entries),*] }
+}
+
+// `first` is where the values of the old stage begin in `__old`.
+fn mixed_states_function(program: &Program, inputs: &Inputs, first: usize) -> TokenStream {
+    let new = {
+        let statements = statements(program, inputs, known_from(program, inputs, first));
+        let lets = statements.lets(|_, instruction| instruction.stage == Stage::New);
+        let outputs = program.outputs.iter();
+        let outputs: Vec<_> = outputs.map(|&output| statements.read(output)).collect();
+        let (excesses, capacities) = outputs.split_at(inputs.corners());
+        quote! { #lets [[#(#excesses),*], [#(#capacities),*]] }
+    };
+    let docs = docs::new_stage(
+        "By how much the entropies of the corners are too large, and their heat capacities.",
+        program,
+    );
+    quote! {
+        #docs
+        fn mixed_states(
+            &self,
+            _: &Self::Variables,
+            __old: &Self::EntropyFormOld,
+            __x1: &Self::Variables,
+            __corners: &Self::Corners,
+        ) -> [Self::Corners; 2] { #new }
     }
 }
 
@@ -180,8 +232,20 @@ pub(super) fn kept(program: &Program, inputs: &Inputs) -> Vec<Value> {
         .collect()
 }
 
+/// How many values the entropy form keeps of the old state, with those of its corners.
+pub(super) fn kept_in_entropy_form(programs: &Programs, inputs: &Inputs) -> usize {
+    let mixed = programs.mixed_states.as_ref();
+    let form = kept(&programs.entropy_form, inputs).len();
+    form + mixed.map_or(0, |mixed| kept(mixed, inputs).len())
+}
+
 /// How the new stage reads the values of the old one: from `__old`, or from `self`.
 fn known(program: &Program, inputs: &Inputs) -> BTreeMap<Value, TokenStream> {
+    known_from(program, inputs, 0)
+}
+
+/// The same where they begin at a place of `__old`.
+fn known_from(program: &Program, inputs: &Inputs, first: usize) -> BTreeMap<Value, TokenStream> {
     let mut known = BTreeMap::new();
     for value in program.hoisted() {
         if let Some(parameter) = parameter(program, inputs, value) {
@@ -189,7 +253,7 @@ fn known(program: &Program, inputs: &Inputs) -> BTreeMap<Value, TokenStream> {
         }
     }
     for (position, value) in kept(program, inputs).into_iter().enumerate() {
-        let position = Literal::usize_unsuffixed(position);
+        let position = Literal::usize_unsuffixed(first + position);
         known.insert(value, quote!(__old[#position]));
     }
     known

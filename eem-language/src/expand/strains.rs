@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use syn::DeriveInput;
 
-use super::forms::kept;
+use super::forms::{kept, kept_in_entropy_form};
 use super::header;
 use super::inputs::Inputs;
 use crate::ast::{Joint, Strain};
@@ -109,7 +109,7 @@ fn component_energy(
         variables,
         inputs.dashpots + components,
         variables + usize::from(inputs.thermal),
-        kept(&programs.entropy_form, inputs).len() + 2 * components,
+        kept_in_entropy_form(programs, inputs) + 2 * components,
         kept(temperature, inputs).len() + 2 * components,
     ];
     let numbers = numbers.map(Literal::usize_unsuffixed);

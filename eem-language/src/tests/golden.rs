@@ -141,7 +141,7 @@ fn forms_of_a_step() {
 
 #[test]
 fn form_with_corners() {
-    let functions = ["entropy_form_old", "entropy_form_response"];
+    let functions = ["entropy_form_old", "entropy_form_response", "mixed_states"];
     compare("corners.rs", &excerpt(thermal(), &functions));
 }
 

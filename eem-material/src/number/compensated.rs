@@ -112,7 +112,10 @@ impl<S: Scalar> Compensated<S> {
     #[inline]
     #[must_use]
     pub fn point<const D: usize>(&self, point: usize) -> [&[S; D]; 2] {
-        [&self.values, &self.carries].map(|all| &all.as_chunks::<D>().0[point])
+        [
+            &self.values.as_chunks::<D>().0[point],
+            &self.carries.as_chunks::<D>().0[point],
+        ]
     }
 
     /// Adds to one sum.

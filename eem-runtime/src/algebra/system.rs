@@ -231,10 +231,6 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         })
     }
 
-    pub(crate) fn unknowns(&self) -> usize {
-        self.unknowns
-    }
-
     /// The index of a row of B; the scratch row without an unknown.
     pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
         unknown.unwrap_or(self.unknowns)

@@ -106,7 +106,7 @@ impl<S: Real> Conduction<S> {
     }
 
     /// The heat flow from reservoirs into a slot with the temperature θ, `Σ κ (θ_r − θ)`.
-    #[inline(never)]
+    #[inline]
     pub(crate) fn reservoir_flow(&self, slot: usize, theta: S) -> HeatFlow<S> {
         let mut flow = HeatFlow::none();
         for link in self.links(slot) {

@@ -7,21 +7,18 @@
 //! begin      take over the old state, once                           (begin)
 //! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
 //!            local unknowns eliminated                              (local, eliminate)
-//!            contributions written to their places                  (assemble, share, site)
+//!            contributions written to their places                  (share, site)
 //! correct    local unknowns from the global solution                (correct, point)
 //! close      impulses, what is booked, and the new state            (closing, settle, certify)
 //! ```
 
 mod arms;
-mod assemble;
-mod at_point;
 mod audit;
 mod begin;
 mod build;
 mod certify;
 mod closing;
 mod correct;
-mod drag;
 mod element_group;
 mod eliminate;
 mod evaluate;
@@ -33,25 +30,23 @@ mod kelvin_voigt;
 mod local;
 mod loose;
 mod member;
-mod misfit;
 mod point;
 mod pose;
 mod recounting;
 mod respond;
 mod settle;
-mod settled;
 mod share;
 mod site;
 mod stages;
 mod view;
 
 pub(crate) use arms::points;
+pub(crate) use audit::Misfit;
 pub(crate) use explicit::{
     ClosingView, ComponentEnergy, Past, Place, Stage, UnkeptEntropy, is_met,
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
-pub(crate) use misfit::Misfit;
 pub(crate) use view::{
     Along, ElementGeneric, ElementTotals, ElementView, EntropySlopes, NodesOf, Old, Placed, Sites,
     StepView, Trial,

@@ -44,9 +44,8 @@
 mod motion;
 
 use crate::element::handle::Element;
-use crate::element::recount::Recount;
 use crate::element::state::State;
-use crate::element::tally::{ROUNDINGS, Tally};
+use crate::element::tally::{ROUNDINGS, Recount, Tally};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use eem_material::number::scalar::{Mask, Real};

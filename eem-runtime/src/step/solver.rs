@@ -3,13 +3,11 @@
 mod balance;
 mod begin;
 mod closing;
-mod conclusion;
 mod converge;
 mod coupling;
 mod effort;
 mod iteration;
 mod kept_factors;
-mod linearize;
 mod past;
 mod places;
 mod progress;
@@ -26,6 +24,7 @@ use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::tableau::UnknownSet;
+use crate::step::certificate::Certificate;
 use crate::step::scheme::Scheme;
 use crate::step::systems::Systems;
 use balance::Balance;
@@ -63,9 +62,8 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     /// a part in it.
     old_force: Vec<[S; D]>,
     past: Past<S, D>,
-    /// The reciprocal of the unit of length of each node that moves: its shortest element in the old
-    /// state; 1 m without.
-    per_length: Vec<S>,
+    /// The unit of length of each node: its shortest element in the old state, m; the largest number without.
+    lengths: Vec<S>,
     /// An attempt may be given up early.
     has_other_starts: bool,
     /// The nodes that are anchors.
@@ -75,6 +73,8 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     magnitudes: Vec<S>,
     /// The largest residual of the momentum balances where the step was closed, N s.
     final_residual: S,
+    /// What the last step that was closed proves.
+    certificate: Option<Certificate<S>>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
     /// The element whose own energy balance was off by most when it was last asked.
@@ -133,11 +133,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
             sets,
             stages,
             old_force: vec![[S::zero(); D]; nodes_with(has_old_forces(scheme, loads))],
-            per_length: vec![S::one(); masses.len()],
+            lengths: vec![S::one(); masses.len()],
             has_other_starts: false,
             anchors: masses.anchors().collect(),
             magnitudes: Vec::with_capacity(nodes_with(scheme.is_exact())),
             final_residual: S::zero(),
+            certificate: None,
             obstacle: None,
             worst: None,
             evaluations: 0,

@@ -83,12 +83,9 @@ impl Stairs {
     fn new(step: &mut Step) -> Self {
         let n = step.mechanical;
         let (old, new) = (step.old.clone(), step.new.clone());
-        let (mut up, mut down) = (vec![old.clone()], vec![new.clone()]);
+        let mut up = step.staircase(0, &new, &old);
+        let mut down = step.staircase(n, &old, &new);
         let mut corners = Vec::new();
-        for k in 1..=n {
-            up.push(step.corner(k, k - 1, &new, &old));
-            down.push(step.corner(k, n + k - 1, &old, &new));
-        }
         for (k, point) in up.iter().enumerate().skip(1) {
             corners.push(Corner::new(step, point, 0..k, false));
         }
@@ -175,10 +172,15 @@ impl Corner {
 }
 
 impl Step {
-    /// The first `k` variables of `before`, the others of `after`, and a corner temperature.
-    fn corner(&self, k: usize, input: usize, before: &Point, after: &Point) -> Point {
-        let mut point = mixed(k, before, after);
-        point[self.mechanical] = self.corners[input];
-        point
+    /// The state `from`, then those with the first variables of `to`, one after the other, at corner temperatures from
+    /// the input `first` on.
+    pub(super) fn staircase(&self, first: usize, to: &Point, from: &Point) -> Vec<Point> {
+        let mut points = vec![from.clone()];
+        for k in 1..=self.mechanical {
+            let mut point = mixed(k, to, from);
+            point[self.mechanical] = self.corners[first + k - 1];
+            points.push(point);
+        }
+        points
     }
 }

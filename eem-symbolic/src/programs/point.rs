@@ -71,6 +71,11 @@ impl<'m> PointPrograms<'m> {
         self.staged(&known, &[theta], &outputs)
     }
 
+    pub(super) fn is_capacity_constant(&mut self, theta: Symbol) -> bool {
+        let [_, capacity, _] = self.caloric_quantities(theta);
+        !self.graph.depends_on(capacity, theta)
+    }
+
     fn caloric_quantities(&mut self, theta: Symbol) -> [ExprId; 3] {
         let entropy = self.model.entropy(&mut self.graph, theta);
         let capacity = heat_capacity(&mut self.graph, entropy, theta);

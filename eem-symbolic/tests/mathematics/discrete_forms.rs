@@ -327,3 +327,44 @@ fn temperature_form_is_symmetric_bit_by_bit() {
     }
     assert!(without_logarithm > 0);
 }
+
+#[test]
+fn mixed_states_are_off_by_differences_of_the_entropy() {
+    for law in laws_and_random().iter().filter(|law| law.thermal()) {
+        let (p, n) = (&law.precise, law.mechanical());
+        let program = law.programs.mixed_states.as_ref().expect("a thermal law");
+        let caloric = law.programs.caloric.as_ref().expect("a thermal law");
+        let moved = moved(&law.law.state, 1e-2);
+        let [x0, x1] = [&law.law.state, &moved].map(|x| p.all(x));
+        // Temperatures that are wrong by a few per cent.
+        let factors = [1.01, 1.02, 0.99, 1.03].into_iter().cycle();
+        let thetas = factors.map(|factor| p.mul(&x0[n], &p.from_f64(factor)));
+        let thetas: Vec<_> = thetas.take(2 * n).collect();
+        let found = law.run(program, &[&x0, &x1, &thetas]);
+        for (index, theta) in thetas.iter().enumerate() {
+            let (k, [to, from]) = if index < n {
+                (index + 1, [&x1, &x0])
+            } else {
+                (index - n + 1, [&x0, &x1])
+            };
+            let mut state: Vec<_> = to[..k].iter().chain(&from[k..n]).cloned().collect();
+            state.push(theta.clone());
+            let at_state = law.run(caloric, &[&state]);
+            let excess = p.sub(&at_state[0], &law.entropy(from));
+            let size = to_f64(&at_state[2]);
+            let off = to_f64(&p.sub(&found[index], &excess)).abs();
+            assert!(off <= PRECISE * size, "{} {index}: {off:e}", law.law.name);
+            let off = relative(law, &found[2 * n + index], &at_state[1]);
+            assert!(off <= PRECISE, "{} {index}: {off:e}", law.law.name);
+            if law.programs.has_constant_capacity {
+                state[n] = p.mul(theta, &p.from_f64(2.0));
+                let warmer = &law.run(caloric, &[&state])[1];
+                assert!(
+                    relative(law, warmer, &at_state[1]) <= PRECISE,
+                    "{}",
+                    law.law.name
+                );
+            }
+        }
+    }
+}

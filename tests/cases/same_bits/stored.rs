@@ -16,11 +16,11 @@ pub(super) struct Stored {
 pub(super) const GLIBC: [Stored; 5] = [
     Stored {
         scheme: Scheme::EemEntropy,
-        single: 0xa60b_b76c_668d_200b,
+        single: 0x0910_a29c_6459_c4c3,
         double: [
-            0x1c14_7f78_becd_c082,
-            0x3530_2515_4580_db19,
-            0x2c6d_b8e8_648b_36cf,
+            0xd428_7c24_3a97_d356,
+            0x8bd3_e475_34b3_793e,
+            0x998c_9c0c_a44b_8eda,
         ],
     },
     Stored {
@@ -52,11 +52,11 @@ pub(super) const GLIBC: [Stored; 5] = [
     },
     Stored {
         scheme: Scheme::Staggered,
-        single: 0x9258_d2f2_d6e2_0896,
+        single: 0x8514_e1a0_4ddd_3248,
         double: [
-            0x26d9_4e73_85b3_9c05,
-            0x8c25_6d88_16c4_0e35,
-            0xd542_b621_97a6_92ba,
+            0xef34_2c86_ef29_8785,
+            0xd6b9_5465_d43b_246a,
+            0xa461_7654_0c39_5fe0,
         ],
     },
 ];

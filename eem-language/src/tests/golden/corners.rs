@@ -16,18 +16,34 @@ impl<__S: __eem::Scalar> __eem::FreeEnergy<__S> for Thermal {
     ///
     /// 4 operations: 2 additions, 1 multiplication, 1 division.
     fn entropy_form_old(&self, __x0: &Self::Variables) -> Self::EntropyFormOld {
-        let __v4 = __x0[2];
-        let __v11 = <__S as __eem::Scalar>::from_f64(self.k);
-        let __v12 = __x0[0];
-        let __v13 = __x0[1];
-        let __v14 = __v12 - __v13;
-        let __v18 = <__S as __eem::Scalar>::from_f64(0.5);
-        let __v19 = __v11 * __v18;
-        let __v40 = <__S as __eem::Scalar>::from_f64(self.c);
-        let __v44 = <__S as __eem::Scalar>::from_f64(1.0);
-        let __v45 = __v44 / __v40;
-        let __v61 = -__v19;
-        [__v4, __v12, __v13, __v14, __v19, __v45, __v61]
+        let __form: [__S; 7] = {
+            let __v4 = __x0[2];
+            let __v11 = <__S as __eem::Scalar>::from_f64(self.k);
+            let __v12 = __x0[0];
+            let __v13 = __x0[1];
+            let __v14 = __v12 - __v13;
+            let __v18 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v19 = __v11 * __v18;
+            let __v40 = <__S as __eem::Scalar>::from_f64(self.c);
+            let __v44 = <__S as __eem::Scalar>::from_f64(1.0);
+            let __v45 = __v44 / __v40;
+            let __v61 = -__v19;
+            [__v4, __v12, __v13, __v14, __v19, __v45, __v61]
+        };
+        let __mixed: [__S; 1] = {
+            let __v0 = __x0[2];
+            [__v0]
+        };
+        [
+            __form[0],
+            __form[1],
+            __form[2],
+            __form[3],
+            __form[4],
+            __form[5],
+            __form[6],
+            __mixed[0],
+        ]
     }
     /// Entropy form: the same algorithmic quantities without their tangent.
     ///
@@ -77,5 +93,50 @@ impl<__S: __eem::Scalar> __eem::FreeEnergy<__S> for Thermal {
         let __v38 = __v0 - __v3;
         let __v39 = __v37 * __v38;
         [__v24, __v30, __v35, __v39]
+    }
+    /// By how much the entropies of the corners are too large, and their heat capacities.
+    ///
+    /// 18 operations: 6 additions, 8 multiplications, 4 divided differences. Transcendental functions: 0 calls for 5 arguments.
+    fn mixed_states(
+        &self,
+        _: &Self::Variables,
+        __old: &Self::EntropyFormOld,
+        __x1: &Self::Variables,
+        __corners: &Self::Corners,
+    ) -> [Self::Corners; 2] {
+        let __v1 = __corners[0];
+        let __v0 = __old[7];
+        let __v2 = __eem::kernel::ln_dd(__v0, __v1);
+        let __v3 = __corners[1];
+        let __v4 = __eem::kernel::ln_dd(__v1, __v3);
+        let __v5 = __x1[2];
+        let __v6 = __corners[2];
+        let __v7 = __eem::kernel::ln_dd(__v5, __v6);
+        let __v8 = __corners[3];
+        let __v9 = __eem::kernel::ln_dd(__v6, __v8);
+        let __v10 = <__S as __eem::Scalar>::from_f64(self.c);
+        let __v11 = __v10 * __v2;
+        let __v12 = __v1 - __v0;
+        let __v13 = __v11 * __v12;
+        let __v14 = __v10 * __v4;
+        let __v15 = __v3 - __v1;
+        let __v16 = __v14 * __v15;
+        let __v17 = __v13 + __v16;
+        let __v18 = __v10 * __v7;
+        let __v19 = __v6 - __v5;
+        let __v20 = __v18 * __v19;
+        let __v21 = __v10 * __v9;
+        let __v22 = __v8 - __v6;
+        let __v23 = __v21 * __v22;
+        let __v24 = __v20 + __v23;
+        [
+            [__v13, __v17, __v20, __v24],
+            [
+                <__S as __eem::Scalar>::from_f64(self.c),
+                <__S as __eem::Scalar>::from_f64(self.c),
+                <__S as __eem::Scalar>::from_f64(self.c),
+                <__S as __eem::Scalar>::from_f64(self.c),
+            ],
+        ]
     }
 }

@@ -12,9 +12,13 @@
 //! old to new come from the Legendre inversion θ̂, by Newton's method, for any free energy.
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
-use crate::element::conjugates::temperature::temperature_of;
+use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
 use eem_material::free_energy::{Array, Entry, FreeEnergy, Material};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real, unless};
+
+/// The largest first correction of ln θ from which Newton's method goes on, and the least by which corrections shrink;
+/// otherwise mixed states are searched one by one.
+const NEAR: f64 = 0.25;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +27,7 @@ pub(crate) struct EemEntropy;
 impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     const EXACT: bool = true;
 
-    /// What the form keeps, and s⁰, J/K.
-    type Old = (M::EntropyFormOld, S);
+    type Old = M::EntropyFormOld;
     /// Corner temperatures.
     type Memory = M::Corners;
     type AtPoint<T: Entry> = [T; 0];
@@ -35,8 +38,8 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     }
 
     #[inline]
-    fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old {
-        (model.entropy_form_old(x0), entropy)
+    fn old(model: &M, x0: &M::Variables, _: S) -> Self::Old {
+        model.entropy_form_old(x0)
     }
 
     fn memory(theta0: S) -> Self::Memory {
@@ -64,7 +67,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
         x: &M::Variables,
         corners: &Self::Memory,
     ) -> Form<S, M> {
-        model.entropy_form(&start.old.0, x, corners)
+        model.entropy_form(&start.old, x, corners)
     }
 
     /// The temperature form, which has no mixed states: with a small heat capacity their temperatures
@@ -88,29 +91,91 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
         x: &M::Variables,
         corners: &Self::Memory,
     ) -> M::Response {
-        model.entropy_form_response(&start.old.0, x, corners)
+        model.entropy_form_response(&start.old, x, corners)
     }
 }
 
-/// The temperatures of the mixed states: first the ascending chain, where the first k variables
-/// are new and the entropy is old, then the descending one, the other way round.
-///
-/// A trial beyond a spinodal is refused, so that all corners lie on the stable branch.
+/// The temperatures of all mixed states, by Newton's method in ln θ, from those of the last trial.
+#[inline]
 fn find_corners<S: Real, M: FreeEnergy<S>>(
     model: &M,
-    start: &Start<S, M, (M::EntropyFormOld, S)>,
+    start: &Start<S, M, M::EntropyFormOld>,
     x1: &M::Variables,
     corners: &mut M::Corners,
 ) -> Result<(), Infeasible> {
-    let steps = M::Corners::LEN / 2;
-    let (ascending, descending) = corners.as_mut().split_at_mut(steps);
-    let caloric1 = model.caloric(x1);
-    Infeasible::unless_stable(caloric1.heat_capacity, x1[M::Variables::LEN - 1])?;
-    for k in 1..=steps {
-        let mixed = model.caloric_between(&start.x0, x1, k);
-        ascending[k - 1] = temperature_of(&mixed, start.old.1, ascending[k - 1])?;
-        let mixed = model.caloric_between(x1, &start.x0, k);
-        descending[k - 1] = temperature_of(&mixed, caloric1.entropy, descending[k - 1])?;
+    let root = S::EPSILON.sqrt();
+    // S(ln θ) is linear where the capacity is constant, so that only the series of e^x is left.
+    let enough = if M::HAS_CONSTANT_CAPACITY {
+        root.sqrt()
+    } else {
+        S::from_f64(LAST_CORRECTION) * root
+    };
+    let mut settled = S::Mask::none();
+    let mut limit = S::from_f64(NEAR);
+    loop {
+        let [excess, capacities] = model.mixed_states(&start.x0, &start.old, x1, corners);
+        let mut found = *corners;
+        let (mut largest, mut sum, mut least) = (S::zero(), S::zero(), S::MAX);
+        for index in 0..M::Corners::LEN {
+            let correction = -excess[index] / capacities[index];
+            let size = correction.abs();
+            // It keeps a NaN, which a comparison loses.
+            sum += size;
+            largest = S::select(largest.less(size), size, largest);
+            least = S::select(capacities[index].less(least), capacities[index], least);
+            found[index] = corners[index] + corners[index] * growth(correction);
+        }
+        let size = largest + S::zero() * sum;
+        let is_far = !(settled | (size.at_most(limit) & S::zero().less(least)));
+        if is_far.any() {
+            let sought = search_corners(model, start, x1, *corners)?;
+            for index in 0..M::Corners::LEN {
+                found[index] = S::select(is_far, sought[index], found[index]);
+            }
+        }
+        for index in 0..M::Corners::LEN {
+            corners[index] = unless(settled, corners[index], found[index]);
+        }
+        settled = settled | size.at_most(enough) | is_far;
+        if settled.all() {
+            return Ok(());
+        }
+        limit = S::from_f64(NEAR) * size;
     }
-    Ok(())
+}
+
+/// `e^x − 1` up to `x⁵/120`.
+#[inline]
+fn growth<S: Real>(x: S) -> S {
+    let [half, third, quarter] = [0.5, 1.0 / 6.0, 1.0 / 24.0].map(S::from_f64);
+    let square = x * x;
+    (x + half * square) + (x * square) * (third + quarter * x)
+}
+
+/// The same one by one: first the ascending chain, where the first k variables are new and the entropy is old, then
+/// the descending one, the other way round.
+///
+/// A trial beyond a spinodal is refused, so that all corners lie on the stable branch.
+#[cold]
+#[inline(never)]
+fn search_corners<S: Real, M: FreeEnergy<S>>(
+    model: &M,
+    start: &Start<S, M, M::EntropyFormOld>,
+    x1: &M::Variables,
+    mut corners: M::Corners,
+) -> Result<M::Corners, Infeasible> {
+    let steps = M::Corners::LEN / 2;
+    let [old, new] = [&start.x0, x1].map(|x| model.caloric(x));
+    Infeasible::unless_stable(new.heat_capacity, x1[M::Variables::LEN - 1])?;
+    for k in 1..=steps {
+        for (first, ends, entropy) in [
+            (0, [&start.x0, x1], old.entropy),
+            (steps, [x1, &start.x0], new.entropy),
+        ] {
+            let mixed = model.caloric_between(ends[0], ends[1], k);
+            let corner = &mut corners[first + k - 1];
+            *corner = temperature_of(&mixed, entropy, *corner)?;
+        }
+    }
+    Ok(corners)
 }

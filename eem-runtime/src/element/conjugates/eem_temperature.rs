@@ -9,8 +9,8 @@
 //! a mean of temperatures weighted with the heat capacity, hence positive, hence the second. No
 //! inversion is needed: the new temperature is the unknown.
 
-use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
-use eem_material::free_energy::{Array, Entry, Material};
+use crate::element::conjugates::element::{ElementScheme, Form, Placement, Start};
+use eem_material::free_energy::{Entry, Material};
 use eem_material::number::scalar::Real;
 
 /// See the module.
@@ -45,18 +45,6 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
         (): &Self::Memory,
     ) -> Form<S, M> {
         model.temperature_form(&start.old, x)
-    }
-
-    #[inline]
-    fn check(x: &M::Variables, form: &Form<S, M>) -> Result<(), Infeasible> {
-        if !M::THERMAL {
-            return Ok(());
-        }
-        // ∂Δs/∂θ¹ = C/θ¹
-        let last = M::Variables::LEN - 1;
-        let theta = x[last];
-        let slope = form.1[last + 1][last];
-        Infeasible::unless_stable(theta * slope, theta)
     }
 
     #[inline]

@@ -111,10 +111,14 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         None
     }
 
-    /// Refuses a trial that is not stable, as its form tells.
+    /// Refuses a trial that is not stable, as the form of an exact scheme tells: `∂Δs/∂θ¹ = C/θ¹`.
     #[inline]
-    fn check(_: &M::Variables, _: &Form<S, M>) -> Result<(), Infeasible> {
-        Ok(())
+    fn check(x: &M::Variables, form: &Form<S, M>) -> Result<(), Infeasible> {
+        if !Self::EXACT || !M::THERMAL {
+            return Ok(());
+        }
+        let last = M::Variables::LEN - 1;
+        Infeasible::unless_stable(x[last] * form.1[last + 1][last], x[last])
     }
 
     /// For a scheme in temperature: replaces the Δs of the form by that of rates, where increments

@@ -12,7 +12,7 @@ use eem_material::number::scalar::Real;
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
 /// again. Newton's method in ln θ leaves half the square of the correction, times the slope
 /// of ln C over ln θ: ε/32 for C ∝ θ, and as much for eˣ.
-const LAST_CORRECTION: f64 = 0.25;
+pub(super) const LAST_CORRECTION: f64 = 0.25;
 
 /// θ̂ at the configuration of `x`, whose own temperature does not matter; stable.
 #[inline]

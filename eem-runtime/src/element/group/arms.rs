@@ -102,11 +102,7 @@ pub(super) fn resultant<K: Kinematics<S, D>, S: Real, const D: usize>(
 ) -> K::PerNode<[S; D]> {
     let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
     for (row, &magnitude) in gradient.as_ref().iter().zip(force.as_ref()) {
-        for (sum, entry) in sum.as_mut().iter_mut().zip(row.as_ref()) {
-            for (sum, &entry) in sum.iter_mut().zip(entry) {
-                *sum += magnitude * entry;
-            }
-        }
+        add_scaled::<K, S, D>(&mut sum, magnitude, row);
     }
     spread::<K, S, D>(&sum)
 }
@@ -135,10 +131,9 @@ pub(super) fn mean<K: Kinematics<S, D>, S: Real, const D: usize>(
     r1: &Arms<K, S, D>,
 ) -> Arms<K, S, D> {
     let mut mean = *r1;
-    for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
-        for (mean, &old) in mean.iter_mut().zip(old) {
-            *mean = S::from_f64(0.5) * (old + *mean);
-        }
+    let old = r0.as_ref().as_flattened();
+    for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
+        *mean = S::from_f64(0.5) * (old + *mean);
     }
     mean
 }
@@ -149,10 +144,8 @@ pub(super) fn scale<K: Kinematics<S, D>, S: Real, const D: usize>(
     arms: &mut Arms<K, S, D>,
     factor: S,
 ) {
-    for arm in arms.as_mut() {
-        for entry in arm {
-            *entry *= factor;
-        }
+    for entry in arms.as_mut().as_flattened_mut() {
+        *entry *= factor;
     }
 }
 
@@ -163,9 +156,8 @@ pub(super) fn add_scaled<K: Kinematics<S, D>, S: Real, const D: usize>(
     factor: S,
     arms: &Arms<K, S, D>,
 ) {
-    for (sum, arm) in sum.as_mut().iter_mut().zip(arms.as_ref()) {
-        for (sum, &entry) in sum.iter_mut().zip(arm) {
-            *sum += factor * entry;
-        }
+    let entries = arms.as_ref().as_flattened();
+    for (sum, &entry) in sum.as_mut().as_flattened_mut().iter_mut().zip(entries) {
+        *sum += factor * entry;
     }
 }

@@ -4,12 +4,9 @@ use super::kelvin_voigt::check_drag;
 use super::point::Point;
 use crate::element::conjugates::{ElementScheme, Infeasible};
 use crate::element::error::StateError;
-use crate::element::group::element_group::ElementGroup;
-use crate::element::group::misfit::Misfit;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use eem_material::free_energy::Material;
-use eem_material::number::digest::Digest;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// How many ε of its terms an entropy may differ from that of the model.
@@ -19,37 +16,24 @@ use eem_material::number::scalar::{Mask, Real, is_positive};
 /// stretches and viscous stretches are rounded once each. As much again is for evaluating S here.
 const ENTROPY_ROUNDINGS: f64 = 8.0;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
-    /// See [`Elements::digest`](super::Elements::digest).
-    pub(super) fn digest_all(&self, digest: &mut Digest) {
-        for name in M::PARAMETERS {
-            digest.bytes(name.as_bytes());
-            digest.bytes(&[0]);
-        }
-        for point in self.points() {
-            digest.count(point.element.index());
-            for index in 0..M::PARAMETERS.len() {
-                digest.number(point.model.parameter(index));
-            }
-            point
-                .kinematics
-                .numbers(&mut |number| digest.number(number));
-        }
-    }
+/// Why an element cannot be in a state that comes from outside.
+#[derive(Clone, Debug)]
+pub(crate) enum Misfit {
+    /// It cannot be in it at all.
+    State(StateError),
+    /// Its entropy (J/K) is not that of its temperature (K), and what rounding explains.
+    Entropy {
+        element: usize,
+        entropy: f64,
+        expected: f64,
+        temperature: f64,
+        bound: f64,
+    },
+}
 
-    /// See [`Elements::audit`](super::Elements::audit).
-    pub(super) fn audit_all(&self, state: &State<S>) -> Result<(), Misfit> {
-        for member in &self.members {
-            let r = member.arms_in(state);
-            for point in member.points.as_ref() {
-                let x = point.locate(&r, state)?;
-                point.audit_response(&x)?;
-                point.audit_entropy(&x, state)?;
-            }
-        }
-        Ok(())
+impl From<StateError> for Misfit {
+    fn from(error: StateError) -> Self {
+        Self::State(error)
     }
 }
 
@@ -57,7 +41,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     Point<S, M, K, C, D>
 {
     /// Energy, forces and viscosities are those of a state that a scene can begin with.
-    fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {
+    pub(super) fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {
         self.unless_infinite(self.model.free_energy(x))?;
         let gradient = self.model.gradient(x);
         if let Some(value) = gradient.as_ref().iter().find(|value| !value.is_finite()) {
@@ -93,7 +77,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// ```text
     /// |S − s| ≤ 8 ε (Σ|terms of S| + Σ |∂S/∂x| |x| + C max(1, |ln θ|)),   x = λ, γ
     /// ```
-    fn audit_entropy(&self, x: &M::Variables, state: &State<S>) -> Result<(), Misfit> {
+    pub(super) fn audit_entropy(&self, x: &M::Variables, state: &State<S>) -> Result<(), Misfit> {
         let Some(slot) = self.slots().thermal else {
             return Ok(());
         };

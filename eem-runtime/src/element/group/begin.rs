@@ -2,41 +2,14 @@
 
 use super::arms::{along, measures_in, spread};
 use super::member::Member;
-use super::point::Point;
+use super::point::{Point, variables};
 use super::pose::Pose;
 use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::error::StateError;
-use crate::element::group::element_group::{ElementGroup, variables};
-use crate::element::group::view::{Old, StepView};
+use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
-
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
-    /// See [`Group::begin`](super::Group::begin).
-    pub(super) fn begin_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        old: &mut Old<'_, S, D>,
-    ) -> Result<(), StateError> {
-        for member in &mut self.members {
-            let r0 = member.arms_in(view.state);
-            member.r0 = r0;
-            for point in member.points.as_mut() {
-                let measures = point.kinematics.measure(&r0);
-                point.begin(view, &measures);
-                let length = point.kinematics.length(&measures);
-                shorten::<K, S, D>(&member.site.nodes, length, old.lengths);
-            }
-            if self.scheme.implicit() < 1.0 {
-                member.take_old_share(view, old.force)?;
-            }
-        }
-        Ok(())
-    }
-}
 
 /// Reduces the unit of length of each node to that of its elements, if that is shorter.
 #[inline]
@@ -56,7 +29,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     Member<S, M, K, C, D>
 {
     /// The part of rates and nodal forces that the scheme takes from the old state.
-    fn take_old_share(
+    pub(super) fn take_old_share(
         &mut self,
         view: &StepView<'_, S>,
         old_force: &mut [[S; D]],
@@ -86,7 +59,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 {
     /// Takes measures, γ and θ from the old state, where the trial starts.
     #[inline]
-    fn begin(&mut self, view: &StepView<'_, S>, measures: &Measures<K, S, D>) {
+    pub(super) fn begin(&mut self, view: &StepView<'_, S>, measures: &Measures<K, S, D>) {
         let slots = self.slots();
         let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
         let entropy = slots

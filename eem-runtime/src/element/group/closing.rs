@@ -8,7 +8,7 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat, see
 //! [`conduction`](crate::element::conduction). Both ends of a path book the same numbers.
 
-use super::arms::{change_in, mean, measures_in, spread};
+use super::arms::{mean, measures_in, spread};
 use super::member::Member;
 use super::point::Point;
 use super::pose::Pose;
@@ -16,58 +16,12 @@ use super::site::Contact;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::Partner;
 use crate::element::conjugates::{ElementScheme, Placement};
-use crate::element::group::element_group::ElementGroup;
-use crate::element::group::view::{Along, StepView, Trial};
-use crate::element::impulse::Impulses;
+use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
-
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
-    /// See [`Group::add_impulse`](super::Group::add_impulse).
-    pub(super) fn add_impulse_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        along: Along,
-        (impulses, magnitudes): (&mut Impulses<'_, S, D>, &mut [S]),
-    ) {
-        let at = match along {
-            Along::Secant => None,
-            Along::Scheme => Some(self.scheme.placement()),
-            Along::Gradient => Some(Placement::End),
-            Along::Stage(_) => return,
-        };
-        for member in &self.members {
-            let (nodes, r0) = (&member.site.nodes, &member.r0);
-            let r1 = member.new_arms(trial);
-            let (h, force) = if let Some(at) = at {
-                let share = view.step * S::from_f64(self.scheme.implicit());
-                (share, member.force(at, [r0, &r1]))
-            } else {
-                let mut mean = change_in::<K, S, D>(nodes, trial);
-                if C::EXACT && !magnitudes.is_empty() {
-                    member.add_magnitude(view.step, [&r1, &mean], magnitudes);
-                }
-                for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
-                    for (mean, &old) in mean.iter_mut().zip(old) {
-                        *mean = old + S::from_f64(0.5) * *mean;
-                    }
-                }
-                (view.step, member.pull([r0, &r1], &mean))
-            };
-            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
-                    *impulse -= h * force;
-                }
-            }
-        }
-    }
-}
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
@@ -83,7 +37,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The same as `A r_m`.
     #[inline]
-    fn pull(&self, ends: [&Arms<K, S, D>; 2], mean: &Arms<K, S, D>) -> K::PerNode<[S; D]> {
+    pub(super) fn pull(
+        &self,
+        ends: [&Arms<K, S, D>; 2],
+        mean: &Arms<K, S, D>,
+    ) -> K::PerNode<[S; D]> {
         let mut sum: Option<Weights<K, S, D>> = None;
         for point in self.points.as_ref() {
             let own = point.secant(ends);
@@ -114,10 +72,9 @@ fn sum_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
         *sum = Some(own);
         return;
     };
-    for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
-        for (sum, &own) in sum.iter_mut().zip(own) {
-            *sum += own;
-        }
+    let own = own.as_ref().as_flattened();
+    for (sum, &own) in sum.as_mut().as_flattened_mut().iter_mut().zip(own) {
+        *sum += own;
     }
 }
 

@@ -5,33 +5,9 @@ use super::point::Point;
 use super::share::run;
 use super::site::{Contact, Site};
 use crate::element::conjugates::ElementScheme;
-use crate::element::group::element_group::ElementGroup;
 use crate::element::kinematics::{Arms, Kinematics};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
-
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
-    /// See [`Group::correct`](super::Group::correct).
-    pub(super) fn correct_all(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
-        let mut largest = S::zero();
-        if Point::<S, M, K, C, D>::UNKNOWNS == 0 {
-            return largest;
-        }
-        for member in &mut self.members {
-            let motion = member.site.motion_in(solution);
-            for point in member.points.as_mut() {
-                let found = point.found_by(settled);
-                let contact = point.contact_in(&self.contacts);
-                let update = point.correct(&motion, contact, solution);
-                point.return_to(found, settled);
-                largest = largest.maximum(update);
-            }
-        }
-        largest
-    }
-}
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
@@ -39,7 +15,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Finds and applies the corrections of the local unknowns that go with a motion of the arms; the
     /// largest in their units.
     #[inline]
-    fn correct(
+    pub(super) fn correct(
         &mut self,
         motion: &Arms<K, S, D>,
         contact: Option<&Contact<K, S, D>>,

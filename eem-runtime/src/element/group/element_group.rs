@@ -1,26 +1,24 @@
 //! The elements of one model, with one set of forces in a step.
 
+use super::arms::change_in;
+use super::begin::shorten;
 use super::interface::{Elements, Group, Loose};
 use super::loose::LooseElements;
 use super::member::Member;
 use super::point::Point;
 use super::share::Share;
 use super::site::{Contact, Site};
-use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
+use super::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::error::StateError;
-use crate::element::group::misfit::Misfit;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Kinematics, Points, QuadraticStrain, SolidState};
-use crate::element::layout::Slots;
-use crate::element::recount::Recount;
+use crate::element::kinematics::{Kinematics, Points, QuadraticStrain};
 use crate::element::state::State;
-use crate::element::tally::Tally;
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use crate::element::tally::{Recount, Tally};
+use eem_material::free_energy::{Array, Material};
 use eem_material::number::compact::compact;
-use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`, stepped by the scheme `C`.
@@ -79,51 +77,6 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Elements<S, D> for ElementGroup<S, M, K, C, D>
-{
-    fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError)) {
-        self.initialize_all(state, refuse);
-    }
-
-    fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>) {
-        self.add_all_totals(state, totals);
-    }
-
-    fn find_energies(&self, state: &mut State<S>) {
-        self.find_all_energies(state);
-    }
-
-    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
-        self.generic_in_all(state)
-    }
-
-    fn slots(&self, place: usize) -> Slots {
-        let (member, point) = self.at(place);
-        member.points.as_ref()[point].slots()
-    }
-
-    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
-        self.inspect_at(place, state)
-    }
-
-    fn solid_state(&self, place: usize, state: &State<S>) -> Option<SolidState<S>> {
-        self.solid_state_at(place, state)
-    }
-
-    fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S {
-        self.dissipation_at(place, state, velocity)
-    }
-
-    fn digest(&self, digest: &mut Digest) {
-        self.digest_all(digest);
-    }
-
-    fn audit(&self, state: &State<S>) -> Result<(), Misfit> {
-        self.audit_all(state)
-    }
-}
-
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, const D: usize>
     Group<S, D> for ElementGroup<S, M, K, C, D>
 {
@@ -157,7 +110,20 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     }
 
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
-        self.begin_all(view, old)
+        for member in &mut self.members {
+            let r0 = member.arms_in(view.state);
+            member.r0 = r0;
+            for point in member.points.as_mut() {
+                let measures = point.kinematics.measure(&r0);
+                point.begin(view, &measures);
+                let length = point.kinematics.length(&measures);
+                shorten::<K, S, D>(&member.site.nodes, length, old.lengths);
+            }
+            if self.scheme.implicit() < 1.0 {
+                member.take_old_share(view, old.force)?;
+            }
+        }
+        Ok(())
     }
 
     fn evaluate(
@@ -166,11 +132,34 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         trial: &Trial<S, D>,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
-        self.evaluate_all(view, trial, system)
+        match system {
+            Some(system) if K::PerPoint::<()>::LEN > 1 => {
+                self.linearize_in_rounds(view, trial, system)
+            }
+            Some(system) => self.linearize_one_by_one(view, trial, system),
+            None => self
+                .members
+                .iter_mut()
+                .try_for_each(|member| member.respond(view, trial)),
+        }
     }
 
     fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
-        self.correct_all(solution, settled)
+        let mut largest = S::zero();
+        if Point::<S, M, K, C, D>::UNKNOWNS == 0 {
+            return largest;
+        }
+        for member in &mut self.members {
+            let motion = member.site.motion_in(solution);
+            for point in member.points.as_mut() {
+                let found = point.found_by(settled);
+                let contact = point.contact_in(&self.contacts);
+                let update = point.correct(&motion, contact, solution);
+                point.return_to(found, settled);
+                largest = largest.maximum(update);
+            }
+        }
+        largest
     }
 
     fn apply(&mut self, share: S) {
@@ -189,7 +178,35 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         impulses: &mut Impulses<'_, S, D>,
         magnitudes: &mut [S],
     ) {
-        self.add_impulse_all(view, trial, along, (impulses, magnitudes));
+        let at = match along {
+            Along::Secant => None,
+            Along::Scheme => Some(self.scheme.placement()),
+            Along::Gradient => Some(Placement::End),
+            Along::Stage(_) => return,
+        };
+        for member in &self.members {
+            let (nodes, r0) = (&member.site.nodes, &member.r0);
+            let r1 = member.new_arms(trial);
+            let (h, force) = if let Some(at) = at {
+                let share = view.step * S::from_f64(self.scheme.implicit());
+                (share, member.force(at, [r0, &r1]))
+            } else {
+                let mut mean = change_in::<K, S, D>(nodes, trial);
+                if C::EXACT && !magnitudes.is_empty() {
+                    member.add_magnitude(view.step, [&r1, &mean], magnitudes);
+                }
+                let old = r0.as_ref().as_flattened();
+                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
+                    *mean = old + S::from_f64(0.5) * *mean;
+                }
+                (view.step, member.pull([r0, &r1], &mean))
+            };
+            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
+                    *impulse -= h * force;
+                }
+            }
+        }
     }
 
     fn close(
@@ -199,34 +216,47 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        self.close_all(view, trial, next, tally)
+        for member in &mut self.members {
+            let r1 = member.arms_in(next);
+            for point in member.points.as_mut() {
+                let contact = point.contact_in(&self.contacts);
+                let received = point.book(view, (contact, trial), next, tally);
+                let near = point.x[M::Variables::LEN - 1];
+                if let Some(entropy) = point.settle(&r1, view, near, next)? {
+                    point.book_thermostat(view, [entropy, received.entropy], next);
+                }
+                if C::EXACT {
+                    let [forces, at_end] = point.amplitude([&member.r0, &r1], tally.care);
+                    tally.force(forces);
+                    tally.exchange(view.step * point.largest_pull(&r1));
+                    let energy = &mut next.energies[point.element.index()];
+                    energy.add_forces(at_end);
+                    let magnitude = energy.magnitude + forces;
+                    point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
+                }
+            }
+        }
+        Ok(())
     }
 
     fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
-        self.recount_all(ends, recount);
+        for member in &self.members {
+            for point in member.points.as_ref() {
+                let own = point.balance_between(&member.site.nodes, ends);
+                let found = Point::<S, M, K, C, D>::change_of(&point.response, &own.increments);
+                recount.element(point.element, own.by_values, own.by_differences, found);
+            }
+        }
     }
 
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
-        self.generic_of_step_all(ends)
+        let members = self.members.iter().flat_map(|member| {
+            let [r0, r1] = ends.map(|state| member.arms_in(state));
+            let points = member.points.as_ref().iter();
+            points.map(move |point| {
+                point.generic(&member.site.nodes, (self.scheme.placement(), [&r0, &r1]))
+            })
+        });
+        members.collect()
     }
-}
-
-/// The variables `x = (π, γ, θ)` of an element in a state.
-#[inline]
-pub(super) fn variables<S: Real, M: FreeEnergy<S>>(
-    measures: &[S],
-    slots: Slots,
-    state: &State<S>,
-) -> M::Variables {
-    let mut x = M::Variables::filled(S::zero());
-    for (a, &measure) in measures.iter().enumerate() {
-        x[a] = measure;
-    }
-    for k in 0..M::DASHPOTS {
-        x[M::MEASURES + k] = state.viscous.values()[slots.viscous + k];
-    }
-    if let Some(slot) = slots.thermal {
-        x[M::MEASURES + M::DASHPOTS] = state.temperatures[slot];
-    }
-    x
 }

@@ -9,34 +9,16 @@ use crate::element::conjugates::ElementScheme;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Kinematics, Points};
+use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Material;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>
 {
-    /// See [`Group::evaluate`](super::Group::evaluate).
-    pub(super) fn evaluate_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: Option<&mut LinearSystem<S, 1>>,
-    ) -> Result<(), StateError> {
-        match system {
-            Some(system) if K::PerPoint::<()>::LEN > 1 => {
-                self.linearize_in_rounds(view, trial, system)
-            }
-            Some(system) => self.linearize_one_by_one(view, trial, system),
-            None => self
-                .members
-                .iter_mut()
-                .try_for_each(|member| member.respond(view, trial)),
-        }
-    }
-
     /// Responses with their tangents, and what they contribute to the system of the next iteration.
-    fn linearize_one_by_one(
+    #[inline]
+    pub(super) fn linearize_one_by_one(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
@@ -54,7 +36,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// The same of elements with many points, which threads share: what elements add is found at the same time, and
     /// then added in their order, so that every sum has the same bits.
     #[inline(never)]
-    fn linearize_in_rounds(
+    pub(super) fn linearize_in_rounds(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
@@ -122,7 +104,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 {
     /// Responses without tangents.
     #[inline]
-    fn respond(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Result<(), StateError> {
+    pub(super) fn respond(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+    ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
         self.points.as_mut().iter_mut().try_for_each(|point| {
             let found = point.found_by(trial.settled);

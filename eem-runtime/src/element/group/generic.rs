@@ -5,7 +5,6 @@ use super::point::Point;
 use super::pose::Pose;
 use super::view::{ElementGeneric, EntropySlopes};
 use crate::element::conjugates::{ElementScheme, Placement};
-use crate::element::group::element_group::ElementGroup;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use crate::element::layout::Slots;
 use crate::element::state::State;
@@ -13,43 +12,10 @@ use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
-    /// All elements in a state.
-    pub(super) fn generic_in_all(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
-        let mut elements = Vec::with_capacity(self.members.len());
-        for member in &mut self.members {
-            let r = member.arms_in(state);
-            for point in member.points.as_mut() {
-                point.take_derivatives(&r, state);
-                let at = (Placement::End, [&r, &r]);
-                elements.push(ElementGeneric {
-                    entropy: point.entropy_slopes(&member.site.nodes, at),
-                    ..point.generic(&member.site.nodes, at)
-                });
-            }
-        }
-        elements
-    }
-
-    /// All elements during the last step, with discrete derivatives in the place of derivatives.
-    pub(super) fn generic_of_step_all(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
-        let members = self.members.iter().flat_map(|member| {
-            let [r0, r1] = ends.map(|state| member.arms_in(state));
-            let points = member.points.as_ref().iter();
-            points.map(move |point| {
-                point.generic(&member.site.nodes, (self.scheme.placement(), [&r0, &r1]))
-            })
-        });
-        members.collect()
-    }
-}
-
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
     /// Derivatives in a state take the place of the response.
-    fn take_derivatives(&mut self, r: &Arms<K, S, D>, state: &State<S>) {
+    pub(super) fn take_derivatives(&mut self, r: &Arms<K, S, D>, state: &State<S>) {
         let x = self.variables_in(r, state);
         let gradient = self.model.gradient(&x);
         let theta = x[M::Variables::LEN - 1];
@@ -67,7 +33,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// The present response, along the gradients between two configurations.
-    fn generic(
+    pub(super) fn generic(
         &self,
         nodes: &K::PerNode<u32>,
         (at, ends): (Placement, [&Arms<K, S, D>; 2]),
@@ -97,7 +63,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// How the entropy depends on the state in which derivatives have been taken.
-    fn entropy_slopes(
+    pub(super) fn entropy_slopes(
         &self,
         nodes: &K::PerNode<u32>,
         (at, ends): (Placement, [&Arms<K, S, D>; 2]),

@@ -1,26 +1,25 @@
 //! What the elements are in a state, from the definitions and not from what a step computed.
 
 use super::arms::measures_in;
-use super::point::Point;
-use crate::element::conjugates::{ElementScheme, Infeasible};
+use super::interface::Elements;
+use super::point::{Point, variables};
+use crate::element::conjugates::{ElementScheme, Infeasible, Placement};
 use crate::element::error::StateError;
-use crate::element::group::element_group::{ElementGroup, variables};
-use crate::element::group::view::{ElementTotals, ElementView};
+use crate::element::group::audit::Misfit;
+use crate::element::group::element_group::ElementGroup;
+use crate::element::group::view::{ElementGeneric, ElementTotals, ElementView};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, SolidState};
+use crate::element::layout::Slots;
 use crate::element::state::{Energy, State};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
+    Elements<S, D> for ElementGroup<S, M, K, C, D>
 {
-    /// See [`Elements::initialize`](super::Elements::initialize).
-    pub(super) fn initialize_all(
-        &mut self,
-        state: &mut State<S>,
-        refuse: &mut dyn FnMut(StateError),
-    ) {
+    fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError)) {
         for member in &mut self.members {
             let r = member.arms_in(state);
             for point in member.points.as_mut() {
@@ -31,8 +30,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// See [`Elements::find_energies`](super::Elements::find_energies).
-    pub(super) fn find_all_energies(&self, state: &mut State<S>) {
+    fn find_energies(&self, state: &mut State<S>) {
         for member in &self.members {
             let r = member.arms_in(state);
             for point in member.points.as_ref() {
@@ -52,8 +50,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// See [`Elements::add_totals`](super::Elements::add_totals).
-    pub(super) fn add_all_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>) {
+    fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>) {
         for member in &self.members {
             let r = member.arms_in(state);
             for point in member.points.as_ref() {
@@ -68,8 +65,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// See [`Elements::inspect`](super::Elements::inspect).
-    pub(super) fn inspect_at(&self, place: usize, state: &State<S>) -> ElementView<S> {
+    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
         let (member, point) = self.at(place);
         let point = &member.points.as_ref()[point];
         let x = point.variables_in(&member.arms_in(state), state);
@@ -80,8 +76,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// See [`Elements::solid_state`](super::Elements::solid_state).
-    pub(super) fn solid_state_at(&self, place: usize, state: &State<S>) -> Option<SolidState<S>> {
+    fn solid_state(&self, place: usize, state: &State<S>) -> Option<SolidState<S>> {
         let (member, point) = self.at(place);
         let point = &member.points.as_ref()[point];
         let r = member.arms_in(state);
@@ -90,13 +85,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         point.kinematics.solid_state(&r, &force)
     }
 
-    /// See [`Elements::dissipation`](super::Elements::dissipation).
-    pub(super) fn dissipation_at(
-        &self,
-        place: usize,
-        state: &State<S>,
-        velocity: &dyn Fn(usize) -> [S; D],
-    ) -> S {
+    fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S {
         let (member, point) = self.at(place);
         let point = &member.points.as_ref()[point];
         let r = member.arms_in(state);
@@ -122,6 +111,55 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             power += drag * rate * rate;
         }
         power
+    }
+
+    fn slots(&self, place: usize) -> Slots {
+        let (member, point) = self.at(place);
+        member.points.as_ref()[point].slots()
+    }
+
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
+        let mut elements = Vec::with_capacity(self.members.len());
+        for member in &mut self.members {
+            let r = member.arms_in(state);
+            for point in member.points.as_mut() {
+                point.take_derivatives(&r, state);
+                let at = (Placement::End, [&r, &r]);
+                elements.push(ElementGeneric {
+                    entropy: point.entropy_slopes(&member.site.nodes, at),
+                    ..point.generic(&member.site.nodes, at)
+                });
+            }
+        }
+        elements
+    }
+
+    fn digest(&self, digest: &mut Digest) {
+        for name in M::PARAMETERS {
+            digest.bytes(name.as_bytes());
+            digest.bytes(&[0]);
+        }
+        for point in self.points() {
+            digest.count(point.element.index());
+            for index in 0..M::PARAMETERS.len() {
+                digest.number(point.model.parameter(index));
+            }
+            point
+                .kinematics
+                .numbers(&mut |number| digest.number(number));
+        }
+    }
+
+    fn audit(&self, state: &State<S>) -> Result<(), Misfit> {
+        for member in &self.members {
+            let r = member.arms_in(state);
+            for point in member.points.as_ref() {
+                let x = point.locate(&r, state)?;
+                point.audit_response(&x)?;
+                point.audit_entropy(&x, state)?;
+            }
+        }
+        Ok(())
     }
 }
 

@@ -9,14 +9,13 @@ use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepVie
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::Conjugates;
 use crate::element::error::StateError;
-use crate::element::group::misfit::Misfit;
+use crate::element::group::audit::Misfit;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::SolidState;
 use crate::element::layout::{Shape, Slots};
-use crate::element::recount::Recount;
 use crate::element::state::State;
-use crate::element::tally::Tally;
+use crate::element::tally::{Recount, Tally};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 

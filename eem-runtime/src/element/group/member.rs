@@ -1,6 +1,6 @@
 //! One element of a group: its nodes, and the points at which its free energy is evaluated.
 
-use super::arms::{arms_in, change_in};
+use super::arms::{add_scaled, arms_in, change_in};
 use super::point::Point;
 use super::pose::seen_arms;
 use super::respond::TrialArms;
@@ -80,11 +80,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn new_arms(&self, trial: &Trial<S, D>) -> Arms<K, S, D> {
         let mut r1 = change_in::<K, S, D>(&self.site.nodes, trial);
-        for (arm, old) in r1.as_mut().iter_mut().zip(self.r0.as_ref()) {
-            for axis in 0..D {
-                arm[axis] += old[axis];
-            }
-        }
+        add_scaled::<K, S, D>(&mut r1, S::one(), &self.r0);
         r1
     }
 
@@ -112,11 +108,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let rest = (S::one() - S::from_f64(self.scheme().implicit())) * view.step;
         let mut motion = change_in::<K, S, D>(&self.site.nodes, trial);
         let velocities = self.old_velocities(view);
-        for (motion, velocity) in motion.as_mut().iter_mut().zip(velocities.as_ref()) {
-            for (motion, &velocity) in motion.iter_mut().zip(velocity) {
-                *motion -= rest * velocity;
-            }
-        }
+        add_scaled::<K, S, D>(&mut motion, -rest, &velocities);
         motion
     }
 

@@ -2,8 +2,6 @@
 //! state. A spring has one point.
 
 use super::arms::measures_in;
-use super::at_point::MemoryAtPoint;
-use super::drag::Drag;
 use super::eliminate::{Condensed, PerUnknown};
 use super::site::Contact;
 use crate::element::conjugates::{ElementScheme, Form, Placement, Start};
@@ -11,9 +9,70 @@ use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use crate::element::layout::Slots;
+use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Real, is_positive};
+
+/// The dashpot beside a spring at a trial; `A` has an entry if there is one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drag<A> {
+    /// η at θ*, and dη/dθ.
+    pub(super) viscosity: (A, A),
+    /// `Δλ`, m.
+    pub(super) extension: A,
+    /// `f_d`, N.
+    pub(super) force: A,
+}
+
+impl<A: Copy> Drag<A> {
+    /// Before the first step, with zeros everywhere.
+    pub(super) fn zero(zeros: A) -> Self {
+        Self {
+            viscosity: (zeros, zeros),
+            extension: zeros,
+            force: zeros,
+        }
+    }
+}
+
+/// What a rule that looks at one point needs to remember of an element; `V` is per variable, `A` per
+/// arm.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PointMemory<S, V, A> {
+    /// What the old state alone contributes to the rates of the internal variables.
+    pub(super) old_rates: V,
+    /// For a rule in temperature: what the old state contributes to θ̇, K/s.
+    pub(super) old_heating: S,
+    /// The trial Δs, before the last correction, and the correction, J/K.
+    pub(super) entropy_change: S,
+    pub(super) previous_entropy_change: S,
+    pub(super) entropy_correction: S,
+    /// The derivative of the Δs of the response by the variables.
+    pub(super) entropy_by: V,
+    /// For a rule in temperature: the derivative of Δs by the new arms through the increments of
+    /// the measures.
+    pub(super) by_increment: A,
+}
+
+/// The same of an element with this model and these kinematics.
+pub(super) type MemoryAtPoint<S, M, K, const D: usize> =
+    PointMemory<S, <M as FreeEnergy<S>>::Variables, Arms<K, S, D>>;
+
+impl<S: Real, V: Array<S>, A> PointMemory<S, V, A> {
+    /// Before the first step, of an element whose arms are all zero.
+    pub(super) fn zero(arms: A) -> Self {
+        Self {
+            old_rates: V::filled(S::zero()),
+            old_heating: S::zero(),
+            entropy_change: S::zero(),
+            previous_entropy_change: S::zero(),
+            entropy_correction: S::zero(),
+            entropy_by: V::filled(S::zero()),
+            by_increment: arms,
+        }
+    }
+}
 
 /// A point, with everything that one step of the scheme `C` needs to remember of it.
 pub(crate) struct Point<
@@ -300,4 +359,24 @@ pub(super) fn temperature_in<S: Real, M: FreeEnergy<S>>(response: &M::Response) 
     } else {
         S::zero()
     }
+}
+
+/// The variables `x = (π, γ, θ)` of an element in a state.
+#[inline]
+pub(super) fn variables<S: Real, M: FreeEnergy<S>>(
+    measures: &[S],
+    slots: Slots,
+    state: &State<S>,
+) -> M::Variables {
+    let mut x = M::Variables::filled(S::zero());
+    for (a, &measure) in measures.iter().enumerate() {
+        x[a] = measure;
+    }
+    for k in 0..M::DASHPOTS {
+        x[M::MEASURES + k] = state.viscous.values()[slots.viscous + k];
+    }
+    if let Some(slot) = slots.thermal {
+        x[M::MEASURES + M::DASHPOTS] = state.temperatures[slot];
+    }
+    x
 }

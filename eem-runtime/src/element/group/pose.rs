@@ -1,6 +1,6 @@
 //! The kinematic quantities of one element at a trial state.
 
-use super::arms::{along, dot, mean};
+use super::arms::{along, dot, mean, scale};
 use crate::element::conjugates::Placement;
 use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, add_blocks};
 use eem_material::free_energy::Array;
@@ -211,11 +211,7 @@ fn halved<K: Kinematics<S, D>, S: Real, const D: usize>(
     mut gradient: Gradient<K, S, D>,
 ) -> Gradient<K, S, D> {
     for row in gradient.as_mut() {
-        for arm in row.as_mut() {
-            for entry in arm {
-                *entry *= S::from_f64(0.5);
-            }
-        }
+        scale::<K, S, D>(row, S::from_f64(0.5));
     }
     gradient
 }

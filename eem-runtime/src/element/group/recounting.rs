@@ -3,27 +3,10 @@
 use super::arms::{along, arms_in, measures_in};
 use super::point::Point;
 use crate::element::conjugates::ElementScheme;
-use crate::element::group::element_group::ElementGroup;
 use crate::element::kinematics::{Arms, Ends, Kinematics};
-use crate::element::recount::Recount;
 use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::Real;
-
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
-    /// See [`Group::recount`](super::Group::recount).
-    pub(super) fn recount_all(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
-        for member in &self.members {
-            for point in member.points.as_ref() {
-                let own = point.balance_between(&member.site.nodes, ends);
-                let found = Point::<S, M, K, C, D>::change_of(&point.response, &own.increments);
-                recount.element(point.element, own.by_values, own.by_differences, found);
-            }
-        }
-    }
-}
 
 /// The change of the energy of a point between two states.
 pub(super) struct EnergyChange<S: Real, M: FreeEnergy<S>> {
@@ -32,7 +15,7 @@ pub(super) struct EnergyChange<S: Real, M: FreeEnergy<S>> {
     /// By discrete derivatives, J.
     pub(super) by_differences: S,
     /// `(Δλ, Δγ, Δs)`.
-    increments: M::Variables,
+    pub(super) increments: M::Variables,
 }
 
 /// The change of the arms of an element between two states, from what they are stored as.
@@ -106,7 +89,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
-    fn change_of(response: &M::Response, increments: &M::Variables) -> S {
+    pub(super) fn change_of(response: &M::Response, increments: &M::Variables) -> S {
         let mut sum = S::zero();
         for row in 0..Self::VARIABLES {
             let is_dashpot = (M::MEASURES..Self::TEMPERATURE).contains(&row);

@@ -1,7 +1,7 @@
 //! The response of the elements at a trial state, and what must be true of it.
 
-use super::arms::measures_in;
-use super::point::{Point, temperature_in};
+use super::arms::{add_scaled, measures_in};
+use super::point::{Drag, Point, temperature_in};
 use super::pose::{Pose, seen_measures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
@@ -171,6 +171,56 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
+/// What closing a step asks of an element.
+#[derive(Clone, Copy)]
+pub(super) struct Found<S: Real, M: FreeEnergy<S>> {
+    x: M::Variables,
+    creep: M::Viscosities,
+    response: M::Response,
+    viscosities: M::Viscosities,
+    drag: Drag<M::Drag>,
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
+{
+    /// What has been found so far, if some numbers have settled. A single one is not asked any more.
+    #[inline]
+    pub(super) fn found_by(&self, settled: S::Mask) -> Option<Found<S, M>> {
+        if S::LANES == 1 || !settled.any() {
+            return None;
+        }
+        Some(Found {
+            x: self.x,
+            creep: self.creep,
+            response: self.response,
+            viscosities: self.viscosities.0,
+            drag: self.drag,
+        })
+    }
+
+    /// Returns to what has been found where numbers have settled.
+    #[inline]
+    pub(super) fn return_to(&mut self, found: Option<Found<S, M>>, settled: S::Mask) {
+        let Some(found) = found else {
+            return;
+        };
+        let keep = |values: &mut [S], kept: &[S]| {
+            for (value, &kept) in values.iter_mut().zip(kept) {
+                *value = S::select(settled, kept, *value);
+            }
+        };
+        keep(self.x.as_mut(), found.x.as_ref());
+        keep(self.creep.as_mut(), found.creep.as_ref());
+        keep(self.response.as_mut(), found.response.as_ref());
+        keep(self.viscosities.0.as_mut(), found.viscosities.as_ref());
+        let drag = &mut self.drag;
+        keep(drag.viscosity.0.as_mut(), found.drag.viscosity.0.as_ref());
+        keep(drag.extension.as_mut(), found.drag.extension.as_ref());
+        keep(drag.force.as_mut(), found.drag.force.as_ref());
+    }
+}
+
 /// `Σ_a slope_a ∂Λ_a/∂r¹`.
 fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
     slopes: &M::Variables,
@@ -178,11 +228,7 @@ fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
 ) -> Arms<K, S, D> {
     let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
     for (&slope, row) in slopes.as_ref().iter().zip(by_arm) {
-        for (sum, entry) in sum.as_mut().iter_mut().zip(row.as_ref()) {
-            for (sum, &entry) in sum.iter_mut().zip(entry) {
-                *sum += slope * entry;
-            }
-        }
+        add_scaled::<K, S, D>(&mut sum, slope, row);
     }
     sum
 }

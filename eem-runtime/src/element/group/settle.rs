@@ -1,51 +1,14 @@
 //! The new state of each element: its temperature, and all that must be true of a state.
 
-use super::point::Point;
+use super::point::{Point, variables};
 use super::respond::{check_measures, check_temperature};
 use crate::element::conjugates::{ElementScheme, Infeasible, Placement, settled_at};
 use crate::element::error::StateError;
-use crate::element::group::element_group::{ElementGroup, variables};
-use crate::element::group::view::{StepView, Trial};
+use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::{Energy, State};
-use crate::element::tally::Tally;
-use eem_material::free_energy::{Array, Caloric, Material};
+use eem_material::free_energy::{Caloric, Material};
 use eem_material::number::scalar::Real;
-
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
-    /// See [`Group::close`](super::Group::close).
-    pub(super) fn close_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
-    ) -> Result<(), StateError> {
-        for member in &mut self.members {
-            let r1 = member.arms_in(next);
-            for point in member.points.as_mut() {
-                let contact = point.contact_in(&self.contacts);
-                let received = point.book(view, (contact, trial), next, tally);
-                let near = point.x[M::Variables::LEN - 1];
-                if let Some(entropy) = point.settle(&r1, view, near, next)? {
-                    point.book_thermostat(view, [entropy, received.entropy], next);
-                }
-                if C::EXACT {
-                    let [forces, at_end] = point.amplitude([&member.r0, &r1], tally.care);
-                    tally.force(forces);
-                    tally.exchange(view.step * point.largest_pull(&r1));
-                    let energy = &mut next.energies[point.element.index()];
-                    energy.add_forces(at_end);
-                    let magnitude = energy.magnitude + forces;
-                    point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
-                }
-            }
-        }
-        Ok(())
-    }
-}
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
@@ -124,7 +87,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The heat of the thermostat that brought the entropy to a new one, of an element that has
     /// received so much entropy otherwise.
-    fn book_thermostat(
+    pub(super) fn book_thermostat(
         &self,
         view: &StepView<'_, S>,
         [entropy, received]: [S; 2],

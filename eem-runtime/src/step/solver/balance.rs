@@ -4,6 +4,7 @@ use core::array;
 
 use super::places::MovingNode;
 use crate::element::group::{StepView, Trial, points};
+use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Speeds;
 use eem_material::number::scalar::Real;
 
@@ -13,6 +14,10 @@ pub(super) struct Balance<S, const D: usize> {
     pub(super) place: MovingNode<S, D>,
     /// `c (h/m) p⁰`, the displacement of free flight up to the stage, m; zero while nothing moves.
     pub(super) flight: [S; D],
+    /// 2m/h, or m/(ch) for a stage, kg/s.
+    inertia: S,
+    /// The reciprocal of its unit of length: its shortest element in the old state; 1 m without.
+    pub(super) per_length: S,
     /// `−h F⁰` with the part F⁰ of the force that the old state and the loads decide, N s; zero while
     /// nothing moves.
     pub(super) push: [S; D],
@@ -23,6 +28,8 @@ impl<S: Real, const D: usize> Balance<S, D> {
         Self {
             place,
             flight: [S::zero(); D],
+            inertia: S::zero(),
+            per_length: S::one(),
             push: [S::zero(); D],
         }
     }
@@ -39,9 +46,11 @@ impl<S: Real, const D: usize> Balance<S, D> {
         points::<S, D>(view.state.momenta.values())[at].map(|momentum| mobility * momentum)
     }
 
-    /// What does not change during a step, given the share c of the step up to the stage and F⁰.
+    /// What does not change during a step, for its set of unknowns and F⁰.
     #[inline]
-    pub(super) fn weigh(&mut self, view: &StepView<'_, S>, time: S, force: [S; D]) {
+    pub(super) fn weigh(&mut self, view: &StepView<'_, S>, set: &UnknownSet, force: [S; D]) {
+        let time = S::from_f64(set.time);
+        self.inertia = self.place.mass * (S::from_f64(set.inertia) * view.per_step);
         if view.phase.moves() {
             self.flight = self.flight_in(view, time);
             self.push = force.map(|force| -view.step * force);
@@ -83,14 +92,16 @@ impl<S: Real, const D: usize> Balance<S, D> {
         }
     }
 
-    /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement; `inertia_per_mass` is 2/h, or 1/(ch) for a stage.
+    /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement, and the magnitude of its terms.
     ///
     /// It has the digits of Δp also where that is small beside p, and those of Δq where `Δp ≈ −2p⁰`.
     #[inline]
-    pub(super) fn impulse(&self, displacement: [&[S; D]; 2], inertia_per_mass: S) -> [S; D] {
-        let inertia = self.place.mass * inertia_per_mass;
-        self.beyond_flight(displacement)
-            .map(|change| inertia * change)
+    pub(super) fn impulse(&self, displacement: [&[S; D]; 2]) -> [[S; D]; 2] {
+        [
+            self.beyond_flight(displacement)
+                .map(|change| self.inertia * change),
+            displacement[0].map(|moved| self.inertia * moved.abs()),
+        ]
     }
 
     /// Starts residual and tangent of its momentum balance at a displacement, with `p¹` eliminated,
@@ -99,20 +110,18 @@ impl<S: Real, const D: usize> Balance<S, D> {
     /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F
     /// ```
     ///
-    /// to which the elements will add their share; `inertia_per_mass` is 2/h, or 1/(ch) for a stage.
+    /// to which the elements will add their share.
     #[inline]
     pub(super) fn balance(
         &self,
         displacement: [&[S; D]; 2],
-        inertia_per_mass: S,
         values: &mut [S],
-        rows: &mut [S; D],
+        right: &mut [[S; 1]],
     ) {
-        let inertia = self.place.mass * inertia_per_mass;
         for place in self.place.diagonal() {
-            values[place] = inertia;
+            values[place] = self.inertia;
         }
-        let impulse = self.impulse(displacement, inertia_per_mass);
-        *rows = array::from_fn(|axis| self.push[axis] - impulse[axis]);
+        let [impulse, _] = self.impulse(displacement);
+        *self.place.rows_mut(right) = array::from_fn(|axis| self.push[axis] - impulse[axis]);
     }
 }

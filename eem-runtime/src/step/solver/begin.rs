@@ -9,10 +9,10 @@ use core::ops::Range;
 
 use super::Solver;
 use super::balance::Balance;
-use super::places::Seen;
+use super::places::MovingNode;
 use crate::element::group::{Group, Old, StepView, points};
 use crate::element::loads::StepLoads;
-use crate::element::tableau::MOST_SETS;
+use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use crate::step::solver::past::SavedPast;
@@ -38,10 +38,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for (node, force) in self.old_force.iter_mut().enumerate() {
             *force = view.loads.total_force(node).map(|load: S| -load);
         }
-        self.per_length.fill(S::MAX);
+        self.lengths.fill(S::MAX);
         let mut old = Old {
             force: &mut self.old_force,
-            lengths: &mut self.per_length,
+            lengths: &mut self.lengths,
         };
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
@@ -56,39 +56,26 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
-        let moving = self.moving();
-        for (set, nodes) in self.nodes.chunks_mut(moving).enumerate() {
-            let time = S::from_f64(self.sets[set].time);
-            for node in nodes {
-                let at = node.place.node();
-                let force = force_of_set(self.scheme, set, at, (&self.old_force, view.stages));
-                node.weigh(view, time, force);
-            }
+        let rule = self.scheme.tableau();
+        for node in &mut self.nodes {
+            let force = force_of_set(rule, &node.place, (&self.old_force, view.stages));
+            node.weigh(view, &self.sets[node.place.set()], force);
         }
     }
 
     /// How many nodes move.
-    #[inline]
     pub(super) fn moving(&self) -> usize {
-        // No chunk is empty.
-        (self.nodes.len() / self.sets.len()).max(1)
+        self.nodes.len() / self.sets.len()
     }
 
     /// Where the nodes of a set of unknowns are among all.
     pub(super) fn range_of_set(&self, set: usize) -> Range<usize> {
-        let count = self.nodes.len() / self.sets.len();
-        set * count..(set + 1) * count
+        set * self.moving()..(set + 1) * self.moving()
     }
 
     /// The nodes of a set of unknowns.
     pub(super) fn nodes_of_set(&self, set: usize) -> &[Balance<S, D>] {
         &self.nodes[self.range_of_set(set)]
-    }
-
-    /// How many rows each set of unknowns has.
-    #[inline]
-    pub(super) fn rows_per_set(&self) -> usize {
-        self.tangent.unknowns() / self.sets.len()
     }
 
     /// The inertia of 1 kg in the rows of each set: 2/h with one set, 1/s.
@@ -120,53 +107,37 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.trial.settled = S::Mask::none();
         let is_coupled = !self.coupling.is_none();
         let momenta = points::<S, D>(view.state.momenta.values());
-        let (moving, per_set) = (self.moving(), self.rows_per_set());
-        let inertia = self.inertias(view);
         let (values, right, solution) = self.tangent.renew();
-        for &Seen {
-            slot,
-            in_trial,
-            row,
-        } in &self.seen
-        {
-            self.trial.seen.set(in_trial, view.state.temperatures[slot]);
-            (right[row], solution[row]) = ([S::zero()], [S::zero()]);
+        for seen in &self.seen {
+            let theta = view.state.temperatures[seen.slot];
+            self.trial.seen.set(seen.in_trial, theta);
+            (right[seen.row], solution[seen.row]) = ([S::zero()], [S::zero()]);
         }
         let is_foretold =
             start == Start::Foretold && view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
         let forecast = self.past.forecast();
-        for (set, nodes) in self.nodes.chunks_mut(moving).enumerate() {
-            let first = set * per_set;
-            let time = S::from_f64(self.sets[set].time);
-            let rows = right[first..].as_flattened_mut().as_chunks_mut::<D>().0;
-            // The way from the old state is the first correction.
-            let changes = solution[first..].as_flattened_mut();
-            let changes = changes.as_chunks_mut::<D>().0;
-            for ((node, rows), change) in nodes.iter_mut().zip(rows).zip(changes) {
-                let (at, trial) = (node.place.node(), node.place.in_trial());
-                let force = force_of_set(self.scheme, set, at, (&self.old_force, view.stages));
-                node.weigh(view, time, force);
-                if set == 0 {
-                    let per_length = &mut self.per_length[at];
-                    *per_length = inverse_length(*per_length);
-                }
-                let mut displacement = [S::zero(); D];
-                if is_foretold && is_coupled {
-                    displacement = node.flight;
-                } else if is_foretold {
-                    let momentum = &momenta[at];
-                    let (force, mobility) =
-                        (forecast.of(at), time * view.step * node.place.per_mass);
-                    displacement = array::from_fn(|axis| {
-                        mobility * (momentum[axis] + half_step * force[axis])
-                    });
-                }
-                (self.trial.displacements[trial], *change) = (displacement, displacement);
-                let rest = [S::zero(); D];
-                self.trial.rests[trial] = rest;
-                node.balance([&displacement, &rest], inertia[set], values, rows);
+        let rule = self.scheme.tableau();
+        for node in &mut self.nodes {
+            let (at, trial) = (node.place.node(), node.place.in_trial());
+            let set = &self.sets[node.place.set()];
+            let force = force_of_set(rule, &node.place, (&self.old_force, view.stages));
+            node.weigh(view, set, force);
+            node.per_length = inverse_length(self.lengths[at]);
+            let mut displacement = [S::zero(); D];
+            if is_foretold && is_coupled {
+                displacement = node.flight;
+            } else if is_foretold {
+                let mobility = S::from_f64(set.time) * view.step * node.place.per_mass;
+                let force = forecast.of(at);
+                displacement =
+                    array::from_fn(|axis| mobility * (momenta[at][axis] + half_step * force[axis]));
             }
+            // The way from the old state is the first correction.
+            *node.place.rows_mut(solution) = displacement;
+            self.trial.displacements[trial] = displacement;
+            self.trial.rests[trial] = [S::zero(); D];
+            node.balance([&displacement, &[S::zero(); D]], values, right);
         }
         self.couple(view);
     }
@@ -181,13 +152,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     #[inline(never)]
     fn couple_sets(&mut self, view: &StepView<'_, S>) {
-        let (moving, per_set) = (self.moving(), self.rows_per_set());
         let inertia = self.inertias(view);
         let (values, right) = self.tangent.parts();
-        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
-            let (nodes, rows) = ((nodes, &self.trial), &mut right[set * per_set..]);
+        for (set, nodes) in self
+            .nodes
+            .chunks(self.nodes.len() / self.sets.len())
+            .enumerate()
+        {
+            let nodes = (nodes, &self.trial);
             self.coupling
-                .balance(set, nodes, inertia[set], values, rows);
+                .balance(set, nodes, inertia[set], values, right);
         }
     }
 
@@ -254,20 +228,19 @@ fn motion_in_set<S: Real, const D: usize>(
     motion
 }
 
-/// The same in the rows of a set of unknowns.
+/// The part of the force on a node that does not change during a step, in the rows of its set of unknowns.
 #[inline]
 fn force_of_set<S: Real, const D: usize>(
-    scheme: Scheme,
-    set: usize,
-    node: usize,
+    rule: Option<&Tableau>,
+    place: &MovingNode<S, D>,
     (old, stages): (&[[S; D]], &[StepLoads<S>]),
 ) -> [S; D] {
-    let Some(rule) = scheme.tableau() else {
-        return old_force(old, node);
+    let Some(rule) = rule else {
+        return old_force(old, place.node());
     };
     let mut force = [S::zero(); D];
-    for (&weight, loads) in rule.positions[set].iter().zip(stages) {
-        let load = loads.total_force::<D>(node);
+    for (&weight, loads) in rule.positions[place.set()].iter().zip(stages) {
+        let load = loads.total_force::<D>(place.node());
         for (force, load) in force.iter_mut().zip(load) {
             *force -= S::from_f64(weight) * load;
         }

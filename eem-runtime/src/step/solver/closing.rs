@@ -10,9 +10,8 @@ use core::array;
 use super::Solver;
 use super::begin::old_force;
 use crate::element::group::{Along, Group, StepView, points};
-use crate::element::recount::Recount;
 use crate::element::state::State;
-use crate::element::tally::{Care, Tally};
+use crate::element::tally::{Care, Recount, Tally};
 use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Reach, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Closing;
@@ -96,8 +95,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// With the shortest element of each node.
     fn reach(&self, step: S) -> Reach<S> {
         let mut reach = Reach::none();
-        for place in self.nodes.iter().map(|node| &node.place) {
-            reach.add(place.mass, step * self.per_length[place.node()]);
+        for node in &self.nodes {
+            reach.add(node.place.mass, step * node.per_length);
         }
         reach
     }
@@ -144,7 +143,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn forget_magnitudes(&mut self, care: Care) {
         self.magnitudes.clear();
         if care == Care::Thorough {
-            self.magnitudes.resize(self.per_length.len(), S::zero());
+            self.magnitudes.resize(self.lengths.len(), S::zero());
         }
     }
 

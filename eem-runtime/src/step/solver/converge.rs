@@ -7,6 +7,7 @@ use crate::element::error::StateError;
 use crate::element::group::{Group, StepView};
 use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
+use crate::step::law::Law;
 use crate::step::newton::is_last;
 use eem_material::number::scalar::{Mask, Real, natural_power};
 
@@ -26,7 +27,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
         target: &mut Target<'_, S>,
-    ) -> Result<Option<Certificate<S>>, StepFailure> {
+    ) -> Result<(), StepFailure> {
         let max_iterations = effort.settings.max_iterations;
         let tolerance = target.tolerance(effort.settings.tolerance);
         let tolerance = self.coupling.tolerance(tolerance);
@@ -40,9 +41,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let is_full = self.advance(groups, view, purpose)?;
             if is_full && purpose == Purpose::Close {
                 match self.conclude(groups, view, target, &mut progress) {
-                    Conclusion::Found(certificate) => {
+                    Conclusion::Found => {
                         effort.conclude(self.final_residual);
-                        return Ok(certificate);
+                        return Ok(());
                     }
                     Conclusion::Refused(failure) => return Err(failure),
                     Conclusion::Open(is_enough) => {
@@ -79,6 +80,81 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
         }
         Err(self.not_converged(before))
+    }
+
+    /// Closes the step at a trial where the elements have been evaluated, and judges it.
+    pub(super) fn conclude(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        target: &mut Target<'_, S>,
+        progress: &mut Progress<S>,
+    ) -> Conclusion<S> {
+        let Target::State(next) = target else {
+            return Conclusion::Found;
+        };
+        let certificate = match self.close(groups, view, next) {
+            Ok(certificate) => certificate,
+            Err(failure) => {
+                progress.draw(S::MAX);
+                if !self.scheme.is_exact() || S::LANES > 1 || progress.is_over() {
+                    return Conclusion::Refused(failure);
+                }
+                return Conclusion::Open(S::Mask::none());
+            }
+        };
+        if !self.scheme.is_exact() {
+            return match certificate.unless_infinite(next.time.value) {
+                Ok(()) => self.found(certificate),
+                Err(failure) => Conclusion::Refused(failure),
+            };
+        }
+        if certificate.is_enough().all() {
+            return self.found(certificate);
+        }
+        if S::LANES > 1 {
+            progress.draws += 1;
+            if !progress.is_over() {
+                return Conclusion::Open(certificate.is_enough());
+            }
+        } else {
+            progress.draw(self.final_residual);
+            let is_settled = progress.has_stopped() && certificate.is_lawful();
+            if !is_settled && !progress.is_over() {
+                return Conclusion::Open(S::Mask::none());
+            }
+        }
+        if !certificate.is_balanced() || S::LANES > 1 {
+            return Conclusion::Refused(StepFailure::NotConverged {
+                update: progress.last.to_f64(),
+            });
+        }
+        match certificate.broken_law() {
+            None => self.found(certificate),
+            Some((law, sizes)) => {
+                let element = self.worst.filter(|_| law == Law::Energy);
+                let time = view.state.time.value + view.step;
+                Conclusion::Refused(law.not_kept(sizes, element, time))
+            }
+        }
+    }
+
+    fn found(&mut self, certificate: Certificate<S>) -> Conclusion<S> {
+        self.certificate = Some(certificate);
+        Conclusion::Found
+    }
+
+    /// The tangent at a trial where only responses have been evaluated, for another iteration.
+    #[cold]
+    pub(super) fn linearize_again(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+    ) -> Result<(), StepFailure> {
+        self.factors.renew();
+        self.balance(view);
+        self.evaluate(groups, view, true)?;
+        Ok(())
     }
 
     /// Whether rounding may be what keeps the last update from being smaller than the one before.

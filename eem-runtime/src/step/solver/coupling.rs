@@ -169,7 +169,6 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         values: &mut [S],
         right: &mut [[S; 1]],
     ) {
-        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for pair in self.of_set(set) {
             let [a, b] = pair.nodes.map(|node| node as usize);
             let inertia = pair.mass * inertia_per_mass;
@@ -178,14 +177,15 @@ impl<S: Real, const D: usize> Coupling<S, D> {
             }
             for [own, other] in [[a, b], [b, a]] {
                 let change = nodes[other].change(trial);
-                for (row, change) in rows[own].iter_mut().zip(change) {
+                for (row, change) in nodes[own].place.rows_mut(right).iter_mut().zip(change) {
                     *row -= inertia * change;
                 }
             }
         }
         for drive in &self.drives {
             let [impulses, _] = drive.of_sets[set];
-            for (row, impulse) in rows[drive.node as usize].iter_mut().zip(impulses) {
+            let rows = nodes[drive.node as usize].place.rows_mut(right);
+            for (row, impulse) in rows.iter_mut().zip(impulses) {
                 *row -= impulse;
             }
         }
@@ -261,16 +261,12 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         &self,
         (moving, node): (usize, &Balance<S, D>),
         trial: &Trial<S, D>,
-        inertia_per_mass: S,
     ) -> [[S; D]; 2] {
         if let Some(found) = self.found(moving) {
             return *found;
         }
         let at = node.place.in_trial();
-        let displacement = &trial.displacements[at];
-        let inertia = node.place.mass * inertia_per_mass;
-        let impulse = node.impulse([displacement, &trial.rests[at]], inertia_per_mass);
-        [impulse, displacement.map(|moved| inertia * moved.abs())]
+        node.impulse([&trial.displacements[at], &trial.rests[at]])
     }
 }
 

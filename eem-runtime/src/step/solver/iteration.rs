@@ -1,42 +1,37 @@
 //! The global system of an iteration, and what its solution means.
 
 use super::Solver;
+use super::begin::Start;
 use super::places::Seen;
 use crate::element::group::{Group, StepView};
+use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
+use crate::step::solver::converge::Purpose;
+use crate::step::solver::effort::{Effort, Iteration};
 use eem_material::number::compensated::correct;
-use eem_material::number::scalar::{Real, unless};
+use eem_material::number::scalar::{Mask, Real, unless};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts the system of an iteration at the trial state.
     pub(super) fn balance(&mut self, view: &StepView<'_, S>) {
-        let (moving, per_set) = (self.moving(), self.rows_per_set());
-        let inertia = self.inertias(view);
         let (values, right, _) = self.tangent.renew();
         for seen in &self.seen {
             right[seen.row] = [S::zero()];
         }
-        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
-            let rows = right[set * per_set..].as_flattened_mut();
-            for (node, rows) in nodes.iter().zip(rows.as_chunks_mut::<D>().0) {
-                let at = node.place.in_trial();
-                node.balance(
-                    [&self.trial.displacements[at], &self.trial.rests[at]],
-                    inertia[set],
-                    values,
-                    rows,
-                );
-            }
+        for node in &self.nodes {
+            let at = node.place.in_trial();
+            let displacement = [&self.trial.displacements[at], &self.trial.rests[at]];
+            node.balance(displacement, values, right);
         }
         self.couple(view);
     }
 
     /// The largest entry of R.
+    #[inline]
     pub(super) fn residual(&self) -> S {
         let mut largest = Largest::none();
-        let (moving, per_set) = (self.moving(), self.rows_per_set());
-        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
-            for &[row] in &self.tangent.right()[set * per_set..][..nodes.len() * D] {
+        for node in &self.nodes {
+            for &row in node.place.rows(self.tangent.right()) {
                 largest.see(row);
             }
         }
@@ -45,35 +40,29 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Applies the solution to the trial state, where it starts the next system, and finds the local
     /// corrections that go with it; the largest scaled update.
+    #[inline]
     pub(super) fn correct(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> S {
-        let (moving, per_set) = (self.moving(), self.rows_per_set());
-        let inertia = self.inertias(view);
         let (values, right, solution) = self.tangent.renew();
         let trial = &mut self.trial;
         let settled = trial.settled;
         let mut largest = Largest::none();
-        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
-            let first = set * per_set;
-            let changes = solution[first..].as_flattened().as_chunks::<D>().0;
-            let rows = right[first..].as_flattened_mut().as_chunks_mut::<D>().0;
-            for ((node, change), rows) in nodes.iter().zip(changes).zip(rows) {
-                let at = node.place.in_trial();
-                let (mut displacement, mut rest) = (trial.displacements[at], trial.rests[at]);
-                let per_length = self.per_length[node.place.node()];
-                // One by one, as the solution has been stored: a wider load would stall.
-                for axis in 0..D {
-                    let change = change[axis];
-                    let applied = unless(settled, S::zero(), change);
-                    correct(&mut displacement[axis], &mut rest[axis], applied);
-                    largest.see(change * per_length);
-                }
-                (trial.displacements[at], trial.rests[at]) = (displacement, rest);
-                node.balance([&displacement, &rest], inertia[set], values, rows);
+        for node in &self.nodes {
+            let at = node.place.in_trial();
+            let change = node.place.rows(solution);
+            let (mut displacement, mut rest) = (trial.displacements[at], trial.rests[at]);
+            // One by one, as the solution has been stored: a wider load would stall.
+            for axis in 0..D {
+                let change = change[axis];
+                let applied = unless(settled, S::zero(), change);
+                correct(&mut displacement[axis], &mut rest[axis], applied);
+                largest.see(change * node.per_length);
             }
+            (trial.displacements[at], trial.rests[at]) = (displacement, rest);
+            node.balance([&displacement, &rest], values, right);
         }
         for &Seen { in_trial, row, .. } in &self.seen {
             let change = solution[row][0];
@@ -90,17 +79,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Takes a share of the last correction back, and starts the next system there.
     pub(super) fn take_back(&mut self, view: &StepView<'_, S>, share: S) {
-        let (moving, per_set) = (self.moving(), self.rows_per_set());
         let trial = &mut self.trial;
         let solution = self.tangent.solution();
-        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
-            let changes = solution[set * per_set..].as_flattened();
-            for (node, change) in nodes.iter().zip(changes.as_chunks::<D>().0) {
-                let at = node.place.in_trial();
-                for (axis, &change) in change.iter().enumerate() {
-                    let displacement = &mut trial.displacements[at][axis];
-                    correct(displacement, &mut trial.rests[at][axis], -share * change);
-                }
+        for node in &self.nodes {
+            let at = node.place.in_trial();
+            for (axis, &change) in node.place.rows(solution).iter().enumerate() {
+                let displacement = &mut trial.displacements[at][axis];
+                correct(displacement, &mut trial.rests[at][axis], -share * change);
             }
         }
         for &Seen { in_trial, row, .. } in &self.seen {
@@ -118,17 +103,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
     ) {
         self.weigh(view);
         let growth = factor - S::one();
-        let (moving, per_set) = (self.moving(), self.rows_per_set());
         let solution = self.tangent.solution_mut();
-        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
-            let changes = solution[set * per_set..].as_flattened_mut();
-            for (node, change) in nodes.iter().zip(changes.as_chunks_mut::<D>().0) {
-                let at = node.place.in_trial();
-                for (axis, change) in change.iter_mut().enumerate() {
-                    let displacement = &mut self.trial.displacements[at][axis];
-                    *change = growth * *displacement;
-                    correct(displacement, &mut self.trial.rests[at][axis], *change);
-                }
+        for node in &self.nodes {
+            let at = node.place.in_trial();
+            for (axis, change) in node.place.rows_mut(solution).iter_mut().enumerate() {
+                let displacement = &mut self.trial.displacements[at][axis];
+                *change = growth * *displacement;
+                correct(displacement, &mut self.trial.rests[at][axis], *change);
             }
         }
         for seen in &self.seen {
@@ -138,5 +119,52 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.hold();
         }
         self.balance(view);
+    }
+
+    /// Residual and tangent at given global unknowns, with the local ones solved for.
+    pub(crate) fn linearize(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        unknowns: &[S],
+        effort: &mut Effort<S>,
+    ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
+        self.begin(groups, view, Start::Foretold)?;
+        let given = unknowns.as_chunks::<1>().0;
+        for node in &self.nodes {
+            self.trial.rests[node.place.in_trial()] = [S::zero(); D];
+            self.trial.displacements[node.place.in_trial()] = *node.place.rows(given);
+        }
+        for seen in &self.seen {
+            self.trial.seen.set(seen.in_trial, unknowns[seen.row]);
+        }
+        // Whatever fails, the global unknowns stay.
+        self.tangent.solution_mut().fill([S::zero()]);
+        let mut before = S::MAX;
+        loop {
+            self.balance(view);
+            self.advance(groups, view, Purpose::Iterate)?;
+            let residual = self.residual();
+            if before.at_most(S::EPSILON).decide()? {
+                break;
+            }
+            let updates = groups.iter_mut();
+            let updates =
+                updates.map(|group| group.correct(self.tangent.solution(), S::Mask::none()));
+            let update = updates.fold(S::zero(), S::maximum);
+            effort.history.push(Iteration { residual, update });
+            let stagnated = before.at_most(update);
+            if !update.is_finite() || effort.history.len() > effort.settings.max_iterations {
+                let update = update.to_f64();
+                return Err(StepFailure::NotConverged { update });
+            }
+            if (stagnated & update.at_most(effort.settings.tolerance)).decide()? {
+                break;
+            }
+            before = update;
+        }
+        let right = &self.tangent.right()[..unknowns.len()];
+        let residual = right.iter().map(|&[entry]| -entry).collect();
+        Ok((residual, self.tangent.dense()))
     }
 }

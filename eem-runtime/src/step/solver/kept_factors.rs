@@ -78,7 +78,7 @@ impl KeptFactors {
     #[inline]
     pub(super) fn judge<S: Real>(&mut self, update: S, before: Option<S>) {
         let shrinks = |before: S| update.at_most(S::from_f64(CONTRACTION) * before).all();
-        if self.are_near && !before.is_none_or(shrinks) {
+        if self.is_worthwhile && !before.is_none_or(shrinks) {
             self.renew();
         }
     }

@@ -15,6 +15,9 @@ use eem_material::number::scalar::Real;
 pub(super) struct MovingNode<S, const D: usize> {
     node: u32,
     trial: u32,
+    set: u32,
+    /// Its first row in the tangent.
+    row: u32,
     /// Its diagonal entries in the tangent.
     diagonal: [u32; D],
     /// Its diagonal entry in the secant matrix, if there is one.
@@ -36,6 +39,30 @@ impl<S, const D: usize> MovingNode<S, D> {
         self.trial as usize
     }
 
+    /// The set of unknowns to which it belongs.
+    #[inline]
+    pub(super) fn set(&self) -> usize {
+        self.set as usize
+    }
+
+    /// Its rows of a vector of the tangent.
+    #[inline]
+    pub(super) fn rows<'a>(&self, vector: &'a [[S; 1]]) -> &'a [S; D] {
+        let from = self.row as usize;
+        let rows = vector.as_flattened().get(from..from + D);
+        rows.and_then(<[S]>::as_array)
+            .unwrap_or_else(|| no_such_row())
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub(super) fn rows_mut<'a>(&self, vector: &'a mut [[S; 1]]) -> &'a mut [S; D] {
+        let from = self.row as usize;
+        let rows = vector.as_flattened_mut().get_mut(from..from + D);
+        rows.and_then(<[S]>::as_mut_array)
+            .unwrap_or_else(|| no_such_row())
+    }
+
     /// Its diagonal entries in the tangent.
     #[inline]
     pub(super) fn diagonal(&self) -> [usize; D] {
@@ -47,6 +74,11 @@ impl<S, const D: usize> MovingNode<S, D> {
     pub(super) fn secant_diagonal(&self) -> usize {
         self.secant_diagonal as usize
     }
+}
+
+#[cold]
+fn no_such_row() -> ! {
+    unreachable!("rows come from the system")
 }
 
 /// A temperature that neighbours see.
@@ -71,6 +103,8 @@ pub(super) fn moving<S: Real, const D: usize>(
         MovingNode {
             node: compact(node),
             trial: compact(set * masses.len() + node),
+            set: compact(set),
+            row: compact(sites.row(Some(first))),
             diagonal: array::from_fn(|axis| {
                 let unknown = Some(first + axis);
                 compact(sites.place(unknown, unknown))

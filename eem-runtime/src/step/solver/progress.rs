@@ -1,7 +1,6 @@
 //! How far Newton's method has come, and what it is for.
 
 use crate::element::state::State;
-use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
 use crate::step::newton::{CONTRACTION, STAGNATION};
 use eem_material::number::scalar::{Mask, Real};
@@ -25,8 +24,8 @@ pub(super) enum Target<'a, S> {
 
 /// What comes of a trial.
 pub(super) enum Conclusion<S: Real> {
-    /// The step ends there; with a certificate if a state was asked for.
-    Found(Option<Certificate<S>>),
+    /// The step ends there.
+    Found,
     /// Another iteration is needed, but for those of several numbers where the mask holds.
     Open(S::Mask),
     /// No iteration will help.

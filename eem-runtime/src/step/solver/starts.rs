@@ -27,21 +27,22 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let found = self.start_and_converge(groups, view, effort, (Start::Foretold, &mut closing));
         let failure = match found {
             Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
-            done => return self.kept_by(view, done?),
+            done => {
+                done?;
+                return self.kept_by(view);
+            }
         };
         let found = self.try_other_starts(groups, view, effort, &mut closing);
-        self.kept_by(view, found.map_err(|_| failure)?)
+        found.map_err(|_| failure)?;
+        self.kept_by(view)
     }
 
     /// The step has succeeded: its forces are those of the last one.
-    fn kept_by(
-        &mut self,
-        view: &StepView<'_, S>,
-        certificate: Option<Certificate<S>>,
-    ) -> Result<Certificate<S>, StepFailure> {
+    fn kept_by(&mut self, view: &StepView<'_, S>) -> Result<Certificate<S>, StepFailure> {
         if view.phase.heats() && self.scheme.foretells_its_start() {
             self.past.keep();
         }
+        let certificate = self.certificate.take();
         certificate.ok_or(StepFailure::NotConverged { update: f64::NAN })
     }
 
@@ -55,7 +56,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
         closing: &mut Target<'_, S>,
-    ) -> Result<Option<Certificate<S>>, StepFailure> {
+    ) -> Result<(), StepFailure> {
         if self.scheme.is_exact() {
             let found = self.start_and_converge(groups, view, effort, (Start::Rest, closing));
             if found.is_ok() {
@@ -83,7 +84,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
         closing: &mut Target<'_, S>,
-    ) -> Result<Option<Certificate<S>>, StepFailure> {
+    ) -> Result<(), StepFailure> {
         let start = (Start::Foretold, &mut Target::SharpTrial);
         self.trial.is_start = true;
         let started = self.start_and_converge(groups, view, effort, start);
@@ -101,7 +102,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
         (start, target): (Start, &mut Target<'_, S>),
-    ) -> Result<Option<Certificate<S>>, StepFailure> {
+    ) -> Result<(), StepFailure> {
         self.begin(groups, view, start)?;
         self.converge(groups, view, effort, target)
     }
@@ -114,9 +115,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
         closing: &mut Target<'_, S>,
-    ) -> Result<Option<Certificate<S>>, StepFailure> {
+    ) -> Result<(), StepFailure> {
         let number = |part: u8| S::from_f64(f64::from(part));
-        let mut found = None;
         for part in 1..=CONTINUATION_STEPS {
             let step = view.step * number(part) / number(CONTINUATION_STEPS);
             let shorter = StepView {
@@ -129,14 +129,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
             } else {
                 &mut Target::Trial
             };
-            found = if part == 1 {
+            if part == 1 {
                 let start = (Start::Foretold, target);
-                self.start_and_converge(groups, &shorter, effort, start)?
+                self.start_and_converge(groups, &shorter, effort, start)?;
             } else {
                 self.extrapolate(groups, &shorter, number(part) / number(part - 1));
-                self.converge(groups, &shorter, effort, target)?
-            };
+                self.converge(groups, &shorter, effort, target)?;
+            }
         }
-        Ok(found)
+        Ok(())
     }
 }

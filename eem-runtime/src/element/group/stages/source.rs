@@ -4,10 +4,9 @@ use super::point::{LocalStages, StageArms, StagePoint, StatePoint};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Blocks, Kinematics, Weights};
-use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::element::tally::Tally;
+use crate::element::tally::{Recount, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 

@@ -39,8 +39,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let at = node.place.node();
             let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
             if takes_increments {
-                let [impulse, terms] =
-                    (self.coupling).impulse((moving, node), &self.trial, twice_per_step);
+                let [impulse, terms] = (self.coupling).impulse((moving, node), &self.trial);
                 let found = remembering.impulse_mut(at);
                 let residual = array::from_fn(|axis| impulse[axis] - found[axis]);
                 for &residual in &residual {

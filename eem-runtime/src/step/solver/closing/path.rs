@@ -37,8 +37,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.coupling.find_impulses(set, of_set, inertias[set]);
             for (index, moving) in self.nodes[nodes].iter().enumerate() {
                 let node = moving.place.node();
-                let [gained, terms] =
-                    (self.coupling).impulse((index, moving), &self.trial, inertias[set]);
+                let [gained, terms] = (self.coupling).impulse((index, moving), &self.trial);
                 let terms = self.coupling.found(index).map_or([S::zero(); D], |_| terms);
                 let impulse = stages.combined(node, weights);
                 let residual = array::from_fn(|axis| gained[axis] - impulse[axis]);
