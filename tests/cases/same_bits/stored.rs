@@ -65,11 +65,11 @@ pub(super) const GLIBC: [Stored; 5] = [
 pub(super) const PORTABLE: [Stored; 5] = [
     Stored {
         scheme: Scheme::EemEntropy,
-        single: 0x2126_3262_54cb_e204,
+        single: 0x9154_7611_6ddd_571d,
         double: [
-            0x5de8_88c6_c2b3_61c7,
-            0x3530_2515_4580_db19,
-            0xb076_f033_6e2d_6f34,
+            0xd428_7c24_3a97_d356,
+            0x4eeb_5970_fb55_2233,
+            0x7e6c_93e3_d852_a83e,
         ],
     },
     Stored {
@@ -101,11 +101,11 @@ pub(super) const PORTABLE: [Stored; 5] = [
     },
     Stored {
         scheme: Scheme::Staggered,
-        single: 0xf084_08a0_54f0_0e49,
+        single: 0x7c74_b6d4_9717_4502,
         double: [
-            0x26d9_4e73_85b3_9c05,
-            0x7e7e_a8fd_3811_29a7,
-            0xb24a_e00e_d5cb_fcc2,
+            0xef34_2c86_ef29_8785,
+            0x8eea_7580_3ca6_537b,
+            0x4ab4_a04f_3c33_575e,
         ],
     },
 ];
