@@ -47,6 +47,47 @@ fn rotor(
     run
 }
 
+/// A spring in parallel with a Maxwell element whose viscosity grows by a factor e in so many kelvins.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+    0.5 * stiffness * (lambda - length).powi(2)
+        + 0.5 * stiffness * (lambda - length - gamma).powi(2)
+        + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
+})]
+#[viscosity(gamma = eta * exp((theta - theta_ref) / kelvins))]
+struct Thickening {
+    stiffness: f64,
+    length: f64,
+    eta: f64,
+    kelvins: f64,
+    capacity: f64,
+    theta_ref: f64,
+}
+
+/// A mass that goes round on a spring that relaxes at 10⁵/s at 300 K, and hardly at 500 K.
+const RELAXING: Thickening = Thickening {
+    stiffness: 100.0,
+    length: 1.0,
+    eta: 1e-3,
+    kelvins: 10.0,
+    capacity: 1.0,
+    theta_ref: 300.0,
+};
+
+/// Stiff for a second, soft after three.
+fn relaxing(tolerance: f64) -> Simulation<2> {
+    let temperature = |t: f64| 400.0 + 100.0 * (3.0 * (t - 2.0)).tanh();
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0; 2]);
+    let mass = scene.mass(1.0, [1.0, 0.0], [0.0, 1.0]);
+    let spring = scene.spring(RELAXING, [pivot, mass]);
+    scene.set_temperature(spring, temperature(0.0));
+    scene.prescribe_temperature(spring, temperature);
+    let mut run = Simulation::new(scene, Scheme::Auto, 1e-3).unwrap();
+    run.control_steps(Tolerance::new(tolerance)).unwrap();
+    run
+}
+
 #[test]
 fn accurate_motion_of_a_pendulum_is_explicit() {
     let mut run = single_pendulum(Scheme::Auto, 0.05).run;
@@ -63,11 +104,10 @@ fn accurate_motion_of_a_pendulum_is_explicit() {
 
 #[test]
 fn stiff_motion_becomes_implicit_and_soft_motion_explicit_again() {
-    // Stiff for a second, soft after three.
-    let mut run = rotor(1e-6, |t| 400.0 + 100.0 * (3.0 * (t - 2.0)).tanh());
+    let mut run = relaxing(1e-6);
     let first = run.ledger();
     let (mut used, mut worst) = (vec![run.scheme_in_use()], 0.0_f64);
-    let end = run.run_until_with(12.0, |run, report| {
+    let end = run.run_until_with(30.0, |run, report| {
         if used.last() != Some(&run.scheme_in_use()) {
             used.push(run.scheme_in_use());
         }
@@ -81,9 +121,10 @@ fn stiff_motion_becomes_implicit_and_soft_motion_explicit_again() {
     assert_eq!(used[..2], [explicit, implicit]);
     assert_eq!(used.last(), Some(&explicit));
     assert_eq!(statistics.changes_of_scheme, 2);
-    assert!(statistics.accepted < 20_000, "{statistics:?}");
+    // Explicit steps through the stiff second would be 16 000, by h < 6.4 η/k.
+    assert!(statistics.accepted < 1_000, "{statistics:?}");
     // Roundings of the heat in the spring.
-    let rounding = f64::EPSILON * ROTOR.capacity * 500.0;
+    let rounding = f64::EPSILON * RELAXING.capacity * 500.0;
     assert!(worst < 100.0 * rounding, "{:e}", worst / rounding);
 }
 
@@ -118,11 +159,11 @@ fn bits(run: &Simulation<2>) -> String {
 
 #[test]
 fn a_resumed_run_has_the_same_bits_whatever_scheme_it_was_using() {
-    let build = || rotor(1e-3, |t| 400.0 + 100.0 * (3.0 * (t - 2.0)).tanh());
+    let build = || relaxing(1e-3);
     let mut run = build();
     let mut seen = [false; 2];
-    for _ in 0..8 {
-        for _ in 0..60 {
+    for steps in [5, 60, 60, 60, 60, 60, 60, 60] {
+        for _ in 0..steps {
             run.step().unwrap();
         }
         seen[usize::from(run.scheme_in_use() == Scheme::EemExplicit)] = true;

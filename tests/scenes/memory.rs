@@ -27,7 +27,7 @@ fn chain() -> Scene<2> {
 /// the tangent with its pattern, factors and solution, 284 B; the old and the new state with their
 /// energies, 256 B; the solver's vectors; what the simulation knows of node and element, 16 B. 1134 B were
 /// measured.
-const BYTES: i64 = 1_150;
+const BYTES: i64 = 1_160;
 
 /// With the scene from which the simulation is made, whose lists have grown by doubling.
 const BYTES_AT_MOST: u64 = 1_300;

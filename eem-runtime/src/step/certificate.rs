@@ -313,9 +313,9 @@ impl<S: Real> Certificate<S> {
     }
 }
 
-/// The factor by which the terms of the forces at the end of a step, which are found by their secants, may be too large: 24
+/// The factor by which the terms of the forces at the end of a step, which are found by their secants, may be too large: 8.3
 /// in a million random steps, near the core of a Lennard-Jones spring.
-const SECANT: f64 = 64.0;
+const SECANT: f64 = 16.0;
 
 /// Whether a bound is far above the rounding of these terms of energies, J, or not a number.
 pub(crate) fn is_wide<S: Real>(bound: S, terms: S) -> bool {
