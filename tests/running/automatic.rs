@@ -175,8 +175,10 @@ fn a_resumed_run_has_the_same_bits_whatever_scheme_it_was_using() {
         assert_eq!(bits(&other), bits(&run));
         for _ in 0..40 {
             let [mut resumed, whole] = [other.step().unwrap(), run.step().unwrap()];
-            // Magnitudes of the old state are found anew in the first step, and the bound has its residue.
-            assert!((1.0 - 1e-6..1.2).contains(&(resumed.bound / whole.bound)));
+            // Magnitudes of the old state are found anew in the first step, that of ψ with up to an eighth of the
+            // bound, and the bound has its residue.
+            let ratio = resumed.bound / whole.bound;
+            assert!((0.875..1.2).contains(&ratio), "{ratio}");
             resumed.bound = whole.bound;
             assert_eq!(resumed, whole);
         }
