@@ -25,22 +25,22 @@
 //! |---|---|
 //! | add a scheme | a row in `step/scheme.rs`; a `Tableau` in `step/rule` for one with stages; other conjugates in `element/conjugates` or a `Source` in `element/group/stages` |
 //! | change what a step proves | `step/certificate.rs`, `element/group/certify.rs`, `step/solver/closing` |
-//! | change Newton's method: start, convergence, end | `step/newton.rs`; `begin.rs`, `past.rs`, `converge.rs`, `conclusion.rs`, `progress.rs` in `step/solver` |
+//! | change Newton's method: start, convergence, end | `step/newton.rs`; `begin.rs`, `past.rs`, `converge.rs`, `progress.rs` in `step/solver` |
 //! | change step control | `step/control`; `attempt.rs`, `control.rs`, `halves.rs` in `run/simulation`; `step/explicit/error.rs` |
 //! | change when `Scheme::Auto` switches | `step/automatic.rs`, `run/simulation/automatic.rs` |
 //! | change the explicit scheme | `step/explicit`: `stages.rs`, `tableau.rs`, `closing`, `inertia`, `guard.rs`; `element/group/explicit` |
 //! | solve the linear systems differently | `algebra/system.rs`; `algebra/lu` for small ones; `step/solver/kept_factors.rs` for factors that are reused |
 //! | reject what does not fit in memory | `algebra/memory.rs`, `step/systems.rs` |
-//! | add a strain measure | `strain.rs`, `between.rs`, `plane.rs`, `space.rs`, `stiffness.rs` in `element/kinematics`; its role in `eem-language` |
+//! | add a strain measure | `strain.rs`, `between.rs`, `tensor.rs`, `stiffness.rs` in `element/kinematics`; its role in `eem-language` |
 //! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs`; `Scheme::takes_drag` |
-//! | add a shape of cell | a file in `element/kinematics/shape` |
+//! | add a shape of cell | `element/kinematics/shape.rs` |
 //! | change solids, meshes and their checks | `mesh`, `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `cell.rs`, `gmsh.rs` in `scene` |
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
 //! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
-//! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material`, `element/group/settled.rs` |
+//! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material` |
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
 //! | check a material before use | `domain` in `eem-material` |
 

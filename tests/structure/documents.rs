@@ -139,3 +139,43 @@ fn programs_are_whole() {
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
+
+/// All files of a folder of sources, with their paths.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let files = paths.flat_map(|path| {
+        if path.is_dir() {
+            sources(&path)
+        } else {
+            vec![path]
+        }
+    });
+    files.collect()
+}
+
+/// The tables "where to change what" at the heads of crates.
+#[test]
+fn files_named_at_the_heads_of_crates_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folders = fs::read_dir(root).unwrap();
+    let folders = folders.map(|folder| folder.unwrap().path().join("src"));
+    let crates: Vec<_> = folders.filter(|src| src.join("lib.rs").exists()).collect();
+    let files: Vec<_> = crates.iter().flat_map(|src| sources(src)).collect();
+    let mut missing = Vec::new();
+    for src in &crates {
+        let head = fs::read_to_string(src.join("lib.rs")).unwrap();
+        let rows = head.lines().filter(|line| line.starts_with("//! |"));
+        let named = rows.flat_map(|row| row.split('`').skip(1).step_by(2));
+        for name in named.filter(|name| name.ends_with(".rs")) {
+            if !files.iter().any(|file| file.ends_with(name)) {
+                missing.push(format!("{}: {name}", src.display()));
+            }
+        }
+    }
+    assert!(
+        crates.len() > 5 && missing.is_empty(),
+        "{}",
+        missing.join("\n")
+    );
+}
