@@ -171,9 +171,8 @@ impl<S: Scalar> Sum<S> {
     #[inline]
     fn plus(self, increment: S) -> Self {
         let (high, error) = two_sum(self.value, increment);
-        let low = error + self.carry;
-        let value = high + low;
-        let carry = low - (value - high);
+        // Where additions cancel, the high part may be the smaller one.
+        let (value, carry) = two_sum(high, error + self.carry);
         Self { value, carry }
     }
 

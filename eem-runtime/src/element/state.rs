@@ -32,7 +32,7 @@ pub(crate) struct State<S> {
     pub(crate) entropies: Compensated<S>,
     /// θ with S(λ, γ, θ) = s, K.
     pub(crate) temperatures: Vec<S>,
-    /// Per element of the scene. It follows from everything else, and so is not saved.
+    /// Per element of the scene; a checkpoint has them apart.
     #[cfg_attr(feature = "serde", serde(skip, default = "Vec::new"))]
     pub(crate) energies: Vec<Energy<S>>,
     /// `σ_r` since the start, J/K.
@@ -49,6 +49,11 @@ pub(crate) struct State<S> {
 
 /// The internal energy of an element in a state, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub(crate) struct Energy<S> {
     /// `ψ + θ s`.
     pub(crate) value: S,
@@ -110,6 +115,18 @@ impl<S: Real> Energy<S> {
     #[inline]
     pub(crate) fn add_values(&mut self, magnitude: S) {
         self.excess += S::from_f64(SHARE_OF_VALUES) * magnitude;
+    }
+
+    /// All numbers.
+    pub(crate) fn numbers(&self) -> [S; 5] {
+        let Self {
+            value,
+            magnitude,
+            heat_capacity,
+            terms,
+            excess,
+        } = *self;
+        [value, magnitude, heat_capacity, terms, excess]
     }
 
     /// None.

@@ -6,7 +6,7 @@ mod fingerprint;
 #[cfg(feature = "serde")]
 mod scheme_name;
 
-use crate::element::state::State;
+use crate::element::state::{Energy, State};
 use crate::step::automatic::Choice;
 use crate::step::control::{Controller, StepStatistics, Tolerance};
 use crate::step::explicit::SavedExplicit;
@@ -78,6 +78,7 @@ pub struct Checkpoint<S = f64> {
     )]
     pub(crate) choice: Option<SavedChoice>,
     pub(crate) state: State<S>,
+    pub(crate) energies: SavedEnergies<S>,
     pub(crate) past: SavedPast<S>,
     /// For explicit schemes, which otherwise start again from the state.
     #[cfg_attr(
@@ -87,6 +88,20 @@ pub struct Checkpoint<S = f64> {
     pub(crate) explicit: Option<SavedExplicit<S>>,
     /// Digests of the entries that follow from the steps.
     pub(crate) seals: Vec<Digest>,
+}
+
+/// The energies of the elements as the last step found them: evaluated again they have other roundings, by which the next
+/// step would judge itself.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct SavedEnergies<S> {
+    /// The state that they belong to.
+    pub(crate) of: Digest,
+    pub(crate) list: Vec<Energy<S>>,
 }
 
 /// The history of step control.

@@ -16,9 +16,10 @@ use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
 use eem_material::free_energy::{Array, Entry, FreeEnergy, Material};
 use eem_material::number::scalar::{Mask, Real, unless};
 
-/// The largest first correction of ln θ from which Newton's method goes on, and the least by which corrections shrink;
-/// otherwise mixed states are searched one by one.
-const NEAR: f64 = 0.25;
+/// The largest first correction of ln θ from which Newton's method goes on, and the factor by which corrections have to
+/// shrink; otherwise mixed states are searched one by one.
+const LARGEST_FIRST: f64 = 0.0625;
+const SHRINKING: f64 = 0.25;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
@@ -111,7 +112,8 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
         S::from_f64(LAST_CORRECTION) * root
     };
     let mut settled = S::Mask::none();
-    let mut limit = S::from_f64(NEAR);
+    let guesses = *corners;
+    let mut limit = S::from_f64(LARGEST_FIRST);
     loop {
         let [excess, capacities] = model.mixed_states(&start.x0, &start.old, x1, corners);
         let mut found = *corners;
@@ -128,7 +130,7 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
         let size = largest + S::zero() * sum;
         let is_far = !(settled | (size.at_most(limit) & S::zero().less(least)));
         if is_far.any() {
-            let sought = search_corners(model, start, x1, *corners)?;
+            let sought = search_corners(model, start, x1, guesses)?;
             for index in 0..M::Corners::LEN {
                 found[index] = S::select(is_far, sought[index], found[index]);
             }
@@ -140,7 +142,7 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
         if settled.all() {
             return Ok(());
         }
-        limit = S::from_f64(NEAR) * size;
+        limit = S::from_f64(SHRINKING) * size;
     }
 }
 

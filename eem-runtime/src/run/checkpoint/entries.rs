@@ -6,6 +6,7 @@
 
 use super::Checkpoint;
 use super::error::{RestoreError, expect_count};
+use crate::element::state::Energy;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::{Mask, Real, is_positive};
@@ -130,6 +131,7 @@ impl<S: Real> Checkpoint<S> {
         use Rule::{Finite, FiniteNotNegative, NotNegative, Positive};
         let (state, [last, before]) = (&self.state, &self.past.forces);
         let temperatures = state.temperatures.iter().copied();
+        let energies = self.energies.list.iter().flat_map(Energy::numbers);
         let mut entries = vec![
             Entry::sums("coordinates", &state.positions),
             Entry::sums("momenta", &state.momenta),
@@ -149,6 +151,9 @@ impl<S: Real> Checkpoint<S> {
             Entry::list("earlier forces", before),
             Entry::new("forces", Finite, last.iter().chain(before).copied()).sealed(),
             Entry::new("errors of predicted forces", NotNegative, self.past.errors).sealed(),
+            Entry::new("energies of elements", Rule::None, energies)
+                .counted(self.energies.list.len())
+                .sealed(),
         ];
         if let Some(control) = &self.control {
             let last = control.controller.last;

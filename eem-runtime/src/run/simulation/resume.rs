@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::compiled::Functions;
 use crate::element::state::State;
-use crate::run::checkpoint::{Checkpoint, Outline, RestoreError};
+use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, SavedEnergies};
 use crate::step::outcome::Corrections;
 use eem_material::number::scalar::Real;
 
@@ -46,6 +46,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state: State {
                 energies: Vec::new(),
                 ..State::clone(&self.state)
+            },
+            energies: SavedEnergies {
+                of: self.state.digest(),
+                list: self.state.energies.clone(),
             },
             past,
             explicit,
@@ -98,7 +102,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.state.copy_from(&checkpoint.state);
         self.state.follow_velocities(D, &self.masses);
         let state = &mut self.state;
-        self.stepper.each_mut(|group| group.find_energies(state));
+        if checkpoint.energies.of == state.digest() {
+            state.energies.copy_from_slice(&checkpoint.energies.list);
+        } else {
+            // The state has been edited.
+            self.stepper.each_mut(|group| group.find_energies(state));
+        }
         self.worst = None;
         self.corrections = Corrections::none();
         // They are those of another state if that has been edited.
