@@ -1,4 +1,4 @@
-//! What a group and the solver tell each other.
+//! Data that groups and solvers exchange.
 
 use core::array;
 
@@ -15,10 +15,10 @@ use crate::element::tableau::MOST_STAGES;
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::{Mask, Real};
 
-/// What all elements share during one step.
+/// Data common to all elements during one step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepView<'a, S> {
-    /// What changes.
+    /// The variables that change: all, or those of one split step.
     pub(crate) phase: Phase,
     /// h, s, and 1/h.
     pub(crate) step: S,
@@ -27,7 +27,7 @@ pub(crate) struct StepView<'a, S> {
     pub(crate) state: &'a State<S>,
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) loads: &'a StepLoads<S>,
-    /// What acts at the times of the stages; none for a scheme that has no stages.
+    /// Loads at the times of the stages; empty for a scheme without stages.
     pub(crate) stages: &'a [StepLoads<S>],
     /// m per node, kg; `None` for anchors.
     pub(crate) masses: &'a Masses<S>,
@@ -42,7 +42,7 @@ impl<S: Real> StepView<'_, S> {
         }
     }
 
-    /// How the velocity of a moved anchor changes in the step where masses couple nodes, m/s.
+    /// The change of the velocity of a moved anchor in the step, where masses couple nodes, m/s.
     pub(crate) fn change_of_speed<const D: usize>(&self, node: usize) -> [S; D] {
         let speed = self.loads.speed::<D>(node);
         let old = self.state.velocities.point::<D>(node)[0];
@@ -67,7 +67,7 @@ impl<S: Real> StepView<'_, S> {
         Some(temperatures)
     }
 
-    /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
+    /// The temperature prescribed on a thermal slot, at the time that a scheme with this placement uses.
     pub(super) fn prescribed(&self, slot: usize, at: Placement) -> Option<S> {
         if !self.phase.heats() {
             return None;
@@ -83,11 +83,11 @@ impl<S: Real> StepView<'_, S> {
 /// The global part of the new state that Newton's method tries.
 #[derive(Clone, Debug)]
 pub(crate) struct Trial<S: Real, const D: usize> {
-    /// How many sets of unknowns there are, one after the other: one, or one for each stage.
+    /// Number of sets of unknowns, stored one after the other: one, or one per stage.
     pub(crate) sets: usize,
     /// `q − q⁰` of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
-    /// What rounding has taken from them, m.
+    /// Their compensations of rounding, m.
     pub(crate) rests: Vec<[S; D]>,
     /// θ* as elements in contact see it, Θ; an unknown where the slot is coupled.
     pub(crate) seen: SeenTemperatures<S>,
