@@ -8,7 +8,7 @@ use super::state::State;
 use super::tally::Tally;
 use eem_material::number::scalar::Real;
 
-/// Where the flows of a step are booked.
+/// The sums to which the flows of a step are added.
 pub(crate) struct Balances<'a, S: Real> {
     pub(crate) next: &'a mut State<S>,
     pub(crate) tally: &'a mut Tally<S>,
@@ -107,7 +107,7 @@ impl<S: Real> State<S> {
     }
 }
 
-/// What the differences `θ_r − θ*` lack for the heat that the entropy of an element has taken, K.
+/// Correction of the differences `θ_r − θ*` that makes the conducted heat that of the entropy of an element, K.
 ///
 /// ```text
 /// Σ h κ (θ_r − θ* + correction) = θ* Δs − heat

@@ -16,8 +16,8 @@ use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
 use eem_material::free_energy::{Array, Entry, FreeEnergy, Material};
 use eem_material::number::scalar::{Mask, Real, unless};
 
-/// The largest first correction of ln θ from which Newton's method goes on, and the least by which corrections shrink;
-/// otherwise mixed states are searched one by one.
+/// Newton's method continues while the first correction of ln θ is at most this, and each later one at most this times
+/// the one before. Otherwise mixed states are searched one by one.
 const NEAR: f64 = 0.25;
 
 /// See the module.

@@ -23,7 +23,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if is_made {
             self.has_left = false;
         } else {
-            // As it was before, also if nothing was known of the state.
+            // As before the attempt.
             self.is_ready = self.was_ready;
         }
         attempt.map_err(|failure| self.explain(failure, view))
@@ -62,7 +62,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(Attempt { error, outcome })
     }
 
-    /// Takes back what has just been accepted.
+    /// Undoes the accepted step.
     pub(crate) fn undo(&mut self) {
         self.has_left = true;
         self.is_ready = self.was_ready;
@@ -73,7 +73,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.is_ready = false;
     }
 
-    /// The largest first defect of all components, which has to be small.
+    /// The largest defect of all components before closing; an error unless it is small.
     fn correction(&self, demand: Demand<S>, time: S) -> Result<S, StepFailure> {
         let mut largest = S::zero();
         for progress in &self.scratch.progress {

@@ -35,9 +35,9 @@ pub(super) const FROZEN: f64 = 8.0;
 enum Status {
     /// Within tolerance.
     Closed,
-    /// Its elements have to be evaluated again.
+    /// Its elements must be evaluated again.
     Changed,
-    /// Its forces have to be known for a correction.
+    /// A correction needs its forces.
     NeedsForces,
     /// No correction is possible.
     Failed,

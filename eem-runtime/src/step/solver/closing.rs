@@ -139,7 +139,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// The magnitudes of the forces are asked for anew, or not at all.
+    /// Clears the magnitudes of the forces, and makes room for them if a thorough bound needs them.
     fn forget_magnitudes(&mut self, care: Care) {
         self.magnitudes.clear();
         if care == Care::Thorough {

@@ -5,7 +5,7 @@ use crate::algebra::system::LinearSystem;
 use crate::step::newton::CONTRACTION;
 use eem_material::number::scalar::{Mask, Real};
 
-/// Whether the factors of an earlier tangent of the same step still do.
+/// Whether the factors of an earlier tangent of the same step can still be used.
 ///
 /// They do while updates shrink to a tenth, as the last one has to anyway. Up to a tenth of an update is left after
 /// it then, and not its square, so that the last one has to be smaller.

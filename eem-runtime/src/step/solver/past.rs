@@ -1,14 +1,15 @@
-//! The forces of the last steps. They decide where Newton's method starts, and nothing else.
+//! The forces of the last steps, from which the initial guess of Newton's method is predicted. Nothing else depends on
+//! them.
 
 use core::array;
 
 use crate::element::impulse::{Impulses, PLACES};
 use eem_material::number::scalar::Real;
 
-/// What is left of the error of a forecast one step later. Any memory of some steps will do.
+/// The weight of the error of a predictor one step later. Any memory of some steps will do.
 const MEMORY: f64 = 0.875;
 
-/// The forces of the last two steps, and how well they would have been foretold.
+/// The forces of the last two steps, and the errors of their predictions.
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
     /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the
@@ -27,7 +28,7 @@ pub(super) struct Past<S, const D: usize> {
 /// Where the forces of the last step, of the one before and of the next one are in each turn.
 const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
-/// How the forces of the next step are foretold.
+/// The predictor of the forces of the next step.
 #[derive(Debug)]
 pub(super) struct Forecast<'a, S, const D: usize> {
     forces: &'a [[[S; D]; PLACES]],
@@ -76,9 +77,9 @@ impl<S: Real> SavedPast<S> {
     }
 }
 
-/// How the force of a step is foretold: weights of those of the last step and of the one before.
+/// The predictors of the force of a step: weights of the forces of the last step and of the one before.
 ///
-/// Not at all, which is free flight; as that of the last step; on the line through both.
+/// Zero, which is free flight; the last force; linear extrapolation.
 const FORECASTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
 
 impl<S: Real, const D: usize> Past<S, D> {
@@ -93,7 +94,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// The forecast that has been best.
+    /// The predictor with the smallest error so far.
     #[inline]
     pub(super) fn forecast(&self) -> Forecast<'_, S, D> {
         let [nothing, constant, linear] = self.errors;
@@ -130,7 +131,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// The step whose forces have been taken has succeeded: it is the last one.
+    /// Commits the step: its forces become the history of the predictor.
     #[inline]
     pub(super) fn keep(&mut self) {
         self.turn = if self.turn + 1 == PLACES {
