@@ -1,8 +1,8 @@
 //! The entropy production of paths of heat and dashpots in a step, never negative.
 //!
 //! The weights of order 8 are not all positive, so that the sum of productions that are positive at every
-//! stage may be negative where it is below its own error. Then as much of the sums with positive weights is
-//! mixed in as makes it zero.
+//! stage may be negative where it is below its own error. It is then combined with the sums of positive weights so that
+//! the result is zero.
 
 use super::tableau::{POSITIVE_WEIGHTS, WEIGHTED, WEIGHTS};
 use eem_material::number::scalar::{Mask, Real};

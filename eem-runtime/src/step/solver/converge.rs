@@ -226,8 +226,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(share.equal(S::one()).all())
     }
 
-    /// Half the share of the correction that failed, applied. Several numbers in one do not go back, as
-    /// some of them need not have failed.
+    /// Applies half the fraction of the correction that failed. Not with several lanes, some of which need not have
+    /// failed.
     #[cold]
     #[inline(never)]
     fn retreat(
