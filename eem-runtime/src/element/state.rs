@@ -135,7 +135,7 @@ impl<S: Real> State<S> {
         momenta.write(|momenta| masses.find_momenta(dimension, velocities, momenta));
     }
 
-    /// Whether it is the same as another, but for time and what has been booked.
+    /// The digest of positions, momenta and internal variables, without time, velocities, work and heat.
     pub(crate) fn digest(&self) -> Digest {
         let sums = [
             &self.positions,
@@ -164,7 +164,7 @@ impl<S: Real> State<S> {
         }
     }
 
-    /// Takes over what has been booked in `old`, a state of the same scene; a step adds to it.
+    /// Copies the accumulated sums of `old`, a state of the same scene; a step adds to them.
     pub(crate) fn copy_books(&mut self, old: &Self) {
         self.time = old.time;
         self.work = old.work;
@@ -174,13 +174,13 @@ impl<S: Real> State<S> {
         self.reservoir_entropies.copy_from(&old.reservoir_entropies);
     }
 
-    /// Takes over `other`, a state of the same scene, with its energies, without allocation.
+    /// Copies `other`, a state of the same scene, with its energies, without allocation.
     pub(crate) fn copy_all_from(&mut self, other: &Self) {
         self.copy_from(other);
         self.energies.copy_from_slice(&other.energies);
     }
 
-    /// Takes over `other`, a state of the same scene, without allocation; energies are found anew.
+    /// Copies `other`, a state of the same scene, without allocation and without its energies.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.copy_books(other);
         self.positions.copy_from(&other.positions);
