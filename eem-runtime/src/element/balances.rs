@@ -14,7 +14,7 @@ pub(crate) struct Balances<'a, S: Real> {
     pub(crate) tally: &'a mut Tally<S>,
 }
 
-/// What an element has received during a step or a stage.
+/// Heat and entropy that an element has received during a step or a stage.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Received<S> {
     /// Entropy, J/K.
@@ -87,7 +87,7 @@ impl<S: Real> Balances<'_, S> {
         }
     }
 
-    /// What a path produces, at this end of it.
+    /// The production of a path, at this end of it.
     #[inline]
     fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) {
         let production = path.production();
@@ -99,7 +99,7 @@ impl<S: Real> Balances<'_, S> {
 }
 
 impl<S: Real> State<S> {
-    /// What a thermostat has given, J and J/K.
+    /// Heat and entropy from a thermostat, J and J/K.
     #[inline]
     pub(crate) fn book_thermostat(&mut self, heat: S, entropy: S) {
         self.heat.add(heat);

@@ -201,7 +201,7 @@ impl<S: Real> Exchange<S> {
 pub(crate) struct SeenTemperatures<S>(Compensated<S>);
 
 impl<S: Real> SeenTemperatures<S> {
-    /// Room for so many.
+    /// Memory for this many slots.
     pub(crate) fn new(slots: usize) -> Self {
         Self(Compensated::new(vec![S::zero(); slots]))
     }

@@ -55,7 +55,7 @@ pub(crate) struct Energy<S> {
     /// `|ψ| + θ|s| + cθ`, or an eighth of `θ Σ |terms of s|` where those cancel: times 8 ε, what rounding
     /// may do to it and to the temperature that is found from s.
     pub(crate) magnitude: S,
-    /// c, J/K: times ε, what rounding of the temperature does to an entropy that is found from it.
+    /// c, J/K: times ε, the error of an entropy by rounding of the temperature from which it is found.
     pub(crate) heat_capacity: S,
     /// `|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|` of this state.
     pub(crate) terms: S,

@@ -20,7 +20,7 @@ pub(crate) enum Placement {
     Start,
 }
 
-/// What an element does during one step.
+/// The response of an element in a step.
 ///
 /// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 of the scheme's own: the new one for
 /// schemes that look at the ends, the mean one for those that look at the middle. Newton's method
@@ -65,7 +65,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         false
     }
 
-    /// What the scheme needs of the old variables and the old entropy, once per step.
+    /// Computes [`Old`](Self::Old) from the old variables and the old entropy, once per step.
     fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old;
 
     /// The first starting values of a step, from the old temperature.

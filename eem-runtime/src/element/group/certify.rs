@@ -1,4 +1,4 @@
-//! What the elements contribute to the certificate of a step.
+//! The contribution of the elements to the certificate of a step.
 
 use super::arms::measures_in;
 use super::member::Member;

@@ -32,7 +32,7 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// Writes the energies of a state whose temperatures and entropies are known.
     fn find_energies(&self, state: &mut State<S>);
 
-    /// What the elements contribute to the GENERIC form in a state.
+    /// The contributions of the elements to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
 
     /// The state indices of the internal variables of the element at `place`.
@@ -60,7 +60,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// The elements in a state.
     fn elements(&self) -> &dyn Elements<S, D>;
 
-    /// The same, to be changed.
+    /// The same, mutable.
     fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
 
     /// The elements without a scheme.
@@ -135,7 +135,7 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
     /// The elements in a state.
     fn elements(&self) -> &dyn Elements<S, D>;
 
-    /// The same, to be changed.
+    /// The same, mutable.
     fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
 
     /// The elements without a scheme.
@@ -165,7 +165,7 @@ pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
     /// Their type.
     fn as_any(&self) -> &dyn Any;
 
-    /// The same, to be changed.
+    /// The same, mutable.
     fn as_any_mut(&mut self) -> &mut dyn Any;
 
     /// Capabilities of the model.

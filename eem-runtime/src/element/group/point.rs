@@ -96,7 +96,7 @@ pub(crate) struct Point<
     pub(super) is_prescribed: bool,
     /// The old state.
     pub(super) start: Start<S, M, C::Old>,
-    /// What the scheme keeps as starting values.
+    /// Initial guesses that the scheme keeps from one iteration to the next.
     pub(super) memory: C::Memory,
     /// The trial variables `(π, γ, τ)`.
     pub(super) x: M::Variables,

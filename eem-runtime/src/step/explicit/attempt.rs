@@ -9,8 +9,8 @@ use crate::step::outcome::{Attempt, Outcome};
 use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Writes the state after a step to `next`, from the state of the last accepted step, or after
-    /// [`forget`](Self::forget) any; the reason why there is none, or nothing where the error exceeds what is demanded.
+    /// Writes the state after a step to `next`, from the state of the last accepted step or, after
+    /// [`forget`](Self::forget), from any state. The outcome is `None` if the error exceeds the demand.
     pub(crate) fn step(
         &mut self,
         view: &ExplicitView<'_, S, D>,
@@ -68,7 +68,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.is_ready = self.was_ready;
     }
 
-    /// The next step starts from another state: rates and targets are found anew.
+    /// The next step starts from another state, for which rates and targets are evaluated again.
     pub(crate) fn forget(&mut self) {
         self.is_ready = false;
     }

@@ -36,7 +36,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let [flow, production] = rates.guarded(h);
             *kept = production;
             progress.production.add(production);
-            // What no end takes up the closing does not change.
+            // The closing does not change production that neither end stores.
             let closes = !(is_fixed(a) && is_fixed(b));
             let least = if closes {
                 &mut progress.least
@@ -75,7 +75,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.entropies.add(slot, production);
             scratch.produced[slot] += production;
             progress.production.add(production);
-            // What a thermostat takes up the closing does not change.
+            // The closing does not change production that a thermostat absorbs.
             let least = if self.stage.is_held(slot) {
                 &mut scratch.least
             } else {

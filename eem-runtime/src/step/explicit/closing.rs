@@ -1,4 +1,4 @@
-//! The closing of a step: energy and momenta of each component are put back to their targets.
+//! The closing of a step: energy and momenta of each component are corrected to their targets.
 //!
 //! Momenta first, by a rigid motion. Then energy, by the first of these that can give it:
 //!

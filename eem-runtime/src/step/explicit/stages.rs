@@ -28,7 +28,7 @@ const WEIGHT_OF: [Option<usize>; STAGES] = {
     all
 };
 
-/// Whether rates are found anew or as the elements were closed.
+/// Whether rates are evaluated, or taken from the closing of the elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum From {
     Model,

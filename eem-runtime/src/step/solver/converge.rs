@@ -271,7 +271,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 }
 
-/// What an evaluation is for.
+/// The purpose of an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Purpose {
     /// Another iteration.

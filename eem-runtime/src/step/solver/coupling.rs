@@ -62,7 +62,7 @@ struct DrivenPair<S> {
 }
 
 impl<S: Real, const D: usize> Coupling<S, D> {
-    /// That of a scene with so many sets of unknowns.
+    /// The coupling of a scene with this number of sets of unknowns.
     pub(super) fn new(
         masses: &Masses<S>,
         moved: &[usize],
@@ -249,7 +249,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// What has been found for a node among those that move.
+    /// The last `Δp` of a moving node, and the magnitude of its terms.
     pub(super) fn found(&self, moving: usize) -> Option<&[[S; D]; 2]> {
         self.impulses.get(moving)
     }

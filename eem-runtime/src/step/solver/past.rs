@@ -17,7 +17,7 @@ pub(super) struct Past<S, const D: usize> {
     forces: Vec<[[S; D]; PLACES]>,
     /// Which row of [`TURNS`] says where each of them is.
     turn: usize,
-    /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
+    /// The error of each predictor, `Σ |ΔF/m|²`, with decreasing weights of earlier steps.
     errors: [S; 3],
     /// The same before the last step.
     errors_before: [S; 3],
@@ -149,7 +149,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         self.errors = self.errors_before;
     }
 
-    /// What a run goes on from.
+    /// The history for a checkpoint.
     pub(super) fn save(&self) -> SavedPast<S> {
         let [last, before, _] = TURNS[self.turn];
         let of = |step: usize| self.forces.iter().flat_map(|forces| forces[step]).collect();
@@ -170,7 +170,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         saved.errors = self.errors;
     }
 
-    /// Goes on from a saved past, of as many nodes.
+    /// Continues from a saved history of as many nodes.
     pub(super) fn restore(&mut self, saved: &SavedPast<S>) {
         let [last, before, _] = TURNS[self.turn];
         for (step, saved) in [last, before].into_iter().zip(&saved.forces) {
@@ -190,7 +190,7 @@ impl<S: Real, const D: usize> Remembering<'_, S, D> {
         &self.forces[node][next]
     }
 
-    /// The same, to be written.
+    /// The same, mutable.
     #[inline]
     pub(super) fn impulse_mut(&mut self, node: usize) -> &mut [S; D] {
         let [_, _, next] = self.turn;

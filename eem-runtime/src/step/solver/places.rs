@@ -54,7 +54,7 @@ impl<S, const D: usize> MovingNode<S, D> {
             .unwrap_or_else(|| no_such_row())
     }
 
-    /// The same, to be written.
+    /// The same, mutable.
     #[inline]
     pub(super) fn rows_mut<'a>(&self, vector: &'a mut [[S; 1]]) -> &'a mut [S; D] {
         let from = self.row as usize;

@@ -11,7 +11,7 @@ const REDRAWS: u32 = 3;
 /// The slowest decrease of the residual that counts as one.
 const SLOWEST: f64 = 0.75;
 
-/// What an iteration is to find.
+/// The aim of an iteration.
 pub(super) enum Target<'a, S> {
     /// A trial from which another one starts.
     Trial,

@@ -1,4 +1,4 @@
-//! The momenta of a body are put back to their targets by a rigid motion.
+//! Correction of the momenta of a body to their targets, by a rigid motion.
 
 use super::super::Explicit;
 use super::super::components::{Component, Support};
