@@ -1,4 +1,4 @@
-//! A free energy of joint invariants of E and Γ, as one of components of both.
+//! A free energy of joint invariants of E and Γ, as a function of the components of both.
 //!
 //! A material depends on invariants only: partitioned derivatives by components would depend on the axes. With
 //! the conjugates `f_m` of the invariants between two states,
@@ -64,7 +64,7 @@ impl<M, const N: usize, const K: usize, const R: usize, const A: usize, const B:
     }
 }
 
-// Lists of what implements the trait, in messages, are about materials.
+// Keeps this type out of the compiler's lists of types that implement the trait.
 #[diagnostic::do_not_recommend]
 impl<
     S: Real,

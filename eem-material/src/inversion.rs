@@ -88,16 +88,16 @@ pub fn invert<S: Real>(
     })
 }
 
-/// A first correction of ln θ for which the start is not nearly right.
+/// The first correction of ln θ above which the start is poor and a search begins.
 const LARGEST_CORRECTION: f64 = 0.25;
 
 /// Roundings of the largest terms of an entropy, in the evaluation of which several add up.
 const ENTROPY_ROUNDINGS: f64 = 4.0;
 
-/// The least by which a correction must be smaller than the one before.
+/// The largest ratio of a correction to the one before with which Newton's method continues.
 const CONTRACTION: f64 = 0.25;
 
-/// Newton's method in ln θ from a temperature that is nearly right, `θ ← θ e^((s − S)/C)`; also returns what else was
+/// Newton's method in ln θ from a temperature near the solution, `θ ← θ e^((s − S)/C)`; also returns the other values
 /// evaluated at the last temperature.
 ///
 /// Where it does not contract, a search starts again from the first temperature, and finds the solution

@@ -118,7 +118,7 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
         slopes
     }
 
-    /// Splits what a form keeps of the old state: values of the material, E and Γ.
+    /// Splits the values of the old state for a form: those of the material, E and Γ.
     fn split<T: Array<S>>(old: &[S]) -> (T, Tensors<S>) {
         let mut own = T::filled(S::zero());
         let (of_material, components) = old.split_at(T::LEN);

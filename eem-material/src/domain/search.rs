@@ -1,4 +1,4 @@
-//! The smallest heat capacity and viscosities of a domain, as far as a sample and slopes lead.
+//! The smallest heat capacity and viscosities of a domain, by a sample and a descent.
 
 use super::error::DomainError;
 use super::point::{DomainReport, Least, Space};

@@ -17,8 +17,8 @@ const NOISE: f64 = 4.0;
 /// Two logarithms of temperatures are the same within this many ε of `max(1, |ln θ|)`.
 const RESOLUTION: f64 = 2.0;
 
-/// The heat capacity may change by this part over a correction that is not
-/// checked by an evaluation, if it changes at the rate Σ|terms of S|.
+/// The largest relative change of the heat capacity over a correction that is not checked by an evaluation, if it
+/// changes at the rate Σ|terms of S|.
 const TRUST: f64 = 0.25;
 
 /// Entropies that differ by this factor at the start suggest a power law. It decides one step only.
@@ -119,9 +119,9 @@ struct Search<S> {
     /// Largest `x` with a negative and smallest with a positive residual.
     below: Option<S>,
     above: Option<S>,
-    /// The ends of what may be stable.
+    /// The ends of the range that may be stable.
     edges: [S; 2],
-    /// How far an unbracketed step may go.
+    /// The largest step while the solution is not bracketed.
     reach: S,
     /// The last two steps, infinite at first.
     last: S,

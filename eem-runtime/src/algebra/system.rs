@@ -286,7 +286,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         &self.solution
     }
 
-    /// The same, to be written.
+    /// The same, mutable.
     pub(crate) fn solution_mut(&mut self) -> &mut [[S; W]] {
         &mut self.solution
     }
@@ -332,7 +332,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         }
     }
 
-    /// Finds X, but for the rows of anchors; A is then zero, and B is lost.
+    /// Finds X, except the scratch row of anchors; A is then zero, and B is lost.
     #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
         match self.unknowns {

@@ -8,13 +8,13 @@ use super::state::State;
 use super::tally::Tally;
 use eem_material::number::scalar::Real;
 
-/// Where the flows of a step are booked.
+/// The sums to which the flows of a step are added.
 pub(crate) struct Balances<'a, S: Real> {
     pub(crate) next: &'a mut State<S>,
     pub(crate) tally: &'a mut Tally<S>,
 }
 
-/// What an element has received during a step or a stage.
+/// Heat and entropy that an element has received during a step or a stage.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Received<S> {
     /// Entropy, J/K.
@@ -87,7 +87,7 @@ impl<S: Real> Balances<'_, S> {
         }
     }
 
-    /// What a path produces, at this end of it.
+    /// The production of a path, at this end of it.
     #[inline]
     fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) {
         let production = path.production();
@@ -99,7 +99,7 @@ impl<S: Real> Balances<'_, S> {
 }
 
 impl<S: Real> State<S> {
-    /// What a thermostat has given, J and J/K.
+    /// Heat and entropy from a thermostat, J and J/K.
     #[inline]
     pub(crate) fn book_thermostat(&mut self, heat: S, entropy: S) {
         self.heat.add(heat);
@@ -107,7 +107,7 @@ impl<S: Real> State<S> {
     }
 }
 
-/// What the differences `θ_r − θ*` lack for the heat that the entropy of an element has taken, K.
+/// Correction of the differences `θ_r − θ*` that makes the conducted heat that of the entropy of an element, K.
 ///
 /// ```text
 /// Σ h κ (θ_r − θ* + correction) = θ* Δs − heat

@@ -134,7 +134,7 @@ impl<S: Real> Conduction<S> {
     }
 }
 
-/// What a path of heat moves in a step, as one of its ends sees it.
+/// The exchange and the production of a path of heat in a step, at one of its ends.
 ///
 /// With the heat `Q = hκ D` that flows down the difference D of two temperatures, the entropy
 ///
@@ -201,7 +201,7 @@ impl<S: Real> Exchange<S> {
 pub(crate) struct SeenTemperatures<S>(Compensated<S>);
 
 impl<S: Real> SeenTemperatures<S> {
-    /// Room for so many.
+    /// Memory for this many slots.
     pub(crate) fn new(slots: usize) -> Self {
         Self(Compensated::new(vec![S::zero(); slots]))
     }

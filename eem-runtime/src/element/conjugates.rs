@@ -1,4 +1,4 @@
-//! What follows from the path of an element through a step: forces, temperature and change of entropy.
+//! Forces, temperature and change of entropy of an element in a step.
 //!
 //! A family says where along the step the deformation is measured and turns old and new variables of a
 //! point into algorithmic quantities `f*`, `g*`, `θ*`, `Δs` with their exact tangent. It knows nothing of

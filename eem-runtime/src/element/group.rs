@@ -1,6 +1,6 @@
 //! All elements of one model, stepped together.
 //!
-//! [`Group`] is what the solver sees: one dynamic call per group and phase. [`ElementGroup`] is the one
+//! [`Group`] is the interface to the solver: one dynamic call per group and phase. [`ElementGroup`] is the one
 //! implementation, monomorphic in model, kinematics and scheme. The phases of a step are
 //!
 //! ```text

@@ -60,7 +60,7 @@ pub(crate) struct Energy<S> {
     /// `|ψ| + θ|s| + cθ`, or an eighth of `θ Σ |terms of s|` where those cancel: times 8 ε, what rounding
     /// may do to it and to the temperature that is found from s.
     pub(crate) magnitude: S,
-    /// c, J/K: times ε, what rounding of the temperature does to an entropy that is found from it.
+    /// c, J/K: times ε, the error of an entropy by rounding of the temperature from which it is found.
     pub(crate) heat_capacity: S,
     /// `|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|` of this state.
     pub(crate) terms: S,
@@ -152,7 +152,7 @@ impl<S: Real> State<S> {
         momenta.write(|momenta| masses.find_momenta(dimension, velocities, momenta));
     }
 
-    /// Whether it is the same as another, but for time and what has been booked.
+    /// The digest of positions, momenta and internal variables, without time, velocities, work and heat.
     pub(crate) fn digest(&self) -> Digest {
         let sums = [
             &self.positions,
@@ -181,7 +181,7 @@ impl<S: Real> State<S> {
         }
     }
 
-    /// Takes over what has been booked in `old`, a state of the same scene; a step adds to it.
+    /// Copies the accumulated sums of `old`, a state of the same scene; a step adds to them.
     pub(crate) fn copy_books(&mut self, old: &Self) {
         self.time = old.time;
         self.work = old.work;
@@ -191,13 +191,13 @@ impl<S: Real> State<S> {
         self.reservoir_entropies.copy_from(&old.reservoir_entropies);
     }
 
-    /// Takes over `other`, a state of the same scene, with its energies, without allocation.
+    /// Copies `other`, a state of the same scene, with its energies, without allocation.
     pub(crate) fn copy_all_from(&mut self, other: &Self) {
         self.copy_from(other);
         self.energies.copy_from_slice(&other.energies);
     }
 
-    /// Takes over `other`, a state of the same scene, without allocation; energies are found anew.
+    /// Copies `other`, a state of the same scene, without allocation and without its energies.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.copy_books(other);
         self.positions.copy_from(&other.positions);

@@ -24,8 +24,8 @@ pub(crate) struct Tableau {
     /// `h v_i = Σ_j motion_ij (q_j − q⁰)`, the motion at a stage from the displacements of the sets.
     pub(crate) motion: &'static [&'static [f64]],
     pub(crate) ending: Ending,
-    /// How the conjugates of the stages follow from the path of an element through the step; without, they
-    /// are values at the stages.
+    /// The projection of the conjugates of the stages from the path of an element; without one they are values at the
+    /// stages.
     pub(crate) path: Option<Path>,
 }
 
@@ -90,7 +90,7 @@ impl EntropyBalance {
     }
 }
 
-/// How the end of a step follows from the stages.
+/// The rule for the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Ending {
     /// Stage after stage from the forces before it; a stage that depends on its own force `A q_i` needs one linear solve.

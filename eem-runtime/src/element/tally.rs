@@ -1,4 +1,4 @@
-//! What the elements and the paths of heat of a step contribute to its certificate.
+//! The contributions of elements and paths of heat to the certificate of a step.
 
 use crate::element::handle::Element;
 use eem_material::number::scalar::{Mask, Real};
@@ -6,12 +6,12 @@ use eem_material::number::scalar::{Mask, Real};
 /// Roundings of the amplitude that a law may be off by.
 pub(crate) const ROUNDINGS: f64 = 64.0;
 
-/// Roundings of the terms of the balance of a node, a dashpot or a temperature that it may be off by, when
-/// the arguments of the forces are left out: what is left of a small update is of this size, where false
-/// convergence is off by the terms themselves. Energy and momenta are judged apart.
+/// The bound of the defect of the balance of a node, a dashpot or a temperature, in roundings of its terms, without the
+/// rounding of the arguments of the forces. A small update leaves a defect of this size; false convergence leaves one
+/// of the size of the terms. Energy and momenta are checked separately.
 const BALANCE_ROUNDINGS: f64 = 4096.0;
 
-/// How much of what rounding explains is counted.
+/// The level of the bound for rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Care {
     /// The terms of the balances alone, which is enough for most steps.
@@ -20,7 +20,7 @@ pub(crate) enum Care {
     Thorough,
 }
 
-/// What elements and paths of heat contribute to a certificate.
+/// The contributions of elements and paths of heat to a certificate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tally<S: Real> {
     pub(crate) care: Care,
@@ -28,9 +28,9 @@ pub(crate) struct Tally<S: Real> {
     pub(crate) heat: S,
     /// `Σ h |f*|`, N s.
     pub(crate) impulse: S,
-    /// What forces contribute to A, and A⁺, J.
+    /// The contribution of the forces to A, and A⁺, J.
     pub(crate) forces: S,
-    /// What they have produced, J/K.
+    /// The entropy production, J/K.
     pub(crate) production: S,
     /// The smallest of all productions; the largest number without any, J/K.
     pub(crate) least: S,
@@ -39,7 +39,7 @@ pub(crate) struct Tally<S: Real> {
 }
 
 impl<S: Real> Tally<S> {
-    /// Of nothing.
+    /// Without contributions.
     pub(crate) fn new(care: Care) -> Self {
         Self {
             care,
@@ -64,7 +64,7 @@ impl<S: Real> Tally<S> {
         self.impulse += impulse.abs();
     }
 
-    /// What the forces of an element and the rounding of their arguments contribute, J.
+    /// The contribution of the forces of an element and of the rounding of their arguments, J.
     #[inline]
     pub(crate) fn force(&mut self, energy: S) {
         self.forces += energy;
@@ -77,8 +77,8 @@ impl<S: Real> Tally<S> {
         self.least = self.least.minimum(entropy);
     }
 
-    /// What the balance of a node is off by, N s, given its impulse, terms of each direction, and the magnitude of
-    /// what the forces of its elements are computed from: forces of all directions leave their rounding in each.
+    /// The defect of the balance of a node, N s, given its impulse, the terms of each direction, and the magnitude of
+    /// the terms of the forces of its elements, whose rounding enters every direction.
     #[inline]
     pub(crate) fn balance_node<const D: usize>(
         &mut self,
@@ -95,7 +95,7 @@ impl<S: Real> Tally<S> {
         }
     }
 
-    /// What a balance is off by, and the magnitude of its terms.
+    /// The defect of a balance, and the magnitude of its terms.
     #[inline]
     pub(crate) fn balance(&mut self, residual: S, magnitude: S) {
         let roundings = match self.care {
@@ -107,17 +107,17 @@ impl<S: Real> Tally<S> {
     }
 }
 
-/// The energies of the elements counted anew, when the balance of a scene does not close.
+/// The energies of the elements evaluated again, if the balance of a scene does not close.
 ///
-/// Where a free energy is coded with terms that cancel, its values have more rounding than its
-/// differences: then `Δe` by discrete derivatives, formed anew between the stored states, decides.
+/// If the terms of a free energy cancel, its values have more rounding than its differences. Then `Δe` by discrete
+/// derivatives between the stored states, evaluated again, decides.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Recount<S> {
     /// `Σ (Δe by differences − Δe by values)`, J.
     pub(crate) correction: S,
     /// The magnitude of the terms of all free energies at both ends, J.
     pub(crate) magnitude: S,
-    /// The element whose own balance is off by most, and by how much, J.
+    /// The element with the largest defect of its own balance, and this defect, J.
     worst: Option<(Element, S)>,
 }
 
@@ -132,7 +132,7 @@ impl<S: Real> Recount<S> {
     }
 
     /// An element with its `Δe` by values, the magnitude of the terms of its free energy at both ends, its `Δe`
-    /// by differences, and `f*Δλ − Σ g*Δγ + θ*Δs` with what the step has found, J.
+    /// by differences, and `f*Δλ − Σ g*Δγ + θ*Δs` with the response of the step, J.
     pub(crate) fn element(
         &mut self,
         element: Element,
@@ -151,7 +151,7 @@ impl<S: Real> Recount<S> {
         }
     }
 
-    /// The element whose own balance is off by most.
+    /// The element with the largest defect of its own balance.
     pub(crate) fn worst(&self) -> Option<Element> {
         self.worst.map(|(element, _)| element)
     }

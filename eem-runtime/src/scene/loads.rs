@@ -49,7 +49,7 @@ pub(crate) struct Loads<S: Real, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Loads<S, D> {
-    /// Nothing acts.
+    /// No loads.
     pub(crate) fn none() -> Self {
         Self {
             gravity: SVector::from_element(S::zero()),

@@ -73,9 +73,9 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     kept_places: usize,
     /// The present stage, between steps that at the end of the last one with its rates.
     stage: Stage<S, D>,
-    /// What loads have done to each component since the start of the step; empty without.
+    /// Work and impulses of the loads on each component since the start of the step; empty without loads.
     load_sums: Vec<LoadSums<S, D>>,
-    /// The books of the step, and as they were before it.
+    /// Targets and sums, now and before the step.
     books: Books<S, D>,
     old_books: Books<S, D>,
     scratch: Scratch<S, D>,
@@ -90,7 +90,7 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     evaluations: u64,
 }
 
-/// What a step needs besides the memory of the scheme.
+/// The input of a step.
 #[derive(Clone, Copy)]
 pub(crate) struct ExplicitView<'a, S: Real, const D: usize> {
     /// h, s.
@@ -102,7 +102,7 @@ pub(crate) struct ExplicitView<'a, S: Real, const D: usize> {
     pub(crate) masses: &'a Masses<S>,
 }
 
-/// What an explicit scheme is made for.
+/// The scene for which an explicit scheme is built.
 #[derive(Clone, Copy)]
 pub(crate) struct Site<'a, S: Real, const D: usize> {
     pub(crate) masses: &'a Masses<S>,
@@ -177,7 +177,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Gives its elements away; it cannot step any more.
+    /// Takes its elements out; it cannot step any more.
     pub(crate) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
         let groups = mem::take(&mut self.groups).into_iter();
         groups.map(ExplicitGroup::into_loose).collect()
@@ -193,7 +193,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.is_motion_first
     }
 
-    /// Chooses what gives a step its energy first.
+    /// Chooses whether motion or heat closes energy defects first.
     pub(crate) const fn set_motion_first(&mut self, is_motion_first: bool) {
         self.is_motion_first = is_motion_first;
     }

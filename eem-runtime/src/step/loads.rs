@@ -13,7 +13,7 @@ use crate::step::error::StepFailure;
 use eem_material::number::scalar::{Real, is_positive};
 
 impl<S: Real> StepLoads<S> {
-    /// Memory for a scene, whose masses couple nodes or not.
+    /// Memory for a scene; `is_coupled` says whether masses couple nodes.
     pub(crate) fn new<const D: usize>(
         coordinates: usize,
         layout: &Layout,

@@ -3,7 +3,7 @@
 use crate::step::certificate::Certificate;
 use eem_material::number::scalar::Real;
 
-/// What the certificate of a step proves.
+/// The result of a step, from its certificate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outcome<S> {
     /// `ΔE − work − heat`, and what rounding explains of it, J.

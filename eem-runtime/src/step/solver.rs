@@ -50,16 +50,15 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     /// The masses that couple them.
     coupling: Coupling<S, D>,
     rockets: Rockets<S, D>,
-    /// The temperatures that neighbours see, set after set.
+    /// The coupled interface temperatures, set after set.
     seen: Vec<Seen>,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
     factors: KeptFactors,
     trial: Trial<S, D>,
-    /// What only a scheme with stages needs.
+    /// Workspace of schemes with stages.
     stages: Option<Stages<S, D>>,
-    /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
-    /// a part in it.
+    /// The part of the nodal forces that depends on the old state and the loads only, N; empty without one.
     old_force: Vec<[S; D]>,
     past: Past<S, D>,
     /// The unit of length of each node: its shortest element in the old state, m; the largest number without.
@@ -68,14 +67,13 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     has_other_starts: bool,
     /// The nodes that are anchors.
     anchors: Vec<usize>,
-    /// The magnitude of what the forces on each node are computed from, N s; empty unless it has been
-    /// asked for.
+    /// The magnitude of the terms of the impulses on each node, N s; empty unless needed.
     magnitudes: Vec<S>,
     /// The largest residual of the momentum balances where the step was closed, N s.
     final_residual: S,
-    /// What the last step that was closed proves.
+    /// The certificate of the last closed step.
     certificate: Option<Certificate<S>>,
-    /// What kept the last update from being applied in full.
+    /// The error that kept the last update from being applied in full.
     obstacle: Option<StateError>,
     /// The element whose own energy balance was off by most when it was last asked.
     worst: Option<Element>,
@@ -83,7 +81,7 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     evaluations: u64,
 }
 
-/// Whether nodes feel forces that the trial does not change; those at stages are taken where the stages are.
+/// Whether there are nodal forces that do not depend on the trial; forces at stages do not count.
 fn has_old_forces<S: Real>(scheme: Scheme, loads: &StepLoads<S>) -> bool {
     scheme.has_old_forces() || (loads.has_total_force() && scheme.tableau().is_none())
 }

@@ -88,7 +88,7 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     let [b, ..] = b.as_chunks_mut::<N>().0 else {
         return Err(Singular);
     };
-    // Without a way back from an exchange, nothing has to be loaded again.
+    // `exchange_from` finishes the solution itself: a return to `eliminate` would load rows again.
     match eliminate(a, b) {
         Ok(()) => substitute(a, b),
         Err(row) => exchange_from(row, a, b)?,
@@ -149,7 +149,7 @@ fn eliminate_row<S: Real, const I: usize, const N: usize, const W: usize>(
     Ok(())
 }
 
-/// Does the rest, from row `first` on, with the largest entry of each row as its pivot, if necessary by an exchange of two
+/// Eliminates from row `first` on, with the largest entry of each row as its pivot, if necessary by an exchange of two
 /// columns.
 #[cold]
 #[inline(never)]

@@ -1,4 +1,4 @@
-//! What an element does during one step: the side of a scheme that elements see.
+//! The interface of schemes to elements.
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
@@ -20,7 +20,7 @@ pub(crate) enum Placement {
     Start,
 }
 
-/// What an element does during one step.
+/// The response of an element in a step.
 ///
 /// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 of the scheme's own: the new one for
 /// schemes that look at the ends, the mean one for those that look at the middle. Newton's method
@@ -32,7 +32,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     const EXACT: bool = false;
 
     /// Whether Newton's method works on `θ* r_s` instead of `r_s`, which converges for stiff
-    /// conduction too. The ordinary rules are solved the ordinary way.
+    /// conduction too. The classical schemes use `r_s` as usual.
     const SCALES_HEAT: bool = true;
 
     /// What the scheme keeps of the old state.
@@ -41,8 +41,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     /// What it keeps from one iteration to the next, as starting values.
     type Memory: Copy + Send + Sync;
 
-    /// `[T; 1]` for a rule that looks at one point of the step, `[T; 0]` for others: room for what
-    /// only such rules need.
+    /// `[T; 1]` for a rule that evaluates the model at one point of the step, `[T; 0]` for others.
     type AtPoint<T: Entry>: Array<T>;
 
     /// Where the measures are taken.
@@ -66,7 +65,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         false
     }
 
-    /// What the scheme needs of the old variables and the old entropy, once per step.
+    /// Computes [`Old`](Self::Old) from the old variables and the old entropy, once per step.
     fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old;
 
     /// The first starting values of a step, from the old temperature.
@@ -105,13 +104,13 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         memory: &Self::Memory,
     ) -> Form<S, M>;
 
-    /// A form that is easier to solve for where this one is hard to start, if there is one.
+    /// A fallback form that is easier to solve and gives an initial guess for this one, if there is one.
     #[cold]
     fn starting_form(_: &M, _: &Start<S, M, Self::Old>, _: &M::Variables) -> Option<Form<S, M>> {
         None
     }
 
-    /// Refuses a trial that is not stable, as the form of an exact scheme tells: `∂Δs/∂θ¹ = C/θ¹`.
+    /// Rejects an unstable trial of an exact scheme, by `∂Δs/∂θ¹ = C/θ¹` in its form.
     #[inline]
     fn check(x: &M::Variables, form: &Form<S, M>) -> Result<(), Infeasible> {
         if !Self::EXACT || !M::THERMAL {
@@ -188,7 +187,7 @@ impl Infeasible {
         })
     }
 
-    /// The same, said of an element.
+    /// As the error of an element.
     pub(crate) fn of(self, element: Element) -> StateError {
         match self {
             // The inversion starts from a state of the same element: an unstable start is a heat

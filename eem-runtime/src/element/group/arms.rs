@@ -1,4 +1,4 @@
-//! Arithmetic with the arms of an element, and with what there is per arm.
+//! Arithmetic with the arms of an element, the edge vectors from node 0, and with quantities per arm.
 
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
@@ -21,8 +21,8 @@ pub(super) fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
     a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
 }
 
-/// The arms of an element in a state, to rounding of the arms wherever the origin is: what rounding
-/// took from the positions is part of them.
+/// The arms of an element in a state, with an error of ε of the arms wherever the origin is: the compensations of the
+/// positions are included.
 #[inline]
 pub(super) fn arms_in<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
@@ -39,7 +39,7 @@ pub(super) fn arms_in<K: Kinematics<S, D>, S: Real, const D: usize>(
     arms
 }
 
-/// The change of the arms of an element at a trial, to rounding of the change wherever the nodes go.
+/// The change of the arms of an element at a trial, with an error of ε of the change, from displacements.
 #[inline]
 pub(super) fn change_in<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
@@ -107,7 +107,7 @@ pub(super) fn resultant<K: Kinematics<S, D>, S: Real, const D: usize>(
     spread::<K, S, D>(&sum)
 }
 
-/// Numbers per measure, the first of an array.
+/// The first entries of an array, one per measure.
 #[inline]
 pub(super) fn measures_in<K: Kinematics<S, D>, S: Real, const D: usize>(
     values: &impl Array<S>,
@@ -119,7 +119,7 @@ pub(super) fn measures_in<K: Kinematics<S, D>, S: Real, const D: usize>(
     measures
 }
 
-/// Coordinates as points.
+/// A list of coordinates as a list of points.
 #[inline]
 pub(crate) fn points<S, const D: usize>(coordinates: &[S]) -> &[[S; D]] {
     coordinates.as_chunks().0

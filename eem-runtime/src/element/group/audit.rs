@@ -1,4 +1,4 @@
-//! Whether elements can be in a state that comes from outside, and which parameters they have.
+//! Validation of elements in a state from outside, and their parameters.
 
 use super::kelvin_voigt::check_drag;
 use super::point::Point;
@@ -12,16 +12,16 @@ use eem_material::number::scalar::{Mask, Real, is_positive};
 /// How many ε of its terms an entropy may differ from that of the model.
 ///
 /// A step finds the temperature of its entropy within 4 ε of the terms of S, or within 2 ε in the
-/// larger of 1 and |ln θ|, which is that times the heat capacity in the entropy (`inversion`);
-/// stretches and viscous stretches are rounded once each. As much again is for evaluating S here.
+/// larger of 1 and |ln θ|, times the heat capacity in the entropy (`inversion`); stretches and viscous stretches are
+/// rounded once each. The evaluation of S here may add as much again.
 const ENTROPY_ROUNDINGS: f64 = 8.0;
 
-/// Why an element cannot be in a state that comes from outside.
+/// Why an element cannot have a state from outside.
 #[derive(Clone, Debug)]
 pub(crate) enum Misfit {
-    /// It cannot be in it at all.
+    /// The state is inadmissible.
     State(StateError),
-    /// Its entropy (J/K) is not that of its temperature (K), and what rounding explains.
+    /// Its entropy, J/K, differs from that of its temperature, K, by more than the bound for rounding.
     Entropy {
         element: usize,
         entropy: f64,

@@ -20,7 +20,7 @@ pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
 ) {
     for &node in nodes.as_ref() {
         let length = &mut lengths[node as usize];
-        // Of a state: they are numbers.
+        // No NaN: lengths of an admissible state.
         *length = S::select(own.less(*length), own, *length);
     }
 }
@@ -119,7 +119,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(gradient)
     }
 
-    /// `(1 − w) θ̇⁰` of a scheme in temperature, which takes the place of `(1 − w) ṡ⁰`.
+    /// `(1 − w) θ̇⁰`, which a scheme in temperature has instead of `(1 − w) ṡ⁰`.
     fn find_old_heating(
         &mut self,
         pose: &Pose<K, S, D>,

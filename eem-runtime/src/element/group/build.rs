@@ -1,4 +1,4 @@
-//! What schemes make of loose elements.
+//! Groups of elements for a scheme.
 
 use core::any::Any;
 

@@ -1,4 +1,4 @@
-//! What the elements contribute to the certificate of a step.
+//! The contribution of the elements to the certificate of a step.
 
 use super::arms::measures_in;
 use super::member::Member;
@@ -16,8 +16,7 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// Adds the magnitude of what `h F` is computed from to that of its nodes, N s, given the new arms and
-    /// their change:
+    /// Adds the magnitude of the terms of `h F` to that of the nodes, N s, given the new arms and their change:
     ///
     /// ```text
     /// h Σ_π (|∂²π/∂r²| |r| |f*| + |∂π/∂r| Σ |∂f*/∂x_j| |x_j|) (1 + |Δr|/ℓ)
@@ -44,11 +43,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-/// What the variables of a point are computed from, and what the certificate asks of it.
+/// Magnitudes of the terms of variables and responses, and the checks of a point by the certificate.
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// What the variables of a state with these arms are computed from: times ε, their rounding.
+    /// The magnitudes of the terms of the variables in a state with these arms: times ε, their errors by rounding.
     #[inline]
     fn sizes(&self, r: &Arms<K, S, D>, x: &M::Variables) -> M::Variables {
         let mut sizes = *x;
@@ -82,21 +81,20 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         sum * (S::one() + motion / lengths[0].minimum(lengths[1]))
     }
 
-    /// `Σ_j |T_ij| |x_j|`: times ε, what rounding of the variables does to a response.
+    /// `Σ_j |T_ij| |x_j|`: times ε, the error of a response by rounding of the variables.
     fn magnitude_of_row(&self, row: usize, sizes: &M::Variables) -> S {
         let terms = self.slopes[row].as_ref().iter().zip(sizes.as_ref());
         terms.fold(S::zero(), |sum, (&slope, &x)| sum + (slope * x).abs())
     }
 
-    /// The same where the internal variables answer to the rounding of the measures: times ε, to what a
-    /// response is known in a state that solves the equations of the element.
+    /// The same where the internal variables solve the equations of the element, so that they change with the rounding
+    /// of the measures:
     ///
     /// ```text
     /// Σ_j |T_ij| (|x_j| + Σ_a |∂u_j/∂π_a| |π_a|)
     /// ```
     ///
-    /// With a small heat capacity c the temperature is known to `ε θ |∂s/∂λ| λ/c`, which is far more than
-    /// its own rounding.
+    /// With a small heat capacity c the temperature has an error of `ε θ |∂s/∂λ| λ/c`, far above its own rounding.
     #[cold]
     fn resolution_of_row(&self, row: usize, sizes: &M::Variables) -> S {
         let mut sum = self.magnitude_of_row(row, sizes);
@@ -110,7 +108,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         sum
     }
 
-    /// What its forces contribute to A and, with care, to A⁺, and `Σ|f||π| + Σ|g||γ|` of the new state, J:
+    /// The contribution of the forces to A and, for a thorough bound, to A⁺, and `Σ|f||π| + Σ|g||γ|` of the new state,
+    /// J:
     ///
     /// ```text
     /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|) + ε (|T_λλ| λ² + Σ |T_γγ| γ²)
@@ -118,12 +117,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// |f* + Σ T_λj Δx_j| λ¹ + Σ |g* + Σ T_γj Δx_j| |γ¹|
     /// ```
     ///
-    /// The part with ε is what rounding of a state at the bottom of a well does. The measures of a solid are
-    /// ratios, whose sizes have nothing to do with the motion: its forces always need the care.
+    /// The part with ε is the effect of rounding at a minimum of the energy. The measures of a solid are ratios, whose
+    /// sizes are unrelated to the motion: its bound is always thorough.
     ///
     /// `f* + Σ T_λj Δx_j` over the mechanical variables is the force of the new state, since f* is a divided
-    /// difference: where only λ changes, `T_λλ = (f¹ − f*)/Δλ`. It is exact for energies that are quadratic in them;
-    /// as to the temperature, it is the mean of the forces at both.
+    /// difference: where only λ changes, `T_λλ = (f¹ − f*)/Δλ`. It is exact for energies that are quadratic in them.
+    /// Where the temperature changes, it is the mean of the forces at both temperatures.
     #[inline]
     pub(super) fn amplitude(&self, [r0, r1]: [&Arms<K, S, D>; 2], care: Care) -> [S; 2] {
         let (sizes0, sizes1) = (self.sizes(r0, &self.start.x0), self.sizes(r1, &self.x));
@@ -146,8 +145,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         [sum + self.work_of_arguments(&sizes1), at_end]
     }
 
-    /// Adds what the bounds of the next step ask of a state with these arms. Schemes with discrete derivatives do
-    /// not keep energies by their values.
+    /// Adds the terms that the bound of the next step needs of a state with these arms: those of the forces and, except
+    /// for schemes with discrete derivatives, those of the value of the energy.
     #[cold]
     pub(super) fn add_bounds(&self, r: &Arms<K, S, D>, x: &M::Variables, energy: &mut Energy<S>) {
         energy.add_forces(self.work_of(&self.model.gradient(x), r, x));
@@ -189,7 +188,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         sum
     }
 
-    /// What a response is known to, in units of ε.
+    /// The conditioning error of a response, in units of ε.
     #[inline]
     fn known_to(&self, row: usize, r1: &Arms<K, S, D>, care: Care) -> S {
         match care {
@@ -201,8 +200,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// Judges the balances of the internal variables at the found response, of an element that has
-    /// received so much entropy, J/K, and the magnitude of the terms of its energy, J.
+    /// Checks the balances of the internal variables at the last response, given the received entropy, J/K, and the
+    /// magnitude of the terms of the energy, J.
     #[inline]
     pub(super) fn judge(
         &self,

@@ -1,4 +1,4 @@
-//! The end of a step: impulses of the found forces, and what is booked of the internal variables.
+//! The end of a step: impulses of the forces, and increments of the internal variables.
 //!
 //! ```text
 //! γ¹ = γ⁰ + Δγ
@@ -6,7 +6,7 @@
 //! ```
 //!
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat, see
-//! [`conduction`](crate::element::conduction). Both ends of a path book the same numbers.
+//! [`conduction`](crate::element::conduction). Both ends of a path use the same numbers.
 
 use super::arms::{mean, measures_in, spread};
 use super::member::Member;
@@ -26,7 +26,7 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// The nodal forces of the found responses along the gradient between two configurations, N.
+    /// The nodal forces of the last responses along the gradient between two configurations, N.
     pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
         let mut sum = None;
         for point in self.points.as_ref() {
@@ -78,7 +78,7 @@ fn sum_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
     }
 }
 
-/// The nodal forces `A r`, which sum to zero exactly and do not depend on where the origin is.
+/// The nodal forces `A r`, which sum to zero exactly and do not depend on the origin.
 #[inline]
 pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
     weights: &Weights<K, S, D>,
@@ -107,7 +107,7 @@ pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// A of the force `A r_m` at the found response.
+    /// A of the force `A r_m` at the last response.
     #[inline]
     fn secant(&self, [r0, r1]: [&Arms<K, S, D>; 2]) -> Weights<K, S, D> {
         let measures1 = measures_in::<K, S, D>(&self.x);
@@ -121,15 +121,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         self.kinematics.secant(&ends, &self.pulls())
     }
 
-    /// The nodal forces of the found response along the gradient between two configurations, N.
+    /// The nodal forces of the last response along the gradient between two configurations, N.
     pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let pose = Pose::between(&self.kinematics, at, ends, measures0);
         spread::<K, S, D>(&pose.pull(&self.kinematics, at, &self.pulls()))
     }
 
-    /// Books the increments of the internal variables and of the reservoirs' entropies; returns what dashpots and
-    /// conduction gave the element.
+    /// Adds the increments of the internal variables and of the reservoirs' entropies; returns heat and entropy
+    /// received from dashpots and conduction.
     #[inline]
     pub(super) fn book(
         &self,
@@ -171,7 +171,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         )
     }
 
-    /// The same of the entropy of an element that has received so much from its dashpots.
+    /// The same for the entropy, given what the dashpots contribute.
     #[inline]
     fn book_heat(
         &self,
@@ -209,7 +209,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         received
     }
 
-    /// The flow of the old state from reservoirs, which the old rates have given to the element.
+    /// Books the heat flow from reservoirs in the old state, which is part of the old rates.
     fn book_old_flow(&self, view: &StepView<'_, S>, slot: usize, next: &mut State<S>) {
         let h = (S::one() - S::from_f64(self.scheme.implicit())) * view.thermal_step();
         for link in view.conduction.links(slot) {

@@ -12,8 +12,7 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Finds and applies the corrections of the local unknowns that go with a motion of the arms; the
-    /// largest in their units.
+    /// Applies the corrections of the local unknowns for a motion of the arms; returns the largest in their units.
     #[inline]
     pub(super) fn correct(
         &mut self,

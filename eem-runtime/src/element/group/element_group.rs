@@ -32,7 +32,7 @@ pub(crate) struct ElementGroup<
     pub(super) scheme: C,
     pub(super) members: Vec<Member<S, M, K, C, D>>,
     pub(super) contacts: Vec<Contact<K, S, D>>,
-    /// Of elements with many points, some at a time.
+    /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, S, D>>,
 }
 
@@ -50,7 +50,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// What it was made of.
+    /// The elements without the scheme.
     pub(super) fn into_loose(self) -> LooseElements<S, M, K, D> {
         let elements = self.members.into_iter().map(Member::into_parts);
         LooseElements {
@@ -64,13 +64,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         members.flat_map(|member| member.points.as_ref())
     }
 
-    /// All points, to be changed.
+    /// All points, mutable.
     pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut Point<S, M, K, C, D>> {
         let members = self.members.iter_mut();
         members.flat_map(|member| member.points.as_mut())
     }
 
-    /// The element of the point at a place, and which of its points it is.
+    /// The element of the point with this index in the group, and the index of the point in the element.
     pub(super) fn at(&self, place: usize) -> (&Member<S, M, K, C, D>, usize) {
         let points = K::PerPoint::<Point<S, M, K, C, D>>::LEN;
         (&self.members[place / points], place % points)

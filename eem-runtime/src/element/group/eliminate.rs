@@ -43,7 +43,7 @@ impl<S: Real, V: Array<S>> PerUnknown<S, V> {
 pub(super) struct Condensed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
     pub(super) constant: PerUnknown<S, M::Viscosities>,
     pub(super) by_measure: K::PerMeasure<PerUnknown<S, M::Viscosities>>,
-    /// Only of elements whose heat depends on global unknowns otherwise than through the measures.
+    /// Only for elements whose heat depends on global unknowns other than through the measures.
     pub(super) by_heat: PerUnknown<S, M::Viscosities>,
     /// `∂r_s/∂Q = −h w/θ*`, by which heat from other elements enters.
     pub(super) heat_factor: S,
@@ -61,17 +61,17 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Condensed<S
     }
 }
 
-/// The local equations of an element, a row per unknown, of which there are fewer than variables:
-/// the first entries and rows are used.
+/// The local equations of an element, a row per unknown. Arrays have an entry per variable, of which the first are
+/// used.
 pub(super) struct LocalSystem<S: Real, M: FreeEnergy<S>> {
-    /// r, then with the unknowns solved for.
+    /// r, and after the elimination the constant of the solution.
     pub(super) constant: M::Variables,
     /// `∂r/∂x`; the columns of the measures are solved for.
     pub(super) rows: M::Hessian,
-    /// `∂r/∂r_s`, if it is asked for.
+    /// `∂r/∂r_s`, if needed.
     pub(super) by_heat: M::Variables,
-    /// What makes an energy of a row: a length (m) for a dashpot (N), a temperature (K) for the heat
-    /// balance (J/K). Pivots are compared as energies.
+    /// Factors that turn rows into energies, in which pivots are compared: a length (m) for a dashpot (N), a
+    /// temperature (K) for the heat balance (J/K).
     pub(super) unit: [S; 2],
 }
 
@@ -108,7 +108,7 @@ pub(super) fn eliminate<S: Real, M: FreeEnergy<S>, const HEAT: bool>(
             return Err(Singular);
         }
         let inverse = value.recip();
-        // The columns of the measures and those of the unknowns that are left.
+        // The columns of the measures and of the unknowns not yet eliminated.
         let columns = |column: &usize| *column < M::MEASURES || *column > at;
         for column in (0..M::Variables::LEN).filter(columns) {
             rows[k][column] *= inverse;

@@ -33,8 +33,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(())
     }
 
-    /// The same of elements with many points, which threads share: what elements add is found at the same time, and
-    /// then added in their order, so that every sum has the same bits.
+    /// The same for elements with many points, in parallel. Contributions are computed by all threads and added in the
+    /// order of the elements, so that every sum has the same bits for any number of threads.
     #[inline(never)]
     pub(super) fn linearize_in_rounds(
         &mut self,
@@ -71,14 +71,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-/// Elements whose shares are kept at a time.
+/// Elements whose contributions are stored at a time.
 const ROUND: usize = 64;
 
 /// The most elements that one thread takes at a time.
 const PIECE: usize = 8;
 
-/// Calls a function for each of some elements with its share, in pieces that do not depend on the number of threads;
-/// the error of the first element that has one.
+/// Calls a function for each element with its contribution, in pieces that do not depend on the number of threads;
+/// returns the first error in the order of the elements.
 fn in_pieces<A: Send, B: Send>(
     members: &mut [A],
     shares: &mut [B],
@@ -118,7 +118,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         })
     }
 
-    /// Responses with their tangents, and the share of the element in the system of the next iteration.
+    /// Responses with their tangents, and the contribution of the element to the system of the next iteration.
     #[expect(
         clippy::inline_always,
         reason = "a call of its own costs 1 % of a step of a spring"
@@ -139,7 +139,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let pose = point.pose(&arms, &measures);
             point.sensitivity = pose.sensitivity;
             let by_rate = point.extend(&pose, &arms.motion);
-            // It stays where the model writes it: copies of it would be a good part of the work.
+            // Used in place: copies would cost a good part of the time.
             let mut form = point.form(trial);
             if M::THERMAL && point.scheme.is_in_temperature() {
                 point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);

@@ -1,4 +1,4 @@
-//! What the elements of an explicit scheme do: one dynamic call per group and phase.
+//! The elements of an explicit scheme: one dynamic call per group and phase.
 //!
 //! ```text
 //! rates      forces and rates of a stage                                          (rates)

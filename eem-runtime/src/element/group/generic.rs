@@ -14,7 +14,7 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Derivatives in a state take the place of the response.
+    /// Replaces the response by the derivatives in a state.
     pub(super) fn take_derivatives(&mut self, r: &Arms<K, S, D>, state: &State<S>) {
         let x = self.variables_in(r, state);
         let gradient = self.model.gradient(&x);
@@ -62,7 +62,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// How the entropy depends on the state in which derivatives have been taken.
+    /// The derivatives of the entropy in the state of [`take_derivatives`](Self::take_derivatives).
     pub(super) fn entropy_slopes(
         &self,
         nodes: &K::PerNode<u32>,

@@ -1,4 +1,4 @@
-//! What the elements are in a state, from the definitions and not from what a step computed.
+//! Values of the elements in a state, by the definitions and not from the last step.
 
 use super::arms::measures_in;
 use super::interface::Elements;
@@ -166,7 +166,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Finds its entropy and energy in an initial state with these arms.
+    /// Finds entropy and energy in an initial state with these arms.
     fn initialize(&mut self, r: &Arms<K, S, D>, state: &mut State<S>) -> Result<(), StateError> {
         let x = self.locate(r, state)?;
         let slot = self.slots().thermal;

@@ -1,4 +1,4 @@
-//! What the solvers see of elements: one dynamic call per group and phase.
+//! The interface of the elements to the solvers: one dynamic call per group and phase.
 
 use core::any::Any;
 use core::fmt::Debug;
@@ -19,11 +19,11 @@ use crate::element::tally::{Recount, Tally};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
-/// Elements of one model in a state, whatever steps them.
+/// Elements of one model in a state, for any scheme.
 pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// Entropies of an initial state whose temperatures are given.
     ///
-    /// Names every element that cannot be in it.
+    /// Calls `refuse` for every element that cannot have it.
     fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError));
 
     /// Adds energy and entropy, from their definitions.
@@ -32,10 +32,10 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// Writes the energies of a state whose temperatures and entropies are known.
     fn find_energies(&self, state: &mut State<S>);
 
-    /// What the elements contribute to the GENERIC form in a state.
+    /// The contributions of the elements to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
 
-    /// Where the element at `place` keeps its internal variables.
+    /// The state indices of the internal variables of the element at `place`.
     fn slots(&self, place: usize) -> Slots;
 
     /// The element at `place` in a state.
@@ -55,21 +55,21 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     fn audit(&self, state: &State<S>) -> Result<(), Misfit>;
 }
 
-/// Elements of one model, whatever model, kinematics and scheme are.
+/// Elements of one model in an implicit scheme, for any model, kinematics and scheme.
 pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// The elements in a state.
     fn elements(&self) -> &dyn Elements<S, D>;
 
-    /// The same, to be changed.
+    /// The same, mutable.
     fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
 
     /// The elements without a scheme.
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>>;
 
-    /// Learns where its elements write in the global systems; once per scene.
+    /// Finds the matrix indices of its elements; called once per scene.
     fn connect(&mut self, sites: &Sites<'_, S, D>);
 
-    /// Takes over the old state, adds what it contributes to the nodes, and starts the trial there.
+    /// Takes over the old state, adds its contribution to the nodes, and starts the trial there.
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError>;
 
     /// Computes everything that depends on the trial state, element by element, and adds residual and
@@ -81,18 +81,18 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError>;
 
-    /// Applies the local corrections that go with the global ones, but for numbers that have settled; the
-    /// largest, in units of the measure (viscous stretches) and of the temperature.
+    /// Applies the local corrections for a global solution, except in lanes that have converged; returns the largest,
+    /// in units of the measure (viscous stretches) and of the temperature.
     fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S;
 
-    /// Applies a share of the last corrections instead.
+    /// Applies a fraction of the last corrections instead.
     fn apply(&mut self, share: S);
 
-    /// The present trial is where the next correction starts; no local correction.
+    /// Starts the next correction, of zero, from the present trial.
     fn hold(&mut self);
 
-    /// Adds the nodal impulse `−h F` of the found response, N s, and, where it acts along the gradient of
-    /// the scheme, the magnitude of what it is computed from to that of each node.
+    /// Adds the nodal impulse `−h F` of the last response, N s, and, where it acts along the gradient of the scheme,
+    /// the magnitude of its terms to that of each node.
     fn add_impulse(
         &mut self,
         view: &StepView<'_, S>,
@@ -126,7 +126,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// The energy balances of the elements in the last step, from the old state to a closed one.
     fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>);
 
-    /// What they contributed to the discrete GENERIC form of the last step, between two states.
+    /// The contributions of the elements to the discrete GENERIC form of the last step, between two states.
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
 }
 
@@ -135,14 +135,13 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
     /// The elements in a state.
     fn elements(&self) -> &dyn Elements<S, D>;
 
-    /// The same, to be changed.
+    /// The same, mutable.
     fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
 
     /// The elements without a scheme.
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>>;
 
-    /// Learns to which component each element belongs, and the places of its nodes by component and node; once per
-    /// scene.
+    /// Takes the component of each element, and the places of its nodes by component and node; called once per scene.
     fn join(&mut self, component_of: &[u32], place_of: &dyn Fn(u32, u32) -> u32);
 
     /// Forces and rates at a stage.
@@ -151,27 +150,25 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
     /// Temperatures and energies of the open components.
     fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError>;
 
-    /// Adds the forces on places that were found when some components were last closed, and writes `γ̇` and `g γ̇` of
-    /// their dashpots.
+    /// Adds the forces on places at the last closing of these components, and writes `γ̇` and `g γ̇` of their dashpots.
     fn pull(&self, components: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]);
 
-    /// The rates of the closed state, at temperatures that differ from those of the last
-    /// [`close`](Self::close) by little.
+    /// The rates of the closed state, whose temperatures differ little from those of the last [`close`](Self::close).
     fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
 
-    /// How stiff elements are in a state, one after the other.
+    /// Passes the stiffness of each element in a state to `see`.
     fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>));
 }
 
-/// Elements of one model, whatever the model is, for which a scheme is chosen.
+/// Elements of one model without a scheme, for any model.
 pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
     /// Their type.
     fn as_any(&self) -> &dyn Any;
 
-    /// The same, to be changed.
+    /// The same, mutable.
     fn as_any_mut(&mut self) -> &mut dyn Any;
 
-    /// What they have.
+    /// Capabilities of the model.
     fn shape(&self) -> Shape;
 
     /// Number of points of an element.
@@ -187,7 +184,7 @@ pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
     /// The first parameter of the point at `place` that is not finite, and its value.
     fn infinite_parameter(&self, place: usize) -> Option<(&'static str, S)>;
 
-    /// The same elements once more.
+    /// A copy of the elements.
     fn duplicate(&self) -> Box<dyn Loose<S, D>>;
 
     /// The elements, ready to be stepped.

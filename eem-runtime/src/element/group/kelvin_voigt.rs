@@ -1,4 +1,4 @@
-//! The dashpot beside a spring (Kelvin–Voigt), whose force acts along λ.
+//! The Kelvin–Voigt dashpot, in parallel with a spring, whose force acts along λ.
 //!
 //! ```text
 //! f_d = η(θ*) (λ¹ − λ⁰)/h,   heat η(θ*) (λ¹ − λ⁰)²/h
@@ -6,8 +6,8 @@
 //!
 //! It acts along the same mean-value gradient as f*, so that its work is `f_d Δλ`, the heat that the element
 //! receives, for any step. `Δλ = D*λ Δr` is found from the motion of the nodes: the difference of lengths would
-//! lose its digits where the dashpot is stiff. The ordinary rules take `η λ̇` where they look at the motion. The
-//! response stays that of the free energy; whoever needs the force between the nodes asks [`Point::pulls`].
+//! lose its digits where the dashpot is stiff. The classical schemes take `η λ̇` at their point of the step. The
+//! response stays that of the free energy; [`Point::pulls`] returns elastic plus viscous force.
 
 use super::arms::{add_scaled, along, measures_in, scale};
 use super::local::Dissipation;
@@ -27,12 +27,12 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     /// Number of measures with a dashpot of their own.
     pub(super) const DRAGS: usize = M::Drag::LEN;
 
-    /// Whether `λ̇` is no difference of lengths but the rate of an ordinary rule, which depends on the motion
-    /// of the nodes in a way of its own.
+    /// Whether `λ̇` is the rate of a classical scheme, with its own derivatives by the arms, and not a difference of
+    /// lengths.
     pub(super) const HAS_RATES: bool = Self::DRAGS > 0 && !C::EXACT;
 
-    /// Finds `Δλ` along the gradients of the trial. Of an ordinary rule it is `w h λ̇`, what the rates that it
-    /// takes from the trial change; then the derivatives by the new arms come back.
+    /// Finds `Δλ` along the gradients of the trial. For a classical scheme it is `w h λ̇`, with the rate λ̇ of the
+    /// trial, and its derivatives by the new arms are returned.
     #[inline]
     pub(super) fn extend(
         &mut self,
@@ -64,7 +64,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         per_step * S::from_f64(self.scheme.implicit().recip())
     }
 
-    /// Takes the viscosity at a temperature, which is positive.
+    /// Evaluates the viscosity at a temperature; an error unless it is positive.
     #[inline]
     pub(super) fn find_drag_viscosity(&mut self, theta: S) -> Result<(), StateError> {
         if Self::DRAGS == 0 {
@@ -75,7 +75,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             .map_err(|error| error.of(self.element))
     }
 
-    /// Finds the force that goes with a response, in a step of so many seconds⁻¹.
+    /// Finds the force for a response, given 1/h, 1/s.
     #[inline]
     pub(super) fn find_drag(
         &mut self,
@@ -89,7 +89,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         Ok(())
     }
 
-    /// Adds the force that has been found, with its derivatives, to a form; returns the forces without it.
+    /// Adds the force and its derivatives to a form; returns the forces without it.
     #[inline]
     pub(super) fn add_drag(&self, per_step: S, (response, tangent): &mut Form<S, M>) -> M::Drag {
         let mut elastic = M::Drag::filled(S::zero());
@@ -116,7 +116,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         self.extension_rate(a, per_step) * self.drag.viscosity.1[a]
     }
 
-    /// The response of a kept form is that of the free energy.
+    /// Restores the response of a form to that of the free energy.
     #[inline]
     pub(super) fn drop_drag(&mut self, elastic: &M::Drag) {
         for a in 0..Self::DRAGS {
@@ -150,7 +150,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// Of an ordinary rule: how the heat balance depends on the new arms through the rates.
+    /// For a classical scheme: the derivatives of the heat balance by the new arms through the rates.
     pub(super) fn warm_by_rates(&mut self, view: &StepView<'_, S>, by_arm: &Gradient<K, S, D>) {
         let per_share = self.per_share(view.per_step);
         for at_point in self.single.as_mut() {
@@ -182,8 +182,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         by
     }
 
-    /// Of a rule with old forces: adds the force of the old state and its rate, of which the rule takes the
-    /// share `1 − w`; returns its power, W.
+    /// For a scheme with old forces: adds the force of the old state and its rate, with the weight `1 − w`; returns its
+    /// power, W.
     pub(super) fn add_old_drag(
         &mut self,
         (r0, velocities): (&Arms<K, S, D>, &Arms<K, S, D>),
@@ -209,7 +209,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         Ok(power)
     }
 
-    /// The power of the old state that the rule takes, `(1 − w) η λ̇⁰²`, of an element without temperature, W.
+    /// The power `(1 − w) η λ̇⁰²` from the old state in an element without temperature, W.
     pub(super) fn old_drag_power(&self) -> S {
         let mut power = S::zero();
         if Self::DRAGS == 0 || self.scheme.implicit() >= 1.0 {
@@ -238,7 +238,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         dissipated
     }
 
-    /// The forces between the nodes: those of the response and those of dashpots beside the spring, N.
+    /// The forces between the nodes: those of the response plus those of Kelvin–Voigt dashpots, N.
     #[inline]
     pub(super) fn pulls(&self) -> Measures<K, S, D> {
         let mut forces = measures_in::<K, S, D>(&self.response);
@@ -248,7 +248,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         forces
     }
 
-    /// The same of a row of the response, whatever it is.
+    /// A row of the response, including the dashpot force if the row is a force.
     #[inline]
     pub(super) fn pull_of_row(&self, row: usize) -> S {
         if row < Self::DRAGS {
@@ -259,7 +259,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     }
 }
 
-/// A viscosity that is none.
+/// An invalid viscosity.
 pub(super) struct WrongDrag {
     value: f64,
     unit: &'static str,
@@ -267,7 +267,7 @@ pub(super) struct WrongDrag {
 }
 
 impl WrongDrag {
-    /// The same, said of an element.
+    /// As the error of an element.
     pub(super) fn of(self, element: crate::element::handle::Element) -> StateError {
         StateError::Drag {
             element,
@@ -278,7 +278,7 @@ impl WrongDrag {
     }
 }
 
-/// The viscosity of a dashpot beside a spring is positive and finite.
+/// An error unless the viscosity of a Kelvin–Voigt dashpot is positive and finite.
 #[inline]
 pub(super) fn check_drag<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize>(
     drag: M::Drag,

@@ -5,12 +5,11 @@
 //! r_s  = Δs − h (w (Σ η γ̇² + Q)/θ* + c_s),   Q = Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ*)
 //! ```
 //!
-//! where `w` is the implicit share of the scheme and `c` what the old state contributes. Nothing is
-//! divided by η, which may be as small or as large as it likes. The ordinary rules, which are there to
-//! compare with, are solved as ordinary codes do: with `γ̇_k = g*_k/η_k` and `r_γk = Δγ_k − h (w γ̇_k + c_k)`,
-//! and where they break down depends on it. The unknowns `u = (Δγ…, τ)` occur in no
-//! other element: what elements in contact see of each other is the global unknown Θ = θ*. So their
-//! corrections are eliminated here.
+//! where `w` is the implicit weight of the scheme and `c` the contribution of the old state. Nothing is divided by η,
+//! so that very small and very large η need no special case. The classical schemes, included for comparison, are solved
+//! as usual, with `γ̇_k = g*_k/η_k` and `r_γk = Δγ_k − h (w γ̇_k + c_k)`, which decides where they break down. The
+//! unknowns `u = (Δγ…, τ)` occur in no other element, since elements in contact are coupled by the global unknown Θ =
+//! θ*. So their corrections are eliminated here.
 
 use super::eliminate::{LocalSystem, eliminate};
 use super::point::Point;
@@ -25,7 +24,7 @@ use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::Real;
 
-/// What the dashpots turn into heat, `Σ η γ̇²`, W, and its derivative by the variables.
+/// The power dissipated by the dashpots, `Σ η γ̇²`, W, and its derivatives by the variables.
 pub(super) struct Dissipation<S: Real, M: FreeEnergy<S>> {
     pub(super) power: S,
     pub(super) by: M::Variables,
@@ -34,8 +33,7 @@ pub(super) struct Dissipation<S: Real, M: FreeEnergy<S>> {
 impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Eliminates the internal variables of an element whose response, with its tangent, and
-    /// viscosities are known.
+    /// Eliminates the internal variables of an element, given its response with tangent and its viscosities.
     #[inline]
     pub(super) fn condense(
         &mut self,
@@ -47,7 +45,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         if Self::UNKNOWNS == 0 {
             return Ok(());
         }
-        // First, while nothing else is at hand that would have to be put aside for the call.
+        // Called first: the call would spill the registers used below.
         let theta = temperature_in::<S, M>(&form.0);
         let flow = self.heat_flow(view, contact, seen, theta);
         let zeros = M::Variables::filled(S::zero());
@@ -92,7 +90,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         Ok(())
     }
 
-    /// Keeps a local system that has been solved.
+    /// Stores the solved local system.
     #[inline]
     fn keep_solved(&mut self, system: &LocalSystem<S, M>, depends_on_heat: bool) {
         for u in 0..Self::UNKNOWNS {
@@ -106,7 +104,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// What makes an energy of a row of the local system.
+    /// Factors that turn the rows of the local system into energies.
     #[inline]
     fn pivot_units(&self, theta: S) -> [S; 2] {
         if C::EXACT {
@@ -116,16 +114,16 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// Whether `r_s` depends on global unknowns otherwise than through the measures.
+    /// Whether `r_s` depends on global unknowns other than through the measures.
     #[inline]
     pub(super) fn depends_on_heat(&self, is_coupled: bool) -> bool {
         self.scheme.is_in_temperature() || (M::THERMAL && (is_coupled || Self::HAS_RATES))
     }
 
-    /// The heat that conduction gives it.
+    /// The heat received by conduction.
     ///
-    /// Flows between elements follow from the temperatures Θ that both ends see, so that one end receives
-    /// exactly what the other gives; flows from reservoirs from its temperature θ.
+    /// Flows between elements follow from the interface temperatures Θ of both ends, so that one end receives exactly
+    /// what the other gives; flows from reservoirs follow from the temperature of the element itself.
     #[expect(clippy::inline_always, reason = "mostly there is none")]
     #[inline(always)]
     pub(super) fn heat_flow(
@@ -150,7 +148,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         flow
     }
 
-    /// `γ̇_k` of the trial, of which the scheme takes the share w, m/s.
+    /// `γ̇_k` of the trial, to which the scheme gives the weight w, m/s.
     #[inline]
     pub(super) fn creep_rate(&self, k: usize, view: &StepView<'_, S>) -> S {
         if C::EXACT {
@@ -192,7 +190,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         dissipation.power += eta * (rate * rate);
         let per_creep = eta * view.per_step;
         for column in 0..Self::VARIABLES {
-            // The derivative of η γ̇ by way of the temperature.
+            // The derivative of η γ̇ through the temperature.
             let thinning = if M::THERMAL {
                 rate * self.viscosities.1[k] * tangent[Self::TEMPERATURE][column]
             } else {
@@ -214,7 +212,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// `r_γk` of an ordinary rule and its derivatives, and what it adds to those of the dissipated power.
+    /// `r_γk` of a classical scheme and its derivatives; adds to the derivatives of the dissipated power.
     fn ordinary_dashpot_balance(
         &self,
         view: &StepView<'_, S>,
@@ -273,8 +271,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         self.condensed.heat_factor = -weight;
         let mut by_theta = weight * (flow.conductance + rate);
         if C::SCALES_HEAT {
-            // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
-            // stiff, and the same where r_s = 0.
+            // Newton's method on θ* r_s, which has the same root as r_s and is far less curved where conduction is
+            // stiff.
             by_theta += residual * per_theta;
         }
         for column in 0..Self::VARIABLES {

@@ -1,4 +1,4 @@
-//! Elements of one model that no scheme steps: of a scene that is still being built, or between two schemes.
+//! Elements of one model without a scheme, while a scene is built or its scheme is changed.
 
 use core::fmt;
 
@@ -8,7 +8,7 @@ use crate::element::layout::Shape;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// What the points of an element consist of.
+/// Model and kinematics of the points of an element.
 pub(crate) type Parts<S, M, K, const D: usize> = <K as Kinematics<S, D>>::PerPoint<(M, K)>;
 
 /// Elements of the model `M` with the kinematics `K`, by the handles of their first points.
@@ -31,7 +31,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements
         Self::POINTS * self.elements.len()
     }
 
-    /// What they have.
+    /// Capabilities of the model.
     pub(super) const fn shape_of_all() -> Shape {
         Shape {
             dashpots: M::DASHPOTS,
@@ -52,7 +52,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements
         values.find(|(_, value)| !value.is_finite())
     }
 
-    /// The same elements once more.
+    /// A copy of the elements.
     pub(super) fn duplicate_all(&self) -> Self {
         let elements = self.elements.iter().map(|(first, points)| {
             let copy = |point: usize| {

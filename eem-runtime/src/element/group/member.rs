@@ -48,7 +48,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// What it was made of.
+    /// The handle of its first point, and model and kinematics of all points.
     pub(super) fn into_parts(self) -> (Element, K::PerPoint<(M, K)>) {
         let first = self.points.as_ref()[0].element;
         let mut points = self.points.into_iter();
@@ -98,8 +98,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms, for which only schemes in temperature and dashpots
-    /// beside springs ask.
+    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms, for schemes in temperature and Kelvin–Voigt dashpots.
     #[inline]
     fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
         if !self.scheme().is_in_temperature() && M::Drag::LEN == 0 {
@@ -128,7 +127,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-/// The next of as many as an element has points.
+/// The next item; there are as many as an element has points.
 fn next_of<T>(points: &mut impl Iterator<Item = T>) -> T {
     let next = points.next();
     next.unwrap_or_else(|| unreachable!("one per point"))

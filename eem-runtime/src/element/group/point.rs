@@ -1,5 +1,5 @@
-//! One point of an element, where its free energy is evaluated: its model and its part of the trial
-//! state. A spring has one point.
+//! One point of an element, where its free energy is evaluated: its model and its variables in a step. A spring has one
+//! point.
 
 use super::arms::measures_in;
 use super::eliminate::{Condensed, PerUnknown};
@@ -14,7 +14,7 @@ use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Real, is_positive};
 
-/// The dashpot beside a spring at a trial; `A` has an entry if there is one.
+/// The Kelvin–Voigt dashpot at a trial; `A` is empty without one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drag<A> {
     /// η at θ*, and dη/dθ.
@@ -36,13 +36,12 @@ impl<A: Copy> Drag<A> {
     }
 }
 
-/// What a rule that looks at one point needs to remember of an element; `V` is per variable, `A` per
-/// arm.
+/// Variables of a scheme that evaluates the model at one point of the step; `V` is per variable, `A` per arm.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PointMemory<S, V, A> {
-    /// What the old state alone contributes to the rates of the internal variables.
+    /// The contribution of the old state to the rates of the internal variables.
     pub(super) old_rates: V,
-    /// For a rule in temperature: what the old state contributes to θ̇, K/s.
+    /// For a scheme in temperature: the contribution of the old state to θ̇, K/s.
     pub(super) old_heating: S,
     /// The trial Δs, before the last correction, and the correction, J/K.
     pub(super) entropy_change: S,
@@ -50,12 +49,11 @@ pub(super) struct PointMemory<S, V, A> {
     pub(super) entropy_correction: S,
     /// The derivative of the Δs of the response by the variables.
     pub(super) entropy_by: V,
-    /// For a rule in temperature: the derivative of Δs by the new arms through the increments of
-    /// the measures.
+    /// For a scheme in temperature: the derivative of Δs by the new arms through the increments of the measures.
     pub(super) by_increment: A,
 }
 
-/// The same of an element with this model and these kinematics.
+/// The same for an element with this model and these kinematics.
 pub(super) type MemoryAtPoint<S, M, K, const D: usize> =
     PointMemory<S, <M as FreeEnergy<S>>::Variables, Arms<K, S, D>>;
 
@@ -74,7 +72,7 @@ impl<S: Real, V: Array<S>, A> PointMemory<S, V, A> {
     }
 }
 
-/// A point, with everything that one step of the scheme `C` needs to remember of it.
+/// A point with its variables in a step of the scheme `C`.
 pub(crate) struct Point<
     S: Real,
     M: FreeEnergy<S>,
@@ -90,20 +88,19 @@ pub(crate) struct Point<
     /// Its thermal slot, if it has a temperature, and the offset of its viscous stretches.
     slot: u32,
     viscous: u32,
-    /// Which of the contacts of the group it is, if it conducts heat to other elements; more than
-    /// there are if not.
+    /// The index of its contact in the group, if it conducts heat to other elements; out of range otherwise.
     pub(super) contact: u32,
     /// Whether it exchanges heat with reservoirs.
     pub(super) meets_reservoirs: bool,
-    /// Whether a thermostat gives its temperature.
+    /// Whether a thermostat prescribes its temperature.
     pub(super) is_prescribed: bool,
     /// The old state.
     pub(super) start: Start<S, M, C::Old>,
-    /// What the scheme keeps as starting values.
+    /// Initial guesses that the scheme keeps from one iteration to the next.
     pub(super) memory: C::Memory,
     /// The trial variables `(π, γ, τ)`.
     pub(super) x: M::Variables,
-    /// Δγ of the trial, whose digits `γ⁰ + Δγ` would lose where the dashpots are stiff, m.
+    /// Δγ of the trial, m, stored because `γ⁰ + Δγ` would lose its digits where dashpots are stiff.
     pub(super) creep: M::Viscosities,
     /// Δγ and τ before the last correction, and the correction of all variables.
     pub(super) previous: PerUnknown<S, M::Viscosities>,
@@ -113,13 +110,13 @@ pub(crate) struct Point<
     pub(super) slopes: M::Hessian,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
-    /// The dashpot beside the spring, if there is one.
+    /// The Kelvin–Voigt dashpot, if there is one.
     pub(super) drag: Drag<M::Drag>,
     /// The derivative of the measures by the new arms.
     pub(super) sensitivity: Gradient<K, S, D>,
     /// Local unknowns as functions of the global ones.
     pub(super) condensed: Condensed<S, M, K, D>,
-    /// What only a rule that looks at one point needs.
+    /// Only for schemes that evaluate the model at one point of the step.
     pub(super) single: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
 }
 
@@ -174,7 +171,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// Where its internal variables are in a state.
+    /// The state indices of its internal variables.
     #[inline]
     pub(super) fn slots(&self) -> Slots {
         Slots {
@@ -203,7 +200,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// Keeps the response, and of its tangent what is needed once the correction is known.
+    /// Stores the response, and the rows of its tangent that are needed later.
     #[inline]
     pub(super) fn keep(&mut self, (response, tangent): &Form<S, M>) {
         self.response = *response;
@@ -217,8 +214,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// The increment `h (w ẋ + c)` of an internal variable with the rate `ẋ` of the response, of which
-    /// the scheme takes the share w; c is what the old state contributes.
+    /// The increment `h (w ẋ + c)` of an internal variable with the rate `ẋ` of the response; c is the contribution of
+    /// the old state.
     #[inline]
     pub(super) fn increment(&self, index: usize, rate: S, h: S) -> S {
         match self.single.as_ref() {
@@ -244,7 +241,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         temperature_in::<S, M>(&self.response)
     }
 
-    /// The power of the dashpots that the scheme takes from the old state, `Σ g⁰ (1 − w) γ̇⁰`, W.
+    /// The contribution of the old state to the power of the dashpots, `Σ g⁰ (1 − w) γ̇⁰`, W.
     pub(super) fn old_dissipation(&self) -> S {
         let of_drag = self.old_drag_power();
         if self.scheme.implicit() >= 1.0 || M::DASHPOTS == 0 {
@@ -292,7 +289,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// Starts the next correction from the present trial, with none.
+    /// Starts the next correction, of zero, from the present trial.
     #[inline]
     pub(super) fn hold(&mut self) {
         self.remember();
@@ -303,7 +300,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// The present trial is where the next correction starts.
+    /// Stores Δγ and τ of the present trial, from which the next correction starts.
     #[inline]
     pub(super) fn remember(&mut self) {
         for k in 0..M::DASHPOTS {
@@ -337,7 +334,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
 /// A temperature after the correction δθ, `θ (θ + ½δθ)/(θ − ½δθ)`.
 ///
-/// It is `θ e^(δθ/θ)` up to `(δθ/θ)³/12`, positive, and limited to what one iteration may do.
+/// It is `θ e^(δθ/θ)` up to `(δθ/θ)³/12`, positive, and limited.
 #[inline]
 pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
     let most = S::from_f64(LARGEST_HALF_CHANGE) * theta;
@@ -347,8 +344,8 @@ pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
     theta * ((theta + half) / (theta - half))
 }
 
-/// Half the largest change of ln θ in one Newton iteration: a factor of 7. It bounds the reach of
-/// a wild first iteration and is never met near the solution.
+/// Half the largest change of ln θ in one Newton iteration: a factor of 7. It limits a wild first iteration and is
+/// never reached near the solution.
 const LARGEST_HALF_CHANGE: f64 = 0.75;
 
 /// θ* of a response, K; zero without temperature.

@@ -6,19 +6,18 @@ use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measu
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Real;
 
-/// Gradients of an element as its scheme looks at them.
+/// Gradients of an element in the configurations that its scheme uses.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pose<K: Kinematics<S, D>, S: Real, const D: usize> {
-    /// Where the gradients are taken; where the scheme looks at the middle, the mean takes the
-    /// place of the new arms.
+    /// Old and new configuration; for a scheme at the midpoint the mean is in place of the new one.
     ends: Ends<K, S, D>,
     /// The gradient along which the forces act.
     pub(super) direction: Gradient<K, S, D>,
-    /// The derivative of the measures that the scheme looks at by the new arms.
+    /// The derivative of the measures that the scheme uses by the new arms.
     pub(super) sensitivity: Gradient<K, S, D>,
 }
 
-/// The arms at the configuration that a scheme looks at, the new one or the mean.
+/// The arms in the configuration that a scheme uses, the new one or the mean.
 #[inline]
 pub(super) fn seen_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
     at: Placement,
@@ -31,8 +30,7 @@ pub(super) fn seen_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
     }
 }
 
-/// The measures that a scheme looks at: those of the configuration that it looks at, or their means
-/// with the old ones.
+/// The measures that a scheme uses: those of its configuration, or their means with the old ones.
 #[inline]
 pub(super) fn seen_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
     at: Placement,
@@ -48,7 +46,7 @@ pub(super) fn seen_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
-    /// Between the old arms and those of the configuration that the scheme looks at.
+    /// Between the old configuration and the one that the scheme uses.
     #[inline]
     pub(super) fn new(kinematics: &K, at: Placement, ends: Ends<K, S, D>) -> Self {
         let gradient = kinematics.new_gradient(&ends);
@@ -68,7 +66,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
         }
     }
 
-    /// The same of arms alone.
+    /// The same from arms alone.
     pub(super) fn between(
         kinematics: &K,
         at: Placement,
@@ -177,8 +175,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
         }
     }
 
-    /// The increments `Λ_a = direction_a · w` for a motion `w` of the arms that changes one to one
-    /// with them, and their derivatives.
+    /// The increments `Λ_a = direction_a · w` for a motion `w` of the arms with `∂w/∂r¹ = 1`, and their derivatives.
     #[inline]
     pub(super) fn increase(
         &self,

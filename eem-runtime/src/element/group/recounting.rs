@@ -1,4 +1,4 @@
-//! The energies of elements between two states, counted anew where their values do not decide.
+//! The energy changes of elements between two states, evaluated again where differences of values are too inaccurate.
 
 use super::arms::{along, arms_in, measures_in};
 use super::point::Point;
@@ -18,7 +18,7 @@ pub(super) struct EnergyChange<S: Real, M: FreeEnergy<S>> {
     pub(super) increments: M::Variables,
 }
 
-/// The change of the arms of an element between two states, from what they are stored as.
+/// The change of the arms of an element between two stored states.
 fn change_between<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
     [old, new]: [&State<S>; 2],
@@ -63,7 +63,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// `(Δλ, Δγ, Δs)` between two states, from what they are stored as.
+    /// `(Δλ, Δγ, Δs)` between two stored states.
     fn increments_between(
         &self,
         [r0, r1]: [&Arms<K, S, D>; 2],
@@ -99,8 +99,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         sum
     }
 
-    /// `Δe` between two states by discrete derivatives that are formed anew: the values of a free energy
-    /// whose terms cancel have more rounding than its differences.
+    /// `Δe` between two states by discrete derivatives that are evaluated again: if the terms of a free energy cancel,
+    /// its values have more rounding than its differences.
     fn energy_change(&self, [x0, x1]: &[M::Variables; 2], increments: &M::Variables) -> S {
         let old = self.model.temperature_form_old(x0);
         let response = self.model.temperature_form_response(&old, x1);

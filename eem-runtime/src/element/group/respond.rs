@@ -1,4 +1,4 @@
-//! The response of the elements at a trial state, and what must be true of it.
+//! The response of the elements at a trial state, and its checks.
 
 use super::arms::{add_scaled, measures_in};
 use super::point::{Drag, Point, temperature_in};
@@ -14,17 +14,17 @@ use eem_material::number::scalar::{Mask, Real, is_positive};
 /// Arms of an element at a trial.
 pub(super) struct TrialArms<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) old: Arms<K, S, D>,
-    /// The new ones, or where the scheme looks at the middle, the mean ones.
+    /// The new arms, or the mean ones for a scheme at the midpoint.
     pub(super) seen: Arms<K, S, D>,
-    /// `r¹ − r⁰ − (1 − w) h ṙ⁰`, if the scheme is one in temperature.
+    /// `r¹ − r⁰ − (1 − w) h ṙ⁰`, for a scheme in temperature.
     pub(super) motion: Arms<K, S, D>,
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Finds the measures of the trial state, its temperature if that is not an unknown, and what the form of the
-    /// scheme needs besides. Returns the measures of the arms that the scheme looks at.
+    /// Finds the measures of the trial state, its temperature if that is not an unknown, and other values that the form
+    /// of the scheme needs. Returns the measures of the arms that the scheme uses.
     #[inline]
     pub(super) fn locate_trial(
         &mut self,
@@ -56,7 +56,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(measures1)
     }
 
-    /// The gradients at the configuration that the scheme looks at, which has these measures.
+    /// The gradients in the configuration that the scheme uses, which has these measures.
     #[inline]
     pub(super) fn pose(
         &self,
@@ -80,8 +80,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             .form(&self.model, &self.start, &self.x, &self.memory)
     }
 
-    /// Finds the viscosities that go with a response, unless the trial is not stable or something
-    /// is not finite.
+    /// Finds the viscosities for a response; an error if the trial is unstable or a value is not finite.
     #[inline]
     pub(super) fn accept(&mut self, per_step: S, form: &Form<S, M>) -> Result<(), StateError> {
         C::check(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
@@ -149,8 +148,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// The increments of measures, viscous stretches and temperature, less what the old state
-    /// contributes.
+    /// The increments of measures, viscous stretches and temperature, less the contribution of the old state.
     fn increments(&self, measures: &Measures<K, S, D>, step: S) -> M::Variables {
         let mut increments = M::Variables::filled(S::zero());
         let (old, last) = (&self.start.x0, Self::VARIABLES - 1);
@@ -171,7 +169,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-/// What closing a step asks of an element.
+/// The values of a trial that the closing of a step needs.
 #[derive(Clone, Copy)]
 pub(super) struct Found<S: Real, M: FreeEnergy<S>> {
     x: M::Variables,
@@ -184,7 +182,8 @@ pub(super) struct Found<S: Real, M: FreeEnergy<S>> {
 impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// What has been found so far, if some numbers have settled. A single one is not asked any more.
+    /// The present values, to be restored in the lanes that have converged. `None` if there are none, or with a single
+    /// lane.
     #[inline]
     pub(super) fn found_by(&self, settled: S::Mask) -> Option<Found<S, M>> {
         if S::LANES == 1 || !settled.any() {
@@ -199,7 +198,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         })
     }
 
-    /// Returns to what has been found where numbers have settled.
+    /// Restores the values in lanes that have converged.
     #[inline]
     pub(super) fn return_to(&mut self, found: Option<Found<S, M>>, settled: S::Mask) {
         let Some(found) = found else {
@@ -233,7 +232,7 @@ fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
     sum
 }
 
-/// The deformation of an element with these arms is one that it can have.
+/// An error unless the element can have the deformation of these arms.
 #[inline]
 pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
     kinematics: &K,
@@ -247,7 +246,7 @@ pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
     Err(kinematics.refusal(element, r))
 }
 
-/// The temperature of a response is one, and everything in it finite.
+/// An error unless the temperature of a response is positive and the response finite.
 #[inline]
 fn check_response<S: Real, M: FreeEnergy<S>>(
     element: Element,
@@ -278,7 +277,7 @@ fn not_finite<S: Real>(element: Element, response: &[S]) -> StateError {
     }
 }
 
-/// A temperature is positive and finite.
+/// An error unless a temperature is positive and finite.
 #[inline]
 pub(super) fn check_temperature<S: Real>(element: Element, theta: S) -> Result<(), StateError> {
     if is_positive(theta) {

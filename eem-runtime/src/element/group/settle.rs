@@ -1,4 +1,4 @@
-//! The new state of each element: its temperature, and all that must be true of a state.
+//! The new state of each element: its temperature, energy and checks.
 
 use super::point::{Point, variables};
 use super::respond::{check_measures, check_temperature};
@@ -28,7 +28,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// The new temperature, which is near a given one, from the new entropy, or the other way round
     /// where the scheme integrates the temperature or it is prescribed.
     ///
-    /// Returns the new entropy where a thermostat decides it.
+    /// Returns the new entropy if a thermostat prescribes the temperature.
     #[inline]
     pub(super) fn settle(
         &mut self,
@@ -48,7 +48,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         };
         let prescribed = view.prescribed(slot, Placement::End);
         if let (false, None) = (self.scheme.is_in_temperature(), prescribed) {
-            // The trial is nearly right: one evaluation is enough, as a rule.
+            // The guess from the trial is good: usually one evaluation is enough.
             let entropy = state.entropies.values()[slot];
             let found = settled_at(&self.model, x, entropy, near)
                 .map_err(|infeasible| infeasible.of(self.element))?;
@@ -85,8 +85,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(Energy::new(psi, [theta, caloric.entropy], &caloric))
     }
 
-    /// The heat of the thermostat that brought the entropy to a new one, of an element that has
-    /// received so much entropy otherwise.
+    /// Books the heat of the thermostat, given the new entropy and the entropy received otherwise.
     pub(super) fn book_thermostat(
         &self,
         view: &StepView<'_, S>,

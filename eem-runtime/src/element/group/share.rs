@@ -1,5 +1,5 @@
-//! The share of an element in the global system, found apart from the others and then added to theirs, at its places in
-//! the system. Anchors have none.
+//! The contribution of an element to the global system: computed on its own, then added at the matrix indices of the
+//! element. Anchors have no equations.
 
 use super::arms::{add_scaled, scale};
 use super::point::Point;
@@ -12,15 +12,15 @@ use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures, P
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// What the points of an element add to the system of an iteration.
+/// The contribution of the points of an element to the system of an iteration.
 pub(super) struct Share<K: Kinematics<S, D>, S: Real, const D: usize> {
-    /// To the momentum balances of its nodes; none where nothing moves.
+    /// To the momentum balances of its nodes; `None` where nothing moves.
     pub(super) momentum: Option<Momentum<K, S, D>>,
-    /// To the balances of the temperatures that are seen of its points.
+    /// To the equations of the interface temperatures of its points.
     pub(super) heat: K::PerPoint<Option<Heat<K, S, D>>>,
 }
 
-/// What the points of an element add to the momentum balances of its nodes.
+/// The contribution of the points of an element to the momentum balances of its nodes.
 pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// `h w Gᵀ f*`, with the internal variables eliminated, N s.
     pub(super) pull: Arms<K, S, D>,
@@ -28,7 +28,7 @@ pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) blocks: Blocks<K, S, D>,
 }
 
-/// What a point whose temperature neighbours see adds.
+/// The contribution of a point with an interface temperature.
 pub(super) struct Heat<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// `θ* − Θ`, with the internal variables eliminated, K.
     pub(super) residual: S,
@@ -41,7 +41,7 @@ pub(super) struct Heat<K: Kinematics<S, D>, S: Real, const D: usize> {
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Share<K, S, D> {
-    /// Of no point.
+    /// Without any point.
     #[inline]
     pub(super) fn none() -> Self {
         Self {
@@ -156,7 +156,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// The equation `Θ − θ* = 0` of a point whose temperature neighbours see.
+    /// The equation `Θ − θ* = 0` of a point with an interface temperature.
     #[inline]
     pub(super) fn heat(&self, trial: &Trial<S, D>, form: &Form<S, M>) -> Heat<K, S, D> {
         let row = self.condensed_row(Self::TEMPERATURE, form, true);
@@ -173,7 +173,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// Adds the share of the element to the entries of A and the rows of B.
+    /// Adds the contribution of the element to the entries of A and the rows of B.
     #[expect(
         clippy::inline_always,
         reason = "a call of its own costs 1 % of a step of a spring"
@@ -202,7 +202,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
-    /// Adds what the points of the element add to the balances of its nodes.
+    /// Adds the contribution to the balances of the nodes.
     #[expect(
         clippy::inline_always,
         reason = "a call of its own costs 2 % of a step"
@@ -219,7 +219,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
-    /// Adds the derivatives of something per arm times `Σ κ (Θ_partner − Θ)` to the rows of the nodes.
+    /// Adds the derivatives of a vector per arm times `Σ κ (Θ_partner − Θ)` to the rows of the nodes.
     #[inline]
     pub(super) fn add_pull(&self, site: &Site<K, S, D>, arms: &Arms<K, S, D>, values: &mut [S]) {
         let mut sum = S::zero();
@@ -256,8 +256,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
-    /// Subtracts something per arm from what begins at the place of its node, and adds it to what
-    /// begins at that of the first node.
+    /// Subtracts a vector per arm from the entries that begin at the index of its node, and adds it to those of the
+    /// first node.
     #[inline]
     pub(super) fn subtract_arms(
         &self,
@@ -318,8 +318,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
         }
     }
 
-    /// Adds to a column, given by the entries of the first row of each node, something per arm, and
-    /// subtracts it from the rows of the first node.
+    /// Adds a vector per arm to a column, given by the entry in the first row of each node, and subtracts it from the
+    /// rows of the first node.
     #[expect(clippy::inline_always, reason = "a few numbers in registers")]
     #[inline(always)]
     pub(super) fn add_column(
@@ -355,7 +355,7 @@ pub(super) fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, 
     }
 }
 
-/// `D` consecutive entries, with one comparison.
+/// `D` consecutive entries, with one bounds check.
 #[inline]
 pub(super) fn run<T, const D: usize>(entries: &[T], first: usize) -> &[T; D] {
     match entries.get(first..first + D).map(TryInto::try_into) {
@@ -364,7 +364,7 @@ pub(super) fn run<T, const D: usize>(entries: &[T], first: usize) -> &[T; D] {
     }
 }
 
-/// The same, to be written.
+/// The same, mutable.
 #[inline]
 fn run_mut<T, const D: usize>(entries: &mut [T], first: usize) -> &mut [T; D] {
     match entries.get_mut(first..first + D).map(TryInto::try_into) {

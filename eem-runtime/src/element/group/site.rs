@@ -1,4 +1,4 @@
-//! Where the elements write in the global systems, found once per scene.
+//! Matrix indices of the elements in the global systems, found once per scene.
 
 use crate::element::conduction::Partner;
 use crate::element::group::view::Sites;
@@ -7,7 +7,7 @@ use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 
-/// The places of one element in the tangent.
+/// The matrix indices of one element in the tangent.
 ///
 /// The rows of a node have entries in the same columns, so that the entries of a column in them are
 /// equally spaced.
@@ -24,7 +24,7 @@ pub(super) struct Site<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) is_mass: K::PerNode<bool>,
 }
 
-/// The places of an element whose algorithmic temperature Θ its neighbours see.
+/// The matrix indices of the interface temperature Θ of an element.
 #[derive(Clone, Debug)]
 pub(super) struct Contact<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// The row of Θ.
@@ -52,7 +52,7 @@ pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
-    /// The nodes, and no places yet.
+    /// The nodes, without matrix indices.
     pub(super) fn unconnected(nodes: &[usize]) -> Self {
         let mut own = K::PerNode::filled(0);
         for (own, &node) in own.as_mut().iter_mut().zip(nodes) {
@@ -67,7 +67,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
         }
     }
 
-    /// The places of an element with these nodes.
+    /// The matrix indices of an element with these nodes.
     pub(super) fn new(nodes: K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
         let unknown = |node: usize| sites.layout.nodes[nodes[node] as usize];
         let mut site = Self {
@@ -92,7 +92,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
-    /// The places of an element with these nodes and the thermal slot, if it is coupled.
+    /// The matrix indices of an element with these nodes and the thermal slot, if it is coupled.
     pub(super) fn new(
         nodes: &K::PerNode<u32>,
         slot: Option<usize>,
@@ -131,7 +131,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     }
 }
 
-/// How far the entries of a column in the first two rows of a node are apart.
+/// The distance between the entries of a column in the first two rows of a node.
 fn stride<S: Real, const D: usize>(
     first: Option<usize>,
     column: Option<usize>,

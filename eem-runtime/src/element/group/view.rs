@@ -1,4 +1,4 @@
-//! What a group and the solver tell each other.
+//! Data that groups and solvers exchange.
 
 use core::array;
 
@@ -15,10 +15,10 @@ use crate::element::tableau::MOST_STAGES;
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::{Mask, Real};
 
-/// What all elements share during one step.
+/// Data common to all elements during one step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepView<'a, S> {
-    /// What changes.
+    /// The variables that change: all, or those of one split step.
     pub(crate) phase: Phase,
     /// h, s, and 1/h.
     pub(crate) step: S,
@@ -27,7 +27,7 @@ pub(crate) struct StepView<'a, S> {
     pub(crate) state: &'a State<S>,
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) loads: &'a StepLoads<S>,
-    /// What acts at the times of the stages; none for a scheme that has no stages.
+    /// Loads at the times of the stages; empty for a scheme without stages.
     pub(crate) stages: &'a [StepLoads<S>],
     /// m per node, kg; `None` for anchors.
     pub(crate) masses: &'a Masses<S>,
@@ -42,7 +42,7 @@ impl<S: Real> StepView<'_, S> {
         }
     }
 
-    /// How the velocity of a moved anchor changes in the step where masses couple nodes, m/s.
+    /// The change of the velocity of a moved anchor in the step, where masses couple nodes, m/s.
     pub(crate) fn change_of_speed<const D: usize>(&self, node: usize) -> [S; D] {
         let speed = self.loads.speed::<D>(node);
         let old = self.state.velocities.point::<D>(node)[0];
@@ -67,7 +67,7 @@ impl<S: Real> StepView<'_, S> {
         Some(temperatures)
     }
 
-    /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
+    /// The temperature prescribed on a thermal slot, at the time that a scheme with this placement uses.
     pub(super) fn prescribed(&self, slot: usize, at: Placement) -> Option<S> {
         if !self.phase.heats() {
             return None;
@@ -83,23 +83,23 @@ impl<S: Real> StepView<'_, S> {
 /// The global part of the new state that Newton's method tries.
 #[derive(Clone, Debug)]
 pub(crate) struct Trial<S: Real, const D: usize> {
-    /// How many sets of unknowns there are, one after the other: one, or one for each stage.
+    /// Number of sets of unknowns, stored one after the other: one, or one per stage.
     pub(crate) sets: usize,
     /// `q − q⁰` of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
-    /// What rounding has taken from them, m.
+    /// Their compensations of rounding, m.
     pub(crate) rests: Vec<[S; D]>,
-    /// θ* as elements in contact see it, Θ; an unknown where the slot is coupled.
+    /// The interface temperatures Θ = θ*; unknowns where the slot is coupled.
     pub(crate) seen: SeenTemperatures<S>,
-    /// Elements answer with the [starting form](crate::element::conjugates::ElementScheme::starting_form) of their
-    /// scheme, if it has one.
+    /// Elements use the [starting form](crate::element::conjugates::ElementScheme::starting_form) of their scheme, if
+    /// it has one.
     pub(crate) is_start: bool,
-    /// The numbers that have found their new state while others iterate on.
+    /// Lanes that have converged while others iterate.
     pub(crate) settled: S::Mask,
 }
 
 impl<S: Real, const D: usize> Trial<S, D> {
-    /// At rest, for so many sets of unknowns, nodes and temperatures that are seen.
+    /// At rest, for these numbers of sets of unknowns, nodes and interface temperatures.
     pub(crate) fn new(sets: usize, nodes: usize, seen: usize) -> Self {
         let points = vec![[S::zero(); D]; sets * nodes];
         Self {
@@ -112,7 +112,7 @@ impl<S: Real, const D: usize> Trial<S, D> {
         }
     }
 
-    /// Where the first node of a set is.
+    /// The index of the first node of a set.
     pub(crate) fn first_of_set(&self, set: usize) -> usize {
         set * (self.displacements.len() / self.sets)
     }
@@ -122,7 +122,7 @@ impl<S: Real, const D: usize> Trial<S, D> {
         &self.displacements[self.first_of_set(set)..self.first_of_set(set + 1)]
     }
 
-    /// Where the temperature that is seen of a thermal slot is in a set.
+    /// The index of the interface temperature of a thermal slot in a set.
     pub(crate) fn seen_of_set(&self, set: usize, slot: usize) -> usize {
         set * (self.seen.values().len() / self.sets) + slot
     }
@@ -131,9 +131,9 @@ impl<S: Real, const D: usize> Trial<S, D> {
 /// Sums over elements, to twice the precision.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ElementTotals<S> {
-    /// `Σ (ψ + θ s)` with the kept entropies, J.
+    /// `Σ (ψ + θ s)` with the stored entropies, J.
     pub(crate) energy: Total<S>,
-    /// `Σ s` as kept, with what rounding has taken from each, J/K.
+    /// `Σ s` as stored, with the compensations, J/K.
     pub(crate) entropy: Total<S>,
     /// `Σ s(λ, γ, θ)`, J/K.
     pub(crate) entropy_of_state: Total<S>,
@@ -162,18 +162,18 @@ pub(crate) struct ElementView<S> {
     pub(crate) internal_energy: S,
 }
 
-/// Derivatives of the energy of an element, and what makes its dashpots move.
+/// Derivatives of the energy of an element, and forces and viscosities of its dashpots.
 #[derive(Clone, Debug)]
 pub(crate) struct ElementGeneric<S> {
     /// `(coordinate, ∂e/∂q)`, N.
     pub(crate) forces: Vec<(usize, S)>,
     /// `(slot, g, η)`: dashpot force, N, and viscosity, N s/m.
     pub(crate) dashpots: Vec<(usize, S, S)>,
-    /// `(η, ∂λ/∂q)` of a dashpot beside the spring, N s/m, with its coordinates.
+    /// `(η, ∂λ/∂q)` of a Kelvin–Voigt dashpot, N s/m, with its coordinates.
     pub(crate) drags: Vec<(S, Vec<(usize, S)>)>,
     /// `(slot, θ)`, K, if the element has a temperature.
     pub(crate) temperature: Option<(usize, S)>,
-    /// How its entropy depends on the state; none of a step.
+    /// The derivatives of its entropy; `None` for a step.
     pub(crate) entropy: Option<EntropySlopes<S>>,
 }
 
@@ -190,16 +190,16 @@ pub(crate) struct EntropySlopes<S> {
     pub(crate) by_temperature: S,
 }
 
-/// What the old state gives to the nodes.
+/// The contribution of the old state to the nodes.
 #[derive(Debug)]
 pub(crate) struct Old<'a, S, const D: usize> {
-    /// The part of the nodal forces that it alone decides, N.
+    /// The part of the nodal forces that depends on it only, N.
     pub(crate) force: &'a mut [[S; D]],
     /// The unit of length of each node: the shortest measure of its elements, m.
     pub(crate) lengths: &'a mut [S],
 }
 
-/// Along which gradient the found forces act.
+/// The gradient along which the forces act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Along {
     /// That of the scheme, as the force `A q_m`.
@@ -224,7 +224,7 @@ pub(crate) trait NodesOf: core::fmt::Debug {
     fn nodes_of(&self, element: Element) -> &[usize];
 }
 
-/// What decides where an element writes.
+/// The data from which the matrix indices of an element follow.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sites<'a, S, const D: usize> {
     pub(crate) layout: &'a Layout,
@@ -249,7 +249,7 @@ impl<S: Real, const D: usize> Sites<'_, S, D> {
         self.tangent.row(unknown.map(|unknown| unknown + first))
     }
 
-    /// The place of the entry of two unknowns of the layout in the tangent.
+    /// The index of the entry of two unknowns of the layout in the tangent.
     pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
         let [down, right] = self.sets.map(|set| set * self.layout.unknowns);
         let (row, column) = (
@@ -259,7 +259,7 @@ impl<S: Real, const D: usize> Sites<'_, S, D> {
         self.tangent.place(row, column)
     }
 
-    /// The place of the entry of two masses in the secant matrix, if there is one.
+    /// The index of the entry of two masses in the secant matrix, if there is one.
     pub(crate) fn secant_place(&self, row: Option<usize>, column: Option<usize>) -> usize {
         self.secant.map_or(0, |secant| secant.place(row, column))
     }

@@ -171,7 +171,7 @@ fn touch([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     boxes_meet && !apart(cross(a, b, c), cross(a, b, d)) && !apart(cross(c, d, a), cross(c, d, b))
 }
 
-/// Cuts off corners, the roundest triangle first, until none is left.
+/// Cuts off corners, the triangle nearest to equilateral first, until none is left.
 fn triangles(corners: &[[f64; 2]], mut order: Vec<usize>) -> Result<Vec<[usize; 3]>, MeshError> {
     let mut triangles = Vec::new();
     while order.len() >= 3 {

@@ -9,8 +9,8 @@ use crate::step::outcome::{Attempt, Outcome};
 use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Writes the state after a step to `next`, from the state of the last accepted step, or after
-    /// [`forget`](Self::forget) any; the reason why there is none, or nothing where the error exceeds what is demanded.
+    /// Writes the state after a step to `next`, from the state of the last accepted step or, after
+    /// [`forget`](Self::forget), from any state. The outcome is `None` if the error exceeds the demand.
     pub(crate) fn step(
         &mut self,
         view: &ExplicitView<'_, S, D>,
@@ -23,7 +23,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if is_made {
             self.has_left = false;
         } else {
-            // As it was before, also if nothing was known of the state.
+            // As before the attempt.
             self.is_ready = self.was_ready;
         }
         attempt.map_err(|failure| self.explain(failure, view))
@@ -62,18 +62,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(Attempt { error, outcome })
     }
 
-    /// Takes back what has just been accepted.
+    /// Undoes the accepted step.
     pub(crate) fn undo(&mut self) {
         self.has_left = true;
         self.is_ready = self.was_ready;
     }
 
-    /// The next step starts from another state: rates and targets are found anew.
+    /// The next step starts from another state, for which rates and targets are evaluated again.
     pub(crate) fn forget(&mut self) {
         self.is_ready = false;
     }
 
-    /// The largest first defect of all components, which has to be small.
+    /// The largest defect of all components before closing; an error unless it is small.
     fn correction(&self, demand: Demand<S>, time: S) -> Result<S, StepFailure> {
         let mut largest = S::zero();
         for progress in &self.scratch.progress {

@@ -1,4 +1,4 @@
-//! What the integrals of a step make of entropies and targets.
+//! Entropies and targets at the end of a step, from its integrals.
 
 use super::guard::{PathRates, guarded};
 use super::{Explicit, ExplicitView};
@@ -23,7 +23,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Entropy flows to one end, and from the other with what is produced.
+    /// Moves the exchanged entropy of each path from its second end to its first one, and adds its production to the
+    /// second.
     fn book_paths(&mut self, h: S, next: &mut State<S>) {
         let (stage, scratch) = (&self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
@@ -35,7 +36,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let [flow, production] = rates.guarded(h);
             *kept = production;
             progress.production.add(production);
-            // What no end takes up the closing does not change.
+            // The closing does not change production that neither end stores.
             let closes = !(is_fixed(a) && is_fixed(b));
             let least = if closes {
                 &mut progress.least
@@ -74,7 +75,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.entropies.add(slot, production);
             scratch.produced[slot] += production;
             progress.production.add(production);
-            // What a thermostat takes up the closing does not change.
+            // The closing does not change production that a thermostat absorbs.
             let least = if self.stage.is_held(slot) {
                 &mut scratch.least
             } else {
@@ -97,8 +98,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Shares the productions of paths between their ends, by the heat capacities that the closing has
-    /// found; a reservoir and an element with a thermostat leave all of it to the other end.
+    /// Splits the productions of paths between their ends, by the heat capacities of the closing; if one end is a
+    /// reservoir or has a thermostat, the other end receives all of it.
     pub(super) fn share_productions(&mut self) {
         let (stage, scratch) = (&self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
@@ -129,8 +130,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// The heat of thermostats, `Δe − ∫ (f λ̇ + heat that flows in)`: what is left of the first law of an
-    /// element.
+    /// The heat of thermostats, `Δe − ∫ (f λ̇ + heat that flows in)`, by the first law of an element.
     pub(super) fn book_thermostats(&mut self, h: S, next: &mut State<S>) {
         for (slot, _) in self.stage.held.iter().enumerate().filter(|&(_, &is)| is) {
             let element = self.components.elements[slot] as usize;

@@ -1,4 +1,4 @@
-//! The closing of a step: energy and momenta of each component are put back to their targets.
+//! The closing of a step: energy and momenta of each component are corrected to their targets.
 //!
 //! Momenta first, by a rigid motion. Then energy, by the first of these that can give it:
 //!
@@ -35,9 +35,9 @@ pub(super) const FROZEN: f64 = 8.0;
 enum Status {
     /// Within tolerance.
     Closed,
-    /// Its elements have to be evaluated again.
+    /// Its elements must be evaluated again.
     Changed,
-    /// Its forces have to be known for a correction.
+    /// A correction needs its forces.
     NeedsForces,
     /// No correction is possible.
     Failed,

@@ -1,12 +1,12 @@
-//! How accurate a step has to be, and in which units.
+//! The required accuracy of a step, and its units.
 
 use crate::step::control::Tolerance;
 use eem_material::number::scalar::Real;
 
-/// How accurate a step has to be.
+/// The required accuracy of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Demand<S> {
-    /// As its size makes it.
+    /// None: the step has a fixed size.
     None,
     /// Its error is within this tolerance.
     Within(Tolerance<S>),
@@ -31,7 +31,7 @@ impl<S: Real> Demand<S> {
         }
     }
 
-    /// By how much a rigid rotation may differ from what the stages say, relatively.
+    /// The largest relative difference of a rigid rotation from the stages.
     pub(super) fn largest_turn(self) -> S {
         match self {
             Self::None => S::from_f64(LARGEST_FIXED_TURN),
@@ -40,7 +40,7 @@ impl<S: Real> Demand<S> {
     }
 }
 
-/// How large positions and momenta are.
+/// The magnitudes of positions and momenta.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scales<S> {
     /// |q|₂ of all masses, m.

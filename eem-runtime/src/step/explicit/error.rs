@@ -9,7 +9,7 @@ use crate::step::error::StepFailure;
 use eem_material::number::scalar::{Mask, Real, Scalar};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// How large positions and momenta are before the step is closed; all have to be finite.
+    /// The magnitudes of positions and momenta before the step is closed; an error unless all are finite.
     pub(super) fn scales(&self, time: S) -> Result<Scales<S>, StepFailure> {
         if !time.is_finite() {
             let value = time.to_f64();

@@ -1,8 +1,8 @@
-//! What paths of heat and dashpots produce in a step, never negative.
+//! The entropy production of paths of heat and dashpots in a step, never negative.
 //!
 //! The weights of order 8 are not all positive, so that the sum of productions that are positive at every
-//! stage may be negative where it is below its own error. Then as much of the sums with positive weights is
-//! mixed in as makes it zero.
+//! stage may be negative where it is below its own error. It is then combined with the sums of positive weights so that
+//! the result is zero.
 
 use super::tableau::{POSITIVE_WEIGHTS, WEIGHTED, WEIGHTS};
 use eem_material::number::scalar::{Mask, Real};
@@ -40,7 +40,7 @@ impl<S: Real> PathRates<S> {
         Self { flows, productions }
     }
 
-    /// The flow and the production in a step of the size h that count, J/K.
+    /// The flow and the guarded production in a step of the size h, J/K.
     #[inline]
     pub(super) fn guarded(&self, h: S) -> [S; 2] {
         let usual = self.integrals(&WEIGHTS);
@@ -58,7 +58,7 @@ impl<S: Real> PathRates<S> {
     }
 }
 
-/// Flow and production with so much of the positive sums that the production is zero, where it is negative.
+/// Flow and production, combined with the positive sums so that a negative production becomes zero.
 #[cold]
 fn mixed<S: Real>([flow, production]: [S; 2], positive: [S; 2]) -> [S; 2] {
     let zero = S::zero();
@@ -74,7 +74,7 @@ fn mixed<S: Real>([flow, production]: [S; 2], positive: [S; 2]) -> [S; 2] {
     ]
 }
 
-/// The production of a dashpot, J/K, or its heat, J, that counts.
+/// The guarded production of a dashpot, J/K, or its heat, J.
 #[inline]
 pub(super) fn guarded<S: Real>(production: S) -> S {
     let is_negative = production.less(S::zero());

@@ -1,4 +1,4 @@
-//! How fast a body turns with an angular momentum, whatever its shape and the dimension of the scene.
+//! The angular velocity of a body for an angular momentum, for any shape and dimension.
 //!
 //! The angular momentum of a rigid rotation Ω is
 //!
@@ -20,7 +20,7 @@ use eem_material::number::scalar::{Mask, Real};
 pub(super) use moments::{Moments, WEAK};
 pub(super) use principal::Principal;
 
-/// What turns how fast.
+/// The inertia of a body.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Inertia<S, const D: usize> {
     /// In the plane, or of masses that are all at their centre: `Σ m r²`.

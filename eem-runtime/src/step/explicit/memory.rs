@@ -1,11 +1,11 @@
-//! What an explicit scheme keeps from step to step: targets and books.
+//! Values that an explicit scheme keeps from step to step: targets and accumulated sums.
 
 use crate::algebra::bivector::{Bivector, planes};
 use crate::step::explicit::components::Components;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
-/// What loads have done to a component in a step.
+/// Work and impulses of the loads on a component in a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LoadSums<S, const D: usize> {
     /// J.
@@ -16,7 +16,7 @@ pub(super) struct LoadSums<S, const D: usize> {
     pub(super) torque: Bivector<S, D>,
 }
 
-/// What energy and momenta of a component have to be, to twice the precision.
+/// The targets of energy and momenta of a component, to twice the precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Target<S, const D: usize> {
     /// E, with the heat that reservoirs have received and that dashpots have lost, J.
@@ -29,12 +29,12 @@ pub(super) struct Target<S, const D: usize> {
     pub(super) lost: Sum<S>,
 }
 
-/// What steps have booked.
+/// Values accumulated over the steps.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Books<S, const D: usize> {
     /// Per component.
     pub(super) targets: Vec<Target<S, D>>,
-    /// What each reservoir has received from each component, J/K.
+    /// The entropy that each reservoir has received from each component, J/K.
     pub(super) shares: Vec<Sum<S>>,
     /// The energies of elements with thermostats, per thermal slot, J; empty without.
     pub(super) held_energies: Vec<S>,
@@ -42,8 +42,8 @@ pub(super) struct Books<S, const D: usize> {
     pub(super) largest_momentum: S,
     /// E less its targets, of all components, J.
     pub(super) residue: S,
-    /// What the bound of a step counts of this state, and the terms of its energies, J; `None` where no step has led
-    /// to it.
+    /// The contribution of this state to the bound of a step, and the terms of its energies, J; `None` unless a step
+    /// has led to it.
     pub(super) terms: Option<[S; 2]>,
 }
 
@@ -82,7 +82,7 @@ impl<S: Real, const D: usize> Books<S, D> {
         }
     }
 
-    /// Nothing is booked.
+    /// Sets all sums to zero.
     pub(super) fn clear(&mut self) {
         self.targets.fill(Target::none());
         self.shares.fill(Sum::new(S::zero()));

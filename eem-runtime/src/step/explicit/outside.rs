@@ -1,4 +1,4 @@
-//! Loads, moved anchors and thermostats at the stages of a step, and what they do to it.
+//! Loads, moved anchors and thermostats at the stages of a step, and their integrals.
 
 use super::Explicit;
 use super::components::Support;
@@ -10,7 +10,7 @@ use crate::element::loads::StepLoads;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Moves anchors and sets thermostats to where they are at a stage.
+    /// Sets moved anchors and thermostats to their values at a stage.
     pub(super) fn move_to(&mut self, stage: usize) {
         for held in &self.prescribed.held {
             *self.stage.theta_mut(held.slot) = held.temperatures[stage];

@@ -1,4 +1,4 @@
-//! What an explicit scheme keeps between steps, as it is saved.
+//! The part of a checkpoint that belongs to an explicit scheme.
 
 use eem_material::number::compensated::Sum;
 use eem_material::number::digest::Digest;
@@ -14,7 +14,7 @@ use eem_material::number::digest::Digest;
 pub(crate) struct SavedExplicit<S> {
     /// Whether the next step takes rates and targets from the state instead of what follows.
     pub(crate) is_new: bool,
-    /// The state that it belongs to.
+    /// The digest of the state that it belongs to.
     pub(crate) state: Digest,
     pub(crate) is_motion_first: bool,
     /// All sums of each component.

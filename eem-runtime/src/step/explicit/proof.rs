@@ -1,4 +1,4 @@
-//! What is left of the defects of all laws in the closed state has to be rounding.
+//! Proof of a step: the defects of all laws in the closed state must be rounding.
 
 use super::Explicit;
 use super::closing::FROZEN;
@@ -17,7 +17,7 @@ use eem_material::number::scalar::{Mask, Real};
 const ROUNDINGS: f64 = 64.0;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// What is left of all defects, formed with energies of the state, has to be rounding.
+    /// An error unless all defects, from the energies of the state, are rounding.
     pub(super) fn prove(
         &mut self,
         correction: S,
@@ -76,7 +76,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         })
     }
 
-    /// The momenta of the state that a component keeps have to be their targets, in all planes.
+    /// An error unless the conserved momenta of a component are their targets, in all planes.
     fn prove_momenta(&self, index: usize, time: S) -> Result<(), StepFailure> {
         let support = self.components.all[index].support;
         if support == Support::Several {
@@ -96,7 +96,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 }
 
-/// An error where a law is off by more than its bound, or by what is no number.
+/// An error if the defect of a law exceeds its bound or is NaN.
 fn expect<S: Real>(law: Law, [defect, bound]: [S; 2], time: S) -> Result<(), StepFailure> {
     if defect.abs().at_most(bound).all() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! An explicit scheme is saved and goes on from what was saved.
+//! Checkpoints of an explicit scheme.
 
 use super::Explicit;
 use super::memory::Books;
@@ -8,7 +8,7 @@ use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// What the step from this state depends on besides.
+    /// Everything besides the state that the next step depends on.
     pub(crate) fn save(&self, state: &State<S>) -> SavedExplicit<S> {
         let mut books = self.books.clone();
         let (mut rates, mut loads) = (Vec::new(), Vec::new());
@@ -42,7 +42,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Goes on from what was saved of the same scene.
+    /// Continues from a checkpoint of the same scene.
     pub(crate) fn restore(&mut self, saved: &SavedExplicit<S>) {
         self.is_ready = !saved.is_new;
         self.has_left = true;

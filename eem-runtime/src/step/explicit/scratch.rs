@@ -8,14 +8,14 @@ use crate::step::explicit::vector::{add, dot, size};
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::{Mask, Real};
 
-/// How far the closing of a component is.
+/// The progress of the closing of a component.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Progress<S: Real> {
     /// Number of corrections so far.
     pub(super) iterations: usize,
     /// Whether heat has been among them.
     pub(super) has_heated: S::Mask,
-    /// What is missing of the energy, J.
+    /// The defect of the energy, J.
     pub(super) defect: S,
     /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
     pub(super) seen: Option<[S; 2]>,
@@ -28,14 +28,14 @@ pub(super) struct Progress<S: Real> {
     /// All production, and the smallest one before it was closed; the largest number without any, J/K.
     pub(super) production: Total<S>,
     pub(super) least: S,
-    /// By which factor the closing has changed every production.
+    /// The factor by which the closing has changed every production.
     pub(super) factor: S,
-    /// `Σ |F||q|` where nothing could give the energy that is missing; zero otherwise, J.
+    /// `Σ |F||q|` if no correction of the energy was possible; zero otherwise, J.
     pub(super) granularity: S,
-    /// Whether the energy is what it has to be, and whether forces have to be known to make it so.
+    /// Whether the energy is within tolerance, and whether a correction needs forces.
     pub(super) is_closed: S::Mask,
     pub(super) needs_forces: S::Mask,
-    /// The component has turned like a rigid body, since it was closed in no other way.
+    /// The component was rotated rigidly because no correction was possible.
     pub(super) is_rigid: bool,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct Motion<S, const D: usize> {
     pub(super) kinetic: S,
 }
 
-/// Sums of rows of matrices, which say how fast the fastest motion can be.
+/// Sums of rows of matrices, which bound the fastest motion.
 #[derive(Clone, Debug)]
 pub(super) struct RowSums<S> {
     /// `ω²` per node of the scene, 1/s².
@@ -79,7 +79,7 @@ pub(super) struct Scratch<S: Real, const D: usize> {
     /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
     pub(super) capacities: Vec<[S; 2]>,
     pub(super) produced: Vec<S>,
-    /// An entropy that the closing has not met.
+    /// A stored entropy that the closing has missed.
     pub(super) unkept: Option<UnkeptEntropy>,
     /// Entropy that an element with a thermostat has received otherwise, J/K.
     pub(super) received: Vec<S>,

@@ -28,7 +28,7 @@ const WEIGHT_OF: [Option<usize>; STAGES] = {
     all
 };
 
-/// Whether rates are found anew or as the elements were closed.
+/// Whether rates are evaluated, or taken from the closing of the elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum From {
     Model,
@@ -92,8 +92,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(())
     }
 
-    /// Keeps the rates of the last stage, goes to `y = y⁰ + h Σ a k` with those in some rows, and begins the rates
-    /// there.
+    /// Stores the rates of the last stage, moves to `y = y⁰ + h Σ a k` with the rates of some rows, and initialises the
+    /// rates there.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
     fn combine<const T: usize>(&mut self, last: usize, h: S, rows: [usize; T], a: &[f64; T]) {
@@ -140,7 +140,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// The rates of a stage, which have been begun, and its share in the integrals of the step.
+    /// Completes the rates of a stage, and adds its contribution to the integrals of the step.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
     pub(super) fn find_rates(

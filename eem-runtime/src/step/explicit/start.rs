@@ -1,4 +1,4 @@
-//! The start of a step: where the last one ended, or a state of which nothing is known yet.
+//! The start of a step: from the end of the last one, or from a new state.
 
 use super::components::{Component, Support};
 use super::memory::Target;
@@ -14,7 +14,7 @@ use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Puts the stage and the books to the start of a step, and begins its integrals.
+    /// Sets the stage and the sums to the start of a step, and begins its integrals.
     pub(super) fn begin(
         &mut self,
         view: &ExplicitView<'_, S, D>,
@@ -78,7 +78,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(())
     }
 
-    /// Goes back to rates and books at the start of the last attempt.
+    /// Restores rates and sums at the start of the last attempt.
     #[cold]
     fn rewind(&mut self) {
         for [start, now] in self.stage.rates_mut(self.kept_places) {

@@ -1,4 +1,4 @@
-//! Gauss collocation of two stages, of order 4: the ordinary rule of that order, for comparison.
+//! Gauss collocation of two stages, of order 4: the classical scheme of that order, for comparison.
 //!
 //! ```text
 //! z_i = z⁰ + h Σ_j a_ij ż_j,   z¹ = z⁰ + ½h (ż_1 + ż_2),      z = (q, p, γ, s),   c = ½ ∓ √3/6

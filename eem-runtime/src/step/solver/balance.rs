@@ -8,7 +8,7 @@ use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Speeds;
 use eem_material::number::scalar::Real;
 
-/// What Newton's method knows of a node that moves, during one step.
+/// A moving node in Newton's method, during one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance<S, const D: usize> {
     pub(super) place: MovingNode<S, D>,
@@ -110,7 +110,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
     /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F
     /// ```
     ///
-    /// to which the elements will add their share.
+    /// to which the elements add their contributions.
     #[inline]
     pub(super) fn balance(
         &self,

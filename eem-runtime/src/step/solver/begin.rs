@@ -1,7 +1,7 @@
-//! Where Newton's method starts.
+//! The initial guess of Newton's method.
 //!
 //! ```text
-//! q¹ = q⁰ + (h/m)(p⁰ + ½h F)      F: the mean force of the step, foretold from those of the last ones
+//! q¹ = q⁰ + (h/m)(p⁰ + ½h F)      F: the mean force of the step, predicted from those of the last ones
 //! ```
 
 use core::array;
@@ -18,17 +18,17 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::past::SavedPast;
 use eem_material::number::scalar::{Mask, Real};
 
-/// Where a trial starts.
+/// The initial guess of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Start {
-    /// Where the scheme starts: at a foretold motion, or at the old state.
+    /// The usual one of the scheme: a predicted motion, or the old state.
     Foretold,
-    /// At the old state.
+    /// The old state.
     Rest,
 }
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// Starts at the old state, or at a foretold motion away from it if the scheme wants one.
+    /// Starts at the old state, or at a predicted motion if the scheme uses one.
     pub(super) fn begin(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -88,7 +88,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         inertias
     }
 
-    /// Anchors that are moved are where the step will have moved them.
+    /// Sets moved anchors to their positions at the end of the step.
     fn place_moved_anchors(&mut self, view: &StepView<'_, S>) {
         for set in 0..self.sets.len() {
             let first = self.trial.first_of_set(set);
@@ -102,7 +102,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// Moving nodes are where they are foretold, seen temperatures where they were.
+    /// Sets moving nodes to their predicted positions, and interface temperatures to the old ones.
     fn start(&mut self, view: &StepView<'_, S>, start: Start) {
         self.trial.settled = S::Mask::none();
         let is_coupled = !self.coupling.is_none();
@@ -133,7 +133,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 displacement =
                     array::from_fn(|axis| mobility * (momenta[at][axis] + half_step * force[axis]));
             }
-            // The way from the old state is the first correction.
+            // The displacement from the old state is the first correction.
             *node.place.rows_mut(solution) = displacement;
             self.trial.displacements[trial] = displacement;
             self.trial.rests[trial] = [S::zero(); D];
@@ -165,14 +165,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// Takes back what the last step left for the next ones.
+    /// Removes the last step from the history of the predictor.
     pub(crate) fn undo(&mut self) {
         if self.scheme.foretells_its_start() {
             self.past.forget();
         }
     }
 
-    /// What the start of the next step depends on besides the state.
+    /// The history on which the initial guess of the next step depends.
     pub(crate) fn past(&self) -> SavedPast<S> {
         match self.stages {
             None => self.past.save(),

@@ -18,8 +18,8 @@ use crate::step::scheme::Closing;
 use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and
-    /// says what it proves. It may be done again at another trial.
+    /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and finds its
+    /// certificate. It may be called again at another trial.
     pub(super) fn close(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -35,8 +35,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(certificate.or(is_enough, &thorough))
     }
 
-    /// The same with all that rounding explains; energies by differences decide where those by values are not
-    /// sharp enough.
+    /// The same with thorough bounds; energy changes by discrete derivatives decide where those by values are too
+    /// inaccurate.
     #[cold]
     fn close_thoroughly(
         &mut self,
@@ -139,7 +139,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// The magnitudes of the forces are asked for anew, or not at all.
+    /// Clears the magnitudes of the forces, and makes room for them if a thorough bound needs them.
     fn forget_magnitudes(&mut self, care: Care) {
         self.magnitudes.clear();
         if care == Care::Thorough {
@@ -218,7 +218,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 }
 
-/// The work `v̄·Δp` that it takes to move what a solid has at an anchor, J.
+/// The work `v̄·Δp` of moving the mass of a solid at an anchor, J.
 fn carry<S: Real, const D: usize>(
     node: usize,
     displacement: &[S; D],

@@ -15,12 +15,10 @@ use eem_material::number::scalar::{Mask, Real, natural_power};
 const HALVINGS: u32 = 30;
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// Newton's method from the trial state. Where S is several numbers, those that are done keep
-    /// what they have found until the last one is.
+    /// Newton's method from the trial state. Lanes that have converged keep their values until all have.
     ///
-    /// A step is taken at a trial where the elements have been evaluated, when the last update is small
-    /// and what is closed from there proves its laws. Otherwise the iteration goes on until rounding
-    /// stops it.
+    /// A step ends at a trial at which the elements have been evaluated, if the last update is small and the step
+    /// closed from there proves its laws. Otherwise the iteration continues until rounding stops it.
     pub(super) fn converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -35,7 +33,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut purpose = Purpose::Iterate;
         let mut progress = Progress::new();
         self.factors.renew();
-        // Those that are done, and those for which the next look is the last.
+        // Lanes that have converged, and lanes that converge with the next evaluation.
         let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
         for left in (0..=max_iterations).rev() {
             let is_full = self.advance(groups, view, purpose)?;
@@ -68,7 +66,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.factors.judge(update, previous);
             let is_stuck = self.is_stuck(&mut progress, update, previous, settled);
             if S::LANES > 1 && is_stuck {
-                // Alone, some of them might go on from here otherwise than others.
+                // Alone, some lanes might take another branch from here.
                 break;
             }
             if self.has_other_starts && progress.is_hopeless() {
@@ -198,7 +196,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(update)
     }
 
-    /// Marks in the trial which of several numbers are done while others are not.
+    /// Marks in the trial the lanes that have converged while others have not.
     #[inline]
     fn settle(&mut self, settled: S::Mask) -> S::Mask {
         if S::LANES == 1 {
@@ -228,8 +226,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(share.equal(S::one()).all())
     }
 
-    /// Half the share of the correction that failed, applied. Several numbers in one do not go back, as
-    /// some of them need not have failed.
+    /// Applies half the fraction of the correction that failed. Not with several lanes, some of which need not have
+    /// failed.
     #[cold]
     #[inline(never)]
     fn retreat(
@@ -273,7 +271,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 }
 
-/// What an evaluation is for.
+/// The purpose of an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Purpose {
     /// Another iteration.

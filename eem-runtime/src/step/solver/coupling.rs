@@ -1,11 +1,11 @@
-//! Masses that couple nodes: what is beside the diagonal of the mass matrix.
+//! Masses that couple nodes: the off-diagonal part of the mass matrix.
 //!
 //! ```text
 //! Δp_a = Σ_b (2 M_ab/h)(Δq_b − h v⁰_b) + Σ_m M_am Δv_m,     v¹ = 2Δq/h − v⁰
 //! ```
 //!
-//! where b moves, and m is moved: its velocities follow from its motion, and not from the places alone, so that they
-//! do not jump to and fro.
+//! for moving nodes b and moved anchors m. The velocities of m come from its prescribed motion and not from the
+//! positions alone, so that they do not oscillate from step to step.
 
 use core::array;
 use std::collections::BTreeSet;
@@ -62,7 +62,7 @@ struct DrivenPair<S> {
 }
 
 impl<S: Real, const D: usize> Coupling<S, D> {
-    /// That of a scene with so many sets of unknowns.
+    /// The coupling of a scene with this number of sets of unknowns.
     pub(super) fn new(
         masses: &Masses<S>,
         moved: &[usize],
@@ -104,7 +104,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// Finds what the nodes that are moved do to those beside them in a step.
+    /// Finds the effect of moved nodes on their neighbours in a step.
     pub(super) fn drive(&mut self, rule: Option<&Tableau>, view: &StepView<'_, S>) {
         for drive in &mut self.drives {
             *drive = Drive::none(drive.node);
@@ -130,7 +130,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// Whether there are any.
+    /// Whether no masses couple nodes.
     pub(super) fn is_none(&self) -> bool {
         self.impulses.is_empty()
     }
@@ -249,7 +249,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// What has been found for a node among those that move.
+    /// The last `Δp` of a moving node, and the magnitude of its terms.
     pub(super) fn found(&self, moving: usize) -> Option<&[[S; D]; 2]> {
         self.impulses.get(moving)
     }

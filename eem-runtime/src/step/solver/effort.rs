@@ -1,4 +1,4 @@
-//! How hard a step tries, and what it did.
+//! The effort of a step: its limits and its iterations.
 
 use crate::step::newton::{NewtonIteration, NewtonSettings};
 use eem_material::number::scalar::{Mask, Real, unless};
@@ -9,11 +9,11 @@ pub(super) const CONTINUATION_STEPS: u8 = 8;
 /// Iterations for which memory is kept; settings that ask for more allocate when they get there.
 const LONGEST_HISTORY: usize = 4096;
 
-/// How hard a step tries, and what it did.
+/// The effort of a step: its limits and its iterations.
 #[derive(Debug)]
 pub(crate) struct Effort<S> {
     pub(crate) settings: NewtonSettings<S>,
-    /// What each iteration of the last step did.
+    /// The iterations of the last step.
     pub(crate) history: Vec<Iteration<S>>,
     /// The largest residual and the largest last update of the phases of the last step.
     pub(crate) end: Iteration<S>,

@@ -1,4 +1,4 @@
-//! The global system of an iteration, and what its solution means.
+//! The global system of an iteration, and the corrections from its solution.
 
 use super::Solver;
 use super::begin::Start;
@@ -77,7 +77,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         unless(settled, S::zero(), largest.found())
     }
 
-    /// Takes a share of the last correction back, and starts the next system there.
+    /// Takes a fraction of the last correction back, and starts the next system there.
     pub(super) fn take_back(&mut self, view: &StepView<'_, S>, share: S) {
         let trial = &mut self.trial;
         let solution = self.tangent.solution();

@@ -5,17 +5,17 @@ use crate::algebra::system::LinearSystem;
 use crate::step::newton::CONTRACTION;
 use eem_material::number::scalar::{Mask, Real};
 
-/// Whether the factors of an earlier tangent of the same step still do.
+/// Whether the factors of an earlier tangent of the same step can still be used.
 ///
-/// They do while updates shrink to a tenth, as the last one has to anyway. Up to a tenth of an update is left after
-/// it then, and not its square, so that the last one has to be smaller.
+/// They can while updates shrink to a tenth, as the last one must anyway. The error after an update is then up to a
+/// tenth of it, and not its square, so that the last one must be smaller.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeptFactors {
-    /// Whether it is worth while in this scene.
+    /// Whether keeping factors pays in this scene.
     is_worthwhile: bool,
-    /// Those there are do for the next iteration.
+    /// The present factors can be used in the next iteration.
     are_near: bool,
-    /// They have done for the last one.
+    /// They were used in the last one.
     have_served: bool,
 }
 
@@ -63,8 +63,8 @@ impl KeptFactors {
         self.are_near = false;
     }
 
-    /// What the last update must not exceed, where `tolerance` does for one by factors of its own: ε^¾, of which
-    /// a tenth is left.
+    /// The bound for the last update, in place of `tolerance` for an update by new factors: ε^¾, of which a tenth is
+    /// left.
     #[inline]
     pub(super) fn tolerance<S: Real>(self, tolerance: S) -> S {
         if self.have_served {

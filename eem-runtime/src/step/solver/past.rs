@@ -1,14 +1,15 @@
-//! The forces of the last steps. They decide where Newton's method starts, and nothing else.
+//! The forces of the last steps, from which the initial guess of Newton's method is predicted. Nothing else depends on
+//! them.
 
 use core::array;
 
 use crate::element::impulse::{Impulses, PLACES};
 use eem_material::number::scalar::Real;
 
-/// What is left of the error of a forecast one step later. Any memory of some steps will do.
+/// The weight of the error of a predictor one step later. Any memory of some steps will do.
 const MEMORY: f64 = 0.875;
 
-/// The forces of the last two steps, and how well they would have been foretold.
+/// The forces of the last two steps, and the errors of their predictions.
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
     /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the
@@ -16,7 +17,7 @@ pub(super) struct Past<S, const D: usize> {
     forces: Vec<[[S; D]; PLACES]>,
     /// Which row of [`TURNS`] says where each of them is.
     turn: usize,
-    /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
+    /// The error of each predictor, `Σ |ΔF/m|²`, with decreasing weights of earlier steps.
     errors: [S; 3],
     /// The same before the last step.
     errors_before: [S; 3],
@@ -27,7 +28,7 @@ pub(super) struct Past<S, const D: usize> {
 /// Where the forces of the last step, of the one before and of the next one are in each turn.
 const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
-/// How the forces of the next step are foretold.
+/// The predictor of the forces of the next step.
 #[derive(Debug)]
 pub(super) struct Forecast<'a, S, const D: usize> {
     forces: &'a [[[S; D]; PLACES]],
@@ -76,9 +77,9 @@ impl<S: Real> SavedPast<S> {
     }
 }
 
-/// How the force of a step is foretold: weights of those of the last step and of the one before.
+/// The predictors of the force of a step: weights of the forces of the last step and of the one before.
 ///
-/// Not at all, which is free flight; as that of the last step; on the line through both.
+/// Zero, which is free flight; the last force; linear extrapolation.
 const FORECASTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
 
 impl<S: Real, const D: usize> Past<S, D> {
@@ -93,7 +94,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// The forecast that has been best.
+    /// The predictor with the smallest error so far.
     #[inline]
     pub(super) fn forecast(&self) -> Forecast<'_, S, D> {
         let [nothing, constant, linear] = self.errors;
@@ -130,7 +131,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// The step whose forces have been taken has succeeded: it is the last one.
+    /// Commits the step: its forces become the history of the predictor.
     #[inline]
     pub(super) fn keep(&mut self) {
         self.turn = if self.turn + 1 == PLACES {
@@ -148,7 +149,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         self.errors = self.errors_before;
     }
 
-    /// What a run goes on from.
+    /// The history for a checkpoint.
     pub(super) fn save(&self) -> SavedPast<S> {
         let [last, before, _] = TURNS[self.turn];
         let of = |step: usize| self.forces.iter().flat_map(|forces| forces[step]).collect();
@@ -169,7 +170,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         saved.errors = self.errors;
     }
 
-    /// Goes on from a saved past, of as many nodes.
+    /// Continues from a saved history of as many nodes.
     pub(super) fn restore(&mut self, saved: &SavedPast<S>) {
         let [last, before, _] = TURNS[self.turn];
         for (step, saved) in [last, before].into_iter().zip(&saved.forces) {
@@ -189,7 +190,7 @@ impl<S: Real, const D: usize> Remembering<'_, S, D> {
         &self.forces[node][next]
     }
 
-    /// The same, to be written.
+    /// The same, mutable.
     #[inline]
     pub(super) fn impulse_mut(&mut self, node: usize) -> &mut [S; D] {
         let [_, _, next] = self.turn;

@@ -54,7 +54,7 @@ impl<S, const D: usize> MovingNode<S, D> {
             .unwrap_or_else(|| no_such_row())
     }
 
-    /// The same, to be written.
+    /// The same, mutable.
     #[inline]
     pub(super) fn rows_mut<'a>(&self, vector: &'a mut [[S; 1]]) -> &'a mut [S; D] {
         let from = self.row as usize;
@@ -81,7 +81,7 @@ fn no_such_row() -> ! {
     unreachable!("rows come from the system")
 }
 
-/// A temperature that neighbours see.
+/// A coupled interface temperature.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
     /// The thermal slot, and where it is in the trial.
@@ -117,7 +117,7 @@ pub(super) fn moving<S: Real, const D: usize>(
     moving.collect()
 }
 
-/// The temperatures that neighbours see.
+/// The coupled interface temperatures.
 pub(super) fn seen<S: Real, const D: usize>(sites: &Sites<'_, S, D>) -> Vec<Seen> {
     let first = sites.sets[0] * sites.layout.thermal;
     let coupled = sites.layout.coupled.iter().enumerate();

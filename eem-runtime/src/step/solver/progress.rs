@@ -1,18 +1,17 @@
-//! How far Newton's method has come, and what it is for.
+//! Progress and aim of Newton's method.
 
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use crate::step::newton::{CONTRACTION, STAGNATION};
 use eem_material::number::scalar::{Mask, Real};
 
-/// How often a step that breaks a law where Newton's method has come to rest is tried with another
-/// iteration: rounding makes each of them a new draw.
+/// Extra iterations after stagnation while the certificate fails; each changes the rounding errors.
 const REDRAWS: u32 = 3;
 
 /// The slowest decrease of the residual that counts as one.
 const SLOWEST: f64 = 0.75;
 
-/// What an iteration is to find.
+/// The aim of an iteration.
 pub(super) enum Target<'a, S> {
     /// A trial from which another one starts.
     Trial,
@@ -22,7 +21,7 @@ pub(super) enum Target<'a, S> {
     State(&'a mut State<S>),
 }
 
-/// What comes of a trial.
+/// The result of closing a trial.
 pub(super) enum Conclusion<S: Real> {
     /// The step ends there.
     Found,
@@ -46,7 +45,7 @@ pub(super) struct Progress<S> {
     smallest: S,
     /// Consecutive updates that did not fall.
     stuck: u32,
-    /// Draws that were refused, and the smallest residual of them.
+    /// Rejected states at rounding level, and the smallest residual of them.
     pub(super) draws: u32,
     residual: S,
 }
@@ -116,7 +115,7 @@ impl<S: Real> Progress<S> {
         self.stuck > 0
     }
 
-    /// Nothing is left to draw.
+    /// All extra iterations are used up.
     pub(super) fn is_over(&self) -> bool {
         self.draws > REDRAWS
     }

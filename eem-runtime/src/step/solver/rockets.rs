@@ -64,7 +64,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
                     })
                 })
             };
-            // Sets that there are not are never looked at.
+            // Indices of sets beyond the last are never used.
             let of_sets = |sets_of: [usize; 2]| sites.of_sets(sets_of.map(|set| set.min(sets - 1)));
             Rocket {
                 line: push.line,

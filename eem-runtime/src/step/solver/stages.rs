@@ -1,11 +1,11 @@
-//! What only a scheme with stages needs to remember.
+//! Workspace of schemes with stages.
 
 use crate::algebra::system::LinearSystem;
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use eem_material::number::scalar::Real;
 
-/// What only a scheme with stages needs.
+/// Workspace of a scheme with stages.
 #[derive(Debug)]
 pub(super) struct Stages<S, const D: usize> {
     pub(super) rule: &'static Tableau,

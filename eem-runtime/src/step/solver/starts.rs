@@ -1,4 +1,4 @@
-//! From where Newton's method is tried, one start after the other.
+//! The initial guesses of Newton's method, tried one after the other.
 
 use super::Solver;
 use super::begin::Start;
@@ -37,7 +37,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.kept_by(view)
     }
 
-    /// The step has succeeded: its forces are those of the last one.
+    /// Commits the step: its forces become the history of the predictor.
     fn kept_by(&mut self, view: &StepView<'_, S>) -> Result<Certificate<S>, StepFailure> {
         if view.phase.heats() && self.scheme.foretells_its_start() {
             self.past.keep();

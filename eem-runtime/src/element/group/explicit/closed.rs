@@ -1,10 +1,10 @@
-//! What is found of an element at a stage, and kept where a step is closed.
+//! Values of an element at a stage, stored when a step is closed.
 
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use eem_material::free_energy::{Array, FreeEnergy, Rates};
 use eem_material::number::scalar::{Mask, Real, unless};
 
-/// What the rates of a point follow from.
+/// The values from which the rates of a point follow.
 pub(super) struct Found<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
     pub(super) theta: S,
     pub(super) rates: Rates<M::Variables>,
@@ -12,7 +12,7 @@ pub(super) struct Found<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D:
     pub(super) gradient: Gradient<K, S, D>,
 }
 
-/// What was found of a point when it was closed last.
+/// The last evaluation of a point in a closing.
 #[derive(Clone, Copy)]
 pub(super) struct Closed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
     /// The temperature at which the model was evaluated, K.
@@ -24,14 +24,14 @@ pub(super) struct Closed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D
     pub(super) values: Values<S>,
 }
 
-/// The magnitude of the terms of ψ, and that of the terms of the energy where it was evaluated, J.
+/// The magnitude of the terms of ψ, and that of the terms of the energy at the same evaluation, J.
 #[derive(Clone, Copy)]
 pub(super) struct Values<S> {
     magnitude: S,
     terms: S,
 }
 
-/// A change of the terms of an energy after which the magnitude of ψ is evaluated again.
+/// The magnitude of ψ is evaluated again when the terms of the energy have changed by this factor.
 const CHANGE: f64 = 2.0;
 
 /// Up to this multiple of the terms of the energy, the magnitude of ψ adds nothing to the bound that matters:
@@ -39,8 +39,7 @@ const CHANGE: f64 = 2.0;
 const UNIMPORTANT: f64 = 8.0;
 
 impl<S: Real> Values<S> {
-    /// Evaluates the magnitude of ψ where it may matter, given the terms of the energy; otherwise it is the last
-    /// one that was found.
+    /// Evaluates the magnitude of ψ where it may matter, given the terms of the energy; otherwise keeps the last one.
     #[inline]
     pub(super) fn update(&mut self, terms: S, magnitude: impl FnOnce() -> S) -> S {
         let change = S::from_f64(CHANGE);

@@ -138,7 +138,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         Ok(())
     }
 
-    /// Adds what the bounds ask of a state with these arms, whose temperature and forces have been found.
+    /// Adds the terms that the bounds need of a state with these arms, given its temperature and forces.
     #[inline]
     fn add_bounds_of(
         &self,

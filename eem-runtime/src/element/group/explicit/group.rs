@@ -17,11 +17,11 @@ use eem_material::number::scalar::Real;
 
 /// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
 pub(crate) struct FreeGroup<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> {
-    /// What they are in a state.
+    /// The elements in a state.
     pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
-    /// The component of each, and where its nodes are among the places of a stage.
+    /// Per element: its component, and the indices of its nodes among the places of a stage.
     pub(super) places: Vec<(u32, K::PerNode<u32>)>,
-    /// What was found when it was closed last.
+    /// Per element: its last evaluation in a closing.
     pub(super) closed: Vec<Closed<S, M, K, D>>,
 }
 

@@ -57,7 +57,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         stage: &Stage<S, D>,
     ) -> Found<S, M, K, D> {
         let theta = self.temperature_in(stage);
-        // First, as fewer numbers have to be put aside for a call of `exp`.
+        // Called first: a call of `exp` would spill the registers used below.
         let viscosities = match M::DASHPOTS {
             0 => M::Viscosities::filled(S::zero()),
             _ => self.model.viscosity(theta).0,
@@ -91,7 +91,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         x
     }
 
-    /// Its temperature at a stage; zero without.
+    /// Its temperature at a stage; zero without one.
     #[inline]
     pub(super) fn temperature_in(&self, stage: &Stage<S, D>) -> S {
         match self.slots().thermal {
@@ -100,7 +100,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         }
     }
 
-    /// Adds its forces on the nodes, and writes its rates; whether all of them are numbers.
+    /// Adds its forces on the nodes, and writes its rates; returns whether all are finite.
     #[inline(always)]
     #[expect(
         clippy::inline_always,
@@ -146,7 +146,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             heat += power;
             drift += slopes[M::MEASURES + k] * creep;
             is_sound &= S::zero().less(found.viscosities[k]).all();
-            // With temperature its heat is part of θ̇.
+            // With temperature, θ̇ contains the heat of the dashpot and is checked itself.
             is_sound &= M::THERMAL || creep.is_finite();
         }
         let Some(slot) = self.slots().thermal else {

@@ -72,7 +72,7 @@ impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
 pub(crate) struct Place<S, const D: usize> {
     /// q, m, and p, kg m/s.
     pub(crate) now: [[S; D]; 2],
-    /// Their rates: v, m/s, and F, N; of an anchor the reaction, N, which counts where anchors are moved.
+    /// Their rates: v, m/s, and F, N; for an anchor the reaction, N, which is used only if it is moved.
     pub(crate) rates: [[S; D]; 2],
     /// m and 1/m; zero for anchors.
     pub(crate) mass: S,
@@ -153,23 +153,23 @@ pub(crate) struct Stage<S: Real, const D: usize> {
     pub(crate) inner: Vec<S>,
     /// `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into each thermal slot, W.
     pub(crate) inner_rates: Vec<S>,
-    /// Of two internal variables each.
+    /// Starts and earlier rates of the internal variables, two per entry.
     pub(crate) inner_past: Vec<Past<S, 2, 1>>,
-    /// Where temperatures begin among the internal variables.
+    /// The index of the first temperature among the internal variables.
     pub(crate) temperatures: usize,
-    /// What each dashpot produces, `g γ̇/θ`, W/K, or `g γ̇` without temperature, W.
+    /// The entropy production of each dashpot, `g γ̇/θ`, W/K, or without temperature its heat `g γ̇`, W.
     pub(crate) productions: Vec<Integral<S>>,
     /// The weight of this stage.
     pub(crate) weight: S,
     /// `f λ̇` and the heat that flows in, of each thermal slot, W; empty without thermostats.
     pub(crate) supply: Vec<Integral<S>>,
-    /// Whether a thermostat gives the temperature, per thermal slot; empty without thermostats.
+    /// Whether a thermostat prescribes the temperature, per thermal slot; empty without thermostats.
     pub(crate) held: Vec<bool>,
     pub(crate) has_thermostats: bool,
 }
 
 impl<S: Real, const D: usize> Stage<S, D> {
-    /// Of places with these masses.
+    /// A stage with places of these masses.
     pub(crate) fn new(
         masses: impl Iterator<Item = S>,
         layout: &Layout,
@@ -197,7 +197,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
         self.inner_past[index / 2].start[0][index % 2]
     }
 
-    /// The temperature of a thermal slot, or of a reservoir, which come behind them, K.
+    /// The temperature of a thermal slot or, with an index behind those of the slots, of a reservoir, K.
     #[inline]
     pub(crate) fn theta(&self, slot: usize) -> S {
         self.inner[self.temperatures + slot]
@@ -208,7 +208,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
         &mut self.inner[self.temperatures + slot]
     }
 
-    /// All rates at the start of the step, and now, with those of the first places.
+    /// Pairs of all rates, at the start of the step and now; of places only the first `places`.
     pub(crate) fn rates(&self, places: usize) -> impl Iterator<Item = [S; 2]> + '_ {
         let places = self.places[..places].iter().flat_map(|of| {
             let starts = of.past.rates[0].as_flattened().iter();
@@ -222,7 +222,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
         all.map(|(&start, &now)| [start, now])
     }
 
-    /// The same, to be changed.
+    /// The same, mutable.
     pub(crate) fn rates_mut(&mut self, places: usize) -> impl Iterator<Item = [&mut S; 2]> + '_ {
         let places = self.places[..places].iter_mut().flat_map(|of| {
             let starts = of.past.rates[0].as_flattened_mut().iter_mut();
@@ -237,7 +237,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
         all.map(|(start, now)| [start, now])
     }
 
-    /// Whether a thermostat gives the temperature of a thermal slot.
+    /// Whether a thermostat prescribes the temperature of a thermal slot.
     #[inline]
     pub(crate) fn is_held(&self, slot: usize) -> bool {
         self.held.get(slot) == Some(&true)

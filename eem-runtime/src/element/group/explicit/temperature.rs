@@ -1,4 +1,4 @@
-//! The temperature of an element that closes a step, from the entropy that is kept.
+//! The temperature of an element at the end of a step, from its stored entropy.
 
 use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
@@ -13,16 +13,16 @@ use eem_material::number::scalar::{Mask, Real, unless};
 /// temperature of the stages needs one or two.
 const MOST_EVALUATIONS: usize = 6;
 
-/// A correction of ln θ for which the guess is not nearly right.
+/// The correction of ln θ above which a guess is poor and the safeguarded search takes over.
 const LARGEST_CORRECTION: f64 = 0.25;
 
-/// Roundings, in ε, of the terms of an entropy that it may differ by from the one that is kept, as far as it is seen: of
-/// the four that are promised one is left to the rounding of its value.
+/// An evaluated entropy may differ from the stored one by this many ε of its terms. Four are promised to the user; one
+/// is left for the rounding of the value itself.
 const KEPT_ROUNDINGS: f64 = 3.0;
 
-/// The temperature of an entropy.
+/// The temperature that belongs to an entropy.
 pub(super) struct Settled<S: Real, M: FreeEnergy<S>, T> {
-    /// Where the model was evaluated last, and what was found there, K.
+    /// The temperature of the last evaluation, K, and its values.
     pub(super) theta: S,
     pub(super) evaluated: (Rates<M::Variables>, T),
     /// The corrected one, K.
@@ -32,7 +32,7 @@ pub(super) struct Settled<S: Real, M: FreeEnergy<S>, T> {
 }
 
 impl<S: Real, M: FreeEnergy<S>, T> Settled<S, M, T> {
-    /// A temperature that needs no correction, and what was found there.
+    /// A temperature that needs no correction, and the values there.
     #[inline]
     pub(super) fn given(theta: S, evaluated: (Rates<M::Variables>, T)) -> Self {
         Self {
@@ -44,14 +44,15 @@ impl<S: Real, M: FreeEnergy<S>, T> Settled<S, M, T> {
     }
 }
 
-/// Whether a change δ of ln θ by `δ = Δs/c` meets the entropy, given c and `|∂c/∂ ln θ|`: what it leaves of Δs is
+/// Whether the change `δ = Δs/c` of ln θ gives the entropy, with c and `|∂c/∂ ln θ|` given: the remainder of Δs is
+/// small,
 ///
 /// ```text
 /// ½ |∂c/∂ ln θ| δ²  ≤  ε c/16
 /// ```
 ///
-/// a 64th of what the law of the kept entropy allows, so that several changes have room. A transition of
-/// the width w has `|∂c/∂ ln θ| = c θ/w`.
+/// a 64th of the bound of [`Law::KeptEntropy`](crate::Law::KeptEntropy), so that several changes may add up. A phase
+/// transition of the width w has `|∂c/∂ ln θ| = c θ/w`.
 #[inline]
 pub(crate) fn is_met<S: Real>(change: S, [capacity, bend]: [S; 2]) -> S::Mask {
     let eighth = S::from_f64(0.125);
@@ -61,7 +62,7 @@ pub(crate) fn is_met<S: Real>(change: S, [capacity, bend]: [S; 2]) -> S::Mask {
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
     /// The temperature of an entropy near a guess by Newton's method in ln θ.
     ///
-    /// Each lane stops where it would alone.
+    /// Each lane stops where it would stop alone.
     #[inline]
     pub(super) fn temperature_of<T>(
         &self,
@@ -116,8 +117,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         (capacity + theta * theta * second).abs()
     }
 
-    /// The same from a guess that is not nearly right; for several numbers only where Newton's method has not
-    /// settled on a temperature. Where it does not meet the entropy, it says so.
+    /// The same from a poor guess, by the safeguarded search, in the lanes in which Newton's method has not converged.
+    /// A temperature that misses the entropy is reported in `unkept`.
     #[cold]
     fn search<T: Copy + AsRef<[S]>>(
         &self,
@@ -128,7 +129,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         unkept: &mut Option<UnkeptEntropy>,
     ) -> Result<Settled<S, M, T>, StateError> {
         let caloric_at = self.model.caloric_at(*x);
-        // ε^¾: as sharp as in the schemes that keep no forces of their own.
+        // ε^¾, as in the implicit schemes.
         let root = S::EPSILON.sqrt();
         let enough = root * root.sqrt();
         let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);

@@ -1,4 +1,4 @@
-//! What elements see of the closing of an explicit step.
+//! Data that elements exchange with the closing of an explicit step.
 
 use crate::element::group::explicit::stage::Stage;
 use crate::element::handle::Element;
@@ -11,25 +11,25 @@ use eem_material::number::scalar::{Real, unless};
 pub(crate) struct ClosingView<'a, S: Real, const D: usize> {
     /// Whether a component is still to be closed.
     pub(crate) open: &'a [bool],
-    /// Lanes of each component that keep what they have.
+    /// Inactive lanes of each component, whose values stay.
     pub(crate) inactive: &'a [S::Mask],
-    /// Temperatures are guesses that become those of the entropies, except where they are held.
+    /// Its temperatures are guesses, replaced by those of the entropies except at thermostats.
     pub(crate) stage: &'a mut Stage<S, D>,
     /// c and `|∂c/∂ ln θ|` per thermal slot, J/K.
     pub(crate) capacities: &'a mut [[S; 2]],
-    /// The first entropy that is not that of the temperature found for it.
+    /// The first entropy that the temperature found for it misses by more than rounding.
     pub(crate) unkept: &'a mut Option<UnkeptEntropy>,
-    /// Its entropies are given, except where the temperature is held; its energies are written.
+    /// Entropies are input, except at thermostats; energies are output.
     pub(crate) next: &'a mut State<S>,
     /// Per component.
     pub(crate) energies: &'a mut [ComponentEnergy<S>],
 }
 
-/// An entropy that is kept and differs from `s(λ, γ, θ)`.
+/// A stored entropy that differs from `s(λ, γ, θ)`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UnkeptEntropy {
     pub(crate) element: Element,
-    /// The difference, and what rounding explains of it, J/K.
+    /// The difference, and its bound for rounding, J/K.
     pub(crate) sizes: [f64; 2],
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct UnkeptEntropy {
 pub(crate) struct ComponentEnergy<S> {
     /// `Σ (ψ + θ s)`, J.
     pub(crate) value: Total<S>,
-    /// `Σ (|e| + θ (|s| + c))`, J: times ε, what rounding does to it.
+    /// `Σ (|e| + θ (|s| + c))`, J: times ε, its rounding error.
     pub(crate) magnitude: S,
     /// See [`Energy`], J.
     pub(crate) terms: S,
@@ -79,7 +79,7 @@ impl<S: Real> ComponentEnergy<S> {
     }
 }
 
-/// How strongly a node is held by its elements.
+/// The stiffness and the rates of an element, which limit an explicit step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NodeStiffness<S> {
     pub(crate) nodes: [usize; 2],

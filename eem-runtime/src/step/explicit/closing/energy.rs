@@ -9,7 +9,7 @@ use crate::element::state::State;
 use core::ops::Range;
 use eem_material::number::scalar::{Mask, Real, unless};
 
-/// The part of what elements produce in a step that heat may change.
+/// The fraction of the entropy production of a step by which a correction by heat may change it.
 const HEAT_SHARE: f64 = 0.003;
 
 /// Corrections by heat.
@@ -51,7 +51,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         [energy.value(), magnitude]
     }
 
-    /// What the bound of a step counts of the state that it starts from, and the terms of the energies there, J.
+    /// The contribution of the state at the start of a step to its bound, and the terms of the energies there, J.
     #[cold]
     pub(in super::super) fn terms_at_start(&self, state: &State<S>) -> [S; 2] {
         let mut motion = S::zero();
@@ -73,9 +73,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         [target.beyond(energy), magnitude + target.value.abs()]
     }
 
-    /// Puts energy back by heat as long as no element has to be evaluated for it.
+    /// Corrects the energy by heat as long as no element has to be evaluated for it.
     ///
-    /// Each lane goes the way that it would go alone.
+    /// Each lane takes the branch that it would take alone.
     pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Status {
         loop {
             let is_finite = self.look(index);
@@ -100,7 +100,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Finds the defect of a component; whether it is finite.
+    /// Finds the defect of a component; returns whether it is finite.
     fn look(&mut self, index: usize) -> bool {
         let seen = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
@@ -120,7 +120,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         defect.is_finite()
     }
 
-    /// Closes a component by heat where that is little beside what is produced; where that is.
+    /// Closes a component by heat in the lanes where the heat is small compared with what is produced; returns these
+    /// lanes.
     fn heat_within_share(&mut self, index: usize, next: &mut State<S>) -> S::Mask {
         let progress = &self.scratch.progress[index];
         let (defect, is_closed) = (progress.defect, progress.is_closed);

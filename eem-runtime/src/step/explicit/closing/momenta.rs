@@ -1,4 +1,4 @@
-//! The momenta of a body are put back to their targets by a rigid motion.
+//! Correction of the momenta of a body to their targets, by a rigid motion.
 
 use super::super::Explicit;
 use super::super::components::{Component, Support};
@@ -11,7 +11,8 @@ use crate::element::group::Place;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::{MOST_LANES, Mask, Real, unless};
 
-/// Roundings of `Σ |q||p|` that are left to the momenta: positions turn only for more.
+/// Defects up to this many roundings of `Σ |q||p|` are corrected by momenta; only for larger ones positions are
+/// rotated.
 const OWN_ROUNDINGS: f64 = 2.0;
 
 /// Corrections of momenta after the first one.
@@ -60,14 +61,14 @@ impl<S: Real, const D: usize> Body<S, D> {
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// The rigid motion of a component with the momenta that it has.
+    /// The rigid motion of a component with its present momenta.
     pub(super) fn rigid(&self, index: usize) -> Rigid<S, D> {
         let (component, motion) = (&self.components.all[index], &self.scratch.motions[index]);
         let body = self.body(component);
         body.motion(component, (&motion.linear, &motion.angular))
     }
 
-    /// A component as it would turn as a rigid body.
+    /// A component as a rigid body.
     fn body(&self, component: &Component<S>) -> Body<S, D> {
         let mut body = Body {
             origin: Self::origin(&self.stage.places, component),
@@ -105,7 +106,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         moments
     }
 
-    /// Adds a rigid motion to the momenta, except in inactive lanes, and looks at what the masses have then.
+    /// Adds a rigid motion to the momenta, except in inactive lanes, and updates the sums over the masses.
     fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>, inactive: S::Mask) {
         let masses = self.components.all[index].masses.clone();
         let mut motion = Motion::none();
@@ -123,8 +124,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.scratch.motions[index] = motion;
     }
 
-    /// Puts the momenta back to their targets; in space again where the rounding of a correction matters.
-    /// Positions turn where momenta alone cannot do it.
+    /// Corrects the momenta to their targets; in space repeatedly if the rounding of a correction matters. Positions
+    /// are rotated if momenta alone cannot do it.
     pub(super) fn restore_momenta(&mut self, index: usize) {
         self.look_at_motion(index);
         if self.components.all[index].support == Support::Several {
@@ -139,8 +140,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// A rotation of the body where it is needed, and corrections of its momenta, except in inactive lanes; also inactive
-    /// are then those whose momenta are right to their rounding.
+    /// Rotates the body if needed and corrects its momenta, except in inactive lanes; returns these lanes and those
+    /// whose momenta are accurate to rounding.
     fn approach_momenta(&mut self, index: usize, inactive: S::Mask) -> S::Mask {
         let mut body = self.body(&self.components.all[index]);
         let is_weak = match &body.inertia {
@@ -180,8 +181,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         (linear, angular)
     }
 
-    /// Whether the angular momentum that masses on a line have to get has a part in planes across the line, which no
-    /// momentum gives them.
+    /// Whether the target of masses on a line has an angular momentum in planes perpendicular to the line, which no
+    /// momenta of them give.
     fn leaves_plane(&self, index: usize, along: &[S; D]) -> bool {
         let target = self.angular_target(index);
         let mut across = target;
@@ -189,7 +190,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         !across.largest().at_most(self.own_rounding(index)).all()
     }
 
-    /// The angular momentum that is left to the momenta.
+    /// The largest defect of the angular momentum that is corrected by momenta alone.
     fn own_rounding(&self, index: usize) -> S {
         let [_, terms] = self.scratch.motions[index].terms;
         S::from_f64(OWN_ROUNDINGS) * S::EPSILON * terms
@@ -200,8 +201,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         target.map(S::zero(), |sum| sum.value)
     }
 
-    /// Turns positions and momenta of a component, except in inactive lanes, so that its momenta can be put back;
-    /// whether it has turned.
+    /// Rotates positions and momenta of a component, except in inactive lanes, so that its momenta can be corrected;
+    /// returns whether it did.
     #[cold]
     fn turn_body(&mut self, index: usize, body: &Body<S, D>, inactive: S::Mask) -> bool {
         let (component, origin) = (&self.components.all[index], &body.origin);

@@ -1,4 +1,4 @@
-//! A component that nothing can close turns like a rigid body, if it nearly does so anyway.
+//! Fallback of the closing: a component that moves nearly like a rigid body is rotated rigidly.
 
 use super::super::demand::{Demand, Scales};
 use super::super::vector::{add, difference, length};
@@ -73,8 +73,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(())
     }
 
-    /// Whether the old state, turned about one plane, is within a part of what the stages say; if so, positions and momenta
-    /// are there then.
+    /// Whether the old state, rotated in one plane, agrees with the stages to this relative difference; positions and
+    /// momenta are then set to it.
     fn takes_turn(&mut self, index: usize, h: S, largest: S, scales: Scales<S>) -> bool {
         if D > 3 {
             // It may turn in several planes at once.

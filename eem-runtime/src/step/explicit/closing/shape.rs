@@ -8,13 +8,13 @@ use super::{FROZEN, MOST_ITERATIONS, Status};
 use crate::element::state::State;
 use eem_material::number::scalar::{Discord, Mask, Real, unless};
 
-/// The least part of what can give energy that is motion, for motion to give it.
+/// Motion corrects the energy only if it is at least this fraction of all that can give energy.
 const LEAST_MOTION: f64 = 0.05;
 
-/// The largest change of motion and shape, as a part of what there is.
+/// The largest relative change of motion and shape.
 const LARGEST_PART: f64 = 0.1;
 
-/// After heat, motion gives what is left if it is this small a part of it.
+/// After heat, motion corrects the remainder if that is at most this fraction of the motion.
 const REST_OF_HEAT: f64 = 1e-9;
 
 /// Corrections by shape.
@@ -24,11 +24,11 @@ const SHAPE_ITERATIONS: usize = 5;
 /// and the share of each path of heat, is rounded once.
 const ROUNDED: f64 = 16.0;
 
-/// What can give a component energy, J.
+/// The energies available to correct a component, J.
 #[derive(Clone, Copy, Debug)]
 struct Means<S, const D: usize> {
     rigid: Rigid<S, D>,
-    /// The kinetic energy of what is no rigid motion, T.
+    /// The kinetic energy of the motion relative to the rigid one, T.
     motion: S,
     /// `2 T + h² Σ |F|²/m + h Σ g²/η + Σ 2hκ(Δθ)²/(θ_a + θ_b)`.
     all: S,
@@ -108,7 +108,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(true)
     }
 
-    /// What is left is rounding, or nothing can give it.
+    /// Closed if the remaining defect is rounding, failed otherwise.
     fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Status {
         let granularity = self.granularity(index);
         let progress = &mut self.scratch.progress[index];
@@ -123,7 +123,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// `Σ |F||q|`: times ε, by how much the rounding of positions changes the energy, J.
+    /// `Σ |F||q|`: times ε, the error of the energy by rounding of positions, J.
     fn granularity(&self, index: usize) -> S {
         let masses = self.components.all[index].masses.clone();
         masses.fold(S::zero(), |sum, at| {
@@ -188,7 +188,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         ends.into_iter().any(|end| self.stage.is_held(end as usize))
     }
 
-    /// The momentum of a mass that is no rigid motion.
+    /// The momentum of a mass relative to the rigid motion.
     fn inner_momentum(&self, place: usize, rigid: &Rigid<S, D>) -> [S; D] {
         let place = &self.stage.places[place];
         let mut own = *place.p();
@@ -219,7 +219,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.look_at_motion(index);
     }
 
-    /// Moves all that can move along the gradient of the energy.
+    /// Moves positions, viscous stretches and heat along the gradient of the energy.
     fn shift(
         &mut self,
         index: usize,
@@ -245,7 +245,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.exchange_heat(index, share * h, next);
     }
 
-    /// Entropy that goes from the warmer to the cooler end of each path, without production.
+    /// Moves entropy from the warmer to the cooler end of each path, without production.
     fn exchange_heat(&mut self, index: usize, duration: S, next: &mut State<S>) {
         let slots = self.scratch.produced.len();
         for path in &self.components.paths[self.components.all[index].paths.clone()] {
@@ -266,7 +266,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Energy to entropy, or back as far as it was produced in this step; whether there is where.
+    /// Converts energy to entropy, or back as far as it was produced in this step; returns false if no element can take
+    /// it.
     fn sink(&mut self, index: usize, defect: S, next: &mut State<S>) -> Result<bool, Discord> {
         if defect.less(S::zero()).decide()? {
             let produced = self.produced_heat(index);

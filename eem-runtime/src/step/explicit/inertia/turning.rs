@@ -62,8 +62,8 @@ impl<const D: usize> Turned<D> {
     }
 }
 
-/// What is added to the arms of a body, `W r` with `1 + W` a rotation, so that its angular momentum can become a
-/// target by small changes of its momenta; nothing where that is so to `rounding`, or cannot be.
+/// The matrix W of a rotation `1 + W` of the arms of a body, after which small changes of the momenta give the target
+/// of its angular momentum. `None` if that holds to `rounding` without a rotation, or cannot be reached.
 #[cold]
 pub(in super::super) fn turning<const D: usize>(
     principal: &Principal<D>,
@@ -76,7 +76,7 @@ pub(in super::super) fn turning<const D: usize>(
         axes,
         changes: [[0.0; D]; D],
     };
-    // What the target is to be in the axes of the body: what it is now, and a part of what is missing, as large as
+    // The wanted components of the target in the axes of the body: the present ones, plus as much of the defect as
     // momenta can add.
     let mut goals = Bivector::<Option<f64>, D>::filled(None);
     for [a, c] in planes::<D>() {

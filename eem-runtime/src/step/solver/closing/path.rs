@@ -151,7 +151,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             .find_impulses_of_step(nodes, |node| stages.changes[node.place.node()]);
     }
 
-    /// What loads and weight of a node have done in the step.
+    /// Adds work and impulse of loads and weight on a node in the step.
     fn see_loads(
         &self,
         stages: &Stages<S, D>,

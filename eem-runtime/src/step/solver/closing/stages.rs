@@ -155,7 +155,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         solved.map_err(|_| StepFailure::SingularTangent)
     }
 
-    /// Puts a node of a set somewhere else.
+    /// Sets the displacement of a node in a set.
     fn place(&mut self, in_trial: usize, displacement: [S; D]) {
         self.trial.displacements[in_trial] = displacement;
         self.trial.rests[in_trial] = [S::zero(); D];

@@ -1,4 +1,4 @@
-//! What the supports of moved anchors do in a step through stages.
+//! The work of the supports of moved anchors in a step through stages.
 //!
 //! ```text
 //! work = h Σ_i b_i (F_i·q̇_i + v_i·ṗ_i),     p = M v of what a solid has at the anchor
@@ -18,7 +18,7 @@ use crate::step::solver::stages::Stages;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// Moved anchors are where the step has moved them, and their supports have done work.
+    /// Sets moved anchors to their new positions, and adds the work of their supports.
     pub(super) fn move_supports(
         &self,
         view: &StepView<'_, S>,
@@ -45,7 +45,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// What a solid has at a moved anchor goes along with it, at the cost of its support.
+    /// Moves the mass of a solid at a moved anchor; the support does the work.
     fn carry(
         &self,
         node: usize,
