@@ -65,9 +65,9 @@ pub(super) const GLIBC: [Stored; 5] = [
 pub(super) const PORTABLE: [Stored; 5] = [
     Stored {
         scheme: Scheme::EemEntropy,
-        single: 0x9154_7611_6ddd_571d,
+        single: 0x7815_d598_80eb_a700,
         double: [
-            0xd428_7c24_3a97_d356,
+            0xce92_5084_ea35_69d7,
             0x4eeb_5970_fb55_2233,
             0x7e6c_93e3_d852_a83e,
         ],
@@ -101,9 +101,9 @@ pub(super) const PORTABLE: [Stored; 5] = [
     },
     Stored {
         scheme: Scheme::Staggered,
-        single: 0x7c74_b6d4_9717_4502,
+        single: 0x2c6e_6f71_5137_e521,
         double: [
-            0xef34_2c86_ef29_8785,
+            0x93a5_9fb0_d4a1_248b,
             0x8eea_7580_3ca6_537b,
             0x4ab4_a04f_3c33_575e,
         ],

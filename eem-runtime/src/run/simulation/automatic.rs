@@ -43,6 +43,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(failed);
         };
         let past = self.stepper.past(&self.state);
+        let energies = self.state.energies.clone();
         for scheme in CANDIDATES {
             if scheme == own
                 || !self.is_candidate(scheme, control)
@@ -57,6 +58,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
         }
         self.return_to_scheme(own, &past, control);
+        // As the own scheme found them.
+        self.state.energies = energies;
         *too_large = control.memory.statistics.too_large;
         Err(failed)
     }

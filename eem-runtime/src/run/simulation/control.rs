@@ -314,10 +314,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     pub(super) fn return_to_snapshot(&mut self, snapshot: &Snapshot<S>) {
+        // First the scheme, which evaluates energies in its own way and has a history of its own.
+        self.restore_history(snapshot.history);
         self.state.copy_all_from(&snapshot.state);
         let (past, explicit) = &snapshot.past;
         self.stepper.restore(past, explicit.as_ref());
-        self.restore_history(snapshot.history);
         (self.worst, self.corrections) = (snapshot.worst, snapshot.corrections);
         self.has_stepped = false;
     }

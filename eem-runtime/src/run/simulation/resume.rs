@@ -5,6 +5,7 @@ use super::compiled::Functions;
 use crate::element::state::State;
 use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, SavedEnergies};
 use crate::step::outcome::Corrections;
+use crate::step::scheme::Closing;
 use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -47,15 +48,24 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 energies: Vec::new(),
                 ..State::clone(&self.state)
             },
-            energies: SavedEnergies {
-                of: self.state.digest(),
-                list: self.state.energies.clone(),
-            },
+            energies: self.saved_energies(),
             past,
             explicit,
             seals: Vec::new(),
         }
         .sealed()
+    }
+
+    /// None of the explicit scheme, whose books have what it judges steps by.
+    fn saved_energies(&self) -> SavedEnergies<S> {
+        let list = match self.in_use.closing() {
+            Closing::Explicit => Vec::new(),
+            _ => self.state.energies.clone(),
+        };
+        SavedEnergies {
+            of: self.state.digest(),
+            list,
+        }
     }
 
     /// Restores a saved state, of this simulation or of one of the same scene in another process. Nodes, elements
@@ -102,10 +112,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.state.copy_from(&checkpoint.state);
         self.state.follow_velocities(D, &self.masses);
         let state = &mut self.state;
-        if checkpoint.energies.of == state.digest() {
-            state.energies.copy_from_slice(&checkpoint.energies.list);
+        let SavedEnergies { of, list } = &checkpoint.energies;
+        if *of == state.digest() && list.len() == state.energies.len() {
+            state.energies.copy_from_slice(list);
         } else {
-            // The state has been edited.
+            // The state has been edited, or the scheme is explicit.
             self.stepper.each_mut(|group| group.find_energies(state));
         }
         self.worst = None;
