@@ -394,7 +394,13 @@ fn calls_that_fail_leave_no_trace() {
         let later = Event::crossing(later);
         assert!(run.run_until_event(9.0, &mut [later]).is_err());
         let after = bits(&run);
-        // What an explicit scheme foretells has no effect on the steps.
-        assert_eq!(after.split("past:").next(), before.split("past:").next());
+        // What an explicit scheme predicts has no effect on the steps; where the failed step had changed the scheme,
+        // energies are evaluated again, with other roundings.
+        let state = |bits: &str| {
+            bits.split("energies: SavedEnergies")
+                .next()
+                .map(str::to_owned)
+        };
+        assert_eq!(state(&after), state(&before));
     }
 }

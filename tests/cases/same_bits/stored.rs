@@ -16,9 +16,9 @@ pub(super) struct Stored {
 pub(super) const GLIBC: [Stored; 5] = [
     Stored {
         scheme: Scheme::EemEntropy,
-        single: 0x0910_a29c_6459_c4c3,
+        single: 0xe3a1_cda4_978b_7e76,
         double: [
-            0xd428_7c24_3a97_d356,
+            0xce92_5084_ea35_69d7,
             0x8bd3_e475_34b3_793e,
             0x998c_9c0c_a44b_8eda,
         ],
@@ -52,9 +52,9 @@ pub(super) const GLIBC: [Stored; 5] = [
     },
     Stored {
         scheme: Scheme::Staggered,
-        single: 0x8514_e1a0_4ddd_3248,
+        single: 0x8374_0fc7_56f0_2c35,
         double: [
-            0xef34_2c86_ef29_8785,
+            0x91ea_9ede_9abd_4250,
             0xd6b9_5465_d43b_246a,
             0xa461_7654_0c39_5fe0,
         ],
