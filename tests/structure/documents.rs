@@ -171,7 +171,8 @@ fn files_named_at_the_heads_of_crates_exist() {
         let rows = head.lines().filter(|line| line.starts_with("//! |"));
         let named = rows.flat_map(|row| row.split('`').skip(1).step_by(2));
         // NAME stands for any.
-        let is_file = |name: &&str| name.ends_with(".rs") && !name.contains("NAME");
+        let is_source = |name: &str| Path::new(name).extension().is_some_and(|end| end == "rs");
+        let is_file = |name: &&str| is_source(name) && !name.contains("NAME");
         for name in named.filter(is_file) {
             if !files.iter().any(|file| file.ends_with(name)) {
                 missing.push(format!("{}: {name}", src.display()));
