@@ -20,7 +20,8 @@
     reason = "a source of random numbers is not an iterator"
 )]
 
-#[cfg(feature = "scenes")]
+// With optimisation, programs do not use generic code that another crate has compiled.
+#[cfg(all(feature = "scenes", debug_assertions))]
 pub mod compiled;
 pub mod length;
 pub mod precise;

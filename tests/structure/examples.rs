@@ -16,8 +16,11 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// Held while the programs of a package are built and run: some of both packages have the same names.
 static BUILT: Mutex<()> = Mutex::new(());
 
-/// Builds the programs of a package, with the features of the tests of the whole workspace, so that nothing else is
-/// built; the folder in which they are.
+/// Programs that measure for minutes: nobody runs them here.
+const MEASURING: [&str; 2] = ["digests", "hot_cases"];
+
+/// Builds the programs of a package that are run here, with the features of the tests of the whole workspace, so that
+/// nothing else is built; the folder in which they are.
 fn build(package: &str) -> PathBuf {
     let other = if package == "eem-studies" {
         "eem-examples"
@@ -25,8 +28,11 @@ fn build(package: &str) -> PathBuf {
         "eem-studies"
     };
     let mut command = Command::new(env!("CARGO"));
-    command.args(["build", "--quiet", "--locked", "--bins", "--all-features"]);
+    command.args(["build", "--quiet", "--locked", "--all-features"]);
     command.args(["--workspace", "--exclude", other]);
+    for name in programs(package) {
+        command.args(["--bin", &name]);
+    }
     assert!(command.current_dir(ROOT).status().unwrap().success());
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     target.join("debug")
@@ -38,12 +44,16 @@ fn run(folder: &Path, name: &str, arguments: &[&str]) -> Output {
     command.args(arguments).current_dir(ROOT).output().unwrap()
 }
 
-/// The programs of a package, by the names of their files or folders.
+/// The programs of a package that are run here, by the names of their files or folders.
 fn programs(package: &str) -> Vec<String> {
-    let folder = Path::new(ROOT).join(package).join("src/bin");
+    let folder = package.trim_start_matches("eem-");
+    let folder = Path::new(ROOT).join(folder).join("src/bin");
     let files = fs::read_dir(folder).unwrap();
     let name = |path: &Path| path.file_stem().unwrap().to_str().unwrap().to_owned();
-    files.map(|file| name(&file.unwrap().path())).collect()
+    let names = files.map(|file| name(&file.unwrap().path()));
+    names
+        .filter(|name| !MEASURING.contains(&name.as_str()))
+        .collect()
 }
 
 #[test]
@@ -51,7 +61,7 @@ fn programs(package: &str) -> Vec<String> {
 fn examples_keep_their_claims() {
     let _built = BUILT.lock().unwrap();
     let folder = build("eem-examples");
-    for name in programs("examples") {
+    for name in programs("eem-examples") {
         // Run by the tests of `eem-sweep`.
         if name == "sweep" {
             continue;
@@ -106,9 +116,7 @@ const WITHOUT_PICTURES: [&str; 4] = ["describe", "extremes", "paper_tables", "sw
 #[ignore = "runs examples; the gate asks for it"]
 fn studies_keep_their_claims_and_their_pictures_hold_their_texts() {
     let mut left = Vec::new();
-    let measuring = ["digests", "hot_cases"];
-    let studies = programs("studies").into_iter();
-    for name in studies.filter(|name| !measuring.contains(&name.as_str())) {
+    for name in programs("eem-studies") {
         left.extend(runs(&name).iter().map(|&options| (name.clone(), options)));
     }
     assert!(left.len() > 15);

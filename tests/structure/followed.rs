@@ -6,12 +6,19 @@
 #![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
 
 use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+#[cfg(unix)]
+use std::sync::Once;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// A folder in the one that the workspace builds in.
 const TEMPORARY: &str = env!("CARGO_TARGET_TMPDIR");
+
+/// Done when `eem` lies beside the crates.
+#[cfg(unix)]
+static LINKED: Once = Once::new();
 
 /// A fenced block: its language, its text, and the prose between the block before and this one.
 struct Block<'a> {
@@ -35,14 +42,22 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
         .collect()
 }
 
-/// A folder outside of the workspace, beside which lies `eem`, as the pages say.
+/// A folder outside of the workspace, beside which lies `eem`, as the pages say: the same `eem` for all pages, which is
+/// built once.
 fn folder(name: &str) -> PathBuf {
-    let base = std::env::temp_dir().join(format!("eem-followed-{name}-{}", std::process::id()));
-    let _ = fs::remove_dir_all(&base);
-    fs::create_dir_all(base.join(name).join("src")).unwrap();
+    let mut checkout = DefaultHasher::new();
+    ROOT.hash(&mut checkout);
+    let base = std::env::temp_dir().join(format!("eem-followed-{:x}", checkout.finish()));
+    let krate = base.join(name);
+    let _ = fs::remove_dir_all(&krate);
+    fs::create_dir_all(krate.join("src")).unwrap();
     #[cfg(unix)]
-    std::os::unix::fs::symlink(ROOT, base.join("eem")).unwrap();
-    base.join(name)
+    LINKED.call_once(|| {
+        let eem = base.join("eem");
+        let _ = fs::remove_file(&eem);
+        std::os::unix::fs::symlink(ROOT, eem).unwrap();
+    });
+    krate
 }
 
 /// A crate with these dependencies and the versions of the workspace.
@@ -92,7 +107,7 @@ fn follow(name: &str, page: &str) -> PathBuf {
 #[ignore = "builds a crate; the gate runs it"]
 fn the_readme_can_be_followed() {
     let krate = follow("pendulum", include_str!("../../README.md"));
-    fs::remove_dir_all(krate.parent().unwrap()).unwrap();
+    fs::remove_dir_all(krate).unwrap();
 }
 
 #[test]
@@ -105,7 +120,7 @@ fn the_tutorial_can_be_followed_to_its_picture() {
         drawn == shown,
         "docs/tutorial.svg is not what the tutorial draws"
     );
-    fs::remove_dir_all(krate.parent().unwrap()).unwrap();
+    fs::remove_dir_all(krate).unwrap();
 }
 
 /// Pages with programs that print something. That all programs compile and run as they stand is seen by rustdoc.
@@ -137,5 +152,5 @@ fn the_programs_of_the_pages_print_what_is_shown() {
         let output = cargo(&krate, &["run", "--quiet", "--bin", &name]);
         assert_eq!(output, printed, "{name}");
     }
-    fs::remove_dir_all(krate.parent().unwrap()).unwrap();
+    fs::remove_dir_all(krate).unwrap();
 }
