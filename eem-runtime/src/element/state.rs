@@ -62,7 +62,7 @@ pub(crate) struct Energy<S> {
     pub(crate) magnitude: S,
     /// c, J/K: times ε, the error of an entropy by rounding of the temperature from which it is found.
     pub(crate) heat_capacity: S,
-    /// `|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|` of this state.
+    /// `|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|` of this state, or a part of it.
     pub(crate) terms: S,
     /// What the bound of the energy counts beside `magnitude`, J: `Σ|f||π| + Σ|g||γ|` for the rounding of the
     /// arguments of ψ; where energies are kept by their values, also for the rounding of these.
@@ -109,6 +109,17 @@ impl<S: Real> Energy<S> {
     pub(crate) fn add_forces(&mut self, forces: S) {
         self.terms += forces;
         self.excess += forces;
+    }
+
+    /// Adds `Σ|f||π| + Σ|g||γ|` by secants, J, and the part of it that is certain: a sixteenth where the temperature does
+    /// not enter. Secants were 8.3 times too large at most in a million random steps, near the core of a Lennard-Jones
+    /// spring.
+    #[inline]
+    pub(crate) fn add_secants(&mut self, forces: S, is_thermal: bool) {
+        self.excess += forces;
+        if !is_thermal {
+            self.terms += S::from_f64(0.0625) * forces;
+        }
     }
 
     /// Adds what rounding does to values of ψ with terms of this magnitude, J.

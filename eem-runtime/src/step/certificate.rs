@@ -39,7 +39,8 @@
 //! The second term is the effect of the rounding of λ and γ on ψ, which near a singular force is far above `|f*|λ`; the
 //! evaluation of ψ has an error of 8 ε M. M is computed where values decide nothing. B is not limited, so that the true ΔE
 //! of the stored states is within B. If B exceeds 100 times 64 ε of `T + |ψ| + θ|s| + cθ + |f|λ + Σ|g||γ|` at both ends,
-//! the report says that its bound is wide.
+//! the report says that its bound is wide. Forces at the end of a step are evaluated only if what is known without does not
+//! rule that out.
 
 mod motion;
 
@@ -91,7 +92,8 @@ pub(crate) struct Certificate<S: Real> {
     pub(crate) defect: S,
     /// B, J.
     pub(crate) bound: S,
-    /// The terms of the energies at both ends, J.
+    /// The terms of the motion, and of the energies at both ends or the known part of them, J.
+    motion: S,
     terms: S,
     /// The defect that decides, R or its replacement by discrete derivatives, and B*, J.
     judged: [S; 2],
@@ -112,7 +114,7 @@ pub(crate) struct Internal<S> {
     change: S,
     /// The magnitude of its terms at both ends, J.
     magnitude: S,
-    /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of both ends, J.
+    /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of both ends, or the known part of it, J.
     terms: S,
     /// The part of them that neither `magnitude` nor the amplitude of forces has, J.
     excess: S,
@@ -185,7 +187,8 @@ impl<S: Real> Certificate<S> {
         Self {
             defect,
             bound: rounding * (terms + tally.forces + internal.excess),
-            terms: motion.amplitude + internal.terms,
+            motion: motion.amplitude,
+            terms: internal.terms,
             judged: [defect, rounding * (terms + forces)],
             production: tally.production,
             least_production: S::select(has_produced, tally.least, S::zero()),
@@ -215,7 +218,15 @@ impl<S: Real> Certificate<S> {
 
     /// Whether the bound is far above the rounding of the energies, or not a number.
     pub(crate) fn is_bound_wide(&self) -> bool {
-        is_wide(self.bound, self.terms / S::from_f64(SECANT))
+        is_wide(self.bound, self.motion + self.terms)
+    }
+
+    /// With the terms of the energies at both ends, J, which are evaluated if the known part of them makes the bound wide.
+    pub(crate) fn with_terms(mut self, terms: impl FnOnce() -> S) -> Self {
+        if self.is_bound_wide() {
+            self.terms = terms();
+        }
+        self
     }
 
     /// Two parts of a step, one after the other.
@@ -223,6 +234,7 @@ impl<S: Real> Certificate<S> {
         Self {
             defect: self.defect + later.defect,
             bound: self.bound + later.bound,
+            motion: self.motion + later.motion,
             terms: self.terms + later.terms,
             production: self.production + later.production,
             least_production: self.least_production.minimum(later.least_production),
@@ -277,6 +289,7 @@ impl<S: Real> Certificate<S> {
     pub(crate) fn or(mut self, is_own: S::Mask, other: &Self) -> Self {
         self.defect = S::select(is_own, self.defect, other.defect);
         self.bound = S::select(is_own, self.bound, other.bound);
+        self.motion = S::select(is_own, self.motion, other.motion);
         self.terms = S::select(is_own, self.terms, other.terms);
         for (own, other) in self.judged.iter_mut().zip(other.judged) {
             *own = S::select(is_own, *own, other);
@@ -312,10 +325,6 @@ impl<S: Real> Certificate<S> {
         broken.map(|(law, defect, bound)| (law, [defect, bound]))
     }
 }
-
-/// The factor by which the terms of the forces at the end of a step, which are found by their secants, may be too large: 8.3
-/// in a million random steps, near the core of a Lennard-Jones spring.
-const SECANT: f64 = 16.0;
 
 /// Whether a bound is far above the rounding of these terms of energies, J, or not a number.
 pub(crate) fn is_wide<S: Real>(bound: S, terms: S) -> bool {

@@ -230,7 +230,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
                     tally.force(forces);
                     tally.exchange(view.step * point.largest_pull(&r1));
                     let energy = &mut next.energies[point.element.index()];
-                    energy.add_forces(at_end);
+                    energy.add_secants(at_end, M::THERMAL);
                     let magnitude = energy.magnitude + forces;
                     point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
                 }

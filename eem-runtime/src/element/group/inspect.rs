@@ -34,20 +34,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         for member in &self.members {
             let r = member.arms_in(state);
             for point in member.points.as_ref() {
-                let x = point.variables_in(&r, state);
-                let psi = point.model.free_energy(&x);
-                let mut energy = match point.slots().thermal {
-                    None => Energy::without_temperature(psi),
-                    Some(slot) => {
-                        let theta = state.temperatures[slot];
-                        let entropy = state.entropies.values()[slot];
-                        Energy::new(psi, [theta, entropy], &point.model.caloric(&x))
-                    }
-                };
-                point.add_bounds(&r, &x, &mut energy);
-                state.energies[point.element.index()] = energy;
+                state.energies[point.element.index()] = point.energy_in(&r, state);
             }
         }
+    }
+
+    fn energy_terms(&self, state: &State<S>) -> S {
+        let members = self.members.iter();
+        members.fold(S::zero(), |sum, member| {
+            let r = member.arms_in(state);
+            let points = member.points.as_ref().iter();
+            points.fold(sum, |sum, point| sum + point.energy_in(&r, state).terms)
+        })
     }
 
     fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>) {
@@ -185,6 +183,22 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             .map_err(|infeasible| infeasible.of(self.element))?;
         state.entropies.set(slot, caloric.entropy);
         Ok(())
+    }
+
+    /// The energy in a state with these arms whose temperature and entropy are known.
+    fn energy_in(&self, r: &Arms<K, S, D>, state: &State<S>) -> Energy<S> {
+        let x = self.variables_in(r, state);
+        let psi = self.model.free_energy(&x);
+        let mut energy = match self.slots().thermal {
+            None => Energy::without_temperature(psi),
+            Some(slot) => {
+                let theta = state.temperatures[slot];
+                let entropy = state.entropies.values()[slot];
+                Energy::new(psi, [theta, entropy], &self.model.caloric(&x))
+            }
+        };
+        self.add_bounds(r, &x, &mut energy);
+        energy
     }
 
     /// The variables in a state with these arms.

@@ -29,6 +29,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// Adds energy and entropy, from their definitions.
     fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>);
 
+    /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of a state, J.
+    fn energy_terms(&self, state: &State<S>) -> S;
+
     /// Writes the energies of a state whose temperatures and entropies are known.
     fn find_energies(&self, state: &mut State<S>);
 

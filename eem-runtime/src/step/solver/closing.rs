@@ -26,13 +26,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         next: &mut State<S>,
     ) -> Result<Certificate<S>, StepFailure> {
-        let certificate = self.close_with(Care::Quick, groups, view, next)?;
-        let is_enough = certificate.is_enough();
-        if !self.scheme.is_exact() || is_enough.all() {
+        let mut certificate = self.close_with(Care::Quick, groups, view, next)?;
+        if !self.scheme.is_exact() {
             return Ok(certificate);
         }
-        let thorough = self.close_thoroughly(groups, view, next)?;
-        Ok(certificate.or(is_enough, &thorough))
+        let is_enough = certificate.is_enough();
+        if !is_enough.all() {
+            let thorough = self.close_thoroughly(groups, view, next)?;
+            certificate = certificate.or(is_enough, &thorough);
+        }
+        let terms = |state: &State<S>| {
+            let groups = groups.iter();
+            groups.fold(S::zero(), |sum, group| sum + group.elements().energy_terms(state))
+        };
+        Ok(certificate.with_terms(|| terms(view.state) + terms(next)))
     }
 
     /// The same with thorough bounds; energy changes by discrete derivatives decide where those by values are too
