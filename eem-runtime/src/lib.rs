@@ -34,8 +34,8 @@
 //! | add a strain measure | `strain.rs`, `between.rs`, `tensor.rs`, `stiffness.rs` in `element/kinematics`; its role in `eem-language` |
 //! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs`; `Scheme::takes_drag` |
-//! | add a shape of cell | `element/kinematics/shape.rs` |
-//! | change solids, meshes and their checks | `mesh`, `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `cell.rs`, `gmsh.rs` in `scene` |
+//! | add a shape of cell | `shape.rs` in `eem-mesh` |
+//! | change solids and their checks | `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `cell.rs` in `scene`; meshes: `eem-mesh` |
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
@@ -56,6 +56,12 @@ pub use eem_material::{
     DomainPoint, DomainReport, Entry, FreeEnergy, Inversion, InversionError, Joint, JointEnergy,
     Least, Mask, Material, Rates, Real, Scalar, check_domain, describe, invert, kernel,
 };
+
+#[doc(inline)]
+pub use eem_mesh::{Face, Mesh, MeshError, Outline};
+#[cfg(feature = "gmsh")]
+#[doc(inline)]
+pub use eem_mesh::{LineFault, Msh, MshError};
 
 pub use algebra::memory::TooLarge;
 pub use element::error::StateError;
@@ -78,9 +84,6 @@ pub use scene::body::Body;
 pub use scene::bulk::Bulk;
 pub use scene::error::RocketError;
 pub use scene::error::SceneError;
-#[cfg(feature = "gmsh")]
-pub use scene::gmsh::{LineFault, Msh, MshError};
-pub use scene::mesh::{Face, Mesh, MeshError, Outline};
 pub use scene::refused::RefusedScene;
 pub use scene::solid::Section;
 pub use scene::solid_error::SolidError;

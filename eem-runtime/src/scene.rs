@@ -10,11 +10,8 @@ mod cell;
 mod check;
 pub(crate) mod entry;
 pub(crate) mod error;
-#[cfg(feature = "gmsh")]
-pub(crate) mod gmsh;
 mod joints;
 pub(crate) mod loads;
-pub(crate) mod mesh;
 mod meshed_solid;
 pub(crate) mod refused;
 pub(crate) mod solid;

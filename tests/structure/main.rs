@@ -31,13 +31,17 @@ struct Crate {
 }
 
 /// The crates that are held to this.
-const CRATES: [Crate; 7] = [
+const CRATES: [Crate; 8] = [
     Crate {
         name: "eem-study",
         allowed: &[],
     },
     Crate {
         name: "eem-material",
+        allowed: &[],
+    },
+    Crate {
+        name: "eem-mesh",
         allowed: &[],
     },
     Crate {

@@ -1,7 +1,6 @@
-//! The check, before memory is reserved, that linear systems fit in it.
-//!
-//! An operating system that overcommits memory (Linux does) reserves anything, and ends the program later. So the size of
-//! the factors, which is known from the pattern, is compared with the memory that the machine has available.
+//! The check, before memory is reserved, that linear systems fit in it: the size of the factors is known from the pattern.
+
+use eem_mesh::memory::available_for;
 
 /// The most memory that a linear system may take.
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +36,6 @@ pub struct TooLarge {
     pub available: Option<u64>,
 }
 
-/// Up to this size, bytes, memory is reserved without a query of the machine, which takes longer than a small scene.
-const SMALL: u64 = 1 << 28;
-
 impl MemoryLimit {
     /// The memory that the machine has available.
     pub(crate) const NONE: Self = Self(None);
@@ -51,11 +47,7 @@ impl MemoryLimit {
 
     /// An error if a system of so many unknowns needs more bytes than the limit.
     pub(crate) fn check(self, unknowns: usize, needed: u64) -> Result<(), TooLarge> {
-        let available = match self.0 {
-            Some(limit) => Some(limit),
-            None if needed <= SMALL => None,
-            None => available(),
-        };
+        let available = self.0.or_else(|| available_for(needed));
         match available {
             Some(most) if needed > most => Err(TooLarge {
                 unknowns,
@@ -71,24 +63,6 @@ impl MemoryLimit {
 pub(crate) fn bytes<S>([rows, columns]: [usize; 2]) -> u64 {
     let numbers = rows.saturating_mul(columns);
     u64::try_from(numbers.saturating_mul(size_of::<S>())).unwrap_or(u64::MAX)
-}
-
-/// The memory that the machine or the control group of this process has available, bytes; `None` if unknown.
-#[cfg(feature = "sparse")]
-fn available() -> Option<u64> {
-    let mut system = sysinfo::System::new().ok()?;
-    system.refresh_memory();
-    let of_machine = system.available_memory();
-    // The free memory of a control group does not count reclaimable memory such as the page cache.
-    let limits = system.cgroup_limits();
-    let of_group = limits.map(|limits| limits.total_memory.saturating_sub(limits.rss));
-    let available = of_group.map_or(of_machine, |most| most.min(of_machine));
-    (available > 0).then_some(available)
-}
-
-#[cfg(not(feature = "sparse"))]
-fn available() -> Option<u64> {
-    None
 }
 
 #[cfg(test)]
@@ -112,7 +86,7 @@ mod tests {
     #[test]
     #[cfg(feature = "sparse")]
     fn large_systems_are_compared_with_the_memory_of_the_machine() {
-        assert_eq!(MemoryLimit::NONE.check(1, SMALL), Ok(()));
+        assert_eq!(MemoryLimit::NONE.check(1, 1 << 28), Ok(()));
         assert!(MemoryLimit::NONE.check(1, u64::MAX).is_err());
     }
 }

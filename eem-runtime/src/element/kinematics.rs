@@ -20,9 +20,7 @@
 //! per pair of arms, that only depends on `f`, `π⁰` and `π¹`.
 
 mod between;
-pub(crate) mod integrals;
 mod measures;
-mod shape;
 mod solid;
 mod solid_measures;
 mod solid_state;
@@ -30,13 +28,12 @@ mod solid_strain;
 mod stiffness;
 mod strain;
 mod stretch;
-mod tensor;
 
-pub use measures::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Points, Weights};
+#[doc(inline)]
+pub use eem_mesh::{Hex8, Hex20, Points, Quad4, Quad8, Shape};
+pub use measures::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Weights};
 pub(crate) use measures::{PerStrain, QuadraticStrain, StrainMatrix, add_blocks};
-pub use shape::{Hex8, Hex20, Quad4, Quad8, Shape};
 pub use solid::SolidPoint;
 pub use solid_state::SolidState;
 pub use strain::{Measure, Strain, StrainEnergy};
 pub use stretch::Stretch;
-pub(crate) use tensor::Symmetric;

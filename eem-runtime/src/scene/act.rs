@@ -12,9 +12,9 @@ use crate::element::loads::PushLine;
 use crate::scene::body::Body;
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::Rocket;
-use crate::scene::mesh::Face;
 use crate::scene::solid_error::SolidError;
 use eem_material::number::scalar::Real;
+use eem_mesh::Face;
 
 /// # Loads, supports and thermostats
 impl<const D: usize, S: Real> Scene<D, S> {

@@ -2,7 +2,7 @@
 
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::Shape;
-use crate::scene::mesh::{Mesh, MeshError, distance};
+use eem_mesh::{Mesh, MeshError, distance};
 
 /// A solid of a scene: its mesh and the handles of its nodes and integration points, in the reference
 /// configuration.

@@ -7,9 +7,9 @@ use crate::element::handle::Reservoir;
 use crate::element::kinematics::Shape;
 use crate::scene::body::Body;
 use crate::scene::error::SceneError;
-use crate::scene::mesh::{Face, facing};
 use crate::scene::solid_error::SolidError;
 use eem_material::number::scalar::{Real, is_positive};
+use eem_mesh::{Face, facing};
 
 /// # Heat of solids
 impl<const D: usize, S: Real> Scene<D, S> {

@@ -3,17 +3,16 @@
 use super::Scene;
 use crate::element::group::LooseElements;
 use crate::element::handle::{Element, Node};
-use crate::element::kinematics::{
-    Measure, Points, Shape, SolidPoint, Strain, StrainEnergy, integrals,
-};
+use crate::element::kinematics::{Measure, Points, Shape, SolidPoint, Strain, StrainEnergy};
 use crate::scene::check::check_position;
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
-use crate::scene::mesh::per_node;
 use crate::scene::solid_error::SolidError;
 use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 use eem_material::point_energy::PointEnergy;
+use eem_mesh::integrals;
+use eem_mesh::per_node;
 
 /// The properties of a cell besides its material and nodes.
 #[derive(Clone, Copy, Debug)]

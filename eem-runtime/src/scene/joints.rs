@@ -3,8 +3,8 @@
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::Shape;
 use crate::scene::body::Body;
-use crate::scene::mesh::{Mesh, distance};
 use crate::scene::solid_error::SolidError;
+use eem_mesh::{Mesh, distance};
 
 /// Another solid, with whose nodes those of a new mesh are merged within a distance.
 #[derive(Clone, Debug)]

@@ -11,10 +11,10 @@ use crate::scene::cell::CellProperties;
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::joints::{Shared, joined};
-use crate::scene::mesh::{Mesh, per_node};
 use crate::scene::solid_error::SolidError;
 use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::Real;
+use eem_mesh::{Mesh, per_node};
 
 /// # Solids from meshes
 impl<const D: usize, S: Real> Scene<D, S> {

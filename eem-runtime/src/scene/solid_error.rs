@@ -3,9 +3,9 @@
 use thiserror::Error;
 
 use crate::element::handle::{Element, Node};
-use crate::scene::mesh::MeshError;
 use eem_material::number::readable::Readable;
 use eem_material::number::scalar::Real;
+use eem_mesh::MeshError;
 
 /// Why a solid is rejected.
 #[derive(Clone, Debug, PartialEq, Error)]

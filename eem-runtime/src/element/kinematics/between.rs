@@ -10,8 +10,8 @@
 use core::marker::PhantomData;
 
 use crate::element::kinematics::strain::Measure;
-use crate::element::kinematics::tensor::{Symmetric, Tensor, plus, scaled};
 use eem_material::number::scalar::Real;
+use eem_mesh::tensor::{Symmetric, Tensor, plus, scaled};
 
 /// A deformation gradient with its strain.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,7 @@ use crate::element::handle::Element;
 use crate::element::kinematics::solid_state::SolidState;
 use eem_material::free_energy::{Array, Entry};
 use eem_material::number::scalar::Real;
+use eem_mesh::Points;
 
 /// The arms of an element, m.
 pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;
@@ -270,23 +271,5 @@ pub(crate) fn add_blocks<K: Kinematics<S, D>, S: Real, const D: usize>(
                 *sum += *own;
             }
         }
-    }
-}
-
-/// An array with an entry per point of an element. Implemented for arrays.
-pub trait Points<T>: AsRef<[T]> + AsMut<[T]> + IntoIterator<Item = T> + Send + Sync {
-    /// Number of points.
-    const LEN: usize;
-
-    /// Creates the entries point by point.
-    fn from_fn(make: impl FnMut(usize) -> T) -> Self;
-}
-
-impl<T: Send + Sync, const N: usize> Points<T> for [T; N] {
-    const LEN: usize = N;
-
-    #[inline]
-    fn from_fn(make: impl FnMut(usize) -> T) -> Self {
-        core::array::from_fn(make)
     }
 }

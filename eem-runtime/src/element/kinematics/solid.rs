@@ -3,13 +3,13 @@
 use core::array;
 
 use crate::element::kinematics::between::Between;
-use crate::element::kinematics::integrals::{functions, gauss, jacobian};
-use crate::element::kinematics::measures::Points;
-use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::strain::Measure;
-use crate::element::kinematics::tensor::{Symmetric, Tensor, add, dot, pushed};
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::{Real, is_positive};
+use eem_mesh::Points;
+use eem_mesh::Shape;
+use eem_mesh::integrals::{functions, gauss, jacobian};
+use eem_mesh::tensor::{Symmetric, Tensor, add, dot, pushed};
 
 /// N measures of the strain at one of the points of a cell of shape `H`, in plane strain or in space.
 ///

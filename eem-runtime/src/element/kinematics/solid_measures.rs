@@ -8,14 +8,14 @@ use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::between::{Between, Deformed};
 use crate::element::kinematics::measures::{Ends, Kinematics};
-use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{Deformations, PerArm, PerPair, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
-use crate::element::kinematics::tensor::{Symmetric, plus, pushed, scaled};
 use eem_material::free_energy::{Array, Entry};
 use eem_material::joint::basis;
 use eem_material::number::scalar::{Mask, Real};
+use eem_mesh::Shape;
+use eem_mesh::tensor::{Symmetric, plus, pushed, scaled};
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     for SolidPoint<H, S, N, D>

@@ -6,11 +6,11 @@
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::measures::QuadraticStrain;
-use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{PerArm, SolidPoint, Strains};
-use crate::element::kinematics::tensor::{Symmetric, add};
 use eem_material::free_energy::{Array, Entry};
 use eem_material::number::scalar::{Real, is_positive};
+use eem_mesh::Shape;
+use eem_mesh::tensor::{Symmetric, add};
 
 type Components<H, S, const D: usize> = <H as Shape<D>>::PerComponent<S>;
 

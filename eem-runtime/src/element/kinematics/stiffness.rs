@@ -10,11 +10,11 @@
 
 use core::array;
 
-use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
-use crate::element::kinematics::tensor::{Symmetric, Tensor, add, dot, pushed};
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Real;
+use eem_mesh::Shape;
+use eem_mesh::tensor::{Symmetric, Tensor, add, dot, pushed};
 
 /// `∂(F S)_am/∂F_bl`, in the order of the indices a, m, b, l.
 type Moduli<S, const D: usize> = [[Tensor<S, D>; D]; D];

@@ -5,9 +5,9 @@ use core::array;
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::measures::{Ends, Kinematics, QuadraticStrain};
-use crate::element::kinematics::tensor::dot;
 use eem_material::free_energy::Entry;
 use eem_material::number::scalar::{Mask, Real, Scalar, is_positive};
+use eem_mesh::tensor::dot;
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
 ///

@@ -37,7 +37,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let terms = |state: &State<S>| {
             let groups = groups.iter();
-            groups.fold(S::zero(), |sum, group| sum + group.elements().energy_terms(state))
+            groups.fold(S::zero(), |sum, group| {
+                sum + group.elements().energy_terms(state)
+            })
         };
         Ok(certificate.with_terms(|| terms(view.state) + terms(next)))
     }

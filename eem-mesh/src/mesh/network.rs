@@ -11,7 +11,7 @@ use super::Mesh;
 use super::face::{Face, Skewness, SubFace, facing};
 use super::geometry::{area_vector, distance, mean};
 use super::grid::indices;
-use crate::element::kinematics::{Points, Shape};
+use crate::shape::{Points, Shape};
 
 /// The cuts of the parent cell along each axis, from −1 by Gauss weights.
 fn cuts(per_axis: usize) -> &'static [f64] {
@@ -23,7 +23,9 @@ fn cuts(per_axis: usize) -> &'static [f64] {
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// Pairs of points with `κ/k`, within and between cells; m, one in the plane. And their skewness.
-    pub(crate) fn network(&self) -> (Vec<([usize; 2], f64)>, Skewness) {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn network(&self) -> (Vec<([usize; 2], f64)>, Skewness) {
         let pairs = self.pairs_of_faces();
         let skewness = Skewness::of(&pairs, H::PerPoint::<()>::LEN);
         let link = |[a, b]: [SubFace<D>; 2]| {
@@ -43,7 +45,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// ```
     ///
     /// instead of k 1. If more than one face in twenty is skew, a solid with a conductivity is rejected, unless
-    /// [`Bulk::allow_skew_cells`](crate::Bulk::allow_skew_cells) is called.
+    /// `Bulk::allow_skew_cells` is called.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -62,7 +64,9 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     }
 
     /// The sub-faces on the surface.
-    pub(crate) fn outside(&self, face: &Face) -> Vec<SubFace<D>> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn outside(&self, face: &Face) -> Vec<SubFace<D>> {
         face.sides
             .iter()
             .flat_map(|&side| self.sub_faces_of(side))
@@ -94,7 +98,9 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     }
 
     /// The sub-faces on a face of a cell. Faces come in pairs per axis.
-    pub(crate) fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
         let (axis, side) = (face / 2, face % 2);
         let end = side * (H::PER_AXIS - 1);
         let outer = indices([H::PER_AXIS; D]).filter(|index| index[axis] == end);

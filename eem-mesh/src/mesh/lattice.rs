@@ -6,8 +6,8 @@
 use core::marker::PhantomData;
 
 use super::error::MeshError;
-use crate::algebra::memory::MemoryLimit;
-use crate::element::kinematics::Shape;
+use crate::memory::available_for;
+use crate::shape::Shape;
 
 /// A box of cells.
 #[derive(Debug)]
@@ -146,8 +146,10 @@ impl Size {
             });
         }
         let bytes = u64::try_from(self.bytes).unwrap_or(u64::MAX);
-        let refused = MemoryLimit::NONE.check(0, bytes);
-        refused.map_err(|refused| self.too_large(refused.available))
+        match available_for(bytes) {
+            Some(most) if bytes > most => Err(self.too_large(Some(most))),
+            _ => Ok(()),
+        }
     }
 
     /// An empty list with memory for `count` entries.
@@ -181,7 +183,7 @@ mod tests {
     };
 
     #[test]
-    #[cfg(feature = "sparse")]
+    #[cfg(feature = "memory")]
     fn the_machine_is_asked_for_its_memory() {
         let error = ENDLESS.check().unwrap_err();
         let text = error.to_string();

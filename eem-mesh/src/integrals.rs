@@ -1,26 +1,27 @@
 //! Integrals over the reference configuration of a cell, found once, by Gauss rules of two to four points per axis.
 
-use crate::element::kinematics::shape::Shape;
-use crate::element::kinematics::tensor::{Symmetric, Tensor};
+use crate::shape::Shape;
+use crate::tensor::{Symmetric, Tensor};
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::Real;
 
 /// `N_a` and `∂N_a/∂ξ` of all nodes.
-pub(crate) type Functions<S, const D: usize> = Vec<(S, [S; D])>;
+pub type Functions<S, const D: usize> = Vec<(S, [S; D])>;
 
 /// The shape functions at a place of the parent cell.
-pub(crate) fn functions<H: Shape<D>, S: Real, const D: usize>(place: [S; D]) -> Functions<S, D> {
+pub fn functions<H: Shape<D>, S: Real, const D: usize>(place: [S; D]) -> Functions<S, D> {
     let nodes = 0..H::NODES.len();
     nodes.map(|node| H::function(node, place)).collect()
 }
 
 /// The points and weights of a cell of this shape.
-pub(crate) fn rule<H: Shape<D>, const D: usize>() -> Vec<([f64; D], f64)> {
+#[must_use]
+pub fn rule<H: Shape<D>, const D: usize>() -> Vec<([f64; D], f64)> {
     gauss(H::PER_AXIS)
 }
 
 /// `∂X/∂ξ`, m, of the arms of the reference configuration.
-pub(crate) fn jacobian<S: Real, const D: usize>(
+pub fn jacobian<S: Real, const D: usize>(
     reference: &[[S; D]],
     functions: &[(S, [S; D])],
 ) -> Tensor<S, D> {
@@ -36,11 +37,11 @@ pub(crate) fn jacobian<S: Real, const D: usize>(
 }
 
 /// A mass per pair of nodes, kg.
-pub(crate) type Pairs<H, S, const D: usize> = <H as Shape<D>>::PerNode<<H as Shape<D>>::PerNode<S>>;
+pub type Pairs<H, S, const D: usize> = <H as Shape<D>>::PerNode<<H as Shape<D>>::PerNode<S>>;
 
 /// The consistent mass `∫ ρ N_a N_b dV` of each pair of nodes, kg, exact for any cell whose edges are straight.
 /// The density is per area in the plane.
-pub(crate) fn masses<H: Shape<D>, S: Real, const D: usize>(
+pub fn masses<H: Shape<D>, S: Real, const D: usize>(
     reference: &H::PerNode<[S; D]>,
     density: S,
 ) -> Pairs<H, S, D> {
@@ -62,7 +63,7 @@ pub(crate) fn masses<H: Shape<D>, S: Real, const D: usize>(
 /// Lumps the mass on the diagonal: the sum of a row for linear shape functions, for which it is exact; as some sums are
 /// negative for others, the whole mass in proportion to the diagonal (Hinton, Rock & Zienkiewicz 1976). Off-diagonal entries
 /// become zero.
-pub(crate) fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S, D>) {
+pub fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S, D>) {
     let rows = masses.as_ref().iter();
     let sums: Vec<S> = rows
         .map(|row| row.as_ref().iter().fold(S::zero(), |sum, &mass| sum + mass))
@@ -110,7 +111,8 @@ fn on_axis<S: Real>(points: usize) -> Vec<(S, S)> {
 }
 
 /// The points of a cell with their weights, the first coordinate fastest.
-pub(crate) fn gauss<S: Real, const D: usize>(per_axis: usize) -> Vec<([S; D], S)> {
+#[must_use]
+pub fn gauss<S: Real, const D: usize>(per_axis: usize) -> Vec<([S; D], S)> {
     let axis = on_axis::<S>(per_axis);
     let points = (0..D).fold(1, |points, _| points * axis.len());
     let point = |mut index: usize| {

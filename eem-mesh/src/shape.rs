@@ -2,8 +2,7 @@
 
 use core::{array, fmt::Debug};
 
-use crate::element::kinematics::measures::Points;
-use crate::element::kinematics::tensor::Symmetric;
+use crate::tensor::Symmetric;
 use eem_material::free_energy::{Array, Entry};
 use eem_material::number::scalar::Real;
 
@@ -162,6 +161,24 @@ impl Shape<3> for Hex20 {
         &[4, 5, 6, 7, 12, 13, 14, 15],
     ];
     const PER_AXIS: usize = 3;
+}
+
+/// An array with an entry per point of an element. Implemented for arrays.
+pub trait Points<T>: AsRef<[T]> + AsMut<[T]> + IntoIterator<Item = T> + Send + Sync {
+    /// Number of points.
+    const LEN: usize;
+
+    /// Creates the entries point by point.
+    fn from_fn(make: impl FnMut(usize) -> T) -> Self;
+}
+
+impl<T: Send + Sync, const N: usize> Points<T> for [T; N] {
+    const LEN: usize = N;
+
+    #[inline]
+    fn from_fn(make: impl FnMut(usize) -> T) -> Self {
+        array::from_fn(make)
+    }
 }
 
 /// `Π ½(1 + ξ_k ξ)` with its derivatives.

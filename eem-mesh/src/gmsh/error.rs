@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::scene::mesh::MeshError;
+use crate::mesh::MeshError;
 use eem_material::number::readable::Readable;
 
 /// Why a Gmsh file contains no mesh. Nodes, elements and entities are named by their tags.

@@ -5,7 +5,9 @@ use core::convert::Infallible;
 use super::error::MeshError;
 use super::face::{Face, Outline};
 use super::{Mesh, sides};
-use crate::element::kinematics::{Shape, Symmetric, integrals};
+use crate::integrals;
+use crate::shape::Shape;
+use crate::tensor::Symmetric;
 use eem_material::number::scalar::Scalar;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
@@ -79,18 +81,23 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     }
 
     /// Whether a face belongs to this mesh or to an equal one.
-    pub(crate) fn has(&self, face: &Face) -> bool {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn has(&self, face: &Face) -> bool {
         face.mesh == self.digest
     }
 
     /// The nodes of a face of a cell.
-    pub(crate) fn nodes_of(&self, [cell, face]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
+    #[doc(hidden)]
+    pub fn nodes_of(&self, [cell, face]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
         let nodes = self.cells[cell].as_ref();
         H::FACES[face].iter().map(|&node| nodes[node])
     }
 
     /// The faces that belong to one cell.
-    pub(crate) fn surface(&self) -> Vec<[usize; 2]> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn surface(&self) -> Vec<[usize; 2]> {
         let mut sides = Vec::new();
         self.for_same_sides(|same| {
             if let &[side] = same {
@@ -123,7 +130,9 @@ fn interleaved(nodes: &[usize]) -> Vec<usize> {
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// The area of each node of a face; m², m in the plane.
-    pub(crate) fn areas(&self, face: &Face) -> Vec<(usize, f64)> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn areas(&self, face: &Face) -> Vec<(usize, f64)> {
         let mut areas = vec![0.0; self.nodes.len()];
         for &[cell, side] in &face.sides {
             let (axis, end) = (side / 2, if side % 2 == 0 { -1.0 } else { 1.0 });
@@ -145,7 +154,9 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     }
 
     /// The volume of each node; m³, m² in the plane.
-    pub(crate) fn volumes(&self) -> Vec<f64> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn volumes(&self) -> Vec<f64> {
         let mut volumes = vec![0.0; self.nodes.len()];
         for cell in 0..self.cells.len() {
             for (place, weight) in integrals::rule::<H, D>() {

@@ -12,18 +12,18 @@ mod polygon;
 mod sides;
 
 pub use error::MeshError;
-pub(crate) use face::facing;
-pub use face::{Face, Outline};
-pub(crate) use geometry::{distance, per_node};
+pub use face::facing;
+pub use face::{Face, Outline, Skewness, SubFace};
+pub use geometry::{distance, per_node};
 
 use eem_material::number::digest::Digest;
 use geometry::mean;
 use nalgebra::{Rotation, SVector};
 
-use crate::element::kinematics::Shape;
+use crate::shape::Shape;
 
-/// A mesh of cells of the shape `H` in `D` dimensions: [`Quad4`](crate::kinematics::Quad4),
-/// [`Quad8`](crate::kinematics::Quad8), [`Hex8`](crate::kinematics::Hex8) or [`Hex20`](crate::kinematics::Hex20).
+/// A mesh of cells of the shape `H` in `D` dimensions: [`Quad4`](crate::Quad4),
+/// [`Quad8`](crate::Quad8), [`Hex8`](crate::Hex8) or [`Hex20`](crate::Hex20).
 ///
 /// Every mesh is valid: `det ∂X/∂ξ` of every cell is positive at its integration points and nodes, every node
 /// belongs to a cell, no two nodes coincide, no two cells have the same nodes, and at most two cells share a face

@@ -16,14 +16,14 @@ use eem_material::joint::basis;
 use eem_material::number::scalar::Real;
 
 /// A tensor, row by row.
-pub(super) type Tensor<S, const D: usize> = [[S; D]; D];
+pub type Tensor<S, const D: usize> = [[S; D]; D];
 
 /// A symmetric tensor in `D` dimensions. Out of the plane nothing stretches, `F₃₃ = 1`.
 pub trait Symmetric<S: Real, const D: usize>: Array<S> {
     /// The unit tensor.
     fn unit() -> Self;
 
-    /// The tensor `b_k` of [`Strain::Component`](super::Strain::Component), as far as it is in these dimensions.
+    /// The tensor `b_k` of a strain component of the runtime, as far as it is in these dimensions.
     fn basis(k: usize) -> Self;
 
     /// `½(FᵀF − 1)`.
@@ -45,6 +45,7 @@ pub trait Symmetric<S: Real, const D: usize>: Array<S> {
     fn growth(&self) -> S;
 
     /// `cof(1 + A)`.
+    #[must_use]
     fn cofactor_of_one_plus(&self) -> Self;
 
     /// D with `D:ΔC = det C¹ − det C⁰`, from `E⁰ + E¹` and `E¹ − E⁰`.
@@ -62,20 +63,20 @@ pub trait Symmetric<S: Real, const D: usize>: Array<S> {
 
 /// `a·b`.
 #[inline]
-pub(super) fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
+pub fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
     let first = a[0] * b[0];
     (1..D).fold(first, |sum, axis| sum + a[axis] * b[axis])
 }
 
 /// `F v`.
 #[inline]
-pub(super) fn pushed<S: Real, const D: usize>(tensor: &Tensor<S, D>, v: &[S; D]) -> [S; D] {
+pub fn pushed<S: Real, const D: usize>(tensor: &Tensor<S, D>, v: &[S; D]) -> [S; D] {
     array::from_fn(|axis| dot(&tensor[axis], v))
 }
 
 /// `sum += factor tensor`.
 #[inline]
-pub(super) fn add<S: Real, A: Array<S>>(sum: &mut A, factor: S, tensor: &A) {
+pub fn add<S: Real, A: Array<S>>(sum: &mut A, factor: S, tensor: &A) {
     for (sum, &entry) in sum.as_mut().iter_mut().zip(tensor.as_ref()) {
         *sum += factor * entry;
     }
@@ -83,7 +84,7 @@ pub(super) fn add<S: Real, A: Array<S>>(sum: &mut A, factor: S, tensor: &A) {
 
 /// `factor tensor`.
 #[inline]
-pub(super) fn scaled<S: Real, A: Array<S>>(factor: S, tensor: &A) -> A {
+pub fn scaled<S: Real, A: Array<S>>(factor: S, tensor: &A) -> A {
     let mut scaled = *tensor;
     for entry in scaled.as_mut() {
         *entry = factor * *entry;
@@ -93,7 +94,7 @@ pub(super) fn scaled<S: Real, A: Array<S>>(factor: S, tensor: &A) -> A {
 
 /// `A + factor B`.
 #[inline]
-pub(super) fn plus<S: Real, A: Array<S>>(a: &A, factor: S, b: &A) -> A {
+pub fn plus<S: Real, A: Array<S>>(a: &A, factor: S, b: &A) -> A {
     let mut sum = *a;
     add(&mut sum, factor, b);
     sum

@@ -6,7 +6,7 @@ use super::Mesh;
 use super::error::MeshError;
 use super::geometry::per_node;
 use super::lattice::Lattice;
-use crate::element::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
+use crate::shape::{Hex8, Hex20, Quad4, Quad8, Shape};
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// A box between two coordinates per axis, m, divided into equal cells. The first coordinate varies fastest.

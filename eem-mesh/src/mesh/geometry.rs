@@ -1,6 +1,7 @@
 //! Distances, means and areas.
 
-use crate::element::kinematics::{Shape, Symmetric};
+use crate::shape::Shape;
+use crate::tensor::Symmetric;
 use eem_material::free_energy::{Array, Entry};
 use eem_material::number::scalar::Scalar;
 
@@ -24,7 +25,7 @@ pub(super) fn area_vector<H: Shape<D>, const D: usize>(corners: &[[f64; D]]) -> 
 }
 
 /// An entry per node of a cell.
-pub(crate) fn per_node<H: Shape<D>, T: Entry, const D: usize>(
+pub fn per_node<H: Shape<D>, T: Entry, const D: usize>(
     mut entry: impl FnMut(usize) -> T,
 ) -> H::PerNode<T> {
     let mut all = H::PerNode::filled(entry(0));
@@ -45,7 +46,8 @@ pub(super) fn mean<const D: usize>(places: impl IntoIterator<Item = [f64; D]>) -
 }
 
 /// The distance of two positions, m.
-pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+#[must_use]
+pub fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
     (0..D).fold(0.0, |distance: f64, axis| {
         Scalar::hypot(distance, a[axis] - b[axis])
     })

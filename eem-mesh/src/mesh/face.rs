@@ -10,7 +10,8 @@ pub struct Face {
     /// The digest of its mesh.
     pub(super) mesh: Digest,
     /// Cells with the number of their face, in ascending order.
-    pub(crate) sides: Vec<[usize; 2]>,
+    #[doc(hidden)]
+    pub sides: Vec<[usize; 2]>,
     /// Their nodes, each once, in ascending order.
     pub(super) nodes: Vec<usize>,
 }
@@ -34,13 +35,14 @@ pub struct Outline {
 
 /// A face of the sub-cell of an integration point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SubFace<const D: usize> {
+#[doc(hidden)]
+pub struct SubFace<const D: usize> {
     /// The point, counted cell by cell.
-    pub(crate) point: usize,
+    pub point: usize,
     /// `|A|`; m², m in the plane.
-    pub(crate) area: f64,
+    pub area: f64,
     /// `t/k`; m, one in the plane.
-    pub(crate) shape_factor: f64,
+    pub shape_factor: f64,
     /// m.
     pub(super) centre: [f64; D],
     /// `|A·d|/(|A| |d|)`
@@ -48,7 +50,8 @@ pub(crate) struct SubFace<const D: usize> {
 }
 
 /// Pairs each sub-face on one side of a face with the nearest one on the other side.
-pub(crate) fn facing<const D: usize>(
+#[must_use]
+pub fn facing<const D: usize>(
     first: Vec<SubFace<D>>,
     second: &[SubFace<D>],
 ) -> Vec<[SubFace<D>; 2]> {
@@ -70,15 +73,16 @@ const ONE_IN: usize = 20;
 
 /// The skew faces between points, and the worst of them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Skewness {
+#[doc(hidden)]
+pub struct Skewness {
     /// The number of faces.
-    pub(crate) faces: usize,
+    pub faces: usize,
     /// The number of skew ones.
-    pub(crate) skew: usize,
+    pub skew: usize,
     /// The cosine of the worst.
-    pub(crate) cosine: f64,
+    pub cosine: f64,
     /// Its cell.
-    pub(crate) cell: usize,
+    pub cell: usize,
 }
 
 impl Skewness {
@@ -105,7 +109,9 @@ impl Skewness {
     }
 
     /// Whether conduction deviates from Fourier's law.
-    pub(crate) fn is_too_much(&self) -> bool {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn is_too_much(&self) -> bool {
         self.skew * ONE_IN > self.faces
     }
 }

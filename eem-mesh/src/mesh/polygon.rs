@@ -6,7 +6,7 @@ use super::Mesh;
 use super::check::check_finite;
 use super::error::MeshError;
 use super::geometry::{mean, power_of_two};
-use crate::element::kinematics::Quad4;
+use crate::shape::Quad4;
 
 impl Mesh<Quad4, 2> {
     /// A polygon with these corners, m, in order, clockwise or not. It may have re-entrant corners, but no holes.

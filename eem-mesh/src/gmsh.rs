@@ -8,8 +8,8 @@ pub use error::{LineFault, MshError};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use crate::element::kinematics::Shape;
-use crate::scene::mesh::{Face, Mesh, MeshError};
+use crate::mesh::{Face, Mesh, MeshError};
+use crate::shape::Shape;
 use eem_material::free_energy::Array;
 use file::Block;
 

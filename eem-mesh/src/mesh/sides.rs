@@ -1,6 +1,6 @@
 //! The faces of all cells, grouped by their nodes.
 
-use crate::element::kinematics::Shape;
+use crate::shape::Shape;
 
 /// The most nodes that a face has, that of a `Hex20`.
 const MOST: usize = 8;

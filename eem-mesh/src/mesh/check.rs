@@ -3,7 +3,9 @@
 use super::error::MeshError;
 use super::geometry::power_of_two;
 use super::sides;
-use crate::element::kinematics::{Shape, Symmetric, integrals};
+use crate::integrals;
+use crate::shape::Shape;
+use crate::tensor::Symmetric;
 use eem_material::free_energy::Array;
 
 /// The first error of a mesh.
