@@ -44,6 +44,7 @@
 
 mod motion;
 
+use crate::element::group::Group;
 use crate::element::handle::Element;
 use crate::element::state::State;
 use crate::element::tally::{ROUNDINGS, Recount, Tally};
@@ -92,9 +93,9 @@ pub(crate) struct Certificate<S: Real> {
     pub(crate) defect: S,
     /// B, J.
     pub(crate) bound: S,
-    /// The terms of the motion, and of the energies at both ends or the known part of them, J.
+    /// The terms of the motion, and of the energies at each end or the known part of them, J.
     motion: S,
-    terms: S,
+    terms: [S; 2],
     /// The defect that decides, R or its replacement by discrete derivatives, and B*, J.
     judged: [S; 2],
     /// Σ over dashpots and paths of heat, J/K.
@@ -114,19 +115,21 @@ pub(crate) struct Internal<S> {
     change: S,
     /// The magnitude of its terms at both ends, J.
     magnitude: S,
-    /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of both ends, or the known part of it, J.
-    terms: S,
+    /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of each end, or the known part of it, J.
+    terms: [S; 2],
     /// The part of them that neither `magnitude` nor the amplitude of forces has, J.
     excess: S,
 }
 
 impl<S: Real> Internal<S> {
     pub(crate) fn new(reservoirs: &[S], [old, next]: [&State<S>; 2]) -> Self {
-        let [mut change, mut magnitude, mut terms, mut excess] = [S::zero(); 4];
+        let [mut change, mut magnitude, mut excess] = [S::zero(); 3];
+        let mut terms = [S::zero(); 2];
         for (old, new) in old.energies.iter().zip(&next.energies) {
             change += new.value - old.value;
             magnitude += old.magnitude + new.magnitude;
-            terms += old.terms + new.terms;
+            terms[0] += old.terms;
+            terms[1] += new.terms;
             excess += old.excess + new.excess;
         }
         for (index, &theta) in reservoirs.iter().enumerate() {
@@ -218,13 +221,21 @@ impl<S: Real> Certificate<S> {
 
     /// Whether the bound is far above the rounding of the energies, or not a number.
     pub(crate) fn is_bound_wide(&self) -> bool {
-        is_wide(self.bound, self.motion + self.terms)
+        let [old, new] = self.terms;
+        is_wide(self.bound, self.motion + old + new)
     }
 
-    /// With the terms of the energies at both ends, J, which are evaluated if the known part of them makes the bound wide.
-    pub(crate) fn with_terms(mut self, terms: impl FnOnce() -> S) -> Self {
+    /// With the terms of the energies in both states, which are evaluated if the known part of them makes the bound wide.
+    pub(crate) fn with_terms_of<const D: usize>(
+        mut self,
+        groups: &[Box<dyn Group<S, D>>],
+        ends: [&State<S>; 2],
+    ) -> Self {
         if self.is_bound_wide() {
-            self.terms = terms();
+            self.terms = ends.map(|state| {
+                let groups = groups.iter().map(|group| group.elements());
+                groups.fold(S::zero(), |sum, group| sum + group.energy_terms(state))
+            });
         }
         self
     }
@@ -235,7 +246,7 @@ impl<S: Real> Certificate<S> {
             defect: self.defect + later.defect,
             bound: self.bound + later.bound,
             motion: self.motion + later.motion,
-            terms: self.terms + later.terms,
+            terms: [self.terms[0], later.terms[1]],
             production: self.production + later.production,
             least_production: self.least_production.minimum(later.least_production),
             ..later
@@ -290,7 +301,9 @@ impl<S: Real> Certificate<S> {
         self.defect = S::select(is_own, self.defect, other.defect);
         self.bound = S::select(is_own, self.bound, other.bound);
         self.motion = S::select(is_own, self.motion, other.motion);
-        self.terms = S::select(is_own, self.terms, other.terms);
+        for (own, other) in self.terms.iter_mut().zip(other.terms) {
+            *own = S::select(is_own, *own, other);
+        }
         for (own, other) in self.judged.iter_mut().zip(other.judged) {
             *own = S::select(is_own, *own, other);
         }

@@ -86,6 +86,12 @@ fn has_old_forces<S: Real>(scheme: Scheme, loads: &StepLoads<S>) -> bool {
     scheme.has_old_forces() || (loads.has_total_force() && scheme.tableau().is_none())
 }
 
+/// How many viscous stretches and temperatures are predicted: all by exact schemes with one set of forces in a step.
+fn predicted(scheme: Scheme, layout: &Layout) -> [usize; 2] {
+    let predicts = scheme.is_exact() && scheme.tableau().is_none() && !scheme.is_split();
+    [layout.viscous, layout.thermal].map(|count| if predicts { count } else { 0 })
+}
+
 impl<S: Real, const D: usize> Solver<S, D> {
     pub(crate) fn new(
         scheme: Scheme,
@@ -120,7 +126,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let slots = layout.thermal * usize::from(!all_seen.is_empty());
         Self {
             scheme,
-            past: Past::none(masses.len()),
+            past: Past::none(masses.len(), predicted(scheme, layout)),
             nodes,
             coupling,
             rockets,

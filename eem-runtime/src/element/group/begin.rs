@@ -2,11 +2,11 @@
 
 use super::arms::{along, measures_in, spread};
 use super::member::Member;
-use super::point::{Point, variables};
+use super::point::{Point, grown, variables};
 use super::pose::Pose;
 use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::error::StateError;
-use crate::element::group::view::StepView;
+use crate::element::group::view::{Before, StepView};
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
@@ -57,9 +57,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Takes measures, γ and θ from the old state, where the trial starts.
+    /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted.
     #[inline]
-    pub(super) fn begin(&mut self, view: &StepView<'_, S>, measures: &Measures<K, S, D>) {
+    pub(super) fn begin(
+        &mut self,
+        view: &StepView<'_, S>,
+        before: Option<&Before<'_, S>>,
+        measures: &Measures<K, S, D>,
+    ) {
         let slots = self.slots();
         let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
         let entropy = slots
@@ -76,10 +81,32 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             self.is_prescribed = prescribed.is_some();
             self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
         }
+        if C::EXACT
+            && let Some(before) = before
+        {
+            self.predict(before);
+        }
         for at_point in self.single.as_mut() {
             at_point.entropy_change = S::zero();
         }
         self.hold();
+    }
+
+    /// The internal variables change as in the last step: viscous stretches linearly, the temperature by a factor.
+    #[inline]
+    fn predict(&mut self, before: &Before<'_, S>) {
+        let slots = self.slots();
+        for k in 0..M::DASHPOTS {
+            let index = M::MEASURES + k;
+            let old = self.start.x0[index];
+            self.creep[k] = before.ratio * (old - before.viscous[slots.viscous + k]);
+            self.x[index] = old + self.creep[k];
+        }
+        if let Some(slot) = slots.thermal.filter(|_| !self.is_prescribed) {
+            let old = self.start.x0[Self::TEMPERATURE];
+            let change = before.ratio * (old - before.temperatures[slot]);
+            self.x[Self::TEMPERATURE] = grown(old, change);
+        }
     }
 
     /// The part of the rates that the scheme takes from the old state; returns the old gradient.

@@ -115,7 +115,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
             member.r0 = r0;
             for point in member.points.as_mut() {
                 let measures = point.kinematics.measure(&r0);
-                point.begin(view, &measures);
+                point.begin(view, old.before.as_ref(), &measures);
                 let length = point.kinematics.length(&measures);
                 shorten::<K, S, D>(&member.site.nodes, length, old.lengths);
             }

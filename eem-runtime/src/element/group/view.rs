@@ -197,6 +197,19 @@ pub(crate) struct Old<'a, S, const D: usize> {
     pub(crate) force: &'a mut [[S; D]],
     /// The unit of length of each node: the shortest measure of its elements, m.
     pub(crate) lengths: &'a mut [S],
+    /// For a trial that does not start at the old state.
+    pub(crate) before: Option<Before<'a, S>>,
+}
+
+/// The internal variables at the start of the last step, from which those of the next one are predicted.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Before<'a, S> {
+    /// γ, m, per viscous stretch.
+    pub(crate) viscous: &'a [S],
+    /// θ, K, per thermal slot.
+    pub(crate) temperatures: &'a [S],
+    /// The size of the next step over that of the last one.
+    pub(crate) ratio: S,
 }
 
 /// The gradient along which the forces act.

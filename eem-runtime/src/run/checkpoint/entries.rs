@@ -151,6 +151,7 @@ impl<S: Real> Checkpoint<S> {
             Entry::list("earlier forces", before),
             Entry::new("forces", Finite, last.iter().chain(before).copied()).sealed(),
             Entry::new("errors of predicted forces", NotNegative, self.past.errors).sealed(),
+            Entry::list("the start of the last step", &self.past.internal).sealed(),
             Entry::new("energies of elements", Rule::None, energies)
                 .counted(self.energies.list.len())
                 .sealed(),

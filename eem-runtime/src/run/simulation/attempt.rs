@@ -124,7 +124,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let motion = solver.solve(groups, &view, effort, intermediate)?;
         let view = view!(self, size, Phase::Heat, intermediate, [loads, stages]);
         let heat = solver.solve(groups, &view, effort, next)?;
-        Ok(Attempt::made(motion.and(heat)))
+        let whole = motion.and(heat);
+        Ok(Attempt::made(
+            whole.with_terms_of(groups, [&self.state, next]),
+        ))
     }
 
     /// The loads of a step of this size.

@@ -83,7 +83,8 @@ pub(super) struct Held<S> {
 /// All that is prescribed in a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Prescribed<S, const D: usize> {
-    interpolation: Interpolation<S>,
+    /// Only if something moves.
+    interpolation: Option<Interpolation<S>>,
     pub(super) moved: Vec<Moved<S, D>>,
     pub(super) held: Vec<Held<S>>,
 }
@@ -116,7 +117,7 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
             });
         }
         Self {
-            interpolation: Interpolation::new(),
+            interpolation: (!moved.is_empty()).then(Interpolation::new),
             moved,
             held,
         }
@@ -128,8 +129,10 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
         loads: &Loads<S, D>,
         [time, step]: [S; 2],
     ) -> Result<(), StepFailure> {
-        for moved in &mut self.moved {
-            moved.evaluate(&self.interpolation, loads, [time, step])?;
+        if let Some(interpolation) = &self.interpolation {
+            for moved in &mut self.moved {
+                moved.evaluate(interpolation, loads, [time, step])?;
+            }
         }
         for held in &mut self.held {
             for (stage, &share) in TIMES.iter().enumerate() {

@@ -42,6 +42,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut old = Old {
             force: &mut self.old_force,
             lengths: &mut self.lengths,
+            before: match start {
+                Start::Foretold => self.past.before(view.step),
+                Start::Rest => None,
+            },
         };
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;

@@ -35,13 +35,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let thorough = self.close_thoroughly(groups, view, next)?;
             certificate = certificate.or(is_enough, &thorough);
         }
-        let terms = |state: &State<S>| {
-            let groups = groups.iter();
-            groups.fold(S::zero(), |sum, group| {
-                sum + group.elements().energy_terms(state)
-            })
-        };
-        Ok(certificate.with_terms(|| terms(view.state) + terms(next)))
+        Ok(certificate.with_terms_of(groups, [view.state, next]))
     }
 
     /// The same with thorough bounds; energy changes by discrete derivatives decide where those by values are too

@@ -1,10 +1,11 @@
-//! The forces of the last steps, from which the initial guess of Newton's method is predicted. Nothing else depends on
-//! them.
+//! The forces and internal variables of the last steps, from which the initial guess of Newton's method is predicted.
+//! Nothing else depends on them.
 
 use core::array;
 
+use crate::element::group::Before;
 use crate::element::impulse::{Impulses, PLACES};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real};
 
 /// The weight of the error of a predictor one step later. Any memory of some steps will do.
 const MEMORY: f64 = 0.875;
@@ -23,6 +24,37 @@ pub(super) struct Past<S, const D: usize> {
     errors_before: [S; 3],
     /// The same after the step that is being closed.
     errors_after: [S; 3],
+    /// At the start of the last step, and of the one before.
+    internal: [Internal<S>; 2],
+}
+
+/// The internal variables at the start of a step; none for a scheme that does not predict them.
+#[derive(Clone, Debug)]
+struct Internal<S> {
+    viscous: Vec<S>,
+    temperatures: Vec<S>,
+    /// h, s; zero before the first step.
+    step: S,
+}
+
+impl<S: Real> Internal<S> {
+    fn none([viscous, temperatures]: [usize; 2]) -> Self {
+        Self {
+            viscous: vec![S::zero(); viscous],
+            temperatures: vec![S::zero(); temperatures],
+            step: S::zero(),
+        }
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = &S> {
+        let variables = self.viscous.iter().chain(&self.temperatures);
+        variables.chain([&self.step])
+    }
+
+    fn numbers_mut(&mut self) -> impl Iterator<Item = &mut S> {
+        let variables = self.viscous.iter_mut().chain(&mut self.temperatures);
+        variables.chain([&mut self.step])
+    }
 }
 
 /// Where the forces of the last step, of the one before and of the next one are in each turn.
@@ -65,6 +97,8 @@ pub(super) struct Remembering<'a, S, const D: usize> {
 pub(crate) struct SavedPast<S> {
     pub(crate) forces: [Vec<S>; 2],
     pub(crate) errors: [S; 3],
+    /// Viscous stretches, m, and temperatures, K, at the start of the last step, and its size, s.
+    pub(crate) internal: Vec<S>,
 }
 
 impl<S: Real> SavedPast<S> {
@@ -73,6 +107,7 @@ impl<S: Real> SavedPast<S> {
         Self {
             forces: [Vec::new(), Vec::new()],
             errors: [S::zero(); 3],
+            internal: Vec::new(),
         }
     }
 }
@@ -83,9 +118,10 @@ impl<S: Real> SavedPast<S> {
 const FORECASTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
 
 impl<S: Real, const D: usize> Past<S, D> {
-    /// Nothing has happened yet.
-    pub(super) fn none(nodes: usize) -> Self {
+    /// Nothing has happened yet to so many nodes, viscous stretches and temperatures.
+    pub(super) fn none(nodes: usize, internal: [usize; 2]) -> Self {
         Self {
+            internal: [(); 2].map(|()| Internal::none(internal)),
             forces: vec![[[S::zero(); D]; PLACES]; nodes],
             turn: 0,
             errors: [S::zero(); 3],
@@ -131,9 +167,33 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// Commits the step: its forces become the history of the predictor.
+    /// The internal variables before the last step, for a step of this size; none before the first one.
     #[inline]
-    pub(super) fn keep(&mut self) {
+    pub(super) fn before(&self, step: S) -> Option<Before<'_, S>> {
+        let last = &self.internal[0];
+        S::zero().less(last.step).all().then(|| Before {
+            viscous: &last.viscous,
+            temperatures: &last.temperatures,
+            ratio: step / last.step,
+        })
+    }
+
+    /// Commits the step of this size: its forces, and the viscous stretches and temperatures where it started, become
+    /// the history of the predictors.
+    #[inline]
+    pub(super) fn keep(&mut self, [viscous, temperatures]: [&[S]; 2], step: S) {
+        self.internal.swap(0, 1);
+        let internal = &mut self.internal[0];
+        let variables = [
+            (&mut internal.viscous, viscous),
+            (&mut internal.temperatures, temperatures),
+        ];
+        for (kept, own) in variables {
+            if !kept.is_empty() {
+                kept.copy_from_slice(own);
+                internal.step = step;
+            }
+        }
         self.turn = if self.turn + 1 == PLACES {
             0
         } else {
@@ -145,6 +205,7 @@ impl<S: Real, const D: usize> Past<S, D> {
 
     /// Takes back the last [`keep`](Self::keep).
     pub(super) fn forget(&mut self) {
+        self.internal.swap(0, 1);
         self.turn = (self.turn + PLACES - 1) % PLACES;
         self.errors = self.errors_before;
     }
@@ -156,6 +217,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         SavedPast {
             forces: [of(last), of(before)],
             errors: self.errors,
+            internal: self.internal[0].numbers().copied().collect(),
         }
     }
 
@@ -168,6 +230,9 @@ impl<S: Real, const D: usize> Past<S, D> {
             }
         }
         saved.errors = self.errors;
+        for (saved, &own) in saved.internal.iter_mut().zip(self.internal[0].numbers()) {
+            *saved = own;
+        }
     }
 
     /// Continues from a saved history of as many nodes.
@@ -179,6 +244,9 @@ impl<S: Real, const D: usize> Past<S, D> {
             }
         }
         self.errors = saved.errors;
+        for (own, &saved) in self.internal[0].numbers_mut().zip(&saved.internal) {
+            *own = saved;
+        }
     }
 }
 
@@ -230,11 +298,11 @@ mod tests {
         let mut remembering = past.remember();
         remembering.take(0, 2.0, 0.5);
         remembering.finish();
-        past.keep();
+        past.keep([&[force], &[]], 2.0);
     }
 
     fn after(forces: [f64; 3]) -> Past<f64, 1> {
-        let mut past = Past::none(1);
+        let mut past = Past::none(1, [1, 0]);
         for force in forces {
             go_on(&mut past, force);
         }

@@ -37,10 +37,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.kept_by(view)
     }
 
-    /// Commits the step: its forces become the history of the predictor.
+    /// Commits the step: it becomes the history of the predictors.
     fn kept_by(&mut self, view: &StepView<'_, S>) -> Result<Certificate<S>, StepFailure> {
         if view.phase.heats() && self.scheme.foretells_its_start() {
-            self.past.keep();
+            let variables = [view.state.viscous.values(), &view.state.temperatures];
+            self.past.keep(variables, view.step);
         }
         let certificate = self.certificate.take();
         certificate.ok_or(StepFailure::NotConverged { update: f64::NAN })

@@ -16,9 +16,9 @@ const MOST_EVALUATIONS: usize = 6;
 /// The correction of ln θ above which a guess is poor and the safeguarded search takes over.
 const LARGEST_CORRECTION: f64 = 0.25;
 
-/// An evaluated entropy may differ from the stored one by this many ε of its terms. Four are promised to the user; one
-/// is left for the rounding of the value itself.
-const KEPT_ROUNDINGS: f64 = 3.0;
+/// An evaluated entropy may differ from the stored one by this many ε of its terms. Four are promised to the user; two
+/// are left for the rounding of the value itself.
+const KEPT_ROUNDINGS: f64 = 2.0;
 
 /// The temperature that belongs to an entropy.
 pub(super) struct Settled<S: Real, M: FreeEnergy<S>, T> {
