@@ -124,14 +124,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             power += forces[a] * speed;
             drift += slopes[a] * speed;
         }
-        for (arm, &node) in pull.as_ref().iter().zip(&nodes.as_ref()[1..]) {
-            let force = &mut stage.places[node as usize].rates[1];
-            for (force, &pull) in force.iter_mut().zip(arm) {
-                *force -= pull;
-            }
-            let force = &mut stage.places[nodes[0] as usize].rates[1];
-            for (force, &pull) in force.iter_mut().zip(arm) {
-                *force += pull;
+        for (index, arm) in pull.as_ref().iter().enumerate() {
+            for (axis, &pull) in arm.iter().enumerate() {
+                stage.places[nodes[index + 1] as usize].rates[1][axis] -= pull;
+                stage.places[nodes[0] as usize].rates[1][axis] += pull;
             }
         }
         let viscous = self.slots().viscous;
