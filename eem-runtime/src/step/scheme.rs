@@ -28,7 +28,8 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// "Exact" means to rounding, in every step of any size. The schemes that are exact in all three columns prove it
 /// in every step, or return an error; see [`StepReport::defect`](crate::StepReport::defect). The others prove
 /// nothing: they report the same numbers and do not fail.
-/// Momenta are exact to the rounding of `Σ |q||p|`, with q from the origin, or from the anchor if that is farther.
+/// Momenta are exact to the rounding of `Σ |q||p|`, with q from the origin, or from the anchor if that is farther; where the
+/// impulses of a step are larger than the momenta, near a singular force, to the rounding of these.
 ///
 /// `Variational4` is stable if vibrations are resolved, `ωh < √8`. The schemes of order 4 have twice as many
 /// unknowns, that of order 6 three times as many. `EemExplicit`, the variational schemes and `Gauss4` are for springs
