@@ -216,6 +216,25 @@ fn a_checkpoint_whose_choice_is_impossible_is_refused() {
     run.restore(&saved).unwrap();
 }
 
+/// Energies are those that the scheme in use had found, to the bit.
+#[test]
+fn a_refused_checkpoint_of_another_scheme_leaves_no_trace() {
+    let mut run = relaxing(1e-3);
+    run.step().unwrap();
+    let (explicit, saved) = (run.scheme_in_use(), run.checkpoint());
+    while run.scheme_in_use() == explicit {
+        run.step().unwrap();
+    }
+    run.step().unwrap();
+    let mut text = serde_json::to_value(&saved).unwrap();
+    text["state"]["work"][0] = 1e3.into();
+    let edited: Checkpoint = serde_json::from_value(text).unwrap();
+    let before = bits(&run);
+    let refused = run.restore(&edited).unwrap_err();
+    assert_eq!(refused, RestoreError::Edited { entry: "work" });
+    assert_eq!(bits(&run), before);
+}
+
 /// Masses in a row on stiff springs, in slow motion across; what matrices may take, bytes.
 fn stiff_row(memory: Option<u64>) -> Simulation<2> {
     let stiff = Hencky {

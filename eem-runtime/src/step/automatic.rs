@@ -138,12 +138,17 @@ pub(crate) enum Verdict {
 }
 
 impl Choice {
-    /// All numbers; valid ones are finite and not negative.
+    /// All numbers that are no counts; valid ones are finite and not negative.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         let ([a, b], [c, d]) = (self.recent, self.before);
         let on_trial = f64::from(u8::from(self.is_on_trial));
         let all = [a, b, c, d, self.spent, self.due, self.tried];
         all.into_iter().chain(self.wait).chain([on_trial])
+    }
+
+    /// All counts.
+    pub(crate) fn counts(&self) -> [u64; 3] {
+        [self.steps.into(), self.limited.into(), self.failures]
     }
 
     pub(crate) const fn new() -> Self {

@@ -247,8 +247,12 @@ fn what_follows_from_the_steps() {
         ("/control/largest", "the largest step"),
         ("/control/largest_momentum", "the largest momentum"),
         ("/control/controller/last/0", "the last step under control"),
+        ("/control/statistics/accepted", "statistics of steps"),
     ];
-    let newton = [("/past/forces/0/0", "forces")];
+    let newton = [
+        ("/past/forces/0/0", "forces"),
+        ("/past/internal/0", "the start of the last step"),
+    ];
     let explicit = [
         ("/explicit/rates/0", "rates"),
         ("/explicit/held_energies/1", "energies of thermostats"),
@@ -261,11 +265,16 @@ fn what_follows_from_the_steps() {
         (Scheme::EemExplicit, &explicit[..]),
     ] {
         for &(path, entry) in common.iter().chain(own) {
-            for edited in [1e3, 1e300] {
+            let edits = if path.contains("statistics") {
+                [json!(7), json!(u64::MAX)]
+            } else {
+                [json!(1e3), json!(1e300)]
+            };
+            for edited in edits {
                 let mut run = controlled(scheme);
                 let mut value = serde_json::to_value(run.checkpoint()).unwrap();
                 let number = value.pointer_mut(path).unwrap();
-                *number = json!(edited);
+                *number = edited;
                 let checkpoint: Checkpoint = serde_json::from_value(value).unwrap();
                 run.step().unwrap();
                 let before = format!("{:?}", run.checkpoint());

@@ -57,6 +57,12 @@ impl<'a, S: Real> Entry<'a, S> {
         Self::new(name, Rule::Sum, pairs).counted(sums.values().len())
     }
 
+    /// By bytes, which are numbers of any type.
+    fn counts(name: &'static str, counts: impl IntoIterator<Item = u64> + 'a) -> Self {
+        let bytes = counts.into_iter().flat_map(u64::to_le_bytes);
+        Self::new(name, Rule::None, bytes.map(|byte| S::from_f64(byte.into())))
+    }
+
     fn list(name: &'static str, list: &'a [S]) -> Self {
         Self::new(name, Rule::Finite, list.iter().copied()).counted(list.len())
     }
@@ -166,11 +172,13 @@ impl<S: Real> Checkpoint<S> {
                 Entry::new("the largest momentum", FiniteNotNegative, [momentum]).sealed(),
                 Entry::new("the last step under control", FiniteNotNegative, last_step).sealed(),
                 Entry::new("step size", Positive, last.map(|[_, size]| size)),
+                Entry::counts("statistics of steps", control.statistics.counts()).sealed(),
             ]);
         }
         if let Some(saved) = &self.choice {
             let numbers = saved.choice.numbers().map(S::from_f64);
             entries.push(Entry::new("choice of a scheme", FiniteNotNegative, numbers).sealed());
+            entries.push(Entry::counts("choice of a scheme", saved.choice.counts()).sealed());
         }
         if let Some(explicit) = &self.explicit {
             let momentum = explicit.largest_momentum;

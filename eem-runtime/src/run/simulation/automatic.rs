@@ -7,6 +7,7 @@ use super::memory::Control;
 use super::stepper::{Parts, Stepper};
 use super::{Simulation, StepResult, Tried};
 use crate::algebra::memory::TooLarge;
+use crate::element::state::Energy;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::control::Controller;
@@ -16,6 +17,14 @@ use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::SavedPast;
 use eem_material::number::scalar::Real;
+
+/// A scheme in use, with its history and the energies as it found them.
+pub(super) struct SchemeAtWork<S> {
+    pub(super) scheme: Scheme,
+    past: SavedPast<S>,
+    explicit: Option<SavedExplicit<S>>,
+    energies: Vec<Energy<S>>,
+}
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// An accurate step by the scheme that is likely to be the cheapest; the state is unchanged if there is none.
@@ -42,8 +51,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let StepFailure::TooSmall { too_large, .. } = &mut failed.failure else {
             return Err(failed);
         };
-        let past = self.stepper.past(&self.state);
-        let energies = self.state.energies.clone();
+        let before = self.scheme_at_work();
         for scheme in CANDIDATES {
             if scheme == own
                 || !self.is_candidate(scheme, control)
@@ -57,9 +65,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 return Ok(report);
             }
         }
-        self.return_to_scheme(own, &past, control);
-        // As the own scheme found them.
-        self.state.energies = energies;
+        self.return_to_scheme(&before, control);
         *too_large = control.memory.statistics.too_large;
         Err(failed)
     }
@@ -115,8 +121,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if !self.is_candidate(scheme, control) || self.size_towards(end, size)?.is_some() {
             return Ok(None);
         }
-        let (own, usual) = (self.in_use, self.step);
-        let past = self.stepper.past(&self.state);
+        let (before, usual) = (self.scheme_at_work(), self.step);
         if self.switches_to(scheme, control) {
             let tried = self.attempt(control, size);
             if let Ok(Tried::Made(report)) = tried {
@@ -133,7 +138,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 Err(error) => _ = statistics.note_failure(&error.failure),
                 Ok(_) => statistics.rejected_by_error += 1,
             }
-            self.return_to_scheme(own, &past, control);
+            self.return_to_scheme(&before, control);
         }
         self.automatic.choice.wait_longer();
         Ok(None)
@@ -188,16 +193,28 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         true
     }
 
-    /// Returns to the scheme before a trial, with its history, if there is memory for it.
-    fn return_to_scheme(
-        &mut self,
-        scheme: Scheme,
-        (past, explicit): &(SavedPast<S>, Option<SavedExplicit<S>>),
-        control: &mut Control<S>,
-    ) {
-        if self.in_use == scheme || self.switches_to(scheme, control) {
-            self.stepper.restore(past, explicit.as_ref());
+    /// The scheme in use with its history, which [`resume_scheme`](Self::resume_scheme) gives back.
+    pub(super) fn scheme_at_work(&self) -> SchemeAtWork<S> {
+        let (past, explicit) = self.stepper.past(&self.state);
+        SchemeAtWork {
+            scheme: self.in_use,
+            past,
+            explicit,
+            energies: self.state.energies.clone(),
         }
+    }
+
+    /// Returns to the scheme before a trial, if there is memory for it.
+    fn return_to_scheme(&mut self, before: &SchemeAtWork<S>, control: &mut Control<S>) {
+        if self.in_use == before.scheme || self.switches_to(before.scheme, control) {
+            self.resume_scheme(before);
+        }
+    }
+
+    /// Gives the scheme in use its history, in the state that it left.
+    pub(super) fn resume_scheme(&mut self, before: &SchemeAtWork<S>) {
+        self.stepper.restore(&before.past, before.explicit.as_ref());
+        self.state.energies.copy_from_slice(&before.energies);
     }
 
     /// Replaces the scheme in use, without step control. If there is no memory for it, nothing changes.

@@ -84,19 +84,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     pub(super) fn restore_here(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
-        let own = self.in_use;
-        let (past, explicit) = self.stepper.past(&self.state);
+        let before = self.scheme_at_work();
         let saved = self.choice_in(checkpoint)?;
-        if let Some(saved) = saved.filter(|saved| saved.scheme != own) {
+        if let Some(saved) = saved.filter(|saved| saved.scheme != before.scheme) {
             self.use_scheme(saved.scheme)
                 .inspect_err(|_| self.diverge())?;
         }
         let restored = self.restore_in_scheme(checkpoint);
         if restored.is_err() {
             self.diverge();
-            if self.in_use != own {
-                self.use_scheme(own)?;
-                self.stepper.restore(&past, explicit.as_ref());
+            if self.in_use != before.scheme {
+                self.use_scheme(before.scheme)?;
+                self.resume_scheme(&before);
             }
         }
         restored

@@ -54,6 +54,18 @@ impl StepStatistics {
         true
     }
 
+    /// All counts.
+    pub(crate) const fn counts(&self) -> [u64; 6] {
+        [
+            self.accepted,
+            self.rejected_by_error,
+            self.rejected_by_newton,
+            self.rejected_by_domain,
+            self.rejected_by_law,
+            self.changes_of_scheme,
+        ]
+    }
+
     /// Steps rejected for another reason than their error.
     pub(crate) const fn failures(&self) -> u64 {
         self.rejected() - self.rejected_by_error
