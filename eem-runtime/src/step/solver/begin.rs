@@ -21,8 +21,10 @@ use eem_material::number::scalar::{Mask, Real};
 /// The initial guess of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Start {
-    /// The usual one of the scheme: a predicted motion, or the old state.
+    /// The usual one of the scheme: predicted motion and internal variables, or the old state.
     Foretold,
+    /// The same with the old internal variables.
+    Motion,
     /// The old state.
     Rest,
 }
@@ -44,7 +46,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             lengths: &mut self.lengths,
             before: match start {
                 Start::Foretold => self.past.before(view.step),
-                Start::Rest => None,
+                Start::Motion | Start::Rest => None,
             },
         };
         for group in groups.iter_mut() {
@@ -118,7 +120,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             (right[seen.row], solution[seen.row]) = ([S::zero()], [S::zero()]);
         }
         let is_foretold =
-            start == Start::Foretold && view.phase.moves() && self.scheme.foretells_its_start();
+            start != Start::Rest && view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
         let forecast = self.past.forecast();
         let rule = self.scheme.tableau();

@@ -47,8 +47,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         certificate.ok_or(StepFailure::NotConverged { update: f64::NAN })
     }
 
-    /// Exact schemes start from rest, and from the solution for another form if they have one; then the
-    /// solution is followed from a small step to the full one. At last an exact scheme takes all its
+    /// Exact schemes start with the old internal variables, from rest, and from the solution for another form if they have
+    /// one; then the solution is followed from a small step to the full one. At last an exact scheme takes all its
     /// iterations from its own start.
     #[cold]
     fn try_other_starts(
@@ -59,9 +59,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
         closing: &mut Target<'_, S>,
     ) -> Result<(), StepFailure> {
         if self.scheme.is_exact() {
-            let found = self.start_and_converge(groups, view, effort, (Start::Rest, closing));
-            if found.is_ok() {
-                return found;
+            for start in [Start::Motion, Start::Rest] {
+                let found = self.start_and_converge(groups, view, effort, (start, closing));
+                if found.is_ok() {
+                    return found;
+                }
             }
         }
         if self.scheme.has_starting_form() {
@@ -75,7 +77,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             return found;
         }
         self.has_other_starts = false;
-        self.start_and_converge(groups, view, effort, (Start::Foretold, closing))
+        self.start_and_converge(groups, view, effort, (Start::Motion, closing))
     }
 
     /// From the solution for the starting form of the scheme.
@@ -86,7 +88,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
         closing: &mut Target<'_, S>,
     ) -> Result<(), StepFailure> {
-        let start = (Start::Foretold, &mut Target::SharpTrial);
+        let start = (Start::Motion, &mut Target::SharpTrial);
         self.trial.is_start = true;
         let started = self.start_and_converge(groups, view, effort, start);
         self.trial.is_start = false;
@@ -131,7 +133,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 &mut Target::Trial
             };
             if part == 1 {
-                let start = (Start::Foretold, target);
+                let start = (Start::Motion, target);
                 self.start_and_converge(groups, &shorter, effort, start)?;
             } else {
                 self.extrapolate(groups, &shorter, number(part) / number(part - 1));
