@@ -59,21 +59,14 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         false
     }
 
-    /// Whether the scheme takes the entropy for its unknown and finds τ from it.
-    #[inline]
-    fn finds_temperature(self) -> bool {
-        false
-    }
-
     /// Computes [`Old`](Self::Old) from the old variables and the old entropy, once per step.
     fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old;
 
     /// The first starting values of a step, from the old temperature.
     fn memory(theta0: S) -> Self::Memory;
 
-    /// The temperature τ of the trial, given its other variables and Δs.
-    ///
-    /// The present τ unless the scheme takes the entropy for its unknown.
+    /// The temperature τ of the trial, given its other variables and Δs, if the scheme takes the entropy for its unknown;
+    /// the present τ otherwise.
     fn temperature(
         self,
         _: &M,

@@ -11,7 +11,8 @@
 //! `θ̇ = ((Σ g²/η + Q)/θ − s_λ λ̇ − s_γ γ̇)/s_θ` as Conde Martín, Betsch & García Orden (2016) run them.
 //!
 //! They are solved by Newton's method in the variables that they integrate, hence with the entropy
-//! as unknown.
+//! as unknown, and with equations that are neither scaled by θ nor multiplied by η: other unknowns or equations move
+//! the time at which the trapezoidal rule breaks down away from the published one.
 //!
 //! **Variational**: the action with thermacies α, α̇ = θ, by the midpoint rule with λ, γ and α linear in time (Kern,
 //! Romero, Conde Martín & García Orden 2021, §III.A):
@@ -84,10 +85,6 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for PointRule {
             self,
             Self::MidpointTemperature | Self::TrapezoidalTemperature
         )
-    }
-
-    fn finds_temperature(self) -> bool {
-        !ElementScheme::<S, M>::is_in_temperature(self)
     }
 
     fn old(_: &M, _: &M::Variables, entropy: S) -> Self::Old {

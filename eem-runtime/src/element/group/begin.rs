@@ -130,13 +130,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             rates[index] = share * rate;
             heat += g * rate;
         }
+        let old_power = share * heat;
         if let Some(slot) = self.slots().thermal {
             let temperatures = &view.state.temperatures;
             heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
             rates[Self::TEMPERATURE] = share * heat / theta;
         }
         for at_point in self.single.as_mut() {
-            at_point.old_rates = rates;
+            (at_point.old_rates, at_point.old_power) = (rates, old_power);
         }
         if M::THERMAL && self.scheme.is_in_temperature() {
             let measures0 = measures_in::<K, S, D>(&x0);

@@ -156,7 +156,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let mut received = Received::none();
         let Some(slot) = slots.thermal else {
             if M::DASHPOTS + Self::DRAGS > 0 {
-                next.dissipated.add(dissipated + h * self.old_dissipation());
+                let old = self.single.as_ref().iter();
+                let with_old = old.fold(dissipated, |sum, old| sum + h * old.old_power);
+                next.dissipated.add(with_old);
             }
             return received;
         };
@@ -183,9 +185,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     ) -> Received<S> {
         let h = view.thermal_step();
         let share = S::from_f64(self.scheme.implicit()) * h;
-        if let [at_point] = self.single.as_ref()
-            && self.scheme.implicit() < 1.0
-        {
+        for at_point in self.single.as_ref() {
             received.add(h * at_point.old_rates[Self::TEMPERATURE]);
         }
         let old = &view.state.entropies;

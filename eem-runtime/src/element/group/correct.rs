@@ -29,10 +29,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         {
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
-        if self.scheme.is_in_temperature() || (M::THERMAL && Self::HAS_RATES) {
-            for at_point in self.single.as_ref() {
-                heat += along::<K, S, D>(&at_point.by_increment, motion);
-            }
+        for at_point in self.single.as_ref() {
+            heat += along::<K, S, D>(&at_point.by_increment, motion);
         }
         for u in 0..Self::UNKNOWNS {
             let mut change = self.condensed.constant.get(u);
@@ -45,7 +43,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             self.correction[M::MEASURES + u] = -change;
         }
         self.remember();
-        if M::THERMAL && self.scheme.finds_temperature() {
+        if M::THERMAL {
             for at_point in self.single.as_mut() {
                 at_point.previous_entropy_change = self.response[Self::ENTROPY];
                 let terms = at_point.entropy_by.as_ref().iter();

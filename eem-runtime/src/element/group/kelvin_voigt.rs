@@ -209,23 +209,6 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         Ok(power)
     }
 
-    /// The power `(1 − w) η λ̇⁰²` from the old state in an element without temperature, W.
-    pub(super) fn old_drag_power(&self) -> S {
-        let mut power = S::zero();
-        if Self::DRAGS == 0 || self.scheme.implicit() >= 1.0 {
-            return power;
-        }
-        let (eta, _) = self.model.drag(S::zero());
-        let per_share = (S::one() - S::from_f64(self.scheme.implicit())).recip();
-        for at_point in self.single.as_ref() {
-            for a in 0..Self::DRAGS {
-                let rate = at_point.old_rates[a];
-                power += eta[a] * rate * rate * per_share;
-            }
-        }
-        power
-    }
-
     /// Books the heat of the step, J.
     #[inline]
     pub(super) fn book_drag(&self, per_theta: S, tally: &mut Tally<S>) -> S {

@@ -41,6 +41,8 @@ impl<A: Copy> Drag<A> {
 pub(super) struct PointMemory<S, V, A> {
     /// The contribution of the old state to the rates of the internal variables.
     pub(super) old_rates: V,
+    /// Its contribution to the power of the dashpots, `(1 − w) (Σ g⁰ γ̇⁰ + Σ η (λ̇⁰)²)`, W.
+    pub(super) old_power: S,
     /// For a scheme in temperature: the contribution of the old state to θ̇, K/s.
     pub(super) old_heating: S,
     /// The trial Δs, before the last correction, and the correction, J/K.
@@ -62,6 +64,7 @@ impl<S: Real, V: Array<S>, A> PointMemory<S, V, A> {
     pub(super) fn zero(arms: A) -> Self {
         Self {
             old_rates: V::filled(S::zero()),
+            old_power: S::zero(),
             old_heating: S::zero(),
             entropy_change: S::zero(),
             previous_entropy_change: S::zero(),
@@ -207,7 +210,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         for row in 0..Self::VARIABLES {
             self.slopes[row] = tangent[row];
         }
-        if M::THERMAL && self.scheme.finds_temperature() {
+        if M::THERMAL {
             for at_point in self.single.as_mut() {
                 at_point.entropy_by = tangent[Self::ENTROPY];
             }
@@ -218,12 +221,9 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     /// the old state.
     #[inline]
     pub(super) fn increment(&self, index: usize, rate: S, h: S) -> S {
-        match self.single.as_ref() {
-            [at_point] if self.scheme.implicit() < 1.0 => {
-                h * (S::from_f64(self.scheme.implicit()) * rate + at_point.old_rates[index])
-            }
-            _ => h * rate,
-        }
+        let own = S::from_f64(self.scheme.implicit()) * rate;
+        let old = self.single.as_ref().iter();
+        h * old.fold(own, |sum, old| sum + old.old_rates[index])
     }
 
     /// The new temperature that τ stands for, given the old one, K.
@@ -239,22 +239,6 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline]
     pub(super) fn temperature(&self) -> S {
         temperature_in::<S, M>(&self.response)
-    }
-
-    /// The contribution of the old state to the power of the dashpots, `Σ g⁰ (1 − w) γ̇⁰`, W.
-    pub(super) fn old_dissipation(&self) -> S {
-        let of_drag = self.old_drag_power();
-        if self.scheme.implicit() >= 1.0 || M::DASHPOTS == 0 {
-            return of_drag;
-        }
-        let forces = self.model.gradient(&self.start.x0);
-        let dashpots = M::MEASURES..Self::TEMPERATURE;
-        let old = self.single.as_ref().iter();
-        old.fold(of_drag, |sum, old| {
-            dashpots
-                .clone()
-                .fold(sum, |sum, k| sum - forces[k] * old.old_rates[k])
-        })
     }
 
     /// An error unless a free energy is finite.
@@ -324,10 +308,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             let change = share * self.correction[Self::TEMPERATURE];
             self.x[Self::TEMPERATURE] = grown(self.previous.get(M::DASHPOTS), change);
         }
-        if self.scheme.finds_temperature() {
-            for at in self.single.as_mut() {
-                at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
-            }
+        for at in self.single.as_mut() {
+            at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
         }
     }
 }

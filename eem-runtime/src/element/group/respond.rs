@@ -39,7 +39,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
-        if M::THERMAL && self.scheme.finds_temperature() && !self.is_prescribed {
+        if M::THERMAL && !self.scheme.is_in_temperature() && !self.is_prescribed {
             for at_point in self.single.as_ref() {
                 let change = at_point.entropy_change;
                 let theta = self

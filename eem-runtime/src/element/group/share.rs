@@ -98,11 +98,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let by = factor * row.by_measure[a];
             add_scaled::<K, S, D>(&mut sum, by, &self.sensitivity[a]);
         }
-        if self.scheme.is_in_temperature() || (M::THERMAL && Self::HAS_RATES) {
-            for at_point in self.single.as_ref() {
-                let by = -factor * row.by_heat;
-                add_scaled::<K, S, D>(&mut sum, by, &at_point.by_increment);
-            }
+        for at_point in self.single.as_ref() {
+            let by = -factor * row.by_heat;
+            add_scaled::<K, S, D>(&mut sum, by, &at_point.by_increment);
         }
         sum
     }
