@@ -128,15 +128,22 @@ impl<S: Real, const D: usize> Motion<S, D> {
         }
     }
 
-    /// Adds a mass at the end of an arm.
+    /// Adds the momenta of a mass at the end of an arm.
     #[inline]
-    pub(super) fn add(&mut self, place: &Place<S, D>, arm: &[S; D], gravity: Option<&[S; D]>) {
-        let (q, p) = (place.q(), place.p());
+    pub(super) fn add_momenta(&mut self, place: &Place<S, D>, arm: &[S; D]) {
+        let p = place.p();
         add(&mut self.linear, S::one(), p);
         self.angular.add(S::one(), &Bivector::wedge(arm, p));
         let momentum = size(p);
         self.terms[0] += momentum;
-        self.terms[1] += size(arm).maximum(size(q)) * momentum;
+        self.terms[1] += size(arm).maximum(size(place.q())) * momentum;
+    }
+
+    /// Adds momenta and energy of a mass at the end of an arm.
+    #[inline]
+    pub(super) fn add(&mut self, place: &Place<S, D>, arm: &[S; D], gravity: Option<&[S; D]>) {
+        self.add_momenta(place, arm);
+        let (q, p) = (place.q(), place.p());
         let kinetic = S::from_f64(0.5) * dot(p, p) * place.per_mass;
         self.energy.add(kinetic);
         self.kinetic += kinetic;

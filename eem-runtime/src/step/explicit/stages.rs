@@ -150,14 +150,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ) -> Result<(), StateError> {
         self.stage.weight = weight.map_or(S::zero(), |at| S::from_f64(WEIGHTS[at]));
         let first = self.stage.temperatures;
+        let (inner, rates) = (&self.stage.inner[..], &mut self.stage.inner_rates[..]);
         for path in &mut self.components.paths {
             let [a, b] = path.ends.map(|end| first + end as usize);
-            let [near, far] = [self.stage.inner[a], self.stage.inner[b]];
+            let [near, far] = [inner[a], inner[b]];
             let flow = path.conductance * (far - near);
-            self.stage.inner_rates[a] += flow;
+            rates[a] += flow;
             // A reservoir keeps its temperature.
             if path.share.is_none() {
-                self.stage.inner_rates[b] -= flow;
+                rates[b] -= flow;
             }
             if let Some(at) = weight {
                 (path.seen[0][at], path.seen[1][at]) = (near, far);
