@@ -6,19 +6,12 @@
 #![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
 
 use std::fs;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
-#[cfg(unix)]
-use std::sync::Once;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// A folder in the one that the workspace builds in.
 const TEMPORARY: &str = env!("CARGO_TARGET_TMPDIR");
-
-/// Done when `eem` lies beside the crates.
-#[cfg(unix)]
-static LINKED: Once = Once::new();
 
 /// A fenced block: its language, its text, and the prose between the block before and this one.
 struct Block<'a> {
@@ -42,32 +35,34 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
         .collect()
 }
 
-/// A folder outside of the workspace, beside which lies `eem`, as the pages say: the same `eem` for all pages, which is
-/// built once.
+/// A folder outside of the workspace.
 fn folder(name: &str) -> PathBuf {
-    let mut checkout = DefaultHasher::new();
-    ROOT.hash(&mut checkout);
-    let base = std::env::temp_dir().join(format!("eem-followed-{:x}", checkout.finish()));
+    let base = std::env::temp_dir().join(format!("eem-followed-{}", std::process::id()));
     let krate = base.join(name);
     let _ = fs::remove_dir_all(&krate);
     fs::create_dir_all(krate.join("src")).unwrap();
-    #[cfg(unix)]
-    LINKED.call_once(|| {
-        let eem = base.join("eem");
-        let _ = fs::remove_file(&eem);
-        std::os::unix::fs::symlink(ROOT, eem).unwrap();
-    });
     krate
 }
 
-/// A crate with these dependencies and the versions of the workspace.
+/// Removes a crate, and with the last one their folder.
+fn remove(krate: &Path) {
+    fs::remove_dir_all(krate).unwrap();
+    let _ = fs::remove_dir(krate.parent().unwrap());
+}
+
+/// A crate with these dependencies and the versions of the workspace. `eem` lies where it is, instead of beside the crate,
+/// and is built with the profile that it has there, so that little of it is built again.
 fn manifest(krate: &Path, dependencies: &str) {
     let name = krate.file_name().unwrap().to_string_lossy();
     let package =
         format!("[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n");
     // Not part of a workspace that happens to lie above.
-    let alone = "\n[workspace]\n";
-    fs::write(krate.join("Cargo.toml"), package + dependencies + alone).unwrap();
+    let alone = "\n[workspace]\n\n";
+    let dependencies = dependencies.replace("../eem", ROOT);
+    let workspace = fs::read_to_string(Path::new(ROOT).join("Cargo.toml")).unwrap();
+    let (_, profile) = workspace.split_once("\n[profile.dev]").unwrap();
+    let text = package + &dependencies + alone + "[profile.dev]" + profile;
+    fs::write(krate.join("Cargo.toml"), text).unwrap();
     fs::copy(Path::new(ROOT).join("Cargo.lock"), krate.join("Cargo.lock")).unwrap();
 }
 
@@ -77,8 +72,6 @@ fn cargo(krate: &Path, arguments: &[&str]) -> String {
         .args(arguments)
         .current_dir(krate)
         .env("CARGO_TARGET_DIR", Path::new(TEMPORARY).parent().unwrap())
-        // As in the workspace, so that nothing is built twice.
-        .env("CARGO_PROFILE_DEV_DEBUG", "false")
         .output()
         .unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -107,7 +100,7 @@ fn follow(name: &str, page: &str) -> PathBuf {
 #[ignore = "builds a crate; the gate runs it"]
 fn the_readme_can_be_followed() {
     let krate = follow("pendulum", include_str!("../../README.md"));
-    fs::remove_dir_all(krate).unwrap();
+    remove(&krate);
 }
 
 #[test]
@@ -120,7 +113,7 @@ fn the_tutorial_can_be_followed_to_its_picture() {
         drawn == shown,
         "docs/tutorial.svg is not what the tutorial draws"
     );
-    fs::remove_dir_all(krate).unwrap();
+    remove(&krate);
 }
 
 /// Pages with programs that print something. That all programs compile and run as they stand is seen by rustdoc.
@@ -152,5 +145,5 @@ fn the_programs_of_the_pages_print_what_is_shown() {
         let output = cargo(&krate, &["run", "--quiet", "--bin", &name]);
         assert_eq!(output, printed, "{name}");
     }
-    fs::remove_dir_all(krate).unwrap();
+    remove(&krate);
 }
