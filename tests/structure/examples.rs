@@ -61,17 +61,31 @@ fn programs(package: &str) -> Vec<String> {
 fn examples_keep_their_claims() {
     let _built = BUILT.lock().unwrap();
     let folder = build("eem-examples");
-    for name in programs("eem-examples") {
-        // Run by the tests of `eem-sweep`.
-        if name == "sweep" {
-            continue;
-        }
+    let mut names = programs("eem-examples");
+    // Run by the tests of `eem-sweep`.
+    names.retain(|name| name != "sweep");
+    on_all_cores(names, |name| {
         let output = run(&folder, &name, &[]);
         let said = String::from_utf8(output.stdout).unwrap();
         let errors = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{name}: {said}{errors}");
         assert!(!said.contains("NaN"), "{name}: {said}");
-    }
+    });
+}
+
+/// Does something with each of a list.
+fn on_all_cores<T: Send>(left: Vec<T>, act: impl Fn(T) + Sync) {
+    let left = Mutex::new(left);
+    let next = || left.lock().unwrap().pop();
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().unwrap().get() {
+            scope.spawn(|| {
+                while let Some(one) = next() {
+                    act(one);
+                }
+            });
+        }
+    });
 }
 
 #[test]
@@ -122,16 +136,8 @@ fn studies_keep_their_claims_and_their_pictures_hold_their_texts() {
     assert!(left.len() > 15);
     let _built = BUILT.lock().unwrap();
     let programs = build("eem-studies");
-    let left = Mutex::new(left);
-    let next = || left.lock().unwrap().pop();
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().unwrap().get() {
-            scope.spawn(|| {
-                while let Some((name, options)) = next() {
-                    assert_run(&programs, &name, options);
-                }
-            });
-        }
+    on_all_cores(left, |(name, options)| {
+        assert_run(&programs, &name, options);
     });
 }
 
