@@ -135,7 +135,7 @@ struct Rule {
     closing: Closing,
     /// See [`Scheme::is_exact`].
     is_exact: bool,
-    /// See [`Scheme::foretells_its_start`].
+    /// See [`Scheme::predicts_its_start`].
     is_classical: bool,
     order: u8,
     /// Whether its conserved quantities do not depend on the sizes of steps.
@@ -289,7 +289,7 @@ impl Scheme {
     /// Whether Newton's method starts from a motion under predicted forces, which saves most of an iteration. The
     /// classical schemes start at the old state: beyond their stable steps the start decides which state is found, if
     /// any, and so they break down where the literature says.
-    pub(crate) const fn foretells_its_start(self) -> bool {
+    pub(crate) const fn predicts_its_start(self) -> bool {
         !self.rule().is_classical
     }
 

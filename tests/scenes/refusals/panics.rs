@@ -78,7 +78,7 @@ fn the_simulation_is_as_it_was_and_goes_on() {
     }
 }
 
-/// Those of [`bits`] that say what the next steps do: what an explicit scheme foretells has no effect on them.
+/// Those of [`bits`] that say what the next steps do: what an explicit scheme predicts has no effect on them.
 fn effective(run: &Simulation<2>) -> String {
     bits(run).split("past:").next().unwrap().to_owned()
 }

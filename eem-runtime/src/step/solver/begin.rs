@@ -22,7 +22,7 @@ use eem_material::number::scalar::{Mask, Real};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Start {
     /// The usual one of the scheme: predicted motion and internal variables, or the old state.
-    Foretold,
+    Predicted,
     /// The same with the old internal variables.
     Motion,
     /// The old state.
@@ -45,7 +45,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             force: &mut self.old_force,
             lengths: &mut self.lengths,
             before: match start {
-                Start::Foretold => self.past.before(view.step),
+                Start::Predicted => self.past.before(view.step),
                 Start::Motion | Start::Rest => None,
             },
         };
@@ -119,8 +119,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.trial.seen.set(seen.in_trial, theta);
             (right[seen.row], solution[seen.row]) = ([S::zero()], [S::zero()]);
         }
-        let is_foretold =
-            start != Start::Rest && view.phase.moves() && self.scheme.foretells_its_start();
+        let is_predicted =
+            start != Start::Rest && view.phase.moves() && self.scheme.predicts_its_start();
         let half_step = S::from_f64(0.5) * view.step;
         let forecast = self.past.forecast();
         let rule = self.scheme.tableau();
@@ -131,9 +131,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             node.weigh(view, set, force);
             node.per_length = inverse_length(self.lengths[at]);
             let mut displacement = [S::zero(); D];
-            if is_foretold && is_coupled {
+            if is_predicted && is_coupled {
                 displacement = node.flight;
-            } else if is_foretold {
+            } else if is_predicted {
                 let mobility = S::from_f64(set.time) * view.step * node.place.per_mass;
                 let force = forecast.of(at);
                 displacement =
@@ -173,7 +173,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Removes the last step from the history of the predictor.
     pub(crate) fn undo(&mut self) {
-        if self.scheme.foretells_its_start() {
+        if self.scheme.predicts_its_start() {
             self.past.forget();
         }
     }

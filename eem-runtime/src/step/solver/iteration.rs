@@ -129,7 +129,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         unknowns: &[S],
         effort: &mut Effort<S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
-        self.begin(groups, view, Start::Foretold)?;
+        self.begin(groups, view, Start::Predicted)?;
         let given = unknowns.as_chunks::<1>().0;
         for node in &self.nodes {
             self.trial.rests[node.place.in_trial()] = [S::zero(); D];

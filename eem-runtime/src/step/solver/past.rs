@@ -311,10 +311,10 @@ mod tests {
 
     #[test]
     fn the_best_forecast_is_the_one_that_was() {
-        let foretold = |forces: [f64; 3]| after(forces).forecast().of(0).map(f64::to_bits);
-        assert_eq!(foretold([4.0, -4.0, 4.0]), [0.0_f64.to_bits()]);
-        assert_eq!(foretold([4.0, 4.0, 4.0]), [4.0_f64.to_bits()]);
-        assert_eq!(foretold([1.0, 2.0, 3.0]), [4.0_f64.to_bits()]);
+        let predicted = |forces: [f64; 3]| after(forces).forecast().of(0).map(f64::to_bits);
+        assert_eq!(predicted([4.0, -4.0, 4.0]), [0.0_f64.to_bits()]);
+        assert_eq!(predicted([4.0, 4.0, 4.0]), [4.0_f64.to_bits()]);
+        assert_eq!(predicted([1.0, 2.0, 3.0]), [4.0_f64.to_bits()]);
     }
 
     #[test]

@@ -24,7 +24,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     ) -> Result<Certificate<S>, StepFailure> {
         let mut closing = Target::State(next);
         self.has_other_starts = S::LANES == 1 && self.scheme.is_exact();
-        let found = self.start_and_converge(groups, view, effort, (Start::Foretold, &mut closing));
+        let found = self.start_and_converge(groups, view, effort, (Start::Predicted, &mut closing));
         let failure = match found {
             Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
             done => {
@@ -39,7 +39,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Commits the step: it becomes the history of the predictors.
     fn kept_by(&mut self, view: &StepView<'_, S>) -> Result<Certificate<S>, StepFailure> {
-        if view.phase.heats() && self.scheme.foretells_its_start() {
+        if view.phase.heats() && self.scheme.predicts_its_start() {
             let variables = [view.state.viscous.values(), &view.state.temperatures];
             self.past.keep(variables, view.step);
         }
