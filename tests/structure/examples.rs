@@ -19,20 +19,19 @@ static BUILT: Mutex<()> = Mutex::new(());
 /// Programs that measure for minutes: nobody runs them here.
 const MEASURING: [&str; 2] = ["digests", "hot_cases"];
 
-/// Builds the programs of a package that are run here: examples with the few features that they ask for, as a user does;
-/// studies with the features of the tests of the whole workspace, this one among them, so that nothing else is built. The
-/// folder in which they are.
+/// Builds the programs of a package that are run here, with the features of the tests of the whole workspace, so that
+/// nothing else is built; the folder in which they are.
 fn build(package: &str) -> PathBuf {
-    let mut command = Command::new(env!("CARGO"));
-    command.args(["build", "--quiet", "--locked"]);
-    if package == "eem-examples" {
-        command.args(["--package", package, "--bins"]);
+    let other = if package == "eem-studies" {
+        "eem-examples"
     } else {
-        command.args(["--workspace", "--exclude", "eem-examples"]);
-        command.args(["--all-features", "--test", "structure"]);
-        for name in programs(package) {
-            command.args(["--bin", &name]);
-        }
+        "eem-studies"
+    };
+    let mut command = Command::new(env!("CARGO"));
+    command.args(["build", "--quiet", "--locked", "--all-features"]);
+    command.args(["--workspace", "--exclude", other]);
+    for name in programs(package) {
+        command.args(["--bin", &name]);
     }
     assert!(command.current_dir(ROOT).status().unwrap().success());
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
