@@ -5,6 +5,7 @@
 //! | to | look in |
 //! |---|---|
 //! | add a shape of cell | `shape.rs` |
+//! | change the algebra of tensors | `tensor.rs` |
 //! | change how masses or volumes are integrated | `integrals.rs` |
 //! | make a mesh of a new kind of region | `mesh/grid.rs`, `mesh/polygon.rs` |
 //! | reject a mesh | `mesh/check.rs`; messages in `mesh/error.rs` |

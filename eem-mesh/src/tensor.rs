@@ -23,7 +23,7 @@ pub trait Symmetric<S: Real, const D: usize>: Array<S> {
     /// The unit tensor.
     fn unit() -> Self;
 
-    /// The tensor `b_k` of a strain component of the runtime, as far as it is in these dimensions.
+    /// The tensor `b_k` of [`basis`], as far as it is in these dimensions.
     fn basis(k: usize) -> Self;
 
     /// `½(FᵀF − 1)`.

@@ -31,7 +31,7 @@
 //! | change the explicit scheme | `step/explicit`: `stages.rs`, `tableau.rs`, `closing`, `inertia`, `guard.rs`; `element/group/explicit` |
 //! | solve the linear systems differently | `algebra/system.rs`; `algebra/lu` for small ones; `step/solver/kept_factors.rs` for factors that are reused |
 //! | reject what does not fit in memory | `algebra/memory.rs`, `step/systems.rs` |
-//! | add a strain measure | `strain.rs`, `between.rs`, `tensor.rs`, `stiffness.rs` in `element/kinematics`; its role in `eem-language` |
+//! | add a strain measure | `strain.rs`, `between.rs`, `stiffness.rs` in `element/kinematics`; `tensor.rs` in `eem-mesh`; its role in `eem-language` |
 //! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs`; `Scheme::takes_drag` |
 //! | add a shape of cell | `shape.rs` in `eem-mesh` |

@@ -252,7 +252,7 @@ mod tests {
     use super::*;
 
     /// Steps of each row in the gate.
-    const SAMPLE: u64 = 400;
+    const SAMPLE: u64 = 640;
 
     fn sample(scheme: Scheme, steps: &[Steps]) {
         let mut wrong = Vec::new();

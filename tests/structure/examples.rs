@@ -19,17 +19,22 @@ static BUILT: Mutex<()> = Mutex::new(());
 /// Programs that measure for minutes: nobody runs them here.
 const MEASURING: [&str; 2] = ["digests", "hot_cases"];
 
-/// Builds the programs of a package that are run here, with the features of the tests of the whole workspace, so that
-/// nothing else is built; the folder in which they are.
+/// Builds the programs of a package that are run here, with all features, and returns the folder in which they are. Studies
+/// are built together with this test, which has the features of all tests, so that the library is not built again.
 fn build(package: &str) -> PathBuf {
-    let other = if package == "eem-studies" {
-        "eem-examples"
-    } else {
-        "eem-studies"
-    };
     let mut command = Command::new(env!("CARGO"));
-    command.args(["build", "--quiet", "--locked", "--all-features"]);
-    command.args(["--workspace", "--exclude", other]);
+    command.args([
+        "build",
+        "--quiet",
+        "--locked",
+        "--all-features",
+        "--workspace",
+    ]);
+    if package == "eem-studies" {
+        command.args(["--exclude", "eem-examples", "--test", "structure"]);
+    } else {
+        command.args(["--exclude", "eem-studies"]);
+    }
     for name in programs(package) {
         command.args(["--bin", &name]);
     }

@@ -76,6 +76,10 @@ const SHARE_OF_TERMS: f64 = 0.125;
 /// The share of the terms of ψ: its value is known to 8 ε of them, and what is closed with it to as much.
 const SHARE_OF_VALUES: f64 = 0.25;
 
+/// The share of forces by secants that is certain in elements without temperature: secants were 8.3 times too large at
+/// most in a million random steps, near the core of a Lennard-Jones spring.
+const SHARE_OF_SECANTS: f64 = 0.0625;
+
 impl<S: Real> Energy<S> {
     /// That of an element with the free energy ψ, the temperature θ and the kept entropy s, given what the
     /// model says at θ.
@@ -111,14 +115,13 @@ impl<S: Real> Energy<S> {
         self.excess += forces;
     }
 
-    /// Adds `Σ|f||π| + Σ|g||γ|` by secants, J, and the part of it that is certain: a sixteenth where the temperature does
-    /// not enter. Secants were 8.3 times too large at most in a million random steps, near the core of a Lennard-Jones
-    /// spring.
+    /// Adds `Σ|f||π| + Σ|g||γ|` by secants, J, and the part of it that is certain, which is none where forces change with
+    /// the temperature.
     #[inline]
     pub(crate) fn add_secants(&mut self, forces: S, is_thermal: bool) {
         self.excess += forces;
         if !is_thermal {
-            self.terms += S::from_f64(0.0625) * forces;
+            self.terms += S::from_f64(SHARE_OF_SECANTS) * forces;
         }
     }
 

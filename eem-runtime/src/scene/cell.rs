@@ -11,8 +11,7 @@ use crate::scene::solid_error::SolidError;
 use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 use eem_material::point_energy::PointEnergy;
-use eem_mesh::integrals;
-use eem_mesh::per_node;
+use eem_mesh::{integrals, per_node};
 
 /// The properties of a cell besides its material and nodes.
 #[derive(Clone, Copy, Debug)]

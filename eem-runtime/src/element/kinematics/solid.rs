@@ -6,10 +6,9 @@ use crate::element::kinematics::between::Between;
 use crate::element::kinematics::strain::Measure;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::{Real, is_positive};
-use eem_mesh::Points;
-use eem_mesh::Shape;
 use eem_mesh::integrals::{functions, gauss, jacobian};
 use eem_mesh::tensor::{Symmetric, Tensor, add, dot, pushed};
+use eem_mesh::{Points, Shape};
 
 /// N measures of the strain at one of the points of a cell of shape `H`, in plane strain or in space.
 ///

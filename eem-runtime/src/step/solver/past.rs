@@ -24,37 +24,11 @@ pub(super) struct Past<S, const D: usize> {
     errors_before: [S; 3],
     /// The same after the step that is being closed.
     errors_after: [S; 3],
-    /// At the start of the last step, and of the one before.
-    internal: [Internal<S>; 2],
-}
-
-/// The internal variables at the start of a step; none for a scheme that does not predict them.
-#[derive(Clone, Debug)]
-struct Internal<S> {
-    viscous: Vec<S>,
-    temperatures: Vec<S>,
-    /// h, s; zero before the first step.
-    step: S,
-}
-
-impl<S: Real> Internal<S> {
-    fn none([viscous, temperatures]: [usize; 2]) -> Self {
-        Self {
-            viscous: vec![S::zero(); viscous],
-            temperatures: vec![S::zero(); temperatures],
-            step: S::zero(),
-        }
-    }
-
-    fn numbers(&self) -> impl Iterator<Item = &S> {
-        let variables = self.viscous.iter().chain(&self.temperatures);
-        variables.chain([&self.step])
-    }
-
-    fn numbers_mut(&mut self) -> impl Iterator<Item = &mut S> {
-        let variables = self.viscous.iter_mut().chain(&mut self.temperatures);
-        variables.chain([&mut self.step])
-    }
+    /// Viscous stretches and temperatures at the start of the last step, and its size; the same of the one before. Empty
+    /// for a scheme that does not predict them.
+    internal: [Vec<S>; 2],
+    /// How many of them are viscous stretches.
+    viscous: usize,
 }
 
 /// Where the forces of the last step, of the one before and of the next one are in each turn.
@@ -119,9 +93,14 @@ const FORECASTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
 
 impl<S: Real, const D: usize> Past<S, D> {
     /// Nothing has happened yet to so many nodes, viscous stretches and temperatures.
-    pub(super) fn none(nodes: usize, internal: [usize; 2]) -> Self {
+    pub(super) fn none(nodes: usize, [viscous, temperatures]: [usize; 2]) -> Self {
+        let size = match viscous + temperatures {
+            0 => 0,
+            variables => variables + 1,
+        };
         Self {
-            internal: [(); 2].map(|()| Internal::none(internal)),
+            internal: [(); 2].map(|()| vec![S::zero(); size]),
+            viscous,
             forces: vec![[[S::zero(); D]; PLACES]; nodes],
             turn: 0,
             errors: [S::zero(); 3],
@@ -170,11 +149,14 @@ impl<S: Real, const D: usize> Past<S, D> {
     /// The internal variables before the last step, for a step of this size; none before the first one.
     #[inline]
     pub(super) fn before(&self, step: S) -> Option<Before<'_, S>> {
-        let last = &self.internal[0];
-        S::zero().less(last.step).all().then(|| Before {
-            viscous: &last.viscous,
-            temperatures: &last.temperatures,
-            ratio: step / last.step,
+        let [variables @ .., last] = &self.internal[0][..] else {
+            return None;
+        };
+        let (viscous, temperatures) = variables.split_at(self.viscous);
+        S::zero().less(*last).all().then(|| Before {
+            viscous,
+            temperatures,
+            ratio: step / *last,
         })
     }
 
@@ -183,16 +165,12 @@ impl<S: Real, const D: usize> Past<S, D> {
     #[inline]
     pub(super) fn keep(&mut self, [viscous, temperatures]: [&[S]; 2], step: S) {
         self.internal.swap(0, 1);
-        let internal = &mut self.internal[0];
-        let variables = [
-            (&mut internal.viscous, viscous),
-            (&mut internal.temperatures, temperatures),
-        ];
-        for (kept, own) in variables {
-            if !kept.is_empty() {
-                kept.copy_from_slice(own);
-                internal.step = step;
+        if let [variables @ .., last] = &mut self.internal[0][..] {
+            let (kept, own) = (variables.iter_mut(), viscous.iter().chain(temperatures));
+            for (kept, &own) in kept.zip(own) {
+                *kept = own;
             }
+            *last = step;
         }
         self.turn = if self.turn + 1 == PLACES {
             0
@@ -217,7 +195,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         SavedPast {
             forces: [of(last), of(before)],
             errors: self.errors,
-            internal: self.internal[0].numbers().copied().collect(),
+            internal: self.internal[0].clone(),
         }
     }
 
@@ -230,7 +208,7 @@ impl<S: Real, const D: usize> Past<S, D> {
             }
         }
         saved.errors = self.errors;
-        for (saved, &own) in saved.internal.iter_mut().zip(self.internal[0].numbers()) {
+        for (saved, &own) in saved.internal.iter_mut().zip(&self.internal[0]) {
             *saved = own;
         }
     }
@@ -244,7 +222,7 @@ impl<S: Real, const D: usize> Past<S, D> {
             }
         }
         self.errors = saved.errors;
-        for (own, &saved) in self.internal[0].numbers_mut().zip(&saved.internal) {
+        for (own, &saved) in self.internal[0].iter_mut().zip(&saved.internal) {
             *own = saved;
         }
     }

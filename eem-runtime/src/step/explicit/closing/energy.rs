@@ -4,7 +4,7 @@ use super::super::Explicit;
 use super::super::scratch::Motion;
 use super::super::vector::dot;
 use super::Status;
-use crate::element::group::is_met;
+use crate::element::group::{Place, is_met};
 use crate::element::state::State;
 use core::ops::Range;
 use eem_material::number::scalar::{Mask, Real, unless};
@@ -21,11 +21,23 @@ const ENOUGH: f64 = 2.0;
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Sums over the masses of a component, as they are now.
     pub(in super::super) fn look_at_motion(&mut self, index: usize) {
+        let gravity = self.gravity;
+        self.sum_motion(index, |sum, place, arm| {
+            sum.add(place, arm, gravity.as_ref());
+        });
+    }
+
+    /// The sums of what is added for each mass of a component and its arm.
+    pub(super) fn sum_motion(
+        &mut self,
+        index: usize,
+        add: impl Fn(&mut Motion<S, D>, &Place<S, D>, &[S; D]),
+    ) {
         let component = &self.components.all[index];
         let origin = Self::origin(&self.stage.places, component);
         let mut motion = Motion::none();
         for place in &self.stage.places[component.masses.clone()] {
-            motion.add(place, &origin.arm(place.q()), self.gravity.as_ref());
+            add(&mut motion, place, &origin.arm(place.q()));
         }
         self.scratch.motions[index] = motion;
     }

@@ -127,18 +127,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Corrects the momenta to their targets; in space repeatedly if the rounding of a correction matters. Positions
     /// are rotated if momenta alone cannot do it.
     pub(super) fn restore_momenta(&mut self, index: usize) {
-        let component = &self.components.all[index];
-        if component.support == Support::Several {
+        if self.components.all[index].support == Support::Several {
             self.look_at_motion(index);
             return;
         }
         // The energy is summed with the corrected momenta.
-        let origin = Self::origin(&self.stage.places, component);
-        let mut motion = Motion::none();
-        for place in &self.stage.places[component.masses.clone()] {
-            motion.add_momenta(place, &origin.arm(place.q()));
-        }
-        self.scratch.motions[index] = motion;
+        self.sum_motion(index, Motion::add_momenta);
         let mut inactive = self.scratch.inactive[index];
         for _ in 0..most_turns::<D>() {
             inactive = self.approach_momenta(index, inactive);
