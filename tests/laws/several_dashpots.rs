@@ -217,3 +217,53 @@ fn two_equal_halves_are_one_dashpot() {
         }
     }
 }
+
+/// Without temperature: one dashpot in series, one beside the spring.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous| {
+    0.5 * stiffness * (lambda - length).powi(2) + 0.5 * maxwell * (lambda - length - gamma).powi(2)
+})]
+#[viscosity(gamma = series, lambda = beside)]
+struct Cold {
+    stiffness: f64,
+    maxwell: f64,
+    length: f64,
+    series: f64,
+    beside: f64,
+}
+
+/// `½h (P⁰ + P¹)` with `P = g²/η + η λ̇²` of the stored states.
+#[test]
+fn the_trapezoidal_rule_loses_the_mean_power_of_both_ends() {
+    let model = Cold {
+        stiffness: 20.0,
+        maxwell: 50.0,
+        length: 1.0,
+        series: 8.0,
+        beside: 0.5,
+    };
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0; 2]);
+    let bob = scene.mass(1.0, [1.4, 0.0], [0.3, 1.0]);
+    let spring = scene.spring(model.clone(), [pivot, bob]);
+    let step = 0.05;
+    let mut run = Simulation::new(scene, Scheme::Trapezoidal, step).unwrap();
+    let power = |run: &Simulation<2>| {
+        let [q, p] = [run.position(bob).unwrap(), run.momentum(bob).unwrap()];
+        let gamma = run.viscous_stretch(spring, 0).unwrap();
+        let g = model.maxwell * (q.norm() - model.length - gamma);
+        let rate = q.dot(&p) / q.norm();
+        g * g / model.series + model.beside * rate * rate
+    };
+    for _ in 0..20 {
+        let (before, lost) = (power(&run), run.ledger().lost_heat);
+        run.step().unwrap();
+        let found = run.ledger().lost_heat - lost;
+        let expected = 0.5 * step * (before + power(&run));
+        // The equations of a step are solved to 1e-10 of their terms.
+        assert!(
+            (found - expected).abs() <= 1e-10 * expected,
+            "{found} {expected}"
+        );
+    }
+}
