@@ -5,8 +5,8 @@
 /// Up to this size, bytes, memory is reserved without a query of the machine, which takes longer than a small scene.
 const SMALL: u64 = 1 << 28;
 
-/// The memory, bytes, that the machine has for something that needs as much as said; `None` if it is unknown or if
-/// little is needed.
+/// The memory that the machine has available, bytes; `None` if it is unknown, or if so little is needed that the machine
+/// is not asked.
 #[must_use]
 pub fn available_for(needed: u64) -> Option<u64> {
     if needed <= SMALL { None } else { available() }

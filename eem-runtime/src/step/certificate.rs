@@ -39,8 +39,8 @@
 //! The second term is the effect of the rounding of λ and γ on ψ, which near a singular force is far above `|f*|λ`; the
 //! evaluation of ψ has an error of 8 ε M. M is computed where values decide nothing. B is not limited, so that the true ΔE
 //! of the stored states is within B. If B exceeds 100 times 64 ε of `T + |ψ| + θ|s| + cθ + |f|λ + Σ|g||γ|` at both ends,
-//! the report says that its bound is wide. Forces at the end of a step are evaluated only if what is known without does not
-//! rule that out.
+//! the report says that its bound is wide. The forces at both ends are evaluated for this only if the known terms alone would
+//! make the bound wide.
 
 mod motion;
 

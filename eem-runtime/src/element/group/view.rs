@@ -197,7 +197,7 @@ pub(crate) struct Old<'a, S, const D: usize> {
     pub(crate) force: &'a mut [[S; D]],
     /// The unit of length of each node: the shortest measure of its elements, m.
     pub(crate) lengths: &'a mut [S],
-    /// For a trial that does not start at the old state.
+    /// From which γ and θ of the trial are predicted; `None` if it starts at the old ones.
     pub(crate) before: Option<Before<'a, S>>,
 }
 

@@ -56,7 +56,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         .sealed()
     }
 
-    /// None of the explicit scheme, whose books have what it judges steps by.
+    /// Empty for the explicit scheme, which judges steps by books of its own.
     fn saved_energies(&self) -> SavedEnergies<S> {
         let list = match self.in_use.closing() {
             Closing::Explicit => Vec::new(),
