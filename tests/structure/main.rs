@@ -7,11 +7,11 @@
 
 mod circles;
 mod documents;
-mod examples;
 mod followed;
 mod imports;
 mod sources;
 mod stations;
+mod studies;
 
 use circles::circles;
 use imports::imports;

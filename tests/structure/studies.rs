@@ -1,5 +1,5 @@
-//! Every example and every study keeps the claims that it checks itself and prints no "NaN"; studies keep the texts of
-//! their pictures within them, and refuse options without effect.
+//! Every study keeps the claims that it checks itself, prints no "NaN", keeps the texts of its pictures within them, and
+//! refuses options without effect.
 //!
 //! Running them takes minutes, so that only the gate (`.ci/run`) asks for it.
 
@@ -8,52 +8,38 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::Mutex;
+use std::sync::{LazyLock, Mutex};
 use std::thread;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// Held while the programs of a package are built and run: some of both packages have the same names.
-static BUILT: Mutex<()> = Mutex::new(());
-
 /// Programs that measure for minutes: nobody runs them here.
 const MEASURING: [&str; 2] = ["digests", "hot_cases"];
 
-/// Builds the programs of a package that are run here, with all features, and returns the folder in which they are. Studies
-/// are built together with this test, which has the features of all tests, so that the library is not built again.
-fn build(package: &str) -> PathBuf {
+/// The folder of the studies, built once. Together with this test they have the features of all tests, so that the library
+/// is not built again; examples have the names of some of them.
+static BUILT: LazyLock<PathBuf> = LazyLock::new(|| {
     let mut command = Command::new(env!("CARGO"));
-    command.args([
-        "build",
-        "--quiet",
-        "--locked",
-        "--all-features",
-        "--workspace",
-    ]);
-    if package == "eem-studies" {
-        command.args(["--exclude", "eem-examples", "--test", "structure"]);
-    } else {
-        command.args(["--exclude", "eem-studies"]);
-    }
-    for name in programs(package) {
+    command.args(["build", "--quiet", "--locked", "--all-features"]);
+    command.args(["--workspace", "--exclude", "eem-examples"]);
+    command.args(["--test", "structure"]);
+    for name in studies() {
         command.args(["--bin", &name]);
     }
     assert!(command.current_dir(ROOT).status().unwrap().success());
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     target.join("debug")
-}
+});
 
-/// Runs a program from the folder of the workspace.
-fn run(folder: &Path, name: &str, arguments: &[&str]) -> Output {
-    let mut command = Command::new(folder.join(name));
+/// Runs a study from the folder of the workspace.
+fn run(name: &str, arguments: &[&str]) -> Output {
+    let mut command = Command::new(BUILT.join(name));
     command.args(arguments).current_dir(ROOT).output().unwrap()
 }
 
-/// The programs of a package that are run here, by the names of their files or folders.
-fn programs(package: &str) -> Vec<String> {
-    let folder = package.trim_start_matches("eem-");
-    let folder = Path::new(ROOT).join(folder).join("src/bin");
-    let files = fs::read_dir(folder).unwrap();
+/// The studies that are run here, by the names of their files or folders.
+fn studies() -> Vec<String> {
+    let files = fs::read_dir(Path::new(ROOT).join("studies/src/bin")).unwrap();
     let name = |path: &Path| path.file_stem().unwrap().to_str().unwrap().to_owned();
     let names = files.map(|file| name(&file.unwrap().path()));
     names
@@ -62,49 +48,15 @@ fn programs(package: &str) -> Vec<String> {
 }
 
 #[test]
-#[ignore = "runs examples; the gate asks for it"]
-fn examples_keep_their_claims() {
-    let _built = BUILT.lock().unwrap();
-    let folder = build("eem-examples");
-    let mut names = programs("eem-examples");
-    // Run by the tests of `eem-sweep`.
-    names.retain(|name| name != "sweep");
-    on_all_cores(names, |name| {
-        let output = run(&folder, &name, &[]);
-        let said = String::from_utf8(output.stdout).unwrap();
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.success(), "{name}: {said}{errors}");
-        assert!(!said.contains("NaN"), "{name}: {said}");
-    });
-}
-
-/// Does something with each of a list.
-fn on_all_cores<T: Send>(left: Vec<T>, act: impl Fn(T) + Sync) {
-    let left = Mutex::new(left);
-    let next = || left.lock().unwrap().pop();
-    thread::scope(|scope| {
-        for _ in 0..thread::available_parallelism().unwrap().get() {
-            scope.spawn(|| {
-                while let Some(one) = next() {
-                    act(one);
-                }
-            });
-        }
-    });
-}
-
-#[test]
-#[ignore = "runs examples; the gate asks for it"]
+#[ignore = "runs studies; the gate asks for it"]
 fn options_without_effect_are_refused() {
-    let _built = BUILT.lock().unwrap();
-    let folder = build("eem-studies");
     for arguments in [["--scheme", "gauss-4"], ["--step", "0.1"]] {
-        let output = run(&folder, "describe", &arguments);
+        let output = run("describe", &arguments);
         assert!(!output.status.success(), "{arguments:?}");
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.contains(arguments[0]), "{said}");
     }
-    let none = run(&folder, "ensemble", &["--members", "0"]);
+    let none = run("ensemble", &["--members", "0"]);
     let said = String::from_utf8(none.stderr).unwrap();
     assert!(
         !none.status.success() && said.contains("--members"),
@@ -132,27 +84,33 @@ fn runs(name: &str) -> &'static [&'static [&'static str]] {
 const WITHOUT_PICTURES: [&str; 4] = ["describe", "extremes", "paper_tables", "sweep"];
 
 #[test]
-#[ignore = "runs examples; the gate asks for it"]
+#[ignore = "runs studies; the gate asks for it"]
 fn studies_keep_their_claims_and_their_pictures_hold_their_texts() {
     let mut left = Vec::new();
-    for name in programs("eem-studies") {
+    for name in studies() {
         left.extend(runs(&name).iter().map(|&options| (name.clone(), options)));
     }
     assert!(left.len() > 15);
-    let _built = BUILT.lock().unwrap();
-    let programs = build("eem-studies");
-    on_all_cores(left, |(name, options)| {
-        assert_run(&programs, &name, options);
+    let left = Mutex::new(left);
+    let next = || left.lock().unwrap().pop();
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().unwrap().get() {
+            scope.spawn(|| {
+                while let Some((name, options)) = next() {
+                    assert_run(&name, options);
+                }
+            });
+        }
     });
 }
 
 /// A run of a study succeeds, which it does if its claims hold, and what it prints and draws can be looked at.
-fn assert_run(programs: &Path, name: &str, options: &[&str]) {
+fn assert_run(name: &str, options: &[&str]) {
     let folder = format!("study-{name}{}", options.concat());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
     let _ = fs::remove_dir_all(&folder);
     let options = [options, &["--out", folder.to_str().unwrap()]].concat();
-    let output = run(programs, name, &options);
+    let output = run(name, &options);
     let said = String::from_utf8(output.stdout).unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{name}: {said}{errors}");
