@@ -4,6 +4,7 @@
 pub(crate) mod balances;
 pub(crate) mod conduction;
 pub(crate) mod conjugates;
+pub(crate) mod ends;
 pub(crate) mod error;
 pub(crate) mod group;
 pub(crate) mod handle;

@@ -73,6 +73,7 @@ pub use run::ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Member
 pub use run::ledger::Ledger;
 pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
 pub use run::simulation::Simulation;
+pub use run::simulation::change::RefusedChange;
 pub use run::simulation::event::Event;
 pub use run::simulation::generic::Generic;
 pub use run::simulation::linearize::StepTangent;

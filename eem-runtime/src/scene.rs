@@ -18,7 +18,8 @@ pub(crate) mod solid;
 pub(crate) mod solid_error;
 
 use crate::algebra::memory::MemoryLimit;
-use crate::element::conduction::Conductor;
+use crate::element::conduction::{Conduction, Conductor};
+use crate::element::ends::Ends;
 use crate::element::group::{Loose, LooseElements};
 use crate::element::handle::{Element, Handle, HeatPartner, Kind, Node, Reservoir};
 use crate::element::kinematics::Stretch;
@@ -28,6 +29,7 @@ use crate::element::masses::Masses;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use eem_material::free_energy::{FreeEnergy, Material};
+use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 use entry::{ElementEntry, NodeEntry};
 
@@ -55,6 +57,8 @@ pub struct Scene<const D: usize, S: Real = f64> {
     pub(crate) conductors: Vec<Conductor<S>>,
     pub(crate) groups: Vec<Box<dyn Loose<S, D>>>,
     pub(crate) loads: Loads<S, D>,
+    /// The time at which a run begins, s.
+    pub(crate) start: S,
     pub(crate) memory_limit: MemoryLimit,
     /// Errors so far, reported by `Simulation::new`.
     pub(crate) errors: Vec<SceneError>,
@@ -82,6 +86,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
             conductors: Vec::new(),
             groups: Vec::new(),
             loads: Loads::none(),
+            start: S::zero(),
             memory_limit: MemoryLimit::NONE,
             errors: Vec::new(),
         }
@@ -94,14 +99,24 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.push_node(None, position, [S::zero(); D])
     }
 
-    /// The numbering of its unknowns and state variables.
-    pub(crate) fn layout(&self) -> Layout {
+    /// The numbering of its unknowns and state variables, and its paths of heat.
+    pub(crate) fn numbering(&self) -> (Layout, Conduction<S>) {
         let is_mass = self.nodes.iter().map(|node| node.mass.is_some());
         let elements = self.elements.iter();
         let shapes = elements.map(|entry| self.groups[entry.group].shape());
-        let paths = self.conductors.iter();
-        let paths = paths.map(|path| (path.element, path.partner));
-        Layout::new(D, is_mass, shapes, paths)
+        let mut layout = Layout::new(D, is_mass, shapes);
+        let conduction = Conduction::new(&self.conductors, &self.reservoirs, &layout);
+        layout.couple(|slot| conduction.meets_slots(slot));
+        (layout, conduction)
+    }
+
+    /// The nodes of its elements.
+    pub(crate) fn ends(&self) -> Ends {
+        let mut ends = Ends::none();
+        for entry in &self.elements {
+            ends.push(entry.nodes.iter().map(|&node| compact(node)));
+        }
+        ends
     }
 
     /// A point mass (kg) with its initial position (m) and velocity (m/s).
@@ -287,6 +302,26 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.memory_limit = MemoryLimit::new(Some(bytes));
     }
 
+    /// The time at which a run begins, s; zero by default. It may be negative. Loads, motions and thermostats are functions of
+    /// this time.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(2.0, [0.0], [0.0]);
+    /// scene.force(mass, |t: f64| [if t < 0.0 { 1.0 } else { 0.0 }]);
+    /// scene.start_at(-0.5);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
+    /// assert_eq!(run.time(), -0.5);
+    /// run.run_until(1.0)?;
+    /// assert_eq!(run.momentum(mass)?[0], 0.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn start_at(&mut self, time: S) {
+        self.start = time;
+    }
+
     /// Records an error for `Simulation::new`.
     fn refuse(&mut self, error: impl Into<SceneError>) {
         self.errors.push(error.into());
@@ -372,6 +407,7 @@ impl<const D: usize, S: Real> Clone for Scene<D, S> {
             conductors: self.conductors.clone(),
             groups: self.groups.iter().map(|group| group.duplicate()).collect(),
             loads: self.loads.clone(),
+            start: self.start,
             memory_limit: self.memory_limit,
             errors: self.errors.clone(),
         }

@@ -6,6 +6,7 @@ use eem_testkit::scenes as support;
 
 mod allocation;
 mod automatic;
+mod changing;
 mod control;
 mod ends;
 mod ensemble;

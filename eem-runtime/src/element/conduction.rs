@@ -105,6 +105,12 @@ impl<S: Real> Conduction<S> {
         links.any(|link| matches!(link.partner, Partner::Reservoir(_)))
     }
 
+    /// Whether a slot exchanges heat with others.
+    pub(crate) fn meets_slots(&self, slot: usize) -> bool {
+        let mut links = self.links(slot).iter();
+        links.any(|link| matches!(link.partner, Partner::Slot(_)))
+    }
+
     /// The heat flow from reservoirs into a slot with the temperature θ, `Σ κ (θ_r − θ)`.
     #[inline]
     pub(crate) fn reservoir_flow(&self, slot: usize, theta: S) -> HeatFlow<S> {

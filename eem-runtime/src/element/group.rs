@@ -48,6 +48,6 @@ pub(crate) use explicit::{
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
 pub(crate) use view::{
-    Along, Before, ElementGeneric, ElementTotals, ElementView, EntropySlopes, NodesOf, Old, Placed,
-    Sites, StepView, Trial,
+    Along, Before, ElementGeneric, ElementTotals, ElementView, EntropySlopes, Old, Placed, Sites,
+    StepView, Trial,
 };

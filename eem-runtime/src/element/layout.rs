@@ -3,8 +3,6 @@
 //! Unknowns are the displacements of the masses and, for elements that conduct heat to other elements, their coupled
 //! interface temperature. Viscous stretches and temperatures proper are condensed within their element.
 
-use crate::element::handle::{Element, HeatPartner};
-
 /// Capabilities of a model: dashpots, temperature, kind of measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
@@ -54,12 +52,11 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// Numbers a scene.
+    /// Numbers a scene whose elements exchange no heat.
     pub(crate) fn new(
         dimension: usize,
         is_mass: impl Iterator<Item = bool>,
         shapes: impl Iterator<Item = Shape>,
-        paths: impl Iterator<Item = (Element, HeatPartner)>,
     ) -> Self {
         let (mut unknowns, mut viscous, mut thermal) = (0, 0, 0);
         let mut nodes = Vec::with_capacity(is_mass.size_hint().0);
@@ -76,26 +73,23 @@ impl Layout {
             viscous += shape.dashpots;
             thermal += usize::from(shape.thermal);
         }
-        let mut coupled = vec![None; thermal];
-        for (element, partner) in paths {
-            let HeatPartner::Element(partner) = partner else {
-                continue;
-            };
-            for element in [element, partner] {
-                let slot = elements[element.index()].thermal;
-                if let Some(unknown @ None) = slot.map(|slot| &mut coupled[slot]) {
-                    *unknown = Some(unknowns);
-                    unknowns += 1;
-                }
-            }
-        }
         Self {
             nodes,
             elements,
-            coupled,
+            coupled: vec![None; thermal],
             viscous,
             thermal,
             unknowns,
+        }
+    }
+
+    /// Numbers the interface temperatures of the thermal slots that exchange heat with others.
+    pub(crate) fn couple(&mut self, is_coupled: impl Fn(usize) -> bool) {
+        for (slot, unknown) in self.coupled.iter_mut().enumerate() {
+            if is_coupled(slot) {
+                *unknown = Some(self.unknowns);
+                self.unknowns += 1;
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 mod attempt;
 mod audit;
 mod automatic;
+pub(crate) mod change;
 mod check;
 mod compiled;
 mod control;
@@ -40,7 +41,7 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
-use check::{check_all, needs_implicit};
+use check::{Needs, check_all};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Mask, Real};
 use memory::{Automatic, Control};
@@ -55,8 +56,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     scheme: Scheme,
     /// That of the present steps, if `scheme` is `Scheme::Auto`.
     in_use: Scheme,
-    /// Used by `Scheme::Auto` only.
-    automatic: Automatic<S>,
+    automatic: Automatic,
     step: S,
     masses: Masses<S>,
     /// The group of each element, and its index there.
@@ -75,6 +75,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     next: Box<State<S>>,
     /// The last step succeeded, and the elements still have the values of its ends.
     has_stepped: bool,
+    /// The time at which the run began, s.
+    start: S,
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
     corrections: Corrections<S>,
@@ -110,19 +112,23 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         scheme: Scheme,
         step: S,
     ) -> Result<Self, RefusedScene<D, S>> {
-        let errors = check_all(&scene, first(scheme, needs_implicit(&scene)), step);
+        let needs = Needs::of(&scene);
+        let in_use = first(scheme, needs.are_implicit());
+        let errors = check_all(&scene, (in_use, needs), step);
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
-        Self::take(&mut scene, scheme, step).map_err(|errors| RefusedScene::new(scene, errors))
+        let run = Self::take(&mut scene, (scheme, in_use, needs), step);
+        run.map_err(|errors| RefusedScene::new(scene, errors))
     }
 
     /// A simulation with the contents of a scene, unless its initial state is invalid.
-    fn take(scene: &mut Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, Vec<SceneError>> {
-        let is_second = needs_implicit(scene);
-        let in_use = first(scheme, is_second);
-        let mut layout = scene.layout();
-        let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
+    fn take(
+        scene: &mut Scene<D, S>,
+        (scheme, in_use, needs): (Scheme, Scheme, Needs),
+        step: S,
+    ) -> Result<Self, Vec<SceneError>> {
+        let ((mut layout, conduction), ends) = (scene.numbering(), scene.ends());
         let mut state = Box::new(initial_state(scene, &layout, step)?);
         let elements = scene.elements.iter();
         let places = elements.map(|entry| [entry.group, entry.place].map(compact));
@@ -133,7 +139,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let parts = Parts {
             scheme: in_use,
             masses: &masses,
-            elements: &scene.elements,
+            elements: &ends,
             layout: &layout,
             conduction: &conduction,
             loads: &scene.loads,
@@ -151,18 +157,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             scene.groups = groups;
             errors
         })?;
-        let mut elements = mem::take(&mut scene.elements);
         let loads = mem::replace(&mut scene.loads, Loads::none());
-        let is_automatic = scheme == Scheme::Auto;
-        if !is_automatic {
-            elements = Vec::new();
-            layout.forget_places();
-        }
+        layout.forget_places();
         let mut run = Self {
             scene: scene.lineage.clone(),
             scheme,
             in_use,
-            automatic: Automatic::new(elements, is_second, scene.memory_limit),
+            automatic: Automatic::new(needs, scene.memory_limit),
             step,
             masses,
             places,
@@ -176,11 +177,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             next: state.clone(),
             state,
             has_stepped: false,
+            start: scene.start,
             worst: None,
             corrections: Corrections::none(),
             has_diverged: AtomicBool::new(false),
         };
-        if is_automatic {
+        if scheme == Scheme::Auto {
             run.set_control(Some(run.new_control(Tolerance::default())));
         }
         Ok(run)

@@ -61,6 +61,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.check_loads(&mut errors);
         self.check_rockets(&mut errors);
         self.check_conductors(&mut errors);
+        if !self.start.is_finite() {
+            let value = self.start.to_f64();
+            errors.push(SceneError::StartTime { value });
+        }
         if errors.is_empty() {
             for (index, entry) in self.nodes.iter().enumerate() {
                 errors.extend(self.check_products(self.node_at(index), entry).err());
@@ -279,7 +283,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let scale = extent(positions.flat_map(|position| position.iter()));
         for (anchor, motion) in &self.loads.motions {
             let created = self.nodes[anchor.index].position;
-            let prescribed = motion(S::zero());
+            let prescribed = motion(self.start);
             for axis in 0..D {
                 if !is_rounding(prescribed[axis] - created[axis], scale) {
                     errors.push(SceneError::AnchorJump {
@@ -299,7 +303,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let Some(initial) = self.elements[element.index()].temperature else {
                 continue;
             };
-            let prescribed = temperature(S::zero());
+            let prescribed = temperature(self.start);
             if !is_rounding(prescribed - initial, initial) {
                 errors.push(SceneError::TemperatureJump {
                     element: *element,

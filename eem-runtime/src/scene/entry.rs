@@ -2,8 +2,6 @@
 
 use nalgebra::SVector;
 
-use crate::element::group::NodesOf;
-use crate::element::handle::Element;
 use eem_material::number::scalar::Real;
 
 /// A node: an anchor or a mass.
@@ -47,10 +45,4 @@ pub(crate) struct ElementEntry<S> {
     /// The group of the model, or [`INVALID`] if an error is recorded, and the index there.
     pub(crate) group: usize,
     pub(crate) place: usize,
-}
-
-impl<S: core::fmt::Debug> NodesOf for Vec<ElementEntry<S>> {
-    fn nodes_of(&self, element: Element) -> &[usize] {
-        &self[element.index()].nodes
-    }
 }

@@ -193,6 +193,12 @@ pub enum SceneError {
         /// The step, s.
         value: f64,
     },
+    /// A start time that is not finite.
+    #[error("the start time is {value} s, it must be finite", value = Readable(*value))]
+    StartTime {
+        /// The time, s.
+        value: f64,
+    },
     /// A relative tolerance outside (0, 1), or below the rounding floor of the scheme.
     #[error("the relative tolerance is {relative}, it must be less than 1 and, for this scheme, at least {floor:.0e}", relative = Readable(*relative))]
     Tolerance {

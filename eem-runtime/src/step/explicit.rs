@@ -35,12 +35,12 @@ mod vector;
 use core::mem;
 
 use crate::element::conduction::Conduction;
+use crate::element::ends::Ends;
 use crate::element::group::{Elements, ExplicitGroup, Loose, Stage};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use components::Components;
 use eem_material::number::scalar::Real;
@@ -106,7 +106,7 @@ pub(crate) struct ExplicitView<'a, S: Real, const D: usize> {
 #[derive(Clone, Copy)]
 pub(crate) struct Site<'a, S: Real, const D: usize> {
     pub(crate) masses: &'a Masses<S>,
-    pub(crate) elements: &'a [ElementEntry<S>],
+    pub(crate) elements: &'a Ends,
     pub(crate) layout: &'a Layout,
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) loads: &'a Loads<S, D>,

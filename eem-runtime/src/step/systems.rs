@@ -12,10 +12,10 @@ use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::algebra::pattern::Pattern;
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::{Conduction, Partner};
+use crate::element::ends::Ends;
 use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
 use crate::element::tableau::Ending;
-use crate::scene::entry::ElementEntry;
 use crate::step::scheme::{Closing, Scheme};
 use eem_material::number::scalar::Real;
 
@@ -32,7 +32,7 @@ impl<S: Real, const D: usize> Systems<S, D> {
     /// The systems of a scheme, or an error if one exceeds the memory limit.
     pub(crate) fn new(
         scheme: Scheme,
-        (elements, layout): (&[ElementEntry<S>], &Layout),
+        (elements, layout): (&Ends, &Layout),
         conduction: &Conduction<S>,
         rockets: &[PushLine],
         limit: MemoryLimit,
@@ -62,7 +62,7 @@ impl<S: Real, const D: usize> Systems<S, D> {
 /// The forces of an element depend on its nodes, on its own Θ and on that of its partners, and
 /// so does its own Θ. If there are no Θ, the coordinates of a node are the rows of a block.
 fn tangent_pattern<S: Real>(
-    elements: &[ElementEntry<S>],
+    elements: &Ends,
     layout: &Layout,
     conduction: &Conduction<S>,
     rockets: &[PushLine],
@@ -78,10 +78,10 @@ fn tangent_pattern<S: Real>(
             let positions = || nodes_of(rocket, layout).flat_map(|first| first..first + dimension);
             pair_all(positions, pair);
         }
-        for (entry, slots) in elements.iter().zip(&layout.elements) {
+        for (nodes, slots) in elements.iter().zip(&layout.elements) {
             let slot = slots.thermal;
             let own = || {
-                let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
+                let nodes = nodes.iter().filter_map(|&node| layout.nodes[node as usize]);
                 let positions = nodes.flat_map(|first| first..first + dimension);
                 positions.chain(slot.and_then(|slot| layout.coupled[slot]))
             };
@@ -101,17 +101,17 @@ fn tangent_pattern<S: Real>(
 }
 
 /// The graph of the masses, by elements and rockets: the pattern of the secant matrix, without rockets.
-fn mass_pattern<S>(
-    elements: &[ElementEntry<S>],
+fn mass_pattern(
+    elements: &Ends,
     layout: &Layout,
     rockets: &[PushLine],
     dimension: usize,
 ) -> Pattern {
     let masses = layout.nodes.iter().flatten().count();
     Pattern::new(masses, |pair| {
-        for entry in elements {
+        for nodes in elements.iter() {
             let masses = || {
-                let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
+                let nodes = nodes.iter().filter_map(|&node| layout.nodes[node as usize]);
                 nodes.map(|first| first / dimension)
             };
             pair_all(masses, pair);

@@ -38,6 +38,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// The contributions of the elements to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
 
+    /// The nodes of the element at `place`.
+    fn nodes(&self, place: usize) -> &[u32];
+
     /// The state indices of the internal variables of the element at `place`.
     fn slots(&self, place: usize) -> Slots;
 

@@ -38,7 +38,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     ) -> Self {
         let mut parts = points.into_iter();
         Self {
-            site: Site::unconnected(placed.nodes.nodes_of(first)),
+            site: Site::unconnected(placed.nodes.of(first.index())),
             r0: Arms::<K, S, D>::filled([S::zero(); D]),
             points: K::PerPoint::from_fn(|point| {
                 let element = first.after(point);

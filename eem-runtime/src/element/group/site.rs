@@ -53,10 +53,10 @@ pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     /// The nodes, without matrix indices.
-    pub(super) fn unconnected(nodes: &[usize]) -> Self {
+    pub(super) fn unconnected(nodes: &[u32]) -> Self {
         let mut own = K::PerNode::filled(0);
         for (own, &node) in own.as_mut().iter_mut().zip(nodes) {
-            *own = compact(node);
+            *own = node;
         }
         Self {
             nodes: own,

@@ -5,7 +5,7 @@ use core::array;
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::{Conduction, SeenTemperatures};
 use crate::element::conjugates::Placement;
-use crate::element::handle::Element;
+use crate::element::ends::Ends;
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -228,13 +228,8 @@ pub(crate) enum Along {
 /// Where the elements of a group are.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placed<'a> {
-    pub(crate) nodes: &'a dyn NodesOf,
+    pub(crate) nodes: &'a Ends,
     pub(crate) layout: &'a Layout,
-}
-
-/// The nodes of an element of the scene.
-pub(crate) trait NodesOf: core::fmt::Debug {
-    fn nodes_of(&self, element: Element) -> &[usize];
 }
 
 /// The data from which the matrix indices of an element follow.

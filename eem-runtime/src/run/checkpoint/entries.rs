@@ -150,7 +150,6 @@ impl<S: Real> Checkpoint<S> {
             Entry::sum("heat", state.heat).sealed(),
             Entry::sum("thermostat entropy", state.thermostat_entropy).sealed(),
             Entry::sum("lost heat", state.dissipated).sealed(),
-            Entry::new("time", NotNegative, [state.time.value]),
             Entry::new("temperatures", Positive, temperatures).counted(state.temperatures.len()),
             Entry::new("step size", Positive, [self.step]),
             Entry::list("last forces", last),

@@ -63,6 +63,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// An error unless the scene can have a state of finite numbers after a step of this size.
     pub(super) fn audit(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
+        if state.time.value.less(self.start).any() {
+            return Err(RestoreError::Value {
+                quantity: "time",
+                value: state.time.value.to_f64(),
+                required: "not before the start of the scene",
+            });
+        }
         self.audit_anchors(state, step)?;
         self.audit_velocities(state)?;
         self.audit_thermostats(state)?;
@@ -110,6 +117,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn audit_anchors(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
         let scale = extent(state.positions.values().iter());
         let (time, created) = (state.time.value, self.state.positions.values());
+        let begin = (time - step).maximum(self.start);
         let positions: Vec<_> = state.positions.sums().collect();
         let momenta: Vec<_> = state.momenta.sums().collect();
         let motions = self.loads.motions.iter();
@@ -125,7 +133,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let (value, carry) = positions[at];
                 let is_right = motion.map_or(
                     value.equal(created[at]).all() && carry.equal(S::zero()).all(),
-                    |by| follows(&|time| by(time)[axis], value, (time, step), scale),
+                    |by| follows(&|time| by(time)[axis], value, [time, begin], scale),
                 );
                 if !is_right {
                     let expected = motion.map_or(created[at], |by| by(time)[axis]);
@@ -150,7 +158,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 continue;
             };
             let own = state.temperatures[slot];
-            if !follows(&**temperature, own, (time, S::zero()), own) {
+            if !follows(&**temperature, own, [time; 2], own) {
                 return Err(RestoreError::Thermostat {
                     element: *element,
                     checkpoint: own.to_f64(),
@@ -181,7 +189,7 @@ fn audit_zero<S: Real>(
 /// The function may have been evaluated a few roundings before or after the time. Its values there are compared only if
 /// its value at the time does not explain the value. The scale of a position includes the function at the beginning of
 /// the step, because the step added the difference.
-fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, (time, step): (S, S), scale: S) -> bool {
+fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, [time, begin]: [S; 2], scale: S) -> bool {
     let now = function(time);
     let roundings = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON;
     let bound = roundings * scale.maximum(now.abs());
@@ -190,7 +198,7 @@ fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, (time, step): (S, S), s
     }
     let beside = S::from_f64(TIME_ROUNDINGS) * S::EPSILON * time;
     let ends = [time - beside, time + beside].map(function);
-    let begin = function((time - step).maximum(S::zero()));
+    let begin = function(begin);
     let bound = bound.maximum(roundings * begin.abs());
     let low = ends.into_iter().fold(now, S::minimum) - bound;
     let high = ends.into_iter().fold(now, S::maximum) + bound;

@@ -1,12 +1,9 @@
 //! `Scheme::Auto`: the scheme that follows the motion with the least effort.
 
-use core::convert::Infallible;
-
 use super::attempt::explicit_view;
 use super::memory::Control;
-use super::stepper::{Parts, Stepper};
+use super::stepper::Stepper;
 use super::{Simulation, StepResult, Tried};
-use crate::algebra::memory::TooLarge;
 use crate::element::state::Energy;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
@@ -76,7 +73,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     fn suits_scene(&self, scheme: Scheme) -> bool {
-        !self.automatic.is_second || scheme.closing() == Closing::Increments
+        !self.automatic.needs.are_implicit() || scheme.closing() == Closing::Increments
     }
 
     /// A step of the present scheme, whose effort is counted.
@@ -113,7 +110,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         end: S,
     ) -> Result<Option<StepReport<S>>, StepError> {
         let unknowns = self.layout.unknowns;
-        let scheme = implicit(&control.memory.tolerance, self.automatic.is_second);
+        let scheme = implicit(
+            &control.memory.tolerance,
+            self.automatic.needs.are_implicit(),
+        );
         let Some(size) = self.automatic.choice.implicit_trial(scheme, unknowns) else {
             return Ok(None);
         };
@@ -215,40 +215,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn resume_scheme(&mut self, before: &SchemeAtWork<S>) {
         self.stepper.restore(&before.past, before.explicit.as_ref());
         self.state.energies.copy_from_slice(&before.energies);
-    }
-
-    /// Replaces the scheme in use, without step control. If there is no memory for it, nothing changes.
-    pub(super) fn use_scheme(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
-        if self.scheme != Scheme::Auto {
-            return Ok(());
-        }
-        let automatic = &mut self.automatic;
-        let parts = Parts {
-            scheme,
-            masses: &self.masses,
-            elements: &automatic.elements,
-            layout: &self.layout,
-            conduction: &self.conduction,
-            loads: &self.loads,
-        };
-        let systems = parts.systems(automatic.memory_limit)?;
-        automatic.evaluations += self.stepper.evaluations();
-        let elements = self.stepper.take_elements();
-        let state = &mut self.state;
-        let Ok(stepper) = Stepper::new(elements, systems, parts, state, |state, elements| {
-            // As after a restart: each scheme evaluates them in its own way.
-            for group in elements {
-                group.find_energies(state);
-            }
-            Ok::<(), Infallible>(())
-        });
-        self.stepper = stepper;
-        if let Stepper::Explicit(explicit) = &mut self.stepper {
-            explicit.set_motion_first(automatic.is_motion_first);
-        }
-        self.in_use = scheme;
-        self.has_stepped = false;
-        Ok(())
     }
 
     /// The choice of a scheme for a checkpoint; `None` unless the scheme is `Scheme::Auto`.

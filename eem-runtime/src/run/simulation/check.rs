@@ -1,38 +1,48 @@
 //! Rules for the step size and the scheme of a scene.
 
+use crate::element::handle::{Element, Node};
 use crate::scene::Scene;
 use crate::scene::error::RocketError;
 use crate::scene::error::SceneError;
 use crate::step::scheme::{Closing, Scheme};
 use eem_material::number::scalar::{Real, is_positive};
 
-/// Whether a scene has what the explicit scheme cannot step: solids, dashpots in parallel with springs, rockets.
-pub(super) fn needs_implicit<const D: usize, S: Real>(scene: &Scene<D, S>) -> bool {
-    let mut shapes = scene.groups.iter().map(|group| group.shape());
-    !scene.loads.rockets.is_empty() || shapes.any(|shape| !shape.is_spring || shape.drag)
+/// What not every scheme can step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Needs {
+    has_solids: bool,
+    /// The node of a rocket.
+    rocket: Option<Node>,
+    /// An element with a dashpot in parallel with its spring.
+    drag: Option<Element>,
 }
 
-/// All errors of a scene, the scheme for it and the step.
-pub(super) fn check_all<const D: usize, S: Real>(
-    scene: &Scene<D, S>,
-    scheme: Scheme,
-    step: S,
-) -> Vec<SceneError> {
-    let mut errors = scene.check();
-    errors.extend(check_scheme(scene, scheme).err());
-    errors.extend(check_step(step).err());
-    errors
-}
-
-/// An error unless the scheme can step the scene.
-fn check_scheme<const D: usize, S: Real>(
-    scene: &Scene<D, S>,
-    scheme: Scheme,
-) -> Result<(), SceneError> {
-    let name = scheme.name();
-    if !scheme.ends_by_increments() {
+impl Needs {
+    /// Those of a scene.
+    pub(super) fn of<const D: usize, S: Real>(scene: &Scene<D, S>) -> Self {
+        let group = |index: usize| scene.groups.get(index);
+        let has_drag = |index| group(index).is_some_and(|group| group.shape().drag);
+        let drag = scene
+            .elements
+            .iter()
+            .position(|entry| has_drag(entry.group));
         let mut groups = scene.groups.iter();
-        if groups.any(|group| !group.shape().is_spring) {
+        Self {
+            has_solids: groups.any(|group| !group.shape().is_spring),
+            rocket: scene.loads.rockets.first().map(|rocket| rocket.line.node),
+            drag: drag.map(|index| scene.element_at(index)),
+        }
+    }
+
+    /// Whether only implicit schemes of order 2 are chosen by `Scheme::Auto`.
+    pub(super) const fn are_implicit(&self) -> bool {
+        self.has_solids || self.rocket.is_some() || self.drag.is_some()
+    }
+
+    /// An error unless a scheme can step the scene.
+    pub(super) fn check(&self, scheme: Scheme) -> Result<(), SceneError> {
+        let name = scheme.name();
+        if self.has_solids && !scheme.ends_by_increments() {
             let why = if scheme.closing() == Closing::Explicit {
                 "so that every stage would solve a large linear system, and their small stiff elements allow only tiny steps"
             } else {
@@ -40,21 +50,29 @@ fn check_scheme<const D: usize, S: Real>(
             };
             return Err(SceneError::NotForSolids { scheme: name, why });
         }
-        if let Some(rocket) = scene.loads.rockets.first() {
-            let (scheme, node) = (name, rocket.line.node);
-            return Err(RocketError::Scheme { scheme, node }.into());
+        if let Some(node) = self.rocket.filter(|_| !scheme.ends_by_increments()) {
+            return Err(RocketError::Scheme { scheme: name, node }.into());
+        }
+        match self.drag.filter(|_| !scheme.takes_drag()) {
+            Some(element) => Err(SceneError::NoDrag {
+                scheme: name,
+                element,
+            }),
+            None => Ok(()),
         }
     }
-    let group = |index: usize| scene.groups.get(index);
-    let has_drag = |index| group(index).is_some_and(|group| group.shape().drag);
-    let mut entries = scene.elements.iter();
-    match entries.position(|entry| has_drag(entry.group)) {
-        Some(index) if !scheme.takes_drag() => Err(SceneError::NoDrag {
-            scheme: name,
-            element: scene.element_at(index),
-        }),
-        _ => Ok(()),
-    }
+}
+
+/// All errors of a scene, the scheme for it and the step.
+pub(super) fn check_all<const D: usize, S: Real>(
+    scene: &Scene<D, S>,
+    (scheme, needs): (Scheme, Needs),
+    step: S,
+) -> Vec<SceneError> {
+    let mut errors = scene.check();
+    errors.extend(needs.check(scheme).err());
+    errors.extend(check_step(step).err());
+    errors
 }
 
 /// An error unless a step is positive and finite.

@@ -11,6 +11,7 @@ use super::{Simulation, StepResult};
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
+use crate::scene::error::SceneError;
 use crate::scene::refused::RefusedScene;
 use crate::step::error::StepError;
 use crate::step::newton::StepReport;
@@ -105,6 +106,7 @@ pub(super) struct Functions<const D: usize, S: Real> {
     pub(super) undo: fn(&mut Simulation<D, S>),
     pub(super) checkpoint: fn(&Simulation<D, S>) -> Checkpoint<S>,
     pub(super) restore: fn(&mut Simulation<D, S>, &Checkpoint<S>) -> Result<(), RestoreError>,
+    pub(super) change_scheme: fn(&mut Simulation<D, S>, Scheme) -> Result<(), SceneError>,
     pub(super) ledger: fn(&Simulation<D, S>) -> Ledger<D, S>,
 }
 
@@ -121,6 +123,7 @@ impl<const D: usize, S: Real> Functions<D, S> {
         undo: Simulation::undo_here,
         checkpoint: Simulation::checkpoint_here,
         restore: Simulation::restore_here,
+        change_scheme: Simulation::change_scheme,
         ledger: Simulation::ledger_here,
     };
 

@@ -48,7 +48,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn control_steps(&mut self, tolerance: Tolerance<S>) -> Result<(), SceneError> {
         let memory = Some(self.new_control(tolerance));
-        self.check_control(memory)?;
+        self.check_control(memory, (self.scheme, self.in_use))?;
         self.set_control(memory);
         Ok(())
     }
@@ -65,15 +65,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// An error unless steps can be controlled like this.
-    pub(super) fn check_control(&self, memory: Option<SavedControl<S>>) -> Result<(), SceneError> {
+    /// An error unless steps of a scheme, and of the one that it uses first, can be controlled like this.
+    pub(super) fn check_control(
+        &self,
+        memory: Option<SavedControl<S>>,
+        (scheme, in_use): (Scheme, Scheme),
+    ) -> Result<(), SceneError> {
         let Some(memory) = memory else {
             return Ok(());
         };
-        let checked = if self.scheme.may_change_steps() {
-            memory.tolerance.check(self.in_use.accuracy())
+        let checked = if scheme.may_change_steps() {
+            memory.tolerance.check(in_use.accuracy())
         } else {
-            let scheme = self.scheme.name();
+            let scheme = scheme.name();
             Err(SceneError::FixedSteps { scheme })
         };
         checked.inspect_err(|_| self.diverge())

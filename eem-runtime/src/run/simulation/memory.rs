@@ -1,9 +1,9 @@
 //! Memory of step control and of the choice of a scheme between steps.
 
+use super::check::Needs;
 use crate::algebra::memory::MemoryLimit;
 use crate::element::state::State;
 use crate::run::checkpoint::{SavedChoice, SavedControl};
-use crate::scene::entry::ElementEntry;
 use crate::step::automatic::Choice;
 use crate::step::control::{Accuracy, Kinds};
 use crate::step::explicit::SavedExplicit;
@@ -59,14 +59,12 @@ pub(super) struct Halves<S> {
     pub(super) kinds: Kinds,
 }
 
-/// Memory of `Scheme::Auto`, and what it needs to change the scheme.
-pub(super) struct Automatic<S> {
+/// Memory of `Scheme::Auto`, and what a change of the scheme needs.
+pub(super) struct Automatic {
     pub(super) choice: Choice,
-    /// Whether only schemes of second order can step the scene.
-    pub(super) is_second: bool,
+    pub(super) needs: Needs,
     /// The scheme before a trial.
     pub(super) previous: Scheme,
-    pub(super) elements: Vec<ElementEntry<S>>,
     /// How often all elements have been evaluated by earlier schemes.
     pub(super) evaluations: u64,
     /// A setting of the explicit scheme.
@@ -75,17 +73,12 @@ pub(super) struct Automatic<S> {
     pub(super) memory_limit: MemoryLimit,
 }
 
-impl<S> Automatic<S> {
-    pub(super) const fn new(
-        elements: Vec<ElementEntry<S>>,
-        is_second: bool,
-        memory_limit: MemoryLimit,
-    ) -> Self {
+impl Automatic {
+    pub(super) const fn new(needs: Needs, memory_limit: MemoryLimit) -> Self {
         Self {
             choice: Choice::new(),
-            is_second,
+            needs,
             previous: Scheme::EemTemperature,
-            elements,
             evaluations: 0,
             is_motion_first: false,
             memory_limit,

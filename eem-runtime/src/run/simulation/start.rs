@@ -40,7 +40,10 @@ pub(super) fn initial_state<const D: usize, S: Real>(
     }
     if is_coupled {
         for (node, motion) in &scene.loads.motions {
-            for (axis, speed) in first_speed(motion, step).into_iter().enumerate() {
+            for (axis, speed) in first_speed(motion, [scene.start, step])
+                .into_iter()
+                .enumerate()
+            {
                 if !speed.is_finite() {
                     errors.push(SolidError::AnchorSpeed { node: *node, axis }.into());
                 }
@@ -64,7 +67,7 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         }
     }
     Ok(State {
-        time: zero,
+        time: Sum::new(scene.start),
         positions: Compensated::new(positions),
         momenta: Compensated::new(momenta),
         velocities: Compensated::new(velocities),
@@ -81,9 +84,9 @@ pub(super) fn initial_state<const D: usize, S: Real>(
 }
 
 /// The initial velocity of a motion, from its positions within the first step, m/s; not a number if it has none.
-fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, step: S) -> [S; D] {
+fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, [start, step]: [S; 2]) -> [S; D] {
     let spans = shares().map(|share| S::from_f64(share) * step);
-    let (first, places) = (motion(S::zero()), spans.map(|span| motion(span)));
+    let (first, places) = (motion(start), spans.map(|span| motion(start + span)));
     array::from_fn(|axis| {
         S::pack(|lane| {
             let spans = spans.map(|span| span.lane(lane));

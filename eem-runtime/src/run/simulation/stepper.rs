@@ -4,13 +4,13 @@ use core::mem;
 
 use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::element::conduction::Conduction;
+use crate::element::ends::Ends;
 use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
-use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::{Explicit, SavedExplicit, Site};
@@ -47,7 +47,7 @@ pub(super) struct Newton<S: Real, const D: usize> {
 pub(super) struct Parts<'a, S: Real, const D: usize> {
     pub(super) scheme: Scheme,
     pub(super) masses: &'a Masses<S>,
-    pub(super) elements: &'a Vec<ElementEntry<S>>,
+    pub(super) elements: &'a Ends,
     pub(super) layout: &'a Layout,
     pub(super) conduction: &'a Conduction<S>,
     pub(super) loads: &'a Loads<S, D>,
@@ -56,7 +56,7 @@ pub(super) struct Parts<'a, S: Real, const D: usize> {
 impl<S: Real, const D: usize> Parts<'_, S, D> {
     /// The linear systems of the scheme.
     pub(super) fn systems(&self, limit: MemoryLimit) -> Result<Systems<S, D>, TooLarge> {
-        let elements = (&self.elements[..], self.layout);
+        let elements = (self.elements, self.layout);
         let rockets = self.loads.rocket_lines();
         Systems::new(self.scheme, elements, self.conduction, &rockets, limit)
     }

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 
 use super::guard::PerWeight;
 use crate::element::conduction::{Conduction, Partner};
+use crate::element::ends::Ends;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
-use crate::scene::entry::ElementEntry;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 
@@ -121,7 +121,7 @@ impl<S: Real> Components<S> {
     /// The components of a scene; `dashpots` are those of each element.
     pub(super) fn new(
         masses: &Masses<S>,
-        elements: &[ElementEntry<S>],
+        elements: &Ends,
         layout: &Layout,
         conduction: &Conduction<S>,
     ) -> Self {
@@ -134,8 +134,8 @@ impl<S: Real> Components<S> {
             }
         }
         let mut sets = Sets((0..nodes + elements.len()).collect());
-        for (element, entry) in elements.iter().enumerate() {
-            for &node in &entry.nodes {
+        for (element, ends) in elements.iter().enumerate() {
+            for node in ends.iter().map(|&node| node as usize) {
                 if masses.get(node).is_some() {
                     sets.merge(node, nodes + element);
                 }
@@ -247,22 +247,19 @@ impl<S: Real> Components<S> {
     }
 
     /// Gives each anchor a place for every component that it holds.
-    fn place_anchors(&mut self, masses: &Masses<S>, elements: &[ElementEntry<S>]) {
+    fn place_anchors(&mut self, masses: &Masses<S>, elements: &Ends) {
         let mut places = BTreeMap::new();
-        for (element, entry) in elements.iter().enumerate() {
+        for (element, ends) in elements.iter().enumerate() {
             let component = self.of_element[element];
-            for &node in entry
-                .nodes
-                .iter()
-                .filter(|&&node| masses.get(node).is_none())
-            {
+            let is_anchor = |node: &&u32| masses.get(**node as usize).is_none();
+            for &node in ends.iter().filter(is_anchor) {
                 let key = (component, node);
                 if places.contains_key(&key) {
                     continue;
                 }
                 let place = self.nodes.len();
                 places.insert(key, place);
-                self.nodes.push(compact(node));
+                self.nodes.push(node);
                 self.of_place.push(component);
                 let support = &mut self.all[component as usize].support;
                 *support = match *support {

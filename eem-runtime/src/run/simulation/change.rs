@@ -1,0 +1,200 @@
+//! Another scheme in the middle of a run.
+
+use core::convert::Infallible;
+use core::error::Error;
+use core::fmt;
+
+use super::Simulation;
+use super::compiled::Functions;
+use super::stepper::{Parts, Stepper};
+use crate::algebra::memory::TooLarge;
+use crate::element::ends::Ends;
+use crate::element::layout::Layout;
+use crate::run::checkpoint::SavedControl;
+use crate::scene::error::SceneError;
+use crate::step::automatic::{Choice, first};
+use crate::step::control::{Controller, Tolerance};
+use crate::step::scheme::Scheme;
+use eem_material::number::scalar::Real;
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The same run with another scheme from here on.
+    ///
+    /// Time, state with its compensated rounding, sums of work and heat, loads, settings, step size and tolerance stay. Only the
+    /// history from which steps are predicted begins anew. [`Scheme::Auto`] needs step control; without it,
+    /// [`Tolerance::default`] is used.
+    ///
+    /// # Errors
+    ///
+    /// The run as it was, with the [`SceneError`] that says why: the scheme cannot step solids, rockets or dashpots in parallel
+    /// with a spring, cannot use step control or its tolerance, or needs more memory than is allowed.
+    ///
+    /// ```
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    /// scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, ends);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.run_until(1.0)?;
+    /// let energy = run.ledger().energy;
+    ///
+    /// let mut run = run.with_scheme(Scheme::EemExplicit)?;
+    /// run.run_until(10.0)?;
+    /// assert_eq!((run.scheme(), run.time()), (Scheme::EemExplicit, 10.0));
+    /// assert!((run.ledger().energy - energy).abs() < 1e-16);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_scheme(mut self, scheme: Scheme) -> Result<Self, RefusedChange<D, S>> {
+        match (Functions::get().change_scheme)(&mut self, scheme) {
+            Ok(()) => Ok(self),
+            Err(error) => Err(RefusedChange {
+                run: Box::new(self),
+                error,
+            }),
+        }
+    }
+
+    /// Changes the scheme, or nothing.
+    pub(super) fn change_scheme(&mut self, scheme: Scheme) -> Result<(), SceneError> {
+        if scheme == self.scheme {
+            return Ok(());
+        }
+        let in_use = first(scheme, self.automatic.needs.are_implicit());
+        let control = match &self.control {
+            // The errors of earlier steps mean nothing for another scheme.
+            Some(control) => Some(SavedControl {
+                controller: Controller::new(),
+                ..control.memory
+            }),
+            None if scheme == Scheme::Auto => Some(self.new_control(Tolerance::default())),
+            None => None,
+        };
+        let checked = self.automatic.needs.check(in_use);
+        checked.inspect_err(|_| self.diverge())?;
+        self.check_control(control, (scheme, in_use))?;
+        self.automatic.is_motion_first = self.is_motion_first();
+        if in_use != self.in_use {
+            self.use_scheme(in_use)?;
+        }
+        self.scheme = scheme;
+        self.automatic.choice = Choice::new();
+        self.set_control(control);
+        Ok(())
+    }
+
+    /// Replaces the scheme in use, without step control. If there is no memory for it, nothing changes.
+    pub(super) fn use_scheme(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
+        let (layout, ends) = (self.numbering(), self.ends());
+        let automatic = &mut self.automatic;
+        let parts = Parts {
+            scheme,
+            masses: &self.masses,
+            elements: &ends,
+            layout: &layout,
+            conduction: &self.conduction,
+            loads: &self.loads,
+        };
+        let systems = parts.systems(automatic.memory_limit)?;
+        automatic.evaluations += self.stepper.evaluations();
+        let elements = self.stepper.take_elements();
+        let state = &mut self.state;
+        let Ok(stepper) = Stepper::new(elements, systems, parts, state, |state, elements| {
+            // As after a restart: each scheme evaluates them in its own way.
+            for group in elements {
+                group.find_energies(state);
+            }
+            Ok::<(), Infallible>(())
+        });
+        self.stepper = stepper;
+        if let Stepper::Explicit(explicit) = &mut self.stepper {
+            explicit.set_motion_first(automatic.is_motion_first);
+        }
+        self.in_use = scheme;
+        self.has_stepped = false;
+        Ok(())
+    }
+
+    /// The numbering of the unknowns and state variables, as the scene had it.
+    fn numbering(&self) -> Layout {
+        let is_mass = self.masses.iter().map(|mass| mass.is_some());
+        let shapes = self.places.iter();
+        let shapes = shapes.map(|&[group, _]| self.shapes[group as usize]);
+        let mut layout = Layout::new(D, is_mass, shapes);
+        layout.couple(|slot| self.conduction.meets_slots(slot));
+        layout
+    }
+
+    /// The nodes of all elements.
+    fn ends(&self) -> Ends {
+        let mut ends = Ends::none();
+        for &[group, place] in &self.places {
+            let elements = self.stepper.elements(group as usize);
+            ends.push(elements.nodes(place as usize).iter().copied());
+        }
+        ends
+    }
+}
+
+/// A run that cannot go on with another scheme, as it was, and why.
+///
+/// `?` converts it to its [`SceneError`].
+///
+/// ```
+/// use eem::prelude::*;
+///
+/// #[derive(FreeEnergy)]
+/// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - 1).powi(2))]
+/// #[viscosity(lambda = eta)]
+/// struct Damper { stiffness: f64, eta: f64 }
+///
+/// let mut scene = Scene::<1>::new();
+/// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+/// scene.spring(Damper { stiffness: 4.0, eta: 0.1 }, ends);
+/// let run = Simulation::new(scene, Scheme::EemTemperature, 0.1)?;
+/// let refused = run.with_scheme(Scheme::EemExplicit).unwrap_err();
+/// assert!(matches!(refused.error(), SceneError::NoDrag { scheme: "eem-explicit", .. }));
+/// let mut run = refused.into_run();
+/// run.run_until(1.0)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct RefusedChange<const D: usize, S: Real = f64> {
+    run: Box<Simulation<D, S>>,
+    error: SceneError,
+}
+
+impl<const D: usize, S: Real> RefusedChange<D, S> {
+    /// Why the scheme cannot step the scene.
+    #[must_use]
+    pub const fn error(&self) -> &SceneError {
+        &self.error
+    }
+
+    /// The run as it was.
+    #[must_use]
+    pub fn into_run(self) -> Simulation<D, S> {
+        *self.run
+    }
+}
+
+impl<const D: usize, S: Real> fmt::Display for RefusedChange<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.error.fmt(f)
+    }
+}
+
+impl<const D: usize, S: Real> fmt::Debug for RefusedChange<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut all = f.debug_struct("RefusedChange");
+        all.field("error", &self.error).finish_non_exhaustive()
+    }
+}
+
+impl<const D: usize, S: Real> Error for RefusedChange<D, S> {}
+
+impl<const D: usize, S: Real> From<RefusedChange<D, S>> for SceneError {
+    fn from(refused: RefusedChange<D, S>) -> Self {
+        refused.error
+    }
+}
