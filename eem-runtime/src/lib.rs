@@ -68,7 +68,7 @@ pub use element::error::StateError;
 pub use element::handle::{Element, HeatPartner, Node, Reservoir};
 pub use element::kinematics;
 pub use element::kinematics::{SolidState, Strain, StrainEnergy};
-pub use run::checkpoint::{Checkpoint, RestoreError};
+pub use run::checkpoint::{Checkpoint, FormatError, LoadError, RestoreError};
 pub use run::ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Members, Outputs};
 pub use run::ledger::Ledger;
 pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};

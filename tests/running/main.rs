@@ -11,6 +11,7 @@ mod control;
 mod ends;
 mod ensemble;
 mod events;
+mod files;
 mod lanes;
 #[cfg(feature = "vtk")]
 mod paraview;

@@ -31,6 +31,12 @@ impl<S: Scalar> Compensated<S> {
         Self { values, carries }
     }
 
+    /// Sums as they were stored; `None` unless there are as many compensations as values.
+    #[must_use]
+    pub fn of(values: Vec<S>, carries: Vec<S>) -> Option<Self> {
+        (values.len() == carries.len()).then_some(Self { values, carries })
+    }
+
     /// The sums, rounded.
     #[inline]
     #[must_use]

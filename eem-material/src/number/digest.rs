@@ -1,5 +1,9 @@
 //! Digests of numbers, to detect whether two sets of them are the same.
 
+use core::fmt;
+use core::num::ParseIntError;
+use core::str::FromStr;
+
 use crate::number::scalar::Real;
 
 /// A 64-bit digest (FNV-1a; Fowler, Noll & Vo 1991), against mistakes, not against attacks.
@@ -43,11 +47,25 @@ impl Digest {
     }
 }
 
-/// In a file, 16 hexadecimal digits: not every format has integers of 64 bits.
+/// 16 hexadecimal digits: not every format of files has integers of 64 bits.
+impl fmt::Display for Digest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+impl FromStr for Digest {
+    type Err = ParseIntError;
+
+    fn from_str(digits: &str) -> Result<Self, ParseIntError> {
+        u64::from_str_radix(digits, 16).map(Self)
+    }
+}
+
 #[cfg(feature = "serde")]
 impl serde::Serialize for Digest {
     fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
-        serializer.collect_str(&format_args!("{:016x}", self.0))
+        serializer.collect_str(self)
     }
 }
 
@@ -55,7 +73,7 @@ impl serde::Serialize for Digest {
 impl<'de> serde::Deserialize<'de> for Digest {
     fn deserialize<T: serde::Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
         let digits = String::deserialize(deserializer)?;
-        u64::from_str_radix(&digits, 16).map(Self).map_err(|_| {
+        digits.parse().map_err(|_| {
             serde::de::Error::custom(format_args!("`{digits}` are not 16 hexadecimal digits"))
         })
     }

@@ -143,15 +143,20 @@ impl<S: Real> Energy<S> {
         [value, magnitude, heat_capacity, terms, excess]
     }
 
+    /// From all numbers.
+    pub(crate) const fn of([value, magnitude, heat_capacity, terms, excess]: [S; 5]) -> Self {
+        Self {
+            value,
+            magnitude,
+            heat_capacity,
+            terms,
+            excess,
+        }
+    }
+
     /// None.
     pub(crate) fn zero() -> Self {
-        Self {
-            value: S::zero(),
-            magnitude: S::zero(),
-            heat_capacity: S::zero(),
-            terms: S::zero(),
-            excess: S::zero(),
-        }
+        Self::of([S::zero(); 5])
     }
 }
 

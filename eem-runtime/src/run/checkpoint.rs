@@ -2,9 +2,12 @@
 
 mod entries;
 pub(crate) mod error;
+mod file;
 mod fingerprint;
+mod lines;
 #[cfg(feature = "serde")]
 mod scheme_name;
+mod text;
 
 use crate::element::state::{Energy, State};
 use crate::step::automatic::Choice;
@@ -17,6 +20,7 @@ use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
 pub use error::RestoreError;
+pub use file::{FormatError, LoadError};
 pub(crate) use fingerprint::{Numbers, Outline};
 
 /// A saved state of a [`Simulation`](crate::Simulation), to resume it later: values with their compensated rounding,
@@ -31,8 +35,8 @@ pub(crate) use fingerprint::{Numbers, Outline};
 /// Work and heat, the history of step control and the rates of the explicit scheme cannot be edited
 /// ([`RestoreError::Edited`]).
 ///
-/// With the feature `serde` it can be written to a file and read back. The format must preserve every bit of a
-/// number; `serde_json` does with its feature `float_roundtrip`.
+/// [`save`](Self::save) writes it to a file, and [`load`](Self::load) reads it with all bits. With the feature `serde` it can be
+/// part of other files, whose format must preserve every bit of a number; `serde_json` does with its feature `float_roundtrip`.
 ///
 /// ```
 /// use eem::{Scene, Scheme, Simulation};

@@ -106,24 +106,24 @@ fn stages(scheme: Scheme) -> f64 {
 )]
 pub(crate) struct Choice {
     /// Effort and time, s, of the last steps of the present scheme, earlier ones counting less.
-    recent: [f64; 2],
+    pub(crate) recent: [f64; 2],
     /// Steps of the present scheme.
-    steps: u32,
+    pub(crate) steps: u32,
     /// Checks in succession that found steps limited by stability or failed.
-    limited: u32,
+    pub(crate) limited: u32,
     /// Failed steps at the last check.
-    failures: u64,
+    pub(crate) failures: u64,
     /// Effort per time, 1/s, and last step, s, of the scheme before it.
-    before: [f64; 2],
+    pub(crate) before: [f64; 2],
     /// Whether the present scheme is the explicit one on trial.
-    is_on_trial: bool,
+    pub(crate) is_on_trial: bool,
     /// The size of implicit steps at the last failed trial of the explicit scheme, s; zero before.
-    tried: f64,
+    pub(crate) tried: f64,
     /// All effort so far, the effort from which on the next trial may begin, and that between two trials, `None` before the
     /// first.
-    spent: f64,
-    due: f64,
-    wait: Option<f64>,
+    pub(crate) spent: f64,
+    pub(crate) due: f64,
+    pub(crate) wait: Option<f64>,
 }
 
 /// The outcome of a trial.

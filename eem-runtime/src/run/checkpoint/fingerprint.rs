@@ -14,11 +14,11 @@ use eem_material::number::scalar::Real;
     serde(deny_unknown_fields)
 )]
 pub(crate) struct Outline {
-    dimensions: usize,
+    pub(super) dimensions: usize,
     /// Whether each node is an anchor.
-    anchors: Vec<bool>,
-    elements: Vec<ElementOutline>,
-    reservoirs: usize,
+    pub(super) anchors: Vec<bool>,
+    pub(super) elements: Vec<ElementOutline>,
+    pub(super) reservoirs: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,9 +27,9 @@ pub(crate) struct Outline {
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-struct ElementOutline {
-    dashpots: usize,
-    thermal: bool,
+pub(super) struct ElementOutline {
+    pub(super) dashpots: usize,
+    pub(super) thermal: bool,
 }
 
 /// Digests of all numbers of a scene that a state does not contain.

@@ -1,0 +1,220 @@
+//! Checkpoints in files.
+//!
+//! ```text
+//! eem checkpoint 1 f64
+//! scheme: eem-entropy
+//! …
+//! digest: 5f6e…             of all lines before
+//! ```
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::Checkpoint;
+use super::text::{Fault, Text};
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Real;
+
+/// The first words of a file.
+const KIND: &str = "eem checkpoint";
+
+/// The version of the format; files of another one are not read.
+const VERSION: &str = "1";
+
+/// The last line.
+const DIGEST: &str = "digest: ";
+
+impl<S: Real> Checkpoint<S> {
+    /// The name of the number type.
+    const SCALAR: &str = {
+        assert!(S::LANES == 1, "files have the numbers of one scene");
+        if S::IS_DOUBLE { "f64" } else { "f32" }
+    };
+
+    /// Writes it to a file that [`load`](Self::load) reads with all bits, in any program.
+    ///
+    /// The file is text, one named list of numbers per line, and ends with a digest. It is complete or absent: it is written
+    /// under another name beside its place, and renamed; a file that was there is replaced.
+    ///
+    /// # Errors
+    ///
+    /// Those of the file system.
+    ///
+    /// ```
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// let build = || {
+    ///     let mut scene = Scene::<1>::new();
+    ///     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    ///     scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, ends);
+    ///     Simulation::new(scene, Scheme::EemEntropy, 0.1)
+    /// };
+    /// let mut run = build()?;
+    /// run.run_until(1.0)?;
+    /// let path = std::env::temp_dir().join(format!("run-{}.checkpoint", std::process::id()));
+    /// run.checkpoint().save(&path)?;
+    ///
+    /// let mut resumed = build()?;
+    /// resumed.restore(&Checkpoint::load(&path)?)?;
+    /// assert_eq!(resumed.checkpoint(), run.checkpoint());
+    /// # std::fs::remove_file(path)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn save(&self, path: impl AsRef<Path>) -> io::Result<()> {
+        let path = path.as_ref();
+        let mut name = path.as_os_str().to_owned();
+        name.push(format!(".{}.part", std::process::id()));
+        let part = PathBuf::from(name);
+        let written = write(&part, &self.to_text()).and_then(|()| fs::rename(&part, path));
+        written.inspect_err(|_| {
+            // What remains is of no use.
+            _ = fs::remove_file(&part);
+        })
+    }
+
+    /// Reads a file that [`save`](Self::save) has written.
+    ///
+    /// # Errors
+    ///
+    /// [`LoadError`] if there is no such file, or it is none of a checkpoint, has another version or number type, is cut off or
+    /// has been edited.
+    ///
+    /// ```
+    /// use eem::{Checkpoint, LoadError};
+    ///
+    /// let found = Checkpoint::<f64>::load("no such file");
+    /// assert!(matches!(found, Err(LoadError::File { .. })));
+    /// ```
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
+        let path = path.as_ref();
+        let bytes = fs::read(path).map_err(|source| LoadError::File {
+            path: path.to_owned(),
+            source,
+        })?;
+        let text = String::from_utf8(bytes);
+        let text = text.map_err(|_| FormatError::Kind);
+        let found = text.and_then(|text| Self::from_text(&text));
+        found.map_err(|source| LoadError::Format {
+            path: path.to_owned(),
+            source,
+        })
+    }
+
+    /// The contents of a file.
+    pub(super) fn to_text(&self) -> String {
+        let mut text = Text::new("", 0);
+        _ = Self::lines(&mut text, Some(self));
+        let lines = text.written();
+        let head = format!("{KIND} {VERSION} {}\n{lines}", Self::SCALAR);
+        let digest = digest(&head);
+        format!("{head}{DIGEST}{digest}\n")
+    }
+
+    fn from_text(text: &str) -> Result<Self, FormatError> {
+        let (head, _) = text.split_once('\n').ok_or(FormatError::Kind)?;
+        let words = head.strip_prefix(KIND).ok_or(FormatError::Kind)?;
+        let mut words = words.split_ascii_whitespace().map(str::to_owned);
+        let (version, scalar) = (words.next(), words.next());
+        if version.as_deref() != Some(VERSION) {
+            let found = version.unwrap_or_default();
+            return Err(FormatError::Version { found });
+        }
+        let body = text
+            .strip_suffix('\n')
+            .and_then(|text| text.rsplit_once('\n'));
+        let (lines, last) = body.ok_or(FormatError::Digest)?;
+        let lines = &text[..=lines.len()];
+        if last.strip_prefix(DIGEST) != Some(&digest(lines).to_string()) {
+            return Err(FormatError::Digest);
+        }
+        if scalar.as_deref() != Some(Self::SCALAR) {
+            return Err(FormatError::Scalar {
+                found: scalar.unwrap_or_default(),
+                expected: Self::SCALAR,
+            });
+        }
+        let mut rest = Text::new(&lines[head.len() + 1..], 1);
+        Self::lines(&mut rest, None)
+            .map_err(|Fault { line, expected }| FormatError::Line { line, expected })
+    }
+}
+
+/// The digest of a text.
+fn digest(text: &str) -> Digest {
+    Digest::of(|digest| digest.bytes(text.as_bytes()))
+}
+
+/// Writes a file to the disk.
+fn write(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(text.as_bytes())?;
+    file.sync_all()
+}
+
+/// Why a checkpoint cannot be loaded.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// The file cannot be read.
+    #[error("{} cannot be read: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// The contents of the file are not those of a checkpoint.
+    #[error("{}: {source}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with them.
+        source: FormatError,
+    },
+}
+
+/// What is wrong with the contents of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum FormatError {
+    /// It is another kind of file.
+    #[error(
+        "the file does not begin with `{KIND}`: it is none that `Checkpoint::save` has written"
+    )]
+    Kind,
+    /// It has another version of the format.
+    #[error(
+        "the checkpoint has the version `{found}` of the format, this library reads version {VERSION}: continue with the version of the library that wrote it"
+    )]
+    Version {
+        /// The version of the file.
+        found: String,
+    },
+    /// It is the checkpoint of a run with another number type.
+    #[error(
+        "the checkpoint has numbers of the type `{found}`: load it as `Checkpoint<{found}>` instead of `Checkpoint<{expected}>`"
+    )]
+    Scalar {
+        /// The number type of the file.
+        found: String,
+        /// That of the checkpoint to be loaded.
+        expected: &'static str,
+    },
+    /// The last line is not the digest of the lines before.
+    #[error(
+        "the file has been cut off or edited: its last line is not the digest of the others; take another copy of it"
+    )]
+    Digest,
+    /// A line is not as expected.
+    #[error("line {line} is not the list `{expected}` that version {VERSION} has there")]
+    Line {
+        /// The line, from 1.
+        line: usize,
+        /// The name of its list.
+        expected: &'static str,
+    },
+}

@@ -1,0 +1,245 @@
+//! The lines of a file with a checkpoint. Each function writes what it is given, or reads it.
+
+use super::fingerprint::{ElementOutline, Numbers, Outline};
+use super::text::{Read, Text};
+use super::{Checkpoint, SavedChoice, SavedControl, SavedEnergies};
+use crate::algebra::memory::TooLarge;
+use crate::element::state::{Energy, State};
+use crate::step::automatic::Choice;
+use crate::step::control::{Controller, StepStatistics, Tolerance};
+use crate::step::explicit::SavedExplicit;
+use crate::step::newton::NewtonSettings;
+use crate::step::solver::SavedPast;
+use eem_material::number::scalar::Real;
+
+impl<S: Real> Checkpoint<S> {
+    /// All of it.
+    pub(super) fn lines(text: &mut Text<'_>, own: Option<&Self>) -> Read<Self> {
+        let newton = own.map(|own| own.newton);
+        Ok(Self {
+            scheme: text.item("scheme", own.map(|own| own.scheme))?,
+            outline: outline(text, own.map(|own| &own.outline))?,
+            numbers: numbers(text, own.map(|own| &own.numbers))?,
+            step: text.number("step size", own.map(|own| own.step))?,
+            newton: NewtonSettings {
+                max_iterations: text.item("iterations", newton.map(|own| own.max_iterations))?,
+                tolerance: text
+                    .number("tolerance of an iteration", newton.map(|own| own.tolerance))?,
+            },
+            control: text.part("step control", own.map(|own| own.control.as_ref()), control)?,
+            choice: text.part(
+                "choice of a scheme",
+                own.map(|own| own.choice.as_ref()),
+                choice,
+            )?,
+            state: state(text, own.map(|own| &own.state))?,
+            energies: energies(text, own.map(|own| &own.energies))?,
+            past: past(text, own.map(|own| &own.past))?,
+            explicit: text.part("explicit", own.map(|own| own.explicit.as_ref()), explicit)?,
+            seals: text.items("digests", own.map(|own| &own.seals[..]))?,
+        })
+    }
+}
+
+fn outline(text: &mut Text<'_>, own: Option<&Outline>) -> Read<Outline> {
+    let dashpots = own.map(|own| own.elements.iter().map(|element| element.dashpots));
+    let dashpots: Option<Vec<usize>> = dashpots.map(Iterator::collect);
+    let are_thermal = own.map(|own| own.elements.iter().map(|element| element.thermal));
+    let are_thermal: Option<Vec<bool>> = are_thermal.map(Iterator::collect);
+    let dimensions = text.item("dimensions", own.map(|own| own.dimensions))?;
+    let anchors = text.items("anchors", own.map(|own| &own.anchors[..]))?;
+    let dashpots = text.items("dashpots", dashpots.as_deref())?;
+    let are_thermal = text.items("have a temperature", are_thermal.as_deref())?;
+    if dashpots.len() != are_thermal.len() {
+        return Err(text.fault("have a temperature"));
+    }
+    let elements = dashpots.into_iter().zip(are_thermal);
+    Ok(Outline {
+        dimensions,
+        anchors,
+        elements: elements
+            .map(|(dashpots, thermal)| ElementOutline { dashpots, thermal })
+            .collect(),
+        reservoirs: text.item("reservoirs", own.map(|own| own.reservoirs))?,
+    })
+}
+
+fn numbers(text: &mut Text<'_>, own: Option<&Numbers>) -> Read<Numbers> {
+    Ok(Numbers {
+        materials: text.item("digest of materials", own.map(|own| own.materials))?,
+        masses: text.item("digest of masses", own.map(|own| own.masses))?,
+        conductances: text.item("digest of conductances", own.map(|own| own.conductances))?,
+        reservoirs: text.item("digest of reservoirs", own.map(|own| own.reservoirs))?,
+        gravity: text.item("digest of gravity", own.map(|own| own.gravity))?,
+    })
+}
+
+fn control<S: Real>(text: &mut Text<'_>, own: Option<&SavedControl<S>>) -> Read<SavedControl<S>> {
+    let tolerance = own.map(|own| {
+        let tolerance = own.tolerance;
+        [
+            tolerance.relative,
+            tolerance.position,
+            tolerance.momentum,
+            tolerance.temperature,
+        ]
+    });
+    let [relative, position, momentum, temperature] = text.array("tolerances", tolerance)?;
+    let statistics = own.map(|own| own.statistics);
+    Ok(SavedControl {
+        tolerance: Tolerance {
+            relative,
+            position,
+            momentum,
+            temperature,
+        },
+        controller: Controller {
+            last: text.few(
+                "error and size of the last step",
+                own.map(|own| own.controller.last),
+            )?,
+        },
+        statistics: StepStatistics {
+            accepted: text.item("accepted", statistics.map(|own| own.accepted))?,
+            rejected_by_error: text.item(
+                "rejected by error",
+                statistics.map(|own| own.rejected_by_error),
+            )?,
+            rejected_by_newton: text.item(
+                "rejected by newton",
+                statistics.map(|own| own.rejected_by_newton),
+            )?,
+            rejected_by_domain: text.item(
+                "rejected by domain",
+                statistics.map(|own| own.rejected_by_domain),
+            )?,
+            rejected_by_law: text
+                .item("rejected by law", statistics.map(|own| own.rejected_by_law))?,
+            changes_of_scheme: text.item(
+                "changes of scheme",
+                statistics.map(|own| own.changes_of_scheme),
+            )?,
+            too_large: too_large(text, statistics.map(|own| own.too_large))?,
+        },
+        largest_momentum: text.number("largest momentum", own.map(|own| own.largest_momentum))?,
+        smallest: text.number("smallest step", own.map(|own| own.smallest))?,
+        largest: text.number("largest step", own.map(|own| own.largest))?,
+    })
+}
+
+fn too_large(text: &mut Text<'_>, own: Option<Option<TooLarge>>) -> Read<Option<TooLarge>> {
+    let own = own.as_ref().map(Option::as_ref);
+    text.part("missing memory", own, |text, own| {
+        let available = own.map(|own| own.available.as_slice());
+        let available = text.items("available bytes", available)?;
+        Ok(TooLarge {
+            unknowns: text.item("unknowns", own.map(|own| own.unknowns))?,
+            needed: text.item("needed bytes", own.map(|own| own.needed))?,
+            available: available.first().copied(),
+        })
+    })
+}
+
+fn choice(text: &mut Text<'_>, own: Option<&SavedChoice>) -> Read<SavedChoice> {
+    let choice = own.map(|own| own.choice);
+    let wait = choice.map(|own| own.wait.map(|wait| [wait]));
+    Ok(SavedChoice {
+        scheme: text.item("scheme in use", own.map(|own| own.scheme))?,
+        previous: text.item("scheme before", own.map(|own| own.previous))?,
+        choice: Choice {
+            recent: text.array("recent effort", choice.map(|own| own.recent))?,
+            steps: text.item("steps", choice.map(|own| own.steps))?,
+            limited: text.item("limited", choice.map(|own| own.limited))?,
+            failures: text.item("failures", choice.map(|own| own.failures))?,
+            before: text.array("effort before", choice.map(|own| own.before))?,
+            is_on_trial: text.item("on trial", choice.map(|own| own.is_on_trial))?,
+            tried: text.number("tried", choice.map(|own| own.tried))?,
+            spent: text.number("spent", choice.map(|own| own.spent))?,
+            due: text.number("due", choice.map(|own| own.due))?,
+            wait: text.few("wait", wait)?.map(|[wait]| wait),
+        },
+    })
+}
+
+fn state<S: Real>(text: &mut Text<'_>, own: Option<&State<S>>) -> Read<State<S>> {
+    let positions = ["positions", "compensations of positions"];
+    let momenta = ["momenta", "compensations of momenta"];
+    let velocities = ["velocities", "compensations of velocities"];
+    let viscous = ["viscous stretches", "compensations of viscous stretches"];
+    let entropies = ["entropies", "compensations of entropies"];
+    let received = [
+        "reservoir entropies",
+        "compensations of reservoir entropies",
+    ];
+    Ok(State {
+        time: text.sum("time", own.map(|own| own.time))?,
+        positions: text.sums(positions, own.map(|own| &own.positions))?,
+        momenta: text.sums(momenta, own.map(|own| &own.momenta))?,
+        velocities: text.sums(velocities, own.map(|own| &own.velocities))?,
+        viscous: text.sums(viscous, own.map(|own| &own.viscous))?,
+        entropies: text.sums(entropies, own.map(|own| &own.entropies))?,
+        temperatures: text.numbers("temperatures", own.map(|own| &own.temperatures[..]))?,
+        energies: Vec::new(),
+        reservoir_entropies: text.sums(received, own.map(|own| &own.reservoir_entropies))?,
+        work: text.sum("work", own.map(|own| own.work))?,
+        heat: text.sum("heat", own.map(|own| own.heat))?,
+        thermostat_entropy: text.sum(
+            "entropy of thermostats",
+            own.map(|own| own.thermostat_entropy),
+        )?,
+        dissipated: text.sum("lost heat", own.map(|own| own.dissipated))?,
+    })
+}
+
+fn energies<S: Real>(
+    text: &mut Text<'_>,
+    own: Option<&SavedEnergies<S>>,
+) -> Read<SavedEnergies<S>> {
+    let of = text.item("digest of the state", own.map(|own| own.of))?;
+    let flat = own.map(|own| own.list.iter().flat_map(Energy::numbers));
+    let flat: Option<Vec<S>> = flat.map(Iterator::collect);
+    let numbers = text.numbers("energies", flat.as_deref())?;
+    let (energies, []) = numbers.as_chunks() else {
+        return Err(text.fault("energies"));
+    };
+    let list = energies
+        .iter()
+        .map(|&numbers| Energy::of(numbers))
+        .collect();
+    Ok(SavedEnergies { of, list })
+}
+
+fn past<S: Real>(text: &mut Text<'_>, own: Option<&SavedPast<S>>) -> Read<SavedPast<S>> {
+    Ok(SavedPast {
+        forces: [
+            text.numbers("last forces", own.map(|own| &own.forces[0][..]))?,
+            text.numbers("earlier forces", own.map(|own| &own.forces[1][..]))?,
+        ],
+        errors: text.array("errors of forces", own.map(|own| own.errors))?,
+        internal: text.numbers("start of the last step", own.map(|own| &own.internal[..]))?,
+    })
+}
+
+fn explicit<S: Real>(
+    text: &mut Text<'_>,
+    own: Option<&SavedExplicit<S>>,
+) -> Read<SavedExplicit<S>> {
+    Ok(SavedExplicit {
+        is_new: text.item("new", own.map(|own| own.is_new))?,
+        state: text.item("digest of the explicit state", own.map(|own| own.state))?,
+        is_motion_first: text.item("motion first", own.map(|own| own.is_motion_first))?,
+        targets: text.pairs("targets", own.map(|own| &own.targets[..]))?,
+        shares: text.pairs("shares of reservoirs", own.map(|own| &own.shares[..]))?,
+        held_energies: text.numbers(
+            "energies of thermostats",
+            own.map(|own| &own.held_energies[..]),
+        )?,
+        largest_momentum: text.number(
+            "largest explicit momentum",
+            own.map(|own| own.largest_momentum),
+        )?,
+        residue: text.number("residue", own.map(|own| own.residue))?,
+        rates: text.numbers("rates", own.map(|own| &own.rates[..]))?,
+        loads: text.numbers("loads", own.map(|own| &own.loads[..]))?,
+    })
+}

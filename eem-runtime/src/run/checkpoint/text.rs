@@ -1,0 +1,198 @@
+//! A text of lines that keeps every bit: a name and its items per line.
+//!
+//! Numbers are the shortest decimals that are read as the same number. Every function takes what is to be written, and
+//! returns it; without it, the next line is read.
+
+use core::fmt::{Display, Write};
+use core::str::{FromStr, Lines};
+
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::scalar::Real;
+
+/// A line that is not as expected, from 1, and the name it should have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Fault {
+    pub(super) line: usize,
+    pub(super) expected: &'static str,
+}
+
+/// What a function of the text returns.
+pub(super) type Read<T> = Result<T, Fault>;
+
+/// A text that is written or read.
+pub(super) struct Text<'a> {
+    written: String,
+    lines: Lines<'a>,
+    /// The last line.
+    number: usize,
+}
+
+impl<'a> Text<'a> {
+    /// One to write, or to read what follows so many lines.
+    pub(super) fn new(rest: &'a str, number: usize) -> Self {
+        Self {
+            written: String::new(),
+            lines: rest.lines(),
+            number,
+        }
+    }
+
+    /// All that has been written.
+    pub(super) fn written(self) -> String {
+        self.written
+    }
+
+    /// A line of items that parts of a line can be read as.
+    fn line<T>(
+        &mut self,
+        name: &'static str,
+        own: Option<&[T]>,
+        show: impl Fn(&T, &mut String),
+        read: impl Fn(&str) -> Option<T>,
+    ) -> Read<Vec<T>>
+    where
+        T: Clone,
+    {
+        self.number += 1;
+        if let Some(own) = own {
+            self.written.push_str(name);
+            self.written.push(':');
+            for item in own {
+                self.written.push(' ');
+                show(item, &mut self.written);
+            }
+            self.written.push('\n');
+            return Ok(own.to_vec());
+        }
+        let fault = Fault {
+            line: self.number,
+            expected: name,
+        };
+        let line = self.lines.next().ok_or(fault)?;
+        let items = line
+            .strip_prefix(name)
+            .and_then(|rest| rest.strip_prefix(':'));
+        let items = items.ok_or(fault)?.split_ascii_whitespace();
+        items.map(|item| read(item).ok_or(fault)).collect()
+    }
+
+    /// A list of numbers.
+    pub(super) fn numbers<S: Real>(
+        &mut self,
+        name: &'static str,
+        own: Option<&[S]>,
+    ) -> Read<Vec<S>> {
+        let show = |number: &S, text: &mut String| {
+            // A string takes everything.
+            _ = write!(text, "{:?}", number.to_f64());
+        };
+        self.line(name, own, show, |item| {
+            Some(S::from_f64(item.parse().ok()?))
+        })
+    }
+
+    /// As many numbers as there are.
+    pub(super) fn array<S: Real, const N: usize>(
+        &mut self,
+        name: &'static str,
+        own: Option<[S; N]>,
+    ) -> Read<[S; N]> {
+        let numbers = self.numbers(name, own.as_ref().map(|own| &own[..]))?;
+        numbers.try_into().map_err(|_| self.fault(name))
+    }
+
+    /// One number.
+    pub(super) fn number<S: Real>(&mut self, name: &'static str, own: Option<S>) -> Read<S> {
+        let [number] = self.array(name, own.map(|own| [own]))?;
+        Ok(number)
+    }
+
+    /// One number or none.
+    pub(super) fn few<S: Real, const N: usize>(
+        &mut self,
+        name: &'static str,
+        own: Option<Option<[S; N]>>,
+    ) -> Read<Option<[S; N]>> {
+        let own = own
+            .as_ref()
+            .map(|own| own.as_ref().map_or(&[][..], |own| &own[..]));
+        let numbers = self.numbers(name, own)?;
+        if numbers.is_empty() {
+            return Ok(None);
+        }
+        numbers.try_into().map(Some).map_err(|_| self.fault(name))
+    }
+
+    /// Items without blanks: counts, words, digests.
+    pub(super) fn items<T: Display + FromStr + Clone>(
+        &mut self,
+        name: &'static str,
+        own: Option<&[T]>,
+    ) -> Read<Vec<T>> {
+        let show = |item: &T, text: &mut String| _ = write!(text, "{item}");
+        self.line(name, own, show, |item| item.parse().ok())
+    }
+
+    /// One of them.
+    pub(super) fn item<T: Display + FromStr + Clone>(
+        &mut self,
+        name: &'static str,
+        own: Option<T>,
+    ) -> Read<T> {
+        let own = own.map(|own| [own]);
+        let items = self.items(name, own.as_ref().map(|own| &own[..]))?;
+        let items: Result<[T; 1], _> = items.try_into();
+        items.map(|[item]| item).map_err(|_| self.fault(name))
+    }
+
+    /// A part that may be absent.
+    pub(super) fn part<T>(
+        &mut self,
+        name: &'static str,
+        own: Option<Option<&T>>,
+        pass: impl FnOnce(&mut Self, Option<&T>) -> Read<T>,
+    ) -> Read<Option<T>> {
+        let is_there = self.item(name, own.map(|own| own.is_some()))?;
+        is_there.then(|| pass(self, own.flatten())).transpose()
+    }
+
+    /// A sum and its compensation.
+    pub(super) fn sum<S: Real>(&mut self, name: &'static str, own: Option<Sum<S>>) -> Read<Sum<S>> {
+        let [value, carry] = self.array(name, own.map(|own| [own.value, own.carry]))?;
+        Ok(Sum { value, carry })
+    }
+
+    /// Sums, and their compensations in the next line.
+    pub(super) fn sums<S: Real>(
+        &mut self,
+        names: [&'static str; 2],
+        own: Option<&Compensated<S>>,
+    ) -> Read<Compensated<S>> {
+        let carries: Option<Vec<S>> = own.map(|own| own.sums().map(|(_, carry)| carry).collect());
+        let values = self.numbers(names[0], own.map(Compensated::values))?;
+        let carries = self.numbers(names[1], carries.as_deref())?;
+        Compensated::of(values, carries).ok_or_else(|| self.fault(names[1]))
+    }
+
+    /// Pairs of a value and its compensation.
+    pub(super) fn pairs<S: Real>(
+        &mut self,
+        name: &'static str,
+        own: Option<&[Sum<S>]>,
+    ) -> Read<Vec<Sum<S>>> {
+        let flat = own.map(|own| own.iter().flat_map(|sum| [sum.value, sum.carry]));
+        let flat: Option<Vec<S>> = flat.map(Iterator::collect);
+        let numbers = self.numbers(name, flat.as_deref())?;
+        let (pairs, []) = numbers.as_chunks::<2>() else {
+            return Err(self.fault(name));
+        };
+        let pairs = pairs.iter();
+        Ok(pairs.map(|&[value, carry]| Sum { value, carry }).collect())
+    }
+
+    /// The last line is not as expected.
+    pub(super) const fn fault(&self, expected: &'static str) -> Fault {
+        let line = self.number;
+        Fault { line, expected }
+    }
+}

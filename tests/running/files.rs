@@ -1,0 +1,173 @@
+//! Files of checkpoints keep every bit, and are refused where they have lost one.
+
+use std::fs;
+use std::path::PathBuf;
+
+use eem::prelude::*;
+use eem::{FormatError, LoadError, Real};
+
+use crate::support::{Hencky, ThermoViscoElastic, single_pendulum_scene};
+
+/// A file of this process that is removed at the end.
+struct Temporary(PathBuf);
+
+impl Temporary {
+    fn new(name: &str) -> Self {
+        let name = format!("eem-{name}-{}.checkpoint", std::process::id());
+        Self(std::env::temp_dir().join(name))
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        _ = fs::remove_file(&self.0);
+    }
+}
+
+/// Everything a checkpoint can have: a moved anchor, a thermostat, loads, conduction, dashpots.
+fn scene() -> Scene<2> {
+    let mut scene = Scene::<2>::new();
+    let support = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
+    let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
+    let warm = scene.spring(ThermoViscoElastic::PENDULUM, [support, bob]);
+    let kept = scene.spring(ThermoViscoElastic::PENDULUM, [bob, tail]);
+    let hencky = Hencky {
+        stiffness: 30.0,
+        natural_length: 1.5,
+    };
+    scene.spring(hencky, [support, tail]);
+    scene.set_temperature(warm, 320.0);
+    scene.set_temperature(kept, 310.0);
+    scene.prescribe_temperature(kept, |t| 310.0 + 5.0 * t.sin());
+    let air = scene.reservoir(300.0);
+    scene.conduct(warm, air, 10.0);
+    scene.force(bob, |t| [(3.0 * t).sin(), 0.2]);
+    scene.move_anchor(support, |t| [0.1 * (2.0 * t).sin(), 0.0]);
+    scene
+}
+
+/// A checkpoint after some steps is the same from a file, and a run goes on from it with the same bits.
+fn assert_survives<const D: usize, S: Real>(
+    build: impl Fn() -> Simulation<D, S>,
+    file: &Temporary,
+) {
+    let mut run = build();
+    for _ in 0..5 {
+        run.step().unwrap();
+    }
+    let saved = run.checkpoint();
+    saved.save(&file.0).unwrap();
+    let loaded = Checkpoint::load(&file.0).unwrap();
+    assert_eq!(loaded, saved);
+    assert_eq!(format!("{loaded:?}"), format!("{saved:?}"));
+    let mut resumed = build();
+    resumed.restore(&loaded).unwrap();
+    for run in [&mut run, &mut resumed] {
+        run.step().unwrap();
+    }
+    assert_eq!(
+        format!("{:?}", resumed.checkpoint()),
+        format!("{:?}", run.checkpoint())
+    );
+}
+
+#[test]
+fn checkpoints_keep_every_bit_in_a_file() {
+    let file = Temporary::new("bits");
+    for scheme in Scheme::ALL.into_iter().chain([Scheme::Auto]) {
+        assert_survives(|| Simulation::new(scene(), scheme, 0.01).unwrap(), &file);
+        if scheme.may_change_steps() {
+            let controlled = || {
+                let mut run = Simulation::new(scene(), scheme, 0.01).unwrap();
+                run.control_steps(Tolerance::new(1e-4)).unwrap();
+                run
+            };
+            assert_survives(controlled, &file);
+        }
+        let single = || {
+            let (scene, ..) = single_pendulum_scene::<f32>();
+            Simulation::new(scene, scheme, 0.01_f32).unwrap()
+        };
+        assert_survives(single, &file);
+    }
+}
+
+#[test]
+fn a_file_that_lost_something_is_refused() {
+    let file = Temporary::new("damaged");
+    let mut run = Simulation::new(scene(), Scheme::EemExplicit, 0.01).unwrap();
+    run.step().unwrap();
+    run.checkpoint().save(&file.0).unwrap();
+    let whole = fs::read(&file.0).unwrap();
+    let fault = |bytes: &[u8]| {
+        fs::write(&file.0, bytes).unwrap();
+        match Checkpoint::<f64>::load(&file.0) {
+            Err(LoadError::Format { path, source }) => {
+                assert_eq!(path, file.0);
+                source
+            }
+            other => panic!("{other:?}"),
+        }
+    };
+    let head = whole.iter().position(|&byte| byte == b'\n').unwrap();
+    for end in 0..whole.len() {
+        let found = fault(&whole[..end]);
+        let expected = if end <= head {
+            FormatError::Kind
+        } else {
+            FormatError::Digest
+        };
+        assert_eq!(found, expected, "cut off after {end} bytes");
+    }
+    for at in 0..whole.len() {
+        for change in [1, 0x80] {
+            let mut edited = whole.clone();
+            edited[at] ^= change;
+            _ = fault(&edited);
+        }
+    }
+    let twice = [&whole[..], &whole[..]].concat();
+    assert_eq!(fault(&twice), FormatError::Digest);
+    fs::write(&file.0, &whole).unwrap();
+    assert!(Checkpoint::<f64>::load(&file.0).is_ok());
+}
+
+#[test]
+fn other_files_are_refused_with_what_they_are() {
+    let file = Temporary::new("other");
+    let (scene, ..) = single_pendulum_scene::<f32>();
+    let run = Simulation::new(scene, Scheme::EemEntropy, 0.01_f32).unwrap();
+    run.checkpoint().save(&file.0).unwrap();
+    let message = Checkpoint::<f64>::load(&file.0).unwrap_err().to_string();
+    assert!(message.ends_with("load it as `Checkpoint<f32>` instead of `Checkpoint<f64>`"));
+
+    let text = fs::read_to_string(&file.0).unwrap();
+    fs::write(&file.0, text.replacen("checkpoint 1", "checkpoint 2", 1)).unwrap();
+    let message = Checkpoint::<f32>::load(&file.0).unwrap_err().to_string();
+    assert!(message.contains("the version `2` of the format, this library reads version 1"));
+
+    fs::write(&file.0, "time,q\n0,1\n").unwrap();
+    let message = Checkpoint::<f32>::load(&file.0).unwrap_err().to_string();
+    assert!(message.contains("does not begin with `eem checkpoint`"));
+}
+
+#[test]
+fn a_file_is_complete_or_as_it_was() {
+    let run = Simulation::new(scene(), Scheme::EemEntropy, 0.01).unwrap();
+    // A folder is in the way.
+    let folder = std::env::temp_dir().join(format!("eem-folder-{}", std::process::id()));
+    fs::create_dir_all(folder.join("inside")).unwrap();
+    assert!(run.checkpoint().save(&folder).is_err());
+    assert!(folder.join("inside").is_dir());
+    let name = folder.file_name().unwrap().to_str().unwrap().to_owned();
+    let left = fs::read_dir(std::env::temp_dir()).unwrap();
+    let left = left.filter(|entry| {
+        let found = entry.as_ref().unwrap().file_name();
+        found
+            .to_str()
+            .is_some_and(|found| found.starts_with(&name) && found != name)
+    });
+    assert_eq!(left.count(), 0);
+    fs::remove_dir_all(folder).unwrap();
+}
