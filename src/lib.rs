@@ -52,10 +52,14 @@ pub use nalgebra;
 pub mod prelude {
     pub use core::ops::ControlFlow;
 
+    #[cfg(feature = "vtk")]
+    pub use crate::VtkSeries;
+    pub use crate::kinematics::{Hex8, Hex20, Quad4, Quad8};
     pub use crate::{
-        Bulk, Checkpoint, Describe, Element, Ensemble, Event, FreeEnergy, Law, Ledger, Mesh,
-        NewtonSettings, Node, Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme,
-        Section, Simulation, StepError, StepFailure, StepReport, Tolerance,
+        Advice, Body, Bulk, Checkpoint, Describe, Element, Ensemble, Event, FreeEnergy, HeatPath,
+        Law, Ledger, Mesh, NewtonSettings, Node, Quantity, Recorder, Reservoir, RunEnd, Scene,
+        SceneError, Scheme, Section, Setting, Simulation, StepError, StepFailure, StepReport,
+        Study, Tolerance,
     };
 }
 

@@ -14,6 +14,7 @@ pub(crate) mod layout;
 pub(crate) mod lineage;
 pub(crate) mod loads;
 pub(crate) mod masses;
+pub(crate) mod meters;
 pub(crate) mod phase;
 pub(crate) mod state;
 pub(crate) mod tableau;

@@ -65,7 +65,7 @@ pub use eem_mesh::{LineFault, Msh, MshError};
 
 pub use algebra::memory::TooLarge;
 pub use element::error::StateError;
-pub use element::handle::{Element, HeatPartner, Node, Reservoir};
+pub use element::handle::{Element, HeatPartner, HeatPath, Node, Reservoir};
 pub use element::kinematics;
 pub use element::kinematics::{SolidState, Strain, StrainEnergy};
 pub use run::checkpoint::{Checkpoint, FormatError, LoadError, RestoreError};

@@ -21,7 +21,7 @@ use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::{Conduction, Conductor};
 use crate::element::ends::Ends;
 use crate::element::group::{Loose, LooseElements};
-use crate::element::handle::{Element, Handle, HeatPartner, Kind, Node, Reservoir};
+use crate::element::handle::{Element, Handle, HeatPartner, HeatPath, Kind, Node, Reservoir};
 use crate::element::kinematics::Stretch;
 use crate::element::layout::Layout;
 use crate::element::lineage::{Counts, Lineage};
@@ -256,7 +256,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert!((heat(&[1.5, 0.5])? - heat(&[2.0])?).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn conduct(&mut self, element: Element, partner: impl Into<HeatPartner>, conductance: S) {
+    pub fn conduct(
+        &mut self,
+        element: Element,
+        partner: impl Into<HeatPartner>,
+        conductance: S,
+    ) -> HeatPath {
         let partner = partner.into();
         let is_own = self.expect_own(&element);
         let is_partner_own = match partner {
@@ -269,6 +274,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 partner,
                 conductance,
             });
+        }
+        let index = self.conductors.len().saturating_sub(1);
+        HeatPath {
+            scene: self.lineage.giver(Kind::HeatPath, index),
+            index,
         }
     }
 
@@ -397,6 +407,7 @@ impl<const D: usize, S: Real> Clone for Scene<D, S> {
             nodes: self.nodes.len(),
             elements: self.elements.len(),
             reservoirs: self.reservoirs.len(),
+            paths: self.conductors.len(),
         };
         Self {
             lineage: self.lineage.copy(counts),

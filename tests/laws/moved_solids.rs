@@ -11,7 +11,7 @@ use crate::support::solids::ThermoelasticSolid;
 const DENSITY: f64 = 10.0;
 
 /// A bar of two cells, to be held at its left end.
-fn bar<H: Shape<3>>((speed, gravity): (f64, f64), is_lumped: bool) -> (Scene<3>, eem::Body<H, 3>) {
+fn bar<H: Shape<3>>((speed, gravity): (f64, f64), is_lumped: bool) -> (Scene<3>, Body<H, 3>) {
     let mut scene = Scene::<3>::new();
     let mesh = Mesh::<H, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]]).unwrap();
     let bulk = Bulk::new(DENSITY).conductivity(20.0);
@@ -28,7 +28,7 @@ fn bar<H: Shape<3>>((speed, gravity): (f64, f64), is_lumped: bool) -> (Scene<3>,
 }
 
 /// Moves the left end along x.
-fn support<H: Shape<3>>(scene: &mut Scene<3>, body: &eem::Body<H, 3>, motion: fn(f64) -> f64) {
+fn support<H: Shape<3>>(scene: &mut Scene<3>, body: &Body<H, 3>, motion: fn(f64) -> f64) {
     for (&node, &[x, y, z]) in body.nodes().iter().zip(body.mesh().nodes()) {
         if x <= 0.0 {
             scene.fix(node);
@@ -43,7 +43,7 @@ fn moved<H: Shape<3>>(
     state: (f64, f64),
     is_lumped: bool,
     (scheme, step): (Scheme, f64),
-) -> (Simulation<3>, eem::Body<H, 3>) {
+) -> (Simulation<3>, Body<H, 3>) {
     let (mut scene, body) = bar::<H>(state, is_lumped);
     support(&mut scene, &body, motion);
     (Simulation::new(scene, scheme, step).unwrap(), body)

@@ -46,20 +46,23 @@ impl<S: Real> Received<S> {
 }
 
 impl<S: Real> Balances<'_, S> {
-    /// A path between two elements, as the first of these slots sees it, with `hκ` in J/K. The production is booked at
+    /// A path between two elements, as the first of these slots sees it, with `hκ` in J/K, and its link there. The production is booked at
     /// one end, after the exchange, which both ends share.
     #[inline]
     pub(crate) fn conduct(
         &mut self,
         [slot, other]: [usize; 2],
-        path: &Exchange<S>,
+        (link, path): (usize, &Exchange<S>),
         received: &mut Received<S>,
     ) {
         self.next.entropies.add(slot, path.entropy);
         received.add(path.entropy);
         received.heat += path.heat;
         if slot > other {
-            self.produce(slot, path, received);
+            let production = self.produce(slot, path, received);
+            self.next.meters.produce_between([slot, other], production);
+        } else {
+            self.next.meters.conduct(link, path.heat);
         }
     }
 
@@ -73,7 +76,8 @@ impl<S: Real> Balances<'_, S> {
         (share, [theta, correction]): (S, [S; 2]),
         received: &mut Received<S>,
     ) {
-        for link in conduction.links(slot) {
+        let links = conduction.links(slot).iter();
+        for (link, place) in links.zip(conduction.first_link(slot)..) {
             let Partner::Reservoir(index) = link.partner else {
                 continue;
             };
@@ -83,18 +87,21 @@ impl<S: Real> Balances<'_, S> {
             self.next.reservoir_entropies.add(index, -path.entropy);
             self.next.entropies.add(slot, path.entropy);
             received.add(path.entropy);
-            self.produce(slot, &path, received);
+            let production = self.produce(slot, &path, received);
+            self.next.meters.produce(slot, production);
+            self.next.meters.conduct(place, path.heat);
         }
     }
 
-    /// The production of a path, at this end of it.
+    /// The production of a path, at this end of it, J/K.
     #[inline]
-    fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) {
+    fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) -> S {
         let production = path.production();
         self.next.entropies.add(slot, production);
         received.add(production);
         self.tally.produce(production);
         self.tally.turn_over(path.heat);
+        production
     }
 }
 

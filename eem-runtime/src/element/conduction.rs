@@ -37,6 +37,9 @@ pub(crate) struct Conduction<S> {
     links: Vec<Link<S>>,
     /// Where the links of each slot begin and end; none for a scene without paths.
     ranges: Vec<[u32; 2]>,
+    /// Of each path in the order of creation: its first link, that of the lower of two slots, and whether that is at the
+    /// second of the ends that were given.
+    paths: Vec<(u32, bool)>,
     /// `θ_r`, K.
     pub(crate) reservoirs: Vec<S>,
 }
@@ -51,6 +54,7 @@ impl<S: Real> Conduction<S> {
         };
         let mut by_slot = vec![Vec::new(); slots];
         let slot = |index: usize| layout.elements[index].thermal;
+        let mut places = Vec::with_capacity(conductors.len());
         for conductor in conductors {
             let conductance = conductor.conductance;
             let near = slot(conductor.element.index());
@@ -61,6 +65,9 @@ impl<S: Real> Conduction<S> {
                     (far.map(Partner::Slot), far.zip(near.map(Partner::Slot)))
                 }
             };
+            let far = back.map_or(usize::MAX, |(far, _)| far);
+            let first = near.map_or(0, |near| near.min(far));
+            places.push((first, by_slot[first].len(), near != Some(first)));
             if let (Some(near), Some(partner)) = (near, partner) {
                 by_slot[near].push(Link {
                     partner,
@@ -81,11 +88,37 @@ impl<S: Real> Conduction<S> {
             links.extend(list);
             ranges.push([start, compact(links.len())]);
         }
+        let ranges: Vec<[u32; 2]> = ranges;
+        let paths = places.into_iter();
+        let paths = paths.map(|(slot, place, is_second)| {
+            let [start, _] = ranges[slot];
+            (start + compact(place), is_second)
+        });
         Self {
             links,
+            paths: paths.collect(),
             ranges,
             reservoirs: reservoirs.to_vec(),
         }
+    }
+
+    /// Number of links.
+    pub(crate) const fn count(&self) -> usize {
+        self.links.len()
+    }
+
+    /// The first link of a path, and whether it is at the second of its ends.
+    pub(crate) fn path(&self, index: usize) -> (usize, bool) {
+        let (link, is_second) = self.paths[index];
+        (link as usize, is_second)
+    }
+
+    /// The first link of a slot.
+    #[inline]
+    pub(crate) fn first_link(&self, slot: usize) -> usize {
+        self.ranges
+            .get(slot)
+            .map_or(0, |&[start, _]| start as usize)
     }
 
     /// The paths that end at a slot.

@@ -26,6 +26,7 @@ pub(crate) enum Kind {
     Node,
     Element,
     Reservoir,
+    HeatPath,
 }
 
 /// A handle of any kind.
@@ -76,6 +77,10 @@ handle! {
     /// A heat reservoir of a scene. Shown as `reservoir 0`, counted in the order of creation.
     Reservoir, "reservoir"
 }
+handle! {
+    /// A path of heat of a scene. Shown as `path of heat 0`, counted in the order of creation.
+    HeatPath, "path of heat"
+}
 
 /// A spring of a scene, or an integration point of a solid. Printed as `element 0 (Spring)`: number in the order of
 /// creation, and name of the material.
@@ -94,6 +99,12 @@ impl Element {
             index: compact(index),
             model,
         }
+    }
+
+    /// The name of its model.
+    #[must_use]
+    pub const fn model(self) -> &'static str {
+        *self.model
     }
 
     /// Its index in the order of creation.

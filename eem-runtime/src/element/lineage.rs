@@ -16,6 +16,7 @@ pub(crate) struct Counts {
     pub(crate) nodes: usize,
     pub(crate) elements: usize,
     pub(crate) reservoirs: usize,
+    pub(crate) paths: usize,
 }
 
 impl Counts {
@@ -24,6 +25,7 @@ impl Counts {
             Kind::Node => self.nodes,
             Kind::Element => self.elements,
             Kind::Reservoir => self.reservoirs,
+            Kind::HeatPath => self.paths,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The state of a scene: everything a step changes, and nothing else.
 
 use crate::element::masses::Masses;
+use crate::element::meters::Meters;
 use eem_material::free_energy::Caloric;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::digest::Digest;
@@ -45,6 +46,8 @@ pub(crate) struct State<S> {
     pub(crate) thermostat_entropy: Sum<S>,
     /// Heat of dashpots in elements without temperature: it leaves the scene, J.
     pub(crate) dissipated: Sum<S>,
+    #[cfg_attr(feature = "serde", serde(default = "Meters::default"))]
+    pub(crate) meters: Meters<S>,
 }
 
 /// The internal energy of an element in a state, J.
@@ -208,6 +211,7 @@ impl<S: Real> State<S> {
         self.thermostat_entropy = old.thermostat_entropy;
         self.dissipated = old.dissipated;
         self.reservoir_entropies.copy_from(&old.reservoir_entropies);
+        self.meters.copy_from(&old.meters);
     }
 
     /// Copies `other`, a state of the same scene, with its energies, without allocation.

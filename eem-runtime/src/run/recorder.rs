@@ -12,6 +12,7 @@ use crate::element::handle::SceneId;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
 use crate::step::newton::StepReport;
+use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
 pub use quantity::{CustomQuantity, Quantity};
@@ -61,6 +62,8 @@ pub struct Recorder<const D: usize, S: Real = f64> {
     iterations: usize,
     /// The next row.
     row: Vec<f64>,
+    /// The sums at the last row, of quantities since then, and those at the row before.
+    sums: [Vec<Sum<S>>; 2],
 }
 
 /// One component of a quantity in all rows.
@@ -149,6 +152,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
             steps: 0,
             iterations: 0,
             row: Vec::new(),
+            sums: [Vec::new(), Vec::new()],
         };
         for (name, quantity) in quantities {
             let name = name.into();
@@ -221,10 +225,21 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         let time = run.time().to_f64();
         let last = self.column(TIME).and_then(<[f64]>::last);
         let is_again = self.steps == 0 && last.is_some_and(|last| last.to_bits() == time.to_bits());
+        // The row that is replaced began where the row before it ended.
+        let [last, before] = &self.sums;
+        let mut since = if is_again { before.iter() } else { last.iter() };
         self.row.clear();
         self.row.push(time);
         for quantity in &self.quantities {
-            quantity.append(run, self.iterations, &mut ledger, &mut self.row)?;
+            let row = &mut self.row;
+            quantity.append(run, self.iterations, &mut ledger, &mut since, row)?;
+        }
+        if !is_again {
+            self.sums.swap(0, 1);
+            self.sums[0].clear();
+            for quantity in &self.quantities {
+                quantity.add_metered(run, &mut self.sums[0])?;
+            }
         }
         for (column, &value) in self.columns.iter_mut().zip(&self.row) {
             if !is_again {

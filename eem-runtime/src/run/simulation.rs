@@ -14,6 +14,7 @@ mod halves;
 mod inspect;
 pub(crate) mod linearize;
 mod memory;
+mod meters;
 mod resume;
 pub(crate) mod run;
 mod settings;
@@ -77,6 +78,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     has_stepped: bool,
     /// The time at which the run began, s.
     start: S,
+    /// Somebody asks for sums of dissipation and heat.
+    wants_meters: AtomicBool,
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
     corrections: Corrections<S>,
@@ -178,6 +181,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state,
             has_stepped: false,
             start: scene.start,
+            wants_meters: AtomicBool::new(false),
             worst: None,
             corrections: Corrections::none(),
             has_diverged: AtomicBool::new(false),

@@ -171,6 +171,17 @@ pub enum SceneError {
         /// The element.
         element: Element,
     },
+    /// Dissipation and heat of a scheme that does not close its balances.
+    #[error(
+        "{scheme} has no exact balances, by which dissipation and heat are defined; take a scheme that keeps the laws"
+    )]
+    NotMetered {
+        /// The name of the scheme.
+        scheme: &'static str,
+    },
+    /// A sum of quantities that have several components, or other units.
+    #[error("a sum needs quantities with one component and one unit")]
+    MixedSum,
     /// An element has no initial temperature.
     #[error("{element} was never given a temperature, call `set_temperature`")]
     MissingTemperature {

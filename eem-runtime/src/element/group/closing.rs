@@ -143,6 +143,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let share = S::from_f64(self.scheme.implicit()) * h;
         let per_theta = self.per_temperature();
         let mut dissipated = self.book_drag(per_theta, tally);
+        if Self::DRAGS > 0 {
+            let drag = view.state.viscous.values().len() + self.element.index();
+            next.meters.dissipate(drag, dissipated);
+        }
         for k in 0..M::DASHPOTS {
             let old = &view.state.viscous;
             next.viscous.advance(slots.viscous + k, old, self.creep[k]);
@@ -150,6 +154,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 let heat = share * self.power_of(k, view);
                 dissipated += heat;
                 tally.produce(heat * per_theta);
+                next.meters.dissipate(slots.viscous + k, heat);
             }
         }
         tally.turn_over(dissipated);
@@ -164,6 +169,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         };
         received.add(dissipated * per_theta);
         received.heat = dissipated;
+        next.meters.produce(slot, dissipated * per_theta);
         self.book_heat(
             view,
             slot,
@@ -194,7 +200,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             for partner in &contact.partners {
                 let other = partner.slot as usize;
                 let path = (trial.seen).exchange(share * partner.conductance, slot, other);
-                balances.conduct([slot, other], &path, &mut received);
+                let path = (partner.link as usize, &path);
+                balances.conduct([slot, other], path, &mut received);
             }
         }
         if self.meets_reservoirs {

@@ -111,6 +111,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         power
     }
 
+    fn handle(&self, place: usize) -> Element {
+        let (member, point) = self.at(place);
+        member.points.as_ref()[point].element
+    }
+
     fn nodes(&self, place: usize) -> &[u32] {
         let (member, _) = self.at(place);
         member.site.nodes.as_ref()

@@ -11,6 +11,7 @@ use crate::element::conjugates::Conjugates;
 use crate::element::error::StateError;
 use crate::element::group::audit::Misfit;
 use crate::element::group::view::ElementGeneric;
+use crate::element::handle::Element;
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::SolidState;
 use crate::element::layout::{Shape, Slots};
@@ -37,6 +38,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// The contributions of the elements to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
+
+    /// The handle of the element at `place`.
+    fn handle(&self, place: usize) -> Element;
 
     /// The nodes of the element at `place`.
     fn nodes(&self, place: usize) -> &[u32];

@@ -45,6 +45,8 @@ pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) unknown: u32,
     /// The entry of the partner's Θ in the row of the own one.
     pub(super) entry: u32,
+    /// The link of the path in the list of all.
+    pub(super) link: u32,
     /// κ, W/K.
     pub(super) conductance: S,
     /// The entry of the first row of each node in the column of the partner's Θ.
@@ -108,7 +110,9 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
             entries
         };
         let column_of = |theta: usize| per_node(&|node| sites.place(node, Some(theta)));
-        let partners = sites.conduction.links(slot).iter().filter_map(|link| {
+        let links = sites.conduction.links(slot).iter();
+        let links = links.zip(sites.conduction.first_link(slot)..);
+        let partners = links.filter_map(|(link, place)| {
             let Partner::Slot(partner) = link.partner else {
                 return None;
             };
@@ -117,6 +121,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
                 slot: compact(partner),
                 unknown: compact(sites.row(Some(theta))),
                 entry: compact(sites.place(Some(unknown), Some(theta))),
+                link: compact(place),
                 conductance: link.conductance,
                 column: column_of(theta),
             })

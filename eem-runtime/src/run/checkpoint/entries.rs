@@ -77,6 +77,12 @@ impl<'a, S: Real> Entry<'a, S> {
         self
     }
 
+    /// It is checked apart whether the simulation has as many.
+    fn metered(mut self) -> Self {
+        self.count = None;
+        self.sealed()
+    }
+
     fn digest(self) -> Digest {
         Digest::of(|digest| {
             let mut count = 0;
@@ -150,6 +156,9 @@ impl<S: Real> Checkpoint<S> {
             Entry::sum("heat", state.heat).sealed(),
             Entry::sum("thermostat entropy", state.thermostat_entropy).sealed(),
             Entry::sum("lost heat", state.dissipated).sealed(),
+            Entry::sums("heat of dashpots", &state.meters.dissipated).metered(),
+            Entry::sums("entropy production", &state.meters.produced).metered(),
+            Entry::sums("conducted heat", &state.meters.conducted).metered(),
             Entry::new("temperatures", Positive, temperatures).counted(state.temperatures.len()),
             Entry::new("step size", Positive, [self.step]),
             Entry::list("last forces", last),

@@ -4,6 +4,7 @@ use super::fingerprint::{ElementOutline, Numbers, Outline};
 use super::text::{Read, Text};
 use super::{Checkpoint, SavedChoice, SavedControl, SavedEnergies};
 use crate::algebra::memory::TooLarge;
+use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
 use crate::step::automatic::Choice;
 use crate::step::control::{Controller, StepStatistics, Tolerance};
@@ -188,6 +189,19 @@ fn state<S: Real>(text: &mut Text<'_>, own: Option<&State<S>>) -> Read<State<S>>
             own.map(|own| own.thermostat_entropy),
         )?,
         dissipated: text.sum("lost heat", own.map(|own| own.dissipated))?,
+        meters: meters(text, own.map(|own| &own.meters))?,
+    })
+}
+
+fn meters<S: Real>(text: &mut Text<'_>, own: Option<&Meters<S>>) -> Read<Meters<S>> {
+    let dissipated = ["heat of dashpots", "compensations of heat of dashpots"];
+    let produced = ["entropy production", "compensations of entropy production"];
+    let conducted = ["conducted heat", "compensations of conducted heat"];
+    Ok(Meters {
+        are_on: text.item("meters", own.map(|own| own.are_on))?,
+        dissipated: text.sums(dissipated, own.map(|own| &own.dissipated))?,
+        produced: text.sums(produced, own.map(|own| &own.produced))?,
+        conducted: text.sums(conducted, own.map(|own| &own.conducted))?,
     })
 }
 

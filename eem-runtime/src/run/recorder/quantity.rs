@@ -1,11 +1,13 @@
 //! The quantities that can be recorded.
 
 use core::fmt;
+use core::slice::Iter;
 
-use crate::element::handle::{Element, Node, Reservoir};
+use crate::element::handle::{Element, HeatPath, Node, Reservoir};
 use crate::run::ledger::Ledger;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
+use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
 /// A quantity of a simulation that a [`Recorder`](super::Recorder) keeps.
@@ -59,6 +61,29 @@ pub enum Quantity<const D: usize, S: Real = f64> {
     LinearMomentum,
     /// The angular momentum of the ledger, kg m²/s.
     AngularMomentum,
+    /// The kinetic energy of the ledger, J.
+    KineticEnergy,
+    /// The potential energy of the ledger, J.
+    PotentialEnergy,
+    /// The internal energy of all elements, of the ledger, J.
+    TotalInternalEnergy,
+    /// Work of loads and moved anchors since the start, of the ledger, J.
+    Work,
+    /// Heat of thermostats since the start, of the ledger, J.
+    Heat,
+    /// `E − work − heat` of the ledger, J.
+    Balance,
+    /// The heat that the dashpots of an element have dissipated since the last row, as the steps booked it, J; see
+    /// [`Simulation::dissipation`].
+    Dissipation(Element),
+    /// The same of one dashpot (from 0) of an element, J; see [`Simulation::dissipation_of`].
+    DissipationOf(Element, usize),
+    /// The entropy that an element has produced since the last row, J/K; see [`Simulation::produced_entropy`].
+    EntropyProduction(Element),
+    /// The heat that a path has brought to its element since the last row, J; see [`Simulation::conducted_heat`].
+    HeatFlow(HeatPath),
+    /// The sum of quantities with one component each, made by [`Quantity::sum`].
+    Sum(Vec<Self>),
     /// Any other field of the ledger. Its unit is unknown; use [`custom_in`](Self::custom_in) for a column with a
     /// unit.
     Ledger(fn(&Ledger<D, S>) -> S),
@@ -113,17 +138,64 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         Self::Custom(CustomQuantity { function, unit })
     }
 
+    /// The sum of quantities that have one component and the same unit each, for instance over the points of a solid or the
+    /// [elements of a model](Simulation::elements_of).
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(Clone, FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch, gamma: Viscous| {
+    ///     0.5 * k * (lambda - 1).powi(2) + 0.5 * mu * (lambda - 1 - gamma).powi(2)
+    /// })]
+    /// #[viscosity(gamma = eta)]
+    /// struct Maxwell { k: f64, mu: f64, eta: f64 }
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let nodes = [scene.anchor([0.0]), scene.mass(1.0, [1.2], [0.0]), scene.mass(1.0, [2.1], [0.0])];
+    /// let damper = Maxwell { k: 4.0, mu: 10.0, eta: 2.0 };
+    /// for ends in nodes.windows(2) {
+    ///     scene.spring(damper.clone(), [ends[0], ends[1]]);
+    /// }
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// let heat = Quantity::sum(run.elements_of("Maxwell").map(Quantity::Dissipation));
+    /// let mut recorder = Recorder::new(&run, [("heat", heat)])?;
+    /// run.run_until_with(1.0, |run, report| recorder.observe(run, report))?;
+    /// // One value per step; their sum is all heat that has left the scene.
+    /// let sum: f64 = recorder.column("heat").unwrap_or_default().iter().sum();
+    /// assert!((sum - run.ledger().lost_heat).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn sum(quantities: impl IntoIterator<Item = Self>) -> Self {
+        Self::Sum(quantities.into_iter().collect())
+    }
+
     /// The unit of its values; empty if there is none or it is unknown.
     #[must_use]
-    pub const fn unit(&self) -> &'static str {
+    pub fn unit(&self) -> &'static str {
         match self {
             Self::Position(_) | Self::Stretch(_) | Self::ViscousStretch(..) => "m",
             Self::Momentum(_) | Self::LinearMomentum => "kg m/s",
             Self::Velocity(_) => "m/s",
             Self::Force(_) => "N",
-            Self::InternalEnergy(_) | Self::ReservoirHeat(_) | Self::TotalEnergy => "J",
+            Self::InternalEnergy(_)
+            | Self::ReservoirHeat(_)
+            | Self::TotalEnergy
+            | Self::KineticEnergy
+            | Self::PotentialEnergy
+            | Self::TotalInternalEnergy
+            | Self::Work
+            | Self::Heat
+            | Self::Balance
+            | Self::Dissipation(_)
+            | Self::DissipationOf(..)
+            | Self::HeatFlow(_) => "J",
+            Self::Sum(all) => all.first().map_or("", Self::unit),
             Self::Temperature(_) => "K",
-            Self::Entropy(_) | Self::ReservoirEntropy(_) | Self::TotalEntropy => "J/K",
+            Self::Entropy(_)
+            | Self::ReservoirEntropy(_)
+            | Self::TotalEntropy
+            | Self::EntropyProduction(_) => "J/K",
             Self::AngularMomentum => "kg m²/s",
             Self::NewtonIterations | Self::Ledger(_) => "",
             Self::Custom(custom) => custom.unit,
@@ -153,18 +225,76 @@ impl<const D: usize, S: Real> Quantity<D, S> {
     pub(super) fn check(&self, run: &Simulation<D, S>) -> Result<(), SceneError> {
         match self {
             Self::Custom(_) => Ok(()),
-            built_in => built_in.append(run, 0, &mut None, &mut Vec::new()),
+            Self::Sum(all) => {
+                for quantity in all {
+                    quantity.check(run)?;
+                }
+                let are_alike = all.iter().all(|own| own.unit() == self.unit());
+                let are_single = all.iter().all(|own| own.columns("").len() == 1);
+                if are_alike && are_single {
+                    Ok(())
+                } else {
+                    Err(SceneError::MixedSum)
+                }
+            }
+            built_in => {
+                if built_in.metered(run)?.is_some() {
+                    run.request_meters();
+                }
+                built_in.append(run, 0, &mut None, &mut [].iter(), &mut Vec::new())
+            }
         }
     }
 
-    /// Appends its present values to a row, with the ledger kept for the other quantities.
+    /// The sum of which a row has the change since the last one; none of other quantities.
+    fn metered(&self, run: &Simulation<D, S>) -> Result<Option<Sum<S>>, SceneError> {
+        match self {
+            Self::Dissipation(element) => run.dissipation_sum(*element).map(Some),
+            Self::DissipationOf(element, dashpot) => {
+                run.dissipation_sum_of(*element, *dashpot).map(Some)
+            }
+            Self::EntropyProduction(element) => run.produced_sum(*element).map(Some),
+            Self::HeatFlow(path) => run.conducted_sum(*path).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    /// Adds the sums of which a row has the changes, those of a sum one by one.
+    pub(super) fn add_metered(
+        &self,
+        run: &Simulation<D, S>,
+        sums: &mut Vec<Sum<S>>,
+    ) -> Result<(), SceneError> {
+        if let Self::Sum(all) = self {
+            return all.iter().try_for_each(|own| own.add_metered(run, sums));
+        }
+        sums.extend(self.metered(run)?);
+        Ok(())
+    }
+
+    /// Appends its present values to a row, with the ledger kept for the other quantities, and the sums at the last row.
     pub(super) fn append(
         &self,
         run: &Simulation<D, S>,
         iterations: usize,
         ledger: &mut Option<Ledger<D, S>>,
+        last: &mut Iter<'_, Sum<S>>,
         row: &mut Vec<f64>,
     ) -> Result<(), SceneError> {
+        if let Some(sum) = self.metered(run)? {
+            let change = last.next().map_or(S::zero(), |last| sum.change(*last));
+            row.push(change.to_f64());
+            return Ok(());
+        }
+        if let Self::Sum(all) = self {
+            let start = row.len();
+            for quantity in all {
+                quantity.append(run, iterations, ledger, last, row)?;
+            }
+            let sum = row.drain(start..).sum();
+            row.push(sum);
+            return Ok(());
+        }
         let mut totals = || *ledger.get_or_insert_with(|| run.ledger());
         let mut push = |components: &[S]| row.extend(components.iter().map(|x| x.to_f64()));
         match self {
@@ -185,12 +315,24 @@ impl<const D: usize, S: Real> Quantity<D, S> {
             Self::ReservoirEntropy(reservoir) => push(&[run.reservoir_entropy(*reservoir)?]),
             Self::ReservoirHeat(reservoir) => push(&[run.reservoir_heat(*reservoir)?]),
             Self::TotalEnergy => push(&[totals().energy]),
+            Self::KineticEnergy => push(&[totals().kinetic_energy]),
+            Self::PotentialEnergy => push(&[totals().potential_energy]),
+            Self::TotalInternalEnergy => push(&[totals().internal_energy]),
+            Self::Work => push(&[totals().work]),
+            Self::Heat => push(&[totals().heat]),
+            Self::Balance => push(&[totals().balance]),
             Self::TotalEntropy => push(&[totals().entropy]),
             Self::Ledger(entry) => push(&[entry(&totals())]),
             Self::NewtonIterations => {
                 row.push(u32::try_from(iterations).map_or(f64::INFINITY, f64::from));
             }
             Self::Custom(custom) => push(&[(custom.function)(run)]),
+            // Above.
+            Self::Dissipation(_)
+            | Self::DissipationOf(..)
+            | Self::EntropyProduction(_)
+            | Self::HeatFlow(_)
+            | Self::Sum(_) => {}
         }
         Ok(())
     }

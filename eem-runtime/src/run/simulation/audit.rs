@@ -70,6 +70,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 required: "not before the start of the scene",
             });
         }
+        self.audit_meters(&state.meters)?;
         self.audit_anchors(state, step)?;
         self.audit_velocities(state)?;
         self.audit_thermostats(state)?;

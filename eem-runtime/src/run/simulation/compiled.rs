@@ -83,6 +83,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     fn advance_here(&mut self, aim: Aim<S>) -> StepResult<S> {
+        self.begin_meters();
         match aim {
             Aim::Towards(end) => self.step_towards(end, true),
             Aim::InSchemeTowards(end) => self.step_towards(end, false),

@@ -359,6 +359,30 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(self.stepper.elements(group).inspect(place, &self.state))
     }
 
+    /// All elements of the model with this name, the last part of its path, in the order of creation: springs, and points of
+    /// solids.
+    ///
+    /// ```
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.2], [0.0])];
+    /// let spring = scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, ends);
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// assert!(run.elements_of("Hooke").eq([spring]));
+    /// assert_eq!(run.elements_of("Gent").count(), 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn elements_of(&self, model: &str) -> impl Iterator<Item = Element> {
+        let places = self.places.iter();
+        let elements = places.map(|&[group, place]| {
+            let elements = self.stepper.elements(group as usize);
+            elements.handle(place as usize)
+        });
+        elements.filter(move |element| element.model() == model)
+    }
+
     /// The numbers of nodes and elements.
     #[cfg(feature = "vtk")]
     pub(crate) fn counts(&self) -> [usize; 2] {
@@ -366,7 +390,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The capabilities of an element of this scene.
-    fn shape(&self, element: Element) -> Shape {
+    pub(super) fn shape(&self, element: Element) -> Shape {
         self.shapes[self.place(element)[0]]
     }
 
@@ -381,7 +405,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.stepper.elements(group).slots(place)
     }
 
-    fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
+    pub(super) fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
         self.expect_own(&element)?;
         let slot = self.slots(element).thermal;
         slot.ok_or(SceneError::NotThermal { element })

@@ -7,6 +7,7 @@ use nalgebra::SVector;
 use super::stepper::Parts;
 use crate::element::group::Elements;
 use crate::element::layout::Layout;
+use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
@@ -80,6 +81,7 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         heat: zero,
         thermostat_entropy: zero,
         dissipated: zero,
+        meters: Meters::default(),
     })
 }
 

@@ -53,6 +53,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         self.book(view, next);
         self.close(view, (demand, scales), next)?;
+        if next.meters.are_on {
+            self.meter(h, next);
+        }
         let correction = self.correction(demand, time)?;
         self.finish()?;
         self.store(view.state, next);

@@ -1,6 +1,6 @@
 //! Entropies and targets at the end of a step, from its integrals.
 
-use super::guard::{PathRates, guarded};
+use super::guard::{PathRates, guarded, mean_drop};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
 use crate::element::state::State;
@@ -82,6 +82,45 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 &mut progress.least
             };
             *least = least.minimum(production);
+        }
+    }
+
+    /// Adds what dashpots and paths of heat have done in the step to the sums that are kept of it, as the closing has scaled
+    /// all productions of a component.
+    pub(super) fn meter(&self, h: S, next: &mut State<S>) {
+        let (stage, components) = (&self.stage, &self.components);
+        let slots = self.scratch.produced.len();
+        let progress = |component: u32| &self.scratch.progress[component as usize];
+        for (index, dashpot) in components.dashpots.iter().enumerate() {
+            let slot = dashpot.slot.map(|slot| slot as usize);
+            let scale = if slot.is_some_and(|slot| stage.is_held(slot)) {
+                S::one()
+            } else {
+                progress(dashpot.component).factor
+            };
+            let [heat, production] = [stage.heats[index], stage.productions[index].sum];
+            next.meters.dissipate(index, scale * guarded(h * heat));
+            if let Some(slot) = slot {
+                next.meters.produce(slot, scale * guarded(h * production));
+            }
+        }
+        for (path, &production) in components.paths.iter().zip(&self.scratch.paths) {
+            let [a, b] = path.ends.map(|end| end as usize);
+            let progress = progress(path.component);
+            let is_fixed = |end: usize| end >= slots || stage.is_held(end);
+            let scale = if is_fixed(a) && is_fixed(b) {
+                S::one()
+            } else {
+                progress.factor
+            };
+            match path.share {
+                Some(_) => next.meters.produce(a, scale * production),
+                None => next.meters.produce_between([a, b], scale * production),
+            }
+            if !progress.is_rigid {
+                let heat = h * path.conductance * mean_drop([&path.seen[0], &path.seen[1]]);
+                next.meters.conduct(path.link as usize, heat);
+            }
         }
     }
 

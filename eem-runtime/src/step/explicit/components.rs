@@ -54,6 +54,8 @@ pub(super) struct Path<S> {
     /// The thermal slot at one end, and at the other: reservoirs come behind all thermal slots.
     pub(super) ends: [u32; 2],
     pub(super) component: u32,
+    /// Its first link in the list of all.
+    pub(super) link: u32,
     /// For a reservoir, which of the [shares](Components::shares) receives its entropy.
     pub(super) share: Option<u32>,
     /// κ, W/K.
@@ -272,7 +274,8 @@ impl<S: Real> Components<S> {
 
     /// The paths that begin at a slot; each is listed at both ends.
     fn add_paths(&mut self, component: usize, slot: u32, conduction: &Conduction<S>) {
-        for link in conduction.links(slot as usize) {
+        let links = conduction.links(slot as usize).iter();
+        for (link, place) in links.zip(conduction.first_link(slot as usize)..) {
             let (far, share) = match link.partner {
                 Partner::Slot(partner) if partner < slot as usize => continue,
                 Partner::Slot(partner) => (partner, None),
@@ -283,6 +286,7 @@ impl<S: Real> Components<S> {
             };
             self.paths.push(Path {
                 component: compact(component),
+                link: compact(place),
                 ends: [slot, compact(far)],
                 share,
                 conductance: link.conductance,

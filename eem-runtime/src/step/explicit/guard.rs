@@ -27,6 +27,15 @@ fn integral<S: Real>(weights: &[f64; WEIGHTED.len()], rates: &PerWeight<S>) -> S
     })
 }
 
+/// `∫ (x_b − x_a)` in units of the step.
+pub(super) fn mean_drop<S: Real>([a, b]: [&PerWeight<S>; 2]) -> S {
+    let mut drops = [S::zero(); _];
+    for (drop, (&a, &b)) in drops.iter_mut().zip(a.iter().zip(b)) {
+        *drop = b - a;
+    }
+    integral(&WEIGHTS, &drops)
+}
+
 impl<S: Real> PathRates<S> {
     /// Of a path of this conductance, W/K, between two temperatures, K.
     #[inline]

@@ -34,6 +34,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for production in &mut self.stage.productions {
             production.begin(S::from_f64(WEIGHTS[0]));
         }
+        if view.state.meters.are_on {
+            self.begin_heats();
+        }
         for path in &mut self.components.paths {
             for (seen, end) in path.seen.iter_mut().zip(path.ends) {
                 seen[0] = self.stage.theta(end as usize);
@@ -44,6 +47,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         self.has_left = true;
         Ok(())
+    }
+
+    /// Begins the sums of the heat of each dashpot, with that at the start.
+    fn begin_heats(&mut self) {
+        let stage = &mut self.stage;
+        stage.heats.resize(stage.productions.len(), S::zero());
+        let dashpots = self.components.dashpots.iter().enumerate();
+        for (index, dashpot) in dashpots {
+            let theta = dashpot
+                .slot
+                .map_or(S::one(), |slot| stage.theta(slot as usize));
+            let power = stage.productions[index].start * theta;
+            stage.heats[index] = S::from_f64(WEIGHTS[0]) * power;
+        }
     }
 
     /// Takes the variables of a state.

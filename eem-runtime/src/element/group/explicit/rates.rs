@@ -143,6 +143,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             stage.inner_rates[viscous + k] = creep;
             let power = g * creep;
             stage.productions[viscous + k].add(stage.weight, power * per_theta);
+            if let Some(sum) = stage.heats.get_mut(viscous + k) {
+                *sum += stage.weight * power;
+            }
             heat += power;
             drift += slopes[M::MEASURES + k] * creep;
             is_sound &= S::zero().less(found.viscosities[k]).all();

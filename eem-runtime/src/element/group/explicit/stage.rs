@@ -159,6 +159,8 @@ pub(crate) struct Stage<S: Real, const D: usize> {
     pub(crate) temperatures: usize,
     /// The entropy production of each dashpot, `g γ̇/θ`, W/K, or without temperature its heat `g γ̇`, W.
     pub(crate) productions: Vec<Integral<S>>,
+    /// The heat of each dashpot, summed with the weights of the stages, W; empty unless it is metered.
+    pub(crate) heats: Vec<S>,
     /// The weight of this stage.
     pub(crate) weight: S,
     /// `f λ̇` and the heat that flows in, of each thermal slot, W; empty without thermostats.
@@ -185,6 +187,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
             productions: vec![Integral::none(); layout.viscous],
+            heats: Vec::new(),
             weight: S::zero(),
             supply: vec![Integral::none(); held.len()],
             has_thermostats: !held.is_empty(),

@@ -256,6 +256,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let [a, b] = ends.map(|end| self.stage.theta(end));
             let entropy = (duration + duration) * path.conductance * (a - b) / (a + b);
             next.entropies.add(ends[0], entropy);
+            let heat = duration * path.conductance * (a - b);
+            next.meters.conduct(path.link as usize, heat);
             match path.share {
                 None => next.entropies.add(ends[1], -entropy),
                 Some(share) => {
@@ -296,6 +298,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 if self.produces[slot] && !self.stage.is_held(slot) {
                     let entropy = self.scratch.capacities[slot][0] * (defect / all);
                     self.warm(index, slot, entropy, next);
+                    next.meters.produce(slot, entropy);
                 }
             }
             return Ok(true);

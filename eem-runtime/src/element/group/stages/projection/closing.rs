@@ -67,12 +67,16 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     ) -> Booked<S> {
         let mut booked = [Received::none(); MOST_STAGES];
         let (weights, slots) = (self.point.rule.weights, in_state.slots());
-        let mut dissipate = |stage: usize, heat: S| {
+        let mut dissipate = |stage: usize, heat: S, (dashpot, next): (usize, &mut State<S>)| {
             let entropy = heat / self.temperature_or_one(stage);
             booked[stage].heat += heat;
             booked[stage].add(entropy);
             tally.produce(entropy);
             tally.turn_over(heat);
+            next.meters.dissipate(dashpot, heat);
+            if let Some(slot) = slots.thermal {
+                next.meters.produce(slot, entropy);
+            }
         };
         let creep = self.increments(weights);
         for k in 0..M::DASHPOTS {
@@ -81,12 +85,15 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             for (stage, &weight) in weights.iter().enumerate() {
                 let rate = self.rates[stage][index];
                 let drag = self.viscosities[stage].0[k] * view.per_step * rate;
-                dissipate(stage, S::from_f64(weight) * (drag * rate));
+                let heat = S::from_f64(weight) * (drag * rate);
+                dissipate(stage, heat, (slots.viscous + k, &mut *next));
             }
         }
         if M::Drag::LEN > 0 {
             for (stage, &weight) in weights.iter().enumerate() {
-                dissipate(stage, S::from_f64(weight) * self.viscous_heat[stage]);
+                let heat = S::from_f64(weight) * self.viscous_heat[stage];
+                let drag = view.state.viscous.values().len() + in_state.element.index();
+                dissipate(stage, heat, (drag, &mut *next));
             }
         }
         booked
@@ -108,7 +115,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             let other = partner.slot as usize;
             let [own, far] = [slot, other].map(|slot| trial.seen_of_set(stage, slot));
             let path = trial.seen.exchange(share * partner.conductance, own, far);
-            balances.conduct([slot, other], &path, received);
+            let path = (partner.link as usize, &path);
+            balances.conduct([slot, other], path, received);
         }
     }
 

@@ -1,0 +1,107 @@
+//! What dashpots have dissipated, elements have produced and paths of heat have conducted: sums that are kept once somebody
+//! has asked for them.
+
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::scalar::Real;
+
+/// Sums since they were begun; none are kept before.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct Meters<S> {
+    pub(crate) are_on: bool,
+    /// The heat of each dashpot in series, then per element that of the dashpots in parallel, J.
+    pub(crate) dissipated: Compensated<S>,
+    /// What dashpots and paths of heat have produced, per thermal slot, J/K.
+    pub(crate) produced: Compensated<S>,
+    /// What each path of heat has brought to the thermal slot that lists it first, by its index there, J.
+    pub(crate) conducted: Compensated<S>,
+}
+
+impl<S> Default for Meters<S> {
+    fn default() -> Self {
+        Self {
+            are_on: false,
+            dissipated: Compensated::default(),
+            produced: Compensated::default(),
+            conducted: Compensated::default(),
+        }
+    }
+}
+
+impl<S: Real> Meters<S> {
+    /// Sums of zero, for these numbers of entries.
+    pub(crate) fn new(counts: [usize; 3]) -> Self {
+        let [dissipated, produced, conducted] =
+            counts.map(|count| Compensated::new(vec![S::zero(); count]));
+        Self {
+            are_on: true,
+            dissipated,
+            produced,
+            conducted,
+        }
+    }
+
+    /// The numbers of entries.
+    pub(crate) fn counts(&self) -> [usize; 3] {
+        [&self.dissipated, &self.produced, &self.conducted].map(|sums| sums.values().len())
+    }
+
+    /// Heat of a dashpot, J.
+    #[inline]
+    pub(crate) fn dissipate(&mut self, dashpot: usize, heat: S) {
+        if self.are_on {
+            self.dissipated.add(dashpot, heat);
+        }
+    }
+
+    /// Entropy that is produced at a thermal slot, J/K.
+    #[inline]
+    pub(crate) fn produce(&mut self, slot: usize, entropy: S) {
+        if self.are_on {
+            self.produced.add(slot, entropy);
+        }
+    }
+
+    /// Entropy that a path of heat between two thermal slots produces, J/K: half at each.
+    #[inline]
+    pub(crate) fn produce_between(&mut self, slots: [usize; 2], entropy: S) {
+        if self.are_on {
+            for slot in slots {
+                self.produced.add(slot, S::from_f64(0.5) * entropy);
+            }
+        }
+    }
+
+    /// Heat that a path brings to the slot that lists it first, J.
+    #[inline]
+    pub(crate) fn conduct(&mut self, path: usize, heat: S) {
+        if self.are_on {
+            self.conducted.add(path, heat);
+        }
+    }
+
+    /// Copies those of a state of the same scene.
+    #[inline]
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        if self.are_on && other.are_on {
+            self.dissipated.copy_from(&other.dissipated);
+            self.produced.copy_from(&other.produced);
+            self.conducted.copy_from(&other.conducted);
+        } else if self.are_on || other.are_on {
+            self.clone_from(other);
+        }
+    }
+}
+
+/// Adds sums to a sum.
+pub(crate) fn total<S: Real>(sums: impl Iterator<Item = Sum<S>>) -> Sum<S> {
+    sums.fold(Sum::new(S::zero()), |mut total, sum| {
+        total.add(sum.value);
+        total.add(sum.carry);
+        total
+    })
+}

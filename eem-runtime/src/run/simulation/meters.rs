@@ -1,0 +1,206 @@
+//! What elements have dissipated and produced, and what paths of heat have conducted, as the steps have booked it.
+
+use core::sync::atomic::Ordering;
+
+use super::Simulation;
+use crate::element::handle::{Element, HeatPath};
+use crate::element::meters::{Meters, total};
+use crate::run::checkpoint::RestoreError;
+use crate::scene::error::SceneError;
+use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::Real;
+
+/// # Dissipation and heat
+///
+/// Sums since they were begun, by [`meter_heat`](Self::meter_heat) or by a [`Recorder`](crate::Recorder) of such quantities.
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Begins the sums of dissipation, entropy production and conducted heat, if they have not begun.
+    ///
+    /// They are exactly what the steps book, also under step control and by [`Scheme::Auto`](crate::Scheme::Auto), and part of
+    /// checkpoints.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(Clone, FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch, gamma: Viscous| {
+    ///     0.5 * k * (lambda - 1).powi(2) + 0.5 * mu * (lambda - 1 - gamma).powi(2)
+    /// })]
+    /// #[viscosity(gamma = eta)]
+    /// struct Maxwell { k: f64, mu: f64, eta: f64 }
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.2], [0.0])];
+    /// let damper = Maxwell { k: 4.0, mu: 10.0, eta: 2.0 };
+    /// let damper = scene.spring(damper, ends);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.meter_heat();
+    /// let start = run.ledger();
+    /// run.run_until(5.0)?;
+    /// let end = run.ledger();
+    /// // Its heat leaves the scene.
+    /// assert!((run.dissipation(damper)? - end.lost_heat).abs() < 1e-15);
+    /// let mechanical = |sheet: Ledger<1>| sheet.kinetic_energy + sheet.internal_energy;
+    /// assert!((mechanical(start) - mechanical(end) - end.lost_heat).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn meter_heat(&mut self) {
+        self.wants_meters.store(true, Ordering::Relaxed);
+        self.begin_meters();
+    }
+
+    /// Begins the sums at the next step.
+    pub(crate) fn request_meters(&self) {
+        self.wants_meters.store(true, Ordering::Relaxed);
+    }
+
+    /// Begins the sums if they are wanted and have not begun.
+    #[inline]
+    pub(super) fn begin_meters(&mut self) {
+        if self.wants_meters.load(Ordering::Relaxed) && !self.state.meters.are_on {
+            self.state.meters = Meters::new(self.meter_counts());
+        }
+    }
+
+    /// The numbers of entries of the sums.
+    fn meter_counts(&self) -> [usize; 3] {
+        let dashpots = self.layout.viscous + self.places.len();
+        [dashpots, self.layout.thermal, self.conduction.count()]
+    }
+
+    /// An error unless sums of a checkpoint are as many as here.
+    pub(super) fn audit_meters(&self, meters: &Meters<S>) -> Result<(), RestoreError> {
+        let expected = if meters.are_on {
+            self.meter_counts()
+        } else {
+            [0; 3]
+        };
+        let names = ["heat of dashpots", "entropy production", "conducted heat"];
+        let pairs = names
+            .into_iter()
+            .zip(meters.counts().into_iter().zip(expected));
+        for (quantity, (checkpoint, simulation)) in pairs {
+            if checkpoint != simulation {
+                return Err(RestoreError::Count {
+                    quantity,
+                    checkpoint,
+                    simulation,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The sums, if the scheme closes its balances, by which they are defined.
+    fn meters(&self) -> Result<&Meters<S>, SceneError> {
+        if !self.in_use.is_exact() {
+            let scheme = self.in_use.name();
+            return Err(SceneError::NotMetered { scheme });
+        }
+        Ok(&self.state.meters)
+    }
+
+    /// The heat that the dashpots of an element have dissipated since the sums began, J; zero before.
+    ///
+    /// A step books `η γ̇² h` of a dashpot, by the explicit scheme the integral of `g γ̇` over its stages.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NotMetered`] for a scheme without exact balances.
+    pub fn dissipation(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.dissipation_sum(element)?.value)
+    }
+
+    pub(crate) fn dissipation_sum(&self, element: Element) -> Result<Sum<S>, SceneError> {
+        self.expect_own(&element)?;
+        let meters = self.meters()?;
+        if !meters.are_on {
+            return Ok(Sum::new(S::zero()));
+        }
+        let first = self.slots(element).viscous;
+        let in_series = first..first + self.shape(element).dashpots;
+        let in_parallel = self.layout.viscous + element.index();
+        let all = in_series.chain([in_parallel]);
+        Ok(total(all.map(|dashpot| meters.dissipated.sum(dashpot))))
+    }
+
+    /// The same of one dashpot (from 0) of an element, J. Those in parallel with the spring come last, as one; the components of
+    /// a viscous strain come before them.
+    ///
+    /// # Errors
+    ///
+    /// As [`dissipation`](Self::dissipation); [`SceneError::NoSuchDashpot`].
+    pub fn dissipation_of(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
+        Ok(self.dissipation_sum_of(element, dashpot)?.value)
+    }
+
+    pub(crate) fn dissipation_sum_of(
+        &self,
+        element: Element,
+        dashpot: usize,
+    ) -> Result<Sum<S>, SceneError> {
+        self.expect_own(&element)?;
+        let shape = self.shape(element);
+        let dashpots = shape.dashpots + usize::from(shape.drag);
+        if dashpot >= dashpots {
+            return Err(SceneError::NoSuchDashpot {
+                element,
+                dashpot,
+                dashpots,
+            });
+        }
+        let index = if dashpot < shape.dashpots {
+            self.slots(element).viscous + dashpot
+        } else {
+            self.layout.viscous + element.index()
+        };
+        let meters = self.meters()?;
+        let sum = meters.are_on.then(|| meters.dissipated.sum(index));
+        Ok(sum.unwrap_or(Sum::new(S::zero())))
+    }
+
+    /// The entropy that an element has produced since the sums began, J/K; zero before: that of its dashpots, of its paths of
+    /// heat to reservoirs, and half of that of its paths to other elements, which count the other half.
+    ///
+    /// # Errors
+    ///
+    /// As [`dissipation`](Self::dissipation); [`SceneError::NotThermal`] if the element has no temperature.
+    pub fn produced_entropy(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.produced_sum(element)?.value)
+    }
+
+    pub(crate) fn produced_sum(&self, element: Element) -> Result<Sum<S>, SceneError> {
+        let slot = self.thermal_slot(element)?;
+        let meters = self.meters()?;
+        let sum = meters.are_on.then(|| meters.produced.sum(slot));
+        Ok(sum.unwrap_or(Sum::new(S::zero())))
+    }
+
+    /// The heat that a path has brought to the element with which it was [made](crate::Scene::conduct), from its partner, since
+    /// the sums began, J; zero before.
+    ///
+    /// # Errors
+    ///
+    /// As [`dissipation`](Self::dissipation).
+    pub fn conducted_heat(&self, path: HeatPath) -> Result<S, SceneError> {
+        Ok(self.conducted_sum(path)?.value)
+    }
+
+    pub(crate) fn conducted_sum(&self, path: HeatPath) -> Result<Sum<S>, SceneError> {
+        self.expect_own(&path)?;
+        let meters = self.meters()?;
+        if !meters.are_on {
+            return Ok(Sum::new(S::zero()));
+        }
+        let (link, is_second) = self.conduction.path(path.index);
+        let Sum { value, carry } = meters.conducted.sum(link);
+        Ok(if is_second {
+            Sum {
+                value: -value,
+                carry: -carry,
+            }
+        } else {
+            Sum { value, carry }
+        })
+    }
+}
