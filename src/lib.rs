@@ -53,9 +53,9 @@ pub mod prelude {
     pub use core::ops::ControlFlow;
 
     pub use crate::{
-        Bulk, Checkpoint, Describe, Element, Ensemble, Event, FreeEnergy, Law, Ledger, Mesh,
-        NewtonSettings, Node, Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme,
-        Section, Simulation, StepError, StepFailure, StepReport, Tolerance,
+        Bulk, Checkpoint, Describe, Element, Ensemble, Equilibrium, Event, FreeEnergy, Law, Ledger,
+        Mesh, NewtonSettings, Node, Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError,
+        Scheme, Section, Simulation, StepError, StepFailure, StepReport, Tolerance,
     };
 }
 
@@ -71,6 +71,7 @@ pub mod guide {
 
     /// How to write and mesh a solid, load it, heat it and let it creep.
     ///
+    /// [running]: crate::guide::running
     /// [materials]: crate::guide::materials
     ///
     #[doc = include_str!("../docs/solids.md")]

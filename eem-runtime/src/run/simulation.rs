@@ -16,7 +16,7 @@ mod memory;
 mod resume;
 pub(crate) mod run;
 mod settings;
-mod start;
+pub(crate) mod start;
 mod stepper;
 
 use core::fmt;
@@ -123,7 +123,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let in_use = first(scheme, is_second);
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
-        let mut state = Box::new(initial_state(scene, &layout, step)?);
+        let mut state = Box::new(initial_state(scene, &layout, Some(step))?);
         let elements = scene.elements.iter();
         let places = elements.map(|entry| [entry.group, entry.place].map(compact));
         let places = places.collect();
