@@ -56,10 +56,10 @@ pub mod prelude {
     pub use crate::VtkSeries;
     pub use crate::kinematics::{Hex8, Hex20, Quad4, Quad8};
     pub use crate::{
-        Advice, Body, Bulk, Checkpoint, Describe, Element, Ensemble, Event, FreeEnergy, HeatPath,
-        Law, Ledger, Mesh, NewtonSettings, Node, Quantity, Recorder, Reservoir, RunEnd, Scene,
-        SceneError, Scheme, Section, Setting, Simulation, StepError, StepFailure, StepReport,
-        Study, Tolerance,
+        Advice, Body, Bulk, Checkpoint, Describe, Element, Ensemble, Equilibrium, Event,
+        FreeEnergy, HeatPath, Law, Ledger, Mesh, NewtonSettings, Node, Quantity, Recorder,
+        Reservoir, RunEnd, Scene, SceneError, Scheme, Section, Setting, Simulation, StepError,
+        StepFailure, StepReport, Study, Tolerance,
     };
 }
 
@@ -75,6 +75,7 @@ pub mod guide {
 
     /// How to write and mesh a solid, load it, heat it and let it creep.
     ///
+    /// [running]: crate::guide::running
     /// [materials]: crate::guide::materials
     ///
     #[doc = include_str!("../docs/solids.md")]

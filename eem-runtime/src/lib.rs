@@ -40,6 +40,7 @@
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
 //! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
+//! | find states at rest differently | `step/solver/rest.rs`; `run/equilibrium`: settings, thermal balance, names of free motions |
 //! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material` |
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
 //! | check a material before use | `domain` in `eem-material` |
@@ -70,6 +71,9 @@ pub use element::kinematics;
 pub use element::kinematics::{SolidState, Strain, StrainEnergy};
 pub use run::checkpoint::{Checkpoint, FormatError, LoadError, RestoreError};
 pub use run::ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Members, Outputs};
+pub use run::equilibrium::error::EquilibriumError;
+pub use run::equilibrium::motion::{FreeMotion, MotionKind};
+pub use run::equilibrium::{Equilibrium, EquilibriumReport};
 pub use run::ledger::Ledger;
 pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
 pub use run::simulation::Simulation;

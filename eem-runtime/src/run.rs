@@ -2,6 +2,7 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod ensemble;
+pub(crate) mod equilibrium;
 pub(crate) mod ledger;
 pub(crate) mod recorder;
 pub(crate) mod simulation;

@@ -1,6 +1,7 @@
 //! The factors of a matrix, front by front, and the substitutions that solve with them.
 
 use crate::branch::{Branch, Memory, zeros};
+use crate::definite::block_is_positive_definite;
 use crate::division::Division;
 use crate::fronts::{Front, Fronts};
 use crate::gathering::Matrix;
@@ -53,6 +54,18 @@ impl Factors {
         } else {
             root.factor(matrix, memory);
         }
+    }
+
+    /// Whether the last matrix, if symmetric, was positive definite.
+    pub(crate) fn are_of_positive_definite(&self, fronts: &Fronts, length: usize) -> bool {
+        let (mut lower, mut work) = (0, Vec::new());
+        (0..fronts.len()).map(|at| fronts.front(at)).all(|front| {
+            let [width, height] = front.sizes(length);
+            let columns = &self.lower[lower..][..width * (width + height)];
+            let pivots = &self.pivots[front.own.start * length..][..width];
+            lower += columns.len();
+            block_is_positive_definite(columns, width + height, pivots, &mut work)
+        })
     }
 
     /// Overwrites a right-hand side with the solution, both in the order of elimination.

@@ -71,6 +71,7 @@ mod elimination;
 mod gathering;
 
 mod branch;
+mod definite;
 mod factors;
 
 mod analysis;

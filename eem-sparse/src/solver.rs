@@ -165,6 +165,25 @@ impl Solver {
         })
     }
 
+    /// Whether the matrix that was factored last is positive definite to rounding, if it is symmetric: of n unknowns, the
+    /// smallest eigenvalue may be off by some n ε times the largest. False for a matrix with infinite entries or NaN.
+    ///
+    /// ```
+    /// use eem_sparse::{Pattern, Solver};
+    ///
+    /// let mut solver = Solver::new(&Pattern::new(2, |pair| pair(0, 1)))?;
+    /// solver.factor::<f64>(&[2.0, 1.0, 1.0, 2.0])?;
+    /// assert!(solver.is_positive_definite());
+    /// solver.factor::<f64>(&[1.0, 2.0, 2.0, 1.0])?;
+    /// assert!(!solver.is_positive_definite());
+    /// # Ok::<(), eem_sparse::Error>(())
+    /// ```
+    #[must_use]
+    pub fn is_positive_definite(&self) -> bool {
+        let length = self.pattern.block_length();
+        self.factors.are_of_positive_definite(&self.fronts, length)
+    }
+
     /// Overwrites `W` right-hand sides with what the last factors make of them, unchecked.
     ///
     /// ```

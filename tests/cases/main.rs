@@ -7,6 +7,7 @@ use eem_testkit::scenes as support;
 mod bars;
 mod blocks;
 mod cook;
+mod equilibrium;
 mod logarithmic_stiffness;
 mod midpoint_identity;
 mod order;

@@ -17,4 +17,5 @@ mod networks;
 mod polygons;
 mod refusals;
 mod refused;
+mod resting;
 mod unknowns;

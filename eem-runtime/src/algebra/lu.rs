@@ -54,6 +54,27 @@ fn eliminate<S: Real>(matrix: &mut [S], n: usize, column: usize) {
     }
 }
 
+/// Whether a symmetric row-major `n × n` matrix is positive definite: whether Cholesky's method goes through, which uses
+/// and overwrites the lower half.
+pub(crate) fn is_positive_definite<S: Real>(matrix: &mut [S], n: usize) -> bool {
+    for row in 0..n {
+        for column in 0..=row {
+            let mut left = matrix[row * n + column];
+            for k in 0..column {
+                left -= matrix[row * n + k] * matrix[column * n + k];
+            }
+            if column < row {
+                matrix[row * n + column] = left / matrix[column * n + column];
+            } else if S::zero().less(left).all() {
+                matrix[row * n + column] = left.sqrt();
+            } else {
+                return false;
+            }
+        }
+    }
+    true
+}
+
 /// Overwrites the columns of `b` with the solutions of `A x = b`, given the factors of A.
 pub(crate) fn solve<S: Real, const W: usize>(factors: &[S], pivots: &[usize], b: &mut [[S; W]]) {
     let n = pivots.len();
@@ -99,6 +120,14 @@ mod tests {
         for (found, exact) in b.iter().zip([1.0, 2.0, 3.0]) {
             assert!((found[0] - exact).abs() <= 4.0 * f64::EPSILON * exact);
         }
+    }
+
+    #[test]
+    fn signs_of_eigenvalues_are_told() {
+        // Eigenvalues 1, 3 and −1, 3.
+        assert!(is_positive_definite(&mut [2.0, 1.0, 1.0, 2.0], 2));
+        assert!(!is_positive_definite(&mut [1.0, 2.0, 2.0, 1.0], 2));
+        assert!(!is_positive_definite(&mut [f64::NAN], 1));
     }
 
     #[test]

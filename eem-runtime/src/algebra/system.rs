@@ -332,6 +332,37 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         }
     }
 
+    /// Replaces A by `½(A + Aᵀ)`.
+    pub(crate) fn symmetrize(&mut self) {
+        let half = S::from_f64(0.5);
+        for row in 0..self.unknowns {
+            for column in 0..row {
+                let places = [[row, column], [column, row]];
+                let places = places.map(|[row, column]| self.storage.position(row, column));
+                if let [Some(one), Some(other)] = places {
+                    let mean = half * (self.values[one] + self.values[other]);
+                    (self.values[one], self.values[other]) = (mean, mean);
+                }
+            }
+        }
+    }
+
+    /// Like [`solve`](Self::solve); whether A, if symmetric, is positive definite.
+    pub(crate) fn solve_and_judge(&mut self) -> Result<bool, Singular> {
+        #[cfg(feature = "sparse")]
+        if let Storage::Sparse(_) = self.storage {
+            self.solve()?;
+            let Storage::Sparse(sparse) = &self.storage else {
+                return Err(Singular);
+            };
+            return Ok(sparse.is_positive_definite());
+        }
+        let n = self.unknowns;
+        let is_definite = lu::is_positive_definite(&mut self.values[..n * n].to_vec(), n);
+        self.solve()?;
+        Ok(is_definite)
+    }
+
     /// Finds X, except the scratch row of anchors; A is then zero, and B is lost.
     #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {

@@ -104,7 +104,7 @@ impl Element {
     /// The name of its model.
     #[must_use]
     pub const fn model(self) -> &'static str {
-        *self.model
+        self.model
     }
 
     /// Its index in the order of creation.

@@ -1,4 +1,4 @@
-//! The staggered scheme: a fractional step, mechanics first and heat second.
+//! The staggered scheme, a fractional step with mechanics first and heat second; and states at rest.
 //!
 //! ```text
 //! mechanics   q and p move at fixed γ and s:    e(λ, γ⁰, s⁰), forces D_λ e
@@ -9,24 +9,38 @@
 //! each satisfies both laws and conserves the momenta; together they are of first order (Romero 2010, part II; Kern,
 //! Romero, Conde Martín & García Orden 2021, §I). Only the solver distinguishes the parts.
 
-/// The part of the physics that is stepped.
+/// The part of the physics that is stepped. In this order each question below is one comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Phase {
-    Whole,
-    /// Positions and momenta; internal variables stay.
-    Mechanics,
     /// Internal variables; positions and momenta stay.
     Heat,
+    Whole,
+    /// The whole, but at prescribed temperatures, by a step without end: a state at rest.
+    Relaxed,
+    /// The same with the viscous stretches of the old state.
+    Held,
+    /// Positions and momenta; internal variables stay.
+    Mechanics,
 }
 
 impl Phase {
     /// Positions and momenta change.
     pub(crate) const fn moves(self) -> bool {
-        matches!(self, Self::Whole | Self::Mechanics)
+        !matches!(self, Self::Heat)
     }
 
-    /// Viscous stretches, entropies and prescribed temperatures change.
+    /// Viscous stretches and entropies change with time.
     pub(crate) const fn heats(self) -> bool {
-        matches!(self, Self::Whole | Self::Heat)
+        matches!(self, Self::Whole | Self::Heat | Self::Relaxed)
+    }
+
+    /// Prescribed temperatures count.
+    pub(crate) const fn prescribes(self) -> bool {
+        !matches!(self, Self::Mechanics)
+    }
+
+    /// Nothing moves.
+    pub(crate) const fn is_at_rest(self) -> bool {
+        matches!(self, Self::Held | Self::Relaxed)
     }
 }

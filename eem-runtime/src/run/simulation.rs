@@ -18,7 +18,7 @@ mod meters;
 mod resume;
 pub(crate) mod run;
 mod settings;
-mod start;
+pub(crate) mod start;
 mod stepper;
 
 use core::fmt;
@@ -132,7 +132,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         step: S,
     ) -> Result<Self, Vec<SceneError>> {
         let ((mut layout, conduction), ends) = (scene.numbering(), scene.ends());
-        let mut state = Box::new(initial_state(scene, &layout, step)?);
+        let mut state = Box::new(initial_state(scene, &layout, Some(step))?);
         let elements = scene.elements.iter();
         let places = elements.map(|entry| [entry.group, entry.place].map(compact));
         let places = places.collect();

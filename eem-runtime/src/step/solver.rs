@@ -11,6 +11,7 @@ mod kept_factors;
 mod past;
 mod places;
 mod progress;
+pub(crate) mod rest;
 mod rockets;
 mod stages;
 mod starts;

@@ -6,6 +6,7 @@
 //! | midpoint | `z¹ − z⁰ = h ż((z⁰ + z¹)/2)`. It keeps the momenta exactly (Noether) |
 //! | trapezoidal | `z¹ − z⁰ = ½h (ż(z⁰) + ż(z¹))`. It keeps none of the laws |
 //! | variational | Hamilton's principle, see below. It keeps the momenta, and the energy stays near its value |
+//! | rest | no rule of steps: forces at a state at rest, see `step/solver/rest.rs` |
 //!
 //! The first two with the state `z = (q, p, γ, s)`, or with `(q, p, γ, θ)` and the rate
 //! `θ̇ = ((Σ g²/η + Q)/θ − s_λ λ̇ − s_γ γ̇)/s_θ` as Conde Martín, Betsch & García Orden (2016) run them.
@@ -41,6 +42,8 @@ pub(crate) enum PointRule {
     Trapezoidal,
     /// In temperatures.
     TrapezoidalTemperature,
+    /// Not of a step: values at a state at rest.
+    Rest,
     /// From Hamilton's principle.
     Variational,
 }
@@ -50,7 +53,7 @@ impl PointRule {
     const fn time(self) -> f64 {
         match self {
             Self::Midpoint | Self::MidpointTemperature | Self::Variational => 0.5,
-            Self::Trapezoidal | Self::TrapezoidalTemperature => 1.0,
+            Self::Trapezoidal | Self::TrapezoidalTemperature | Self::Rest => 1.0,
         }
     }
 
@@ -71,7 +74,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for PointRule {
     fn placement(self) -> Placement {
         match self {
             Self::Midpoint | Self::MidpointTemperature => Placement::Middle,
-            Self::Trapezoidal | Self::TrapezoidalTemperature => Placement::End,
+            Self::Trapezoidal | Self::TrapezoidalTemperature | Self::Rest => Placement::End,
             Self::Variational => Placement::Start,
         }
     }

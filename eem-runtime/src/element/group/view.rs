@@ -69,7 +69,7 @@ impl<S: Real> StepView<'_, S> {
 
     /// The temperature prescribed on a thermal slot, at the time that a scheme with this placement uses.
     pub(super) fn prescribed(&self, slot: usize, at: Placement) -> Option<S> {
-        if !self.phase.heats() {
+        if !self.phase.prescribes() {
             return None;
         }
         let prescribed = self.loads.prescribed(slot)?;

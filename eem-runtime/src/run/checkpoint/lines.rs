@@ -27,16 +27,12 @@ impl<S: Real> Checkpoint<S> {
                 tolerance: text
                     .number("tolerance of an iteration", newton.map(|own| own.tolerance))?,
             },
-            control: text.part("step control", own.map(|own| own.control.as_ref()), control)?,
-            choice: text.part(
-                "choice of a scheme",
-                own.map(|own| own.choice.as_ref()),
-                choice,
-            )?,
+            control: text.part("step control", own.map(|own| &own.control), control)?,
+            choice: text.part("choice of a scheme", own.map(|own| &own.choice), choice)?,
             state: state(text, own.map(|own| &own.state))?,
             energies: energies(text, own.map(|own| &own.energies))?,
             past: past(text, own.map(|own| &own.past))?,
-            explicit: text.part("explicit", own.map(|own| own.explicit.as_ref()), explicit)?,
+            explicit: text.part("explicit", own.map(|own| &own.explicit), explicit)?,
             seals: text.items("digests", own.map(|own| &own.seals[..]))?,
         })
     }
@@ -86,7 +82,7 @@ fn control<S: Real>(text: &mut Text<'_>, own: Option<&SavedControl<S>>) -> Read<
         ]
     });
     let [relative, position, momentum, temperature] = text.array("tolerances", tolerance)?;
-    let statistics = own.map(|own| own.statistics);
+    let statistics = own.map(|own| &own.statistics);
     Ok(SavedControl {
         tolerance: Tolerance {
             relative,
@@ -97,7 +93,7 @@ fn control<S: Real>(text: &mut Text<'_>, own: Option<&SavedControl<S>>) -> Read<
         controller: Controller {
             last: text.few(
                 "error and size of the last step",
-                own.map(|own| own.controller.last),
+                own.map(|own| &own.controller.last),
             )?,
         },
         statistics: StepStatistics {
@@ -120,7 +116,7 @@ fn control<S: Real>(text: &mut Text<'_>, own: Option<&SavedControl<S>>) -> Read<
                 "changes of scheme",
                 statistics.map(|own| own.changes_of_scheme),
             )?,
-            too_large: too_large(text, statistics.map(|own| own.too_large))?,
+            too_large: too_large(text, statistics.map(|own| &own.too_large))?,
         },
         largest_momentum: text.number("largest momentum", own.map(|own| own.largest_momentum))?,
         smallest: text.number("smallest step", own.map(|own| own.smallest))?,
@@ -128,8 +124,7 @@ fn control<S: Real>(text: &mut Text<'_>, own: Option<&SavedControl<S>>) -> Read<
     })
 }
 
-fn too_large(text: &mut Text<'_>, own: Option<Option<TooLarge>>) -> Read<Option<TooLarge>> {
-    let own = own.as_ref().map(Option::as_ref);
+fn too_large(text: &mut Text<'_>, own: Option<&Option<TooLarge>>) -> Read<Option<TooLarge>> {
     text.part("missing memory", own, |text, own| {
         let available = own.map(|own| own.available.as_slice());
         let available = text.items("available bytes", available)?;
@@ -157,7 +152,7 @@ fn choice(text: &mut Text<'_>, own: Option<&SavedChoice>) -> Read<SavedChoice> {
             tried: text.number("tried", choice.map(|own| own.tried))?,
             spent: text.number("spent", choice.map(|own| own.spent))?,
             due: text.number("due", choice.map(|own| own.due))?,
-            wait: text.few("wait", wait)?.map(|[wait]| wait),
+            wait: text.few("wait", wait.as_ref())?.map(|[wait]| wait),
         },
     })
 }

@@ -111,11 +111,9 @@ impl<'a> Text<'a> {
     pub(super) fn few<S: Real, const N: usize>(
         &mut self,
         name: &'static str,
-        own: Option<Option<[S; N]>>,
+        own: Option<&Option<[S; N]>>,
     ) -> Read<Option<[S; N]>> {
-        let own = own
-            .as_ref()
-            .map(|own| own.as_ref().map_or(&[][..], |own| &own[..]));
+        let own = own.map(|own| own.as_ref().map_or(&[][..], |own| &own[..]));
         let numbers = self.numbers(name, own)?;
         if numbers.is_empty() {
             return Ok(None);
@@ -149,11 +147,12 @@ impl<'a> Text<'a> {
     pub(super) fn part<T>(
         &mut self,
         name: &'static str,
-        own: Option<Option<&T>>,
+        own: Option<&Option<T>>,
         pass: impl FnOnce(&mut Self, Option<&T>) -> Read<T>,
     ) -> Read<Option<T>> {
-        let is_there = self.item(name, own.map(|own| own.is_some()))?;
-        is_there.then(|| pass(self, own.flatten())).transpose()
+        let is_there = self.item(name, own.map(Option::is_some))?;
+        let own = own.and_then(Option::as_ref);
+        is_there.then(|| pass(self, own)).transpose()
     }
 
     /// A sum and its compensation.

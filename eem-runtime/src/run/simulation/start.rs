@@ -18,11 +18,12 @@ use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
 use eem_material::number::scalar::Real;
 
-/// The initial state, without entropies, given the first step; errors for motions without an initial velocity.
-pub(super) fn initial_state<const D: usize, S: Real>(
+/// The initial state, without entropies, given the first step, or at rest; errors for motions without an initial
+/// velocity.
+pub(crate) fn initial_state<const D: usize, S: Real>(
     scene: &Scene<D, S>,
     layout: &Layout,
-    step: S,
+    step: Option<S>,
 ) -> Result<State<S>, Vec<SceneError>> {
     let mut errors = Vec::new();
     let coordinates = scene.nodes.len() * D;
@@ -32,14 +33,21 @@ pub(super) fn initial_state<const D: usize, S: Real>(
     let is_coupled = !scene.pairs.is_empty();
     for node in &scene.nodes {
         let mass = node.mass.unwrap_or(S::zero());
+        let still = SVector::from([S::zero(); D]);
+        let moves = step.is_some();
         positions.extend(node.position.iter());
-        momenta.extend(node.start_momentum(mass).iter());
+        let momentum = if moves {
+            node.start_momentum(mass)
+        } else {
+            still
+        };
+        momenta.extend(momentum.iter());
         if is_coupled {
-            let still = SVector::from([S::zero(); D]);
-            velocities.extend(node.mass.map_or(still, |_| node.velocity).iter());
+            let velocity = node.mass.filter(|_| moves).map_or(still, |_| node.velocity);
+            velocities.extend(velocity.iter());
         }
     }
-    if is_coupled {
+    if let Some(step) = step.filter(|_| is_coupled) {
         for (node, motion) in &scene.loads.motions {
             for (axis, speed) in first_speed(motion, [scene.start, step])
                 .into_iter()

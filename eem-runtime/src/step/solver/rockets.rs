@@ -136,6 +136,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
         let nodes = forces.len() / stages;
         for (stage, forces) in forces.chunks_mut(nodes).enumerate() {
             let (loads, share) = match self.rule {
+                None if view.phase.is_at_rest() => (view.loads, S::one()),
                 None => (view.loads, S::from_f64(0.5)),
                 Some(_) => (&view.stages[stage], S::one()),
             };

@@ -16,9 +16,7 @@
 //! | E₀, ν | modulus of elasticity, Poisson's ratio | 240.565 Pa, 0.3 |
 //! | – | dead shear on the right side, upwards | 100 N in all |
 //!
-//! The material is that of Saint-Venant and Kirchhoff. What is at rest is found by steps: where inertia is nothing, the
-//! trapezoidal rule goes from balance to balance, as ½(F⁰ + F¹) = ½(f⁰ + f¹). The density is so small and the load
-//! grows so slowly, in ten steps, that inertia is less than rounding.
+//! The material is that of Saint-Venant and Kirchhoff. The state at rest is that of `Scene::equilibrium`.
 //!
 //! Source: R. D. Cook, J. Struct. Div. ASCE 100 (1974), 1851–1863, there linear; the finite strains are ours. Nothing
 //! moves here: of the options of the other examples there is `--out` only.

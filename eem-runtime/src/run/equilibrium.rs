@@ -1,0 +1,414 @@
+//! Loaded states at rest, to start runs from.
+
+pub(crate) mod error;
+mod heat;
+pub(crate) mod motion;
+
+use core::any::Any;
+use std::collections::BTreeSet;
+
+use crate::element::conduction::Conduction;
+use crate::element::conjugates::{Conjugates, PointRule};
+use crate::element::group::{Group, Placed, StepView};
+use crate::element::handle::Node;
+use crate::element::layout::Layout;
+use crate::element::loads::{Prescribed, StepLoads};
+use crate::element::phase::Phase;
+use crate::element::state::State;
+use crate::run::simulation::start::initial_state;
+use crate::scene::Scene;
+use crate::scene::error::SceneError;
+use crate::step::error::StepFailure;
+use crate::step::newton::NewtonSettings;
+use crate::step::scheme::Scheme;
+use crate::step::solver::Solver;
+use crate::step::solver::rest::{AtRest, LONG, Softest};
+use crate::step::systems::Systems;
+use error::EquilibriumError;
+use motion::{FreeMotion, name};
+
+/// How to find a loaded state at rest, see [`Scene::equilibrium`].
+///
+/// ```
+/// use eem::materials::MaxwellDamper;
+/// use eem::prelude::*;
+///
+/// let damper = MaxwellDamper {
+///     stiffness: 100.0, coupling: 0.0, capacity: 2.0, natural_length: 1.0,
+///     theta_ref: 300.0, a: 0.0, mu: 40.0, eta: 20.0,
+/// };
+/// let mut scene = Scene::<1>::new();
+/// let wall = scene.anchor([0.0]);
+/// let mass = scene.mass(1.0, [1.0], [0.0]);
+/// let element = scene.spring(damper, [wall, mass]);
+/// scene.set_temperature(element, 300.0);
+/// // The force of the spring alone, 100 J ln λ/λ, and with 40 N/m (λ − 1) of the branch, at λ = 1.1 m.
+/// let spring = 100.0 * 1.1_f64.ln() / 1.1;
+/// for (settings, load) in [
+///     (Equilibrium::new().relaxed(), spring),
+///     (Equilibrium::new().held(), spring + 4.0),
+/// ] {
+///     let mut scene = scene.clone();
+///     scene.dead_load(mass, [load]);
+///     scene.equilibrium(settings)?;
+///     let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+///     assert!((run.stretch(element)? - 1.1).abs() < 1e-14);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Equilibrium {
+    phase: Phase,
+    balances_heat: bool,
+    load_steps: u32,
+    newton: NewtonSettings<f64>,
+}
+
+impl Default for Equilibrium {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Equilibrium {
+    /// Dashpots relaxed, temperatures as they are, in four load steps.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            phase: Phase::Relaxed,
+            balances_heat: false,
+            load_steps: 4,
+            newton: NewtonSettings::default(),
+        }
+    }
+
+    /// Dashpots have crept until they have no force, `∂ψ/∂γ = 0`: the state after a long time.
+    #[must_use]
+    pub fn relaxed(self) -> Self {
+        let phase = Phase::Relaxed;
+        Self { phase, ..self }
+    }
+
+    /// Viscous stretches and strains stay as they are: the state right after the loads have come. Their dashpots are not
+    /// at rest in it.
+    #[must_use]
+    pub fn held(self) -> Self {
+        let phase = Phase::Held;
+        Self { phase, ..self }
+    }
+
+    /// Temperatures are those at which every element receives as much heat as it gives, through its paths to other
+    /// elements and to reservoirs. Thermostats keep theirs, and so do elements without paths.
+    #[must_use]
+    pub fn thermal_balance(self) -> Self {
+        Self {
+            balances_heat: true,
+            ..self
+        }
+    }
+
+    /// The number of load steps, 4 by default. Those that fail are cut in halves.
+    #[must_use]
+    pub fn load_steps(self, load_steps: u32) -> Self {
+        Self { load_steps, ..self }
+    }
+
+    /// Newton's method: the largest update that can be the last one, in lengths of elements, and the most iterations of a
+    /// load step. There are at most ten times as many steps against friction.
+    #[must_use]
+    pub fn newton(self, newton: NewtonSettings<f64>) -> Self {
+        Self { newton, ..self }
+    }
+
+    fn check(&self) -> Result<(), EquilibriumError> {
+        let iterations = u32::from(self.newton.max_iterations > 0);
+        let settings = [
+            ("number of load steps", f64::from(self.load_steps)),
+            ("tolerance", self.newton.tolerance),
+            ("number of iterations", f64::from(iterations)),
+        ];
+        let mut settings = settings.into_iter();
+        match settings.find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
+            None => Ok(()),
+            Some((name, value)) => Err(EquilibriumError::Setting { name, value }),
+        }
+    }
+}
+
+/// How a state at rest was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct EquilibriumReport {
+    /// The largest component of a force out of balance, N.
+    pub residual: f64,
+    /// The node with that force; `None` without moving nodes.
+    pub node: Option<Node>,
+    /// The largest heat that an element still receives, W; zero unless temperatures are in thermal balance.
+    pub heat: f64,
+    /// The share of the loads up to which states at rest were followed: 1, or less if the state was then found by motion
+    /// against friction.
+    pub followed: f64,
+    /// Load steps.
+    pub load_steps: usize,
+    /// Newton iterations of all load steps.
+    pub iterations: usize,
+    /// Steps of the motion against friction.
+    pub friction_steps: usize,
+}
+
+/// The function that finds an equilibrium: compiled with this crate in one to three dimensions, where it is used in others.
+struct Functions<const D: usize> {
+    find: fn(&mut Scene<D>, Equilibrium) -> Result<EquilibriumReport, EquilibriumError>,
+}
+
+static LINE: Functions<1> = Functions::HERE;
+static PLANE: Functions<2> = Functions::HERE;
+static SPACE: Functions<3> = Functions::HERE;
+
+impl<const D: usize> Functions<D> {
+    const HERE: Self = Self {
+        find: Scene::find_equilibrium,
+    };
+
+    /// A branch that a constant rules out is not compiled.
+    fn get() -> &'static Self {
+        let known: Option<&'static dyn Any> = if const { D == 1 } {
+            Some(&LINE)
+        } else if const { D == 2 } {
+            Some(&PLANE)
+        } else if const { D == 3 } {
+            Some(&SPACE)
+        } else {
+            return const { &Self::HERE };
+        };
+        let own = known.and_then(<dyn Any>::downcast_ref);
+        own.unwrap_or_else(|| unreachable!("the table is that of the dimension"))
+    }
+}
+
+/// # Equilibrium
+impl<const D: usize> Scene<D> {
+    /// Moves the scene into a stable state at rest under its loads at the start, to start a run from. In double precision.
+    ///
+    /// ```text
+    /// Σ ∂ψ/∂q = m g + F(t₀) + thrust(t₀) n(q),   v = 0
+    /// ```
+    ///
+    /// Positions of masses become those of this state, velocities zero; viscous stretches and temperatures are
+    /// [relaxed](Equilibrium::relaxed) or [held](Equilibrium::held), and held or in [thermal
+    /// balance](Equilibrium::thermal_balance). Anchors stay. Dashpots in parallel with springs have no force at rest.
+    ///
+    /// The state is the one that is connected with the present positions by the load path: forces that are not balanced
+    /// there are released in [load steps](Equilibrium::load_steps), and solutions are followed as long as they are stable,
+    /// that is, as long as the tangent stiffness is positive definite beyond rounding. Where it is not, as in a slack chain
+    /// at first, or where a frame snaps through, the scene moves on under all its loads against friction until it is at
+    /// rest, without inertia. So the state that is returned is always stable.
+    /// With [rockets](Self::rocket) the tangent is not symmetric, and its symmetric part decides.
+    ///
+    /// # Errors
+    ///
+    /// [`EquilibriumError`]; the scene is unchanged then. A motion that nothing holds, or against which the state is
+    /// unstable, is named with its nodes.
+    ///
+    /// ```
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let hook = scene.anchor([0.0, 0.0]);
+    /// let weight = scene.mass(2.0, [0.0, -1.0], [0.0, 0.0]);
+    /// scene.spring(Hooke { stiffness: 100.0, natural_length: 1.0 }, [hook, weight]);
+    /// scene.set_gravity([0.0, -10.0]);
+    /// let report = scene.equilibrium(Equilibrium::new())?;
+    /// assert!(report.residual < 1e-12);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// // 20 N stretch it by 0.2 m, and there it stays.
+    /// run.step()?;
+    /// assert!((run.position(weight)?[1] + 1.2).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn equilibrium(
+        &mut self,
+        settings: Equilibrium,
+    ) -> Result<EquilibriumReport, EquilibriumError> {
+        (Functions::get().find)(self, settings)
+    }
+
+    fn find_equilibrium(
+        &mut self,
+        settings: Equilibrium,
+    ) -> Result<EquilibriumReport, EquilibriumError> {
+        settings.check()?;
+        let errors = self.check();
+        if !errors.is_empty() {
+            return Err(EquilibriumError::Scene { errors });
+        }
+        let layout = self.layout_without_heat();
+        let state = initial_state(self, &layout, None);
+        let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
+        let heat = if settings.balances_heat {
+            heat::balance(self, &layout, &mut state.temperatures)?
+        } else {
+            0.0
+        };
+        let (next, report) = self.find_rest(settings, &layout, &mut state)?;
+        self.take_state(&layout, &next);
+        Ok(EquilibriumReport { heat, ..report })
+    }
+
+    /// Temperatures are no unknowns.
+    fn layout_without_heat(&self) -> Layout {
+        let is_mass = self.nodes.iter().map(|node| node.mass.is_some());
+        let elements = self.elements.iter();
+        let shapes = elements.map(|entry| self.groups[entry.group].shape());
+        Layout::new(D, is_mass, shapes)
+    }
+
+    fn find_rest(
+        &self,
+        settings: Equilibrium,
+        layout: &Layout,
+        state: &mut State<f64>,
+    ) -> Result<(State<f64>, EquilibriumReport), EquilibriumError> {
+        let refuse = |errors: Vec<SceneError>| EquilibriumError::Scene { errors };
+        let masses = self.masses();
+        let conduction = Conduction::new(&[], &[], layout);
+        let mut loads = StepLoads::new(masses.len() * D, layout, &self.loads, false);
+        let evaluated = loads.evaluate_forces_at(&self.loads, &masses, self.start);
+        evaluated.map_err(EquilibriumError::Start)?;
+        let prescribed = state.temperatures.iter().map(|&theta| {
+            let (middle, end) = (theta, theta);
+            Some(Prescribed { middle, end })
+        });
+        loads.prescribed = prescribed.collect();
+        // Its rows are `2 m/h Δq − 2 p⁰ + h F`, of which h F is left.
+        let scheme = Scheme::Midpoint;
+        let (ends, rockets) = (self.ends(), self.loads.rocket_lines());
+        let elements = (&ends, layout);
+        let systems = Systems::new(scheme, elements, &conduction, &rockets, self.memory_limit);
+        let systems = systems.map_err(|error| refuse(vec![error.into()]))?;
+        let nodes = &ends;
+        let groups = self.groups.iter().map(|group| {
+            let placed = Placed { nodes, layout };
+            let by = Conjugates::Point(PointRule::Rest);
+            group.duplicate().build(by, placed)
+        });
+        let mut groups: Vec<Box<dyn Group<f64, D>>> = groups.collect();
+        let mut errors = Vec::new();
+        for group in &mut groups {
+            let elements = group.elements_mut();
+            elements.initialize(state, &mut |error| errors.push(SceneError::State(error)));
+        }
+        if !errors.is_empty() {
+            return Err(refuse(errors));
+        }
+        let mut solver = Solver::new(scheme, systems, &masses, layout, &conduction, &loads);
+        for group in &mut groups {
+            group.connect(&solver.sites(layout, &conduction));
+        }
+        let view = StepView {
+            phase: settings.phase,
+            step: LONG,
+            per_step: 0.0,
+            state,
+            conduction: &conduction,
+            loads: &loads,
+            stages: &[],
+            masses: &masses,
+        };
+        let how = (settings.newton, self.arms());
+        let rest = AtRest::new(&mut solver, &mut groups, &view, how);
+        let mut rest = rest.map_err(EquilibriumError::Start)?;
+        self.follow(&mut rest, settings.load_steps, state)
+    }
+
+    /// The ends of the arms of all elements.
+    fn arms(&self) -> Vec<[usize; 2]> {
+        let elements = self.elements.iter().map(|entry| &entry.nodes[..]);
+        let arms = elements.filter_map(<[usize]>::split_first);
+        let arms =
+            arms.flat_map(|(&first, others)| others.iter().map(move |&other| [first, other]));
+        let arms: BTreeSet<_> = arms.collect();
+        arms.into_iter().collect()
+    }
+
+    fn follow(
+        &self,
+        rest: &mut AtRest<'_, D>,
+        load_steps: u32,
+        state: &State<f64>,
+    ) -> Result<(State<f64>, EquilibriumReport), EquilibriumError> {
+        let (followed, found) = rest.follow(load_steps);
+        let residual = rest.residual();
+        if !rest.is_stable()
+            && let Some(softest) = rest.softest()
+        {
+            let is_free = softest.relative.abs() <= softest.rounding;
+            if is_free || found.is_ok() {
+                let motion = self.name(rest, &softest);
+                return Err(if is_free {
+                    EquilibriumError::Free { motion }
+                } else {
+                    EquilibriumError::Unstable { motion, followed }
+                });
+            }
+        }
+        let refuse = |failure| self.not_found(followed, residual, failure);
+        found.map_err(refuse)?;
+        let mut next = state.clone();
+        rest.close(&mut next).map_err(refuse)?;
+        let (residual, node) = residual;
+        let node = node.map(|node| self.node_at(node));
+        let effort = rest.effort;
+        let report = EquilibriumReport {
+            residual,
+            node,
+            heat: 0.0,
+            followed,
+            load_steps: effort.load_steps,
+            iterations: effort.iterations,
+            friction_steps: effort.friction_steps,
+        };
+        Ok((next, report))
+    }
+
+    fn name(&self, rest: &AtRest<'_, D>, softest: &Softest<D>) -> FreeMotion {
+        let position = |node: usize| rest.position(node);
+        name(self, position, &softest.nodes, softest.stiffness)
+    }
+
+    fn not_found(
+        &self,
+        followed: f64,
+        (residual, node): (f64, Option<usize>),
+        failure: StepFailure,
+    ) -> EquilibriumError {
+        EquilibriumError::NotFound {
+            node: node.map(|node| self.node_at(node)),
+            residual,
+            followed,
+            failure: Box::new(failure),
+        }
+    }
+
+    /// Takes over positions, temperatures and viscous stretches, at rest.
+    fn take_state(&mut self, layout: &Layout, state: &State<f64>) {
+        let positions = state.positions.values().as_chunks::<D>().0;
+        for (node, &position) in self.nodes.iter_mut().zip(positions) {
+            if node.mass.is_some() {
+                node.position = position.into();
+                node.velocity = [0.0; D].into();
+                node.momentum = None;
+            }
+        }
+        for (entry, slots) in self.elements.iter_mut().zip(&layout.elements) {
+            if let Some(slot) = slots.thermal {
+                entry.temperature = Some(state.temperatures[slot]);
+            }
+            let dashpots = self.groups[entry.group].shape().dashpots;
+            let viscous = &state.viscous.values()[slots.viscous..][..dashpots];
+            entry.viscous_stretches = viscous.iter().copied().enumerate().collect();
+        }
+    }
+}

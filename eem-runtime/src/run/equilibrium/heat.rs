@@ -1,0 +1,134 @@
+//! Temperatures at which every element receives as much heat as it gives.
+//!
+//! ```text
+//! Σ κ (θ_partner − θ) + Σ κ (θ_r − θ) = 0
+//! ```
+//!
+//! At rest nothing is dissipated, and conductances do not depend on the deformation, so that temperatures follow from the
+//! paths of heat alone.
+
+use super::error::EquilibriumError;
+use crate::algebra::pattern::Pattern;
+use crate::algebra::system::LinearSystem;
+use crate::element::conduction::{Conduction, Partner};
+use crate::element::layout::Layout;
+use crate::scene::Scene;
+
+/// The second solution corrects the rounding of the first.
+const SOLUTIONS: usize = 2;
+
+/// Replaces the temperatures of elements with paths of heat by those of thermal balance; the largest heat that an element
+/// still receives, W. Those with thermostats, and those without paths, keep theirs.
+pub(super) fn balance<const D: usize>(
+    scene: &Scene<D>,
+    layout: &Layout,
+    temperatures: &mut [f64],
+) -> Result<f64, EquilibriumError> {
+    let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, layout);
+    let slot_of = |element: usize| layout.elements[element].thermal;
+    let mut is_given = vec![false; temperatures.len()];
+    for (element, _) in &scene.loads.temperatures {
+        if let Some(slot) = slot_of(element.index()) {
+            is_given[slot] = true;
+        }
+    }
+    refuse_insulated(scene, (&conduction, layout), &is_given)?;
+    let slots =
+        (0..temperatures.len()).filter(|&slot| !is_given[slot] && has_path(&conduction, slot));
+    let slots: Vec<_> = slots.collect();
+    let mut unknowns = vec![None; temperatures.len()];
+    for (unknown, &slot) in slots.iter().enumerate() {
+        unknowns[slot] = Some(unknown);
+    }
+    let pattern = Pattern::new(slots.len(), |pair| {
+        for (row, &slot) in slots.iter().enumerate() {
+            for link in conduction.links(slot) {
+                if let Partner::Slot(partner) = link.partner
+                    && let Some(column) = unknowns[partner].filter(|&column| column < row)
+                {
+                    pair(row, column);
+                }
+            }
+        }
+    });
+    let system = LinearSystem::<f64, 1>::new(&pattern, 1, scene.memory_limit);
+    let mut system = system.map_err(|error| EquilibriumError::Scene {
+        errors: vec![error.into()],
+    })?;
+    for _ in 0..SOLUTIONS {
+        system.clear();
+        for (row, &slot) in slots.iter().enumerate() {
+            let diagonal = system.place(Some(row), Some(row));
+            for link in conduction.links(slot) {
+                let place = match link.partner {
+                    Partner::Slot(partner) => system.place(Some(row), unknowns[partner]),
+                    Partner::Reservoir(_) => system.place(Some(row), None),
+                };
+                let (values, _) = system.parts();
+                values[diagonal] += link.conductance;
+                values[place] -= link.conductance;
+            }
+            let flow = conduction.heat_flow(slot, temperatures[slot], temperatures);
+            let (_, right) = system.parts();
+            right[row] = [flow.heat];
+        }
+        let solved = system.solve();
+        solved.map_err(|_| EquilibriumError::HeatNotBalanced)?;
+        for (&[change], &slot) in system.solution().iter().zip(&slots) {
+            temperatures[slot] += change;
+        }
+    }
+    let flows = slots
+        .iter()
+        .map(|&slot| conduction.heat_flow(slot, temperatures[slot], temperatures));
+    Ok(flows.fold(0.0, |most, flow| most.max(flow.heat.abs())))
+}
+
+fn has_path(conduction: &Conduction<f64>, slot: usize) -> bool {
+    conduction
+        .links(slot)
+        .iter()
+        .any(|link| link.conductance > 0.0)
+}
+
+/// An error if paths of heat join elements that none joins with a reservoir or a thermostat.
+fn refuse_insulated<const D: usize>(
+    scene: &Scene<D>,
+    (conduction, layout): (&Conduction<f64>, &Layout),
+    is_given: &[bool],
+) -> Result<(), EquilibriumError> {
+    let mut is_warmed = is_given.to_vec();
+    for (slot, is_warmed) in is_warmed.iter_mut().enumerate() {
+        let mut links = conduction.links(slot).iter();
+        *is_warmed |= links
+            .any(|link| link.conductance > 0.0 && matches!(link.partner, Partner::Reservoir(_)));
+    }
+    let warmed = is_warmed
+        .iter()
+        .enumerate()
+        .filter(|(_, is_warmed)| **is_warmed);
+    let mut found: Vec<_> = warmed.map(|(slot, _)| slot).collect();
+    while let Some(slot) = found.pop() {
+        for link in conduction
+            .links(slot)
+            .iter()
+            .filter(|link| link.conductance > 0.0)
+        {
+            if let Partner::Slot(partner) = link.partner
+                && !is_warmed[partner]
+            {
+                is_warmed[partner] = true;
+                found.push(partner);
+            }
+        }
+    }
+    let mut slots = layout.elements.iter().map(|slots| slots.thermal);
+    let insulated = slots
+        .position(|slot| slot.is_some_and(|slot| !is_warmed[slot] && has_path(conduction, slot)));
+    match insulated {
+        None => Ok(()),
+        Some(element) => Err(EquilibriumError::Insulated {
+            element: scene.element_at(element),
+        }),
+    }
+}

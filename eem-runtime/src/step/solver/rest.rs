@@ -1,0 +1,267 @@
+//! States at rest: Newton's method on the balance of forces, without inertia.
+//!
+//! ```text
+//! R(q) = F_loads(q) − F_elements(q) = (1 − share) R(q⁰)       share: 0 at the initial state, 1 at rest under all loads
+//! ```
+//!
+//! The initial state is the solution for `share = 0`. Solutions for growing shares are followed as long as the tangent K is
+//! positive definite. Where it is not, as in a mechanism or at a limit point, the scene moves under all its loads against
+//! friction, by implicit steps that grow as the forces come into balance:
+//!
+//! ```text
+//! (K + μ D) δ = R        D: the largest diagonal entry of each node
+//! ```
+//!
+//! It is one step by Euler's implicit rule, of a length h without end: the rows `2 m/h Δq + h F` of a step are h times
+//! forces, in which neither inertia nor viscosity is left, and `Δγ = h g/η` is `g = 0`. R, K and D are h times what they are
+//! called here.
+
+mod stability;
+mod system;
+
+use super::Solver;
+use super::begin::Start;
+use crate::element::group::{Group, StepView};
+use crate::element::state::State;
+use crate::element::tally::{Care, Tally};
+use crate::step::error::StepFailure;
+use crate::step::newton::{NewtonSettings, is_last};
+
+/// The length h of a step without end: `2⁵⁰⁰ s = 3·10¹⁵⁰ s`, by which numbers are multiplied without rounding. Its
+/// reciprocal is given as zero, so that there is no inertia; dashpots are relaxed to rounding unless a viscosity is 10¹³⁰
+/// times a stiffness, in s.
+pub(crate) const LONG: f64 = f64::from_bits((1023 + 500) << 52);
+
+/// A part of the load path that is cut this often in halves is lost.
+const CUTS: u32 = 8;
+
+/// Friction falls by these factors after a step at whose end the force along it is not backwards, and after one at whose
+/// end it is less than a tenth of that at its start; a step that goes too far is tried again with more of it.
+const FRICTION_FALLS: [f64; 2] = [0.25, 0.0625];
+
+/// A scene that has become so much larger does not come to rest.
+const RUNAWAY: f64 = 1e6;
+
+/// Steps against friction, in units of the iterations of a load step.
+const FRICTION_STEPS: usize = 10;
+
+/// The iteration for a state at rest.
+pub(crate) struct AtRest<'a, const D: usize> {
+    solver: &'a mut Solver<f64, D>,
+    groups: &'a mut [Box<dyn Group<f64, D>>],
+    view: &'a StepView<'a, f64>,
+    settings: NewtonSettings<f64>,
+    /// The ends of the arms of all elements.
+    arms: Vec<[usize; 2]>,
+    /// R(q⁰), N.
+    first: Vec<f64>,
+    share: f64,
+    /// D per moving node, N/m.
+    sizes: Vec<f64>,
+    pub(crate) effort: RestEffort,
+}
+
+/// How a state at rest was found.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RestEffort {
+    pub(crate) load_steps: usize,
+    pub(crate) iterations: usize,
+    pub(crate) friction_steps: usize,
+}
+
+/// The motion of each moving node, at most 1, against which there is least stiffness.
+pub(crate) struct Softest<const D: usize> {
+    pub(crate) nodes: Vec<(usize, [f64; D])>,
+    /// N/m.
+    pub(crate) stiffness: f64,
+    /// `xᵀ K x / xᵀ D x`, and what rounding may contribute to it.
+    pub(crate) relative: f64,
+    pub(crate) rounding: f64,
+}
+
+/// The displacements of all nodes and their compensations of rounding, m.
+type Place<const D: usize> = (Vec<[f64; D]>, Vec<[f64; D]>);
+
+impl<'a, const D: usize> AtRest<'a, D> {
+    /// Starts at the state of a view whose step is [`LONG`], given the ends of the arms of elements.
+    pub(crate) fn new(
+        solver: &'a mut Solver<f64, D>,
+        groups: &'a mut [Box<dyn Group<f64, D>>],
+        view: &'a StepView<'a, f64>,
+        (settings, arms): (NewtonSettings<f64>, Vec<[usize; 2]>),
+    ) -> Result<Self, StepFailure> {
+        let mut rest = Self {
+            solver,
+            groups,
+            view,
+            settings,
+            arms,
+            first: Vec::new(),
+            share: 0.0,
+            sizes: Vec::new(),
+            effort: RestEffort::default(),
+        };
+        rest.start(None)?;
+        rest.first = rest.forces();
+        Ok(rest)
+    }
+
+    /// Goes to the state at rest under all loads by this many load steps. Returns the share of the loads up to which the
+    /// path was followed.
+    pub(crate) fn follow(&mut self, load_steps: u32) -> (f64, Result<(), StepFailure>) {
+        let whole = load_steps.saturating_mul(1 << CUTS);
+        let (mut done, mut size) = (0, 1 << CUTS);
+        let share = |done: u32| f64::from(done) / f64::from(whole);
+        let mut found = Ok(());
+        if self.is_stable() {
+            while done < whole && size > 0 {
+                let place = self.place();
+                let next = whole.min(done.saturating_add(size));
+                if self.converge(share(next), true).is_ok() {
+                    self.effort.load_steps += 1;
+                    done = next;
+                    size = (2 * size).min(1 << CUTS);
+                } else {
+                    size /= 2;
+                    found = self.start(Some(&place));
+                    if found.is_err() {
+                        return (share(done), found);
+                    }
+                }
+            }
+        }
+        if done < whole {
+            found = self.relax();
+        }
+        (share(done), found)
+    }
+
+    /// Writes the state that was found.
+    pub(crate) fn close(&mut self, next: &mut State<f64>) -> Result<(), StepFailure> {
+        let (moved, rests) = self.place();
+        for (node, (moved, rests)) in moved.iter().zip(&rests).enumerate() {
+            for axis in 0..D {
+                let (at, old) = (node * D + axis, &self.view.state.positions);
+                next.positions.advance(at, old, moved[axis] + rests[axis]);
+            }
+        }
+        let mut tally = Tally::new(Care::Quick);
+        for group in &mut *self.groups {
+            group.close(self.view, &self.solver.trial, next, &mut tally)?;
+        }
+        Ok(())
+    }
+
+    /// Newton's method for a share of the loads. On the load path, all tangents are positive definite.
+    fn converge(&mut self, share: f64, is_on_path: bool) -> Result<(), StepFailure> {
+        self.share = share;
+        self.renew()?;
+        let mut before = None;
+        for _ in 0..self.settings.max_iterations {
+            let update = self.update(0.0)?;
+            self.effort.iterations += 1;
+            if is_on_path && !update.is_definite {
+                return Err(StepFailure::SingularTangent);
+            }
+            let is_full = update.part >= 1.0;
+            let stagnates = before.is_some_and(|before: f64| update.size >= 0.5 * before);
+            let ends = is_last(update.size, before, self.settings.tolerance)
+                || (stagnates && self.is_balanced());
+            if is_full && ends {
+                return Ok(());
+            }
+            before = is_full.then_some(update.size);
+        }
+        let update = before.unwrap_or(f64::NAN);
+        Err(StepFailure::NotConverged { update })
+    }
+
+    /// Moves against friction under all loads until they are balanced.
+    fn relax(&mut self) -> Result<(), StepFailure> {
+        self.share = 1.0;
+        self.renew()?;
+        let (mut friction, extent) = (1.0, self.extent());
+        let mut last = f64::NAN;
+        for _ in 0..FRICTION_STEPS * self.settings.max_iterations {
+            if self.extent() > RUNAWAY * extent {
+                break;
+            }
+            self.effort.friction_steps += 1;
+            let update = match self.update(friction) {
+                Ok(update) => update,
+                Err(failure) => {
+                    if failure == StepFailure::SingularTangent {
+                        self.renew()?;
+                    }
+                    friction *= 4.0;
+                    continue;
+                }
+            };
+            let is_balanced = self.is_balanced();
+            let is_close = !update.goes_too_far() || is_balanced;
+            if !(update.is_definite && is_close) {
+                self.take_back(update.part, 0.0);
+                self.assemble()?;
+                friction *= 4.0;
+                continue;
+            }
+            last = update.size;
+            let contracts = update.after <= 0.1 * update.before || is_balanced;
+            if contracts && last <= self.settings.tolerance {
+                return self.polish();
+            }
+            let [some, much] = FRICTION_FALLS;
+            if update.left.abs() <= 0.1 {
+                friction *= much;
+            } else if update.left >= 0.0 {
+                friction *= some;
+            }
+        }
+        Err(StepFailure::NotConverged { update: last })
+    }
+
+    /// Iterations without friction from a state near that at rest, where K is not singular.
+    fn polish(&mut self) -> Result<(), StepFailure> {
+        let place = self.place();
+        let found = self.converge(1.0, false);
+        if found.is_err() {
+            self.start(Some(&place))?;
+        }
+        found
+    }
+
+    /// Starts at a place, or at the initial state, with the initial internal variables.
+    fn start(&mut self, place: Option<&Place<D>>) -> Result<(), StepFailure> {
+        self.solver.begin(self.groups, self.view, Start::Rest)?;
+        if let Some((moved, rests)) = place {
+            self.solver.trial.displacements.copy_from_slice(moved);
+            self.solver.trial.rests.copy_from_slice(rests);
+        }
+        self.renew()
+    }
+
+    fn place(&self) -> Place<D> {
+        let trial = &self.solver.trial;
+        (trial.displacements.clone(), trial.rests.clone())
+    }
+
+    /// The largest force out of balance, N, and its node if any moves.
+    pub(crate) fn residual(&self) -> (f64, Option<usize>) {
+        let mut largest = (0.0, self.solver.nodes.first().map(|node| node.place.node()));
+        for node in &self.solver.nodes {
+            for force in node.place.rows(self.solver.tangent.right()) {
+                if force.abs() > largest.0 {
+                    largest = (force.abs(), Some(node.place.node()));
+                }
+            }
+        }
+        (largest.0 / LONG, largest.1)
+    }
+
+    /// The place of a node, m.
+    pub(crate) fn position(&self, node: usize) -> [f64; D] {
+        let [old, _] = self.view.state.positions.point::<D>(node);
+        let moved = &self.solver.trial.displacements[node];
+        core::array::from_fn(|axis| old[axis] + moved[axis])
+    }
+}

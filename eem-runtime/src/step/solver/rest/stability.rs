@@ -1,0 +1,82 @@
+//! Whether a state at rest is stable, and the motion against which there is least stiffness.
+
+use super::system::{ROUNDINGS, dot};
+use super::{AtRest, LONG, Softest};
+use crate::step::error::StepFailure;
+use eem_material::number::compact::compact;
+
+/// A shift is at most four times what makes K positive definite, so that other motions fade by 3/4 in each.
+const INVERSE_ITERATIONS: usize = 60;
+
+impl<const D: usize> AtRest<'_, D> {
+    /// Whether the tangent is positive definite beyond rounding.
+    pub(crate) fn is_stable(&mut self) -> bool {
+        let rounding = self.rounding();
+        let is_stable = self.judge(-rounding);
+        // The system that was used up.
+        self.renew().is_ok() && is_stable
+    }
+
+    /// The motion against which there is least stiffness, by inverse iteration.
+    pub(crate) fn softest(&mut self) -> Option<Softest<D>> {
+        let rounding = self.rounding();
+        let mut shift = rounding;
+        while !self.judge(shift) {
+            shift *= 4.0;
+            if !shift.is_finite() {
+                return None;
+            }
+        }
+        // Numbers without a pattern.
+        let rows = self.first.len();
+        let mut x: Vec<_> = (1..=compact(rows))
+            .map(|row| (f64::from(row) * 0.618_033_988_749_895).fract() + 0.1)
+            .collect();
+        let sizes: Vec<_> = self.sizes.iter().flat_map(|&size| [size; D]).collect();
+        let weighted =
+            |x: &[f64]| -> Vec<f64> { x.iter().zip(&sizes).map(|(x, d)| x * d).collect() };
+        let mut relative = 0.0;
+        for _ in 0..INVERSE_ITERATIONS {
+            self.assemble_alone(shift).ok()?;
+            let right = weighted(&x);
+            self.set_right(&right);
+            self.solver.tangent.solve().ok()?;
+            let found = self.solution();
+            // (K + shift D) y = D x gives 1/(λ + shift) = xᵀ D y / xᵀ D x.
+            relative = dot(&right, &x) / dot(&right, &found) - shift;
+            let largest = found.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            x = found.iter().map(|x| x / largest).collect();
+        }
+        let stiffness = relative * (dot(&weighted(&x), &x) / LONG) / dot(&x, &x);
+        let nodes = self.solver.nodes.iter().zip(x.as_chunks::<D>().0);
+        Some(Softest {
+            nodes: nodes.map(|(node, &x)| (node.place.node(), x)).collect(),
+            stiffness,
+            relative,
+            rounding,
+        })
+    }
+
+    /// K, symmetric, plus a shift in units of D.
+    fn assemble_alone(&mut self, shift: f64) -> Result<(), StepFailure> {
+        self.renew()?;
+        if !self.solver.rockets.are_none() {
+            self.solver.tangent.symmetrize();
+        }
+        self.shift(shift);
+        Ok(())
+    }
+
+    fn judge(&mut self, shift: f64) -> bool {
+        self.assemble_alone(shift).is_ok() && self.solver.tangent.solve_and_judge() == Ok(true)
+    }
+
+    /// What rounding may contribute to eigenvalues of K, relative to D: entries have the rounding of their elements, those
+    /// the rounding of arms, and the elimination has one per unknown.
+    fn rounding(&self) -> f64 {
+        let nodes = self.solver.nodes.iter();
+        let per_length = nodes.fold(0.0_f64, |most, node| most.max(node.per_length));
+        let unknowns = f64::from(compact(self.first.len()));
+        f64::EPSILON * (ROUNDINGS * (1.0 + self.extent() * per_length) + unknowns)
+    }
+}

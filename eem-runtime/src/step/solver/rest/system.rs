@@ -1,0 +1,216 @@
+//! The system of an iteration for a state at rest, and its updates.
+
+use core::array;
+
+use super::{AtRest, LONG};
+use crate::step::error::StepFailure;
+
+/// An update goes no farther than to where the force along it is this share of the first one, backwards.
+const OVERSHOOT: f64 = 0.8;
+
+/// The smallest part of an update that is tried.
+const LEAST_PART: f64 = 1.0 / 1024.0;
+
+/// No update turns or stretches an element by more than this share of its arms: so states of another branch are not reached
+/// by a jump.
+const LARGEST_TURN: f64 = 0.5;
+
+/// Roundings of the entries of an element, as in the certificate of a step.
+pub(super) const ROUNDINGS: f64 = 64.0;
+
+/// An update, as far as it was applied.
+pub(super) struct Update {
+    /// The largest change, in lengths of elements.
+    pub(super) size: f64,
+    pub(super) is_definite: bool,
+    /// The part that was applied.
+    pub(super) part: f64,
+    /// Norms of R before and after, N.
+    pub(super) before: f64,
+    pub(super) after: f64,
+    /// R along the update at its end, relative to that at its start.
+    pub(super) left: f64,
+}
+
+impl Update {
+    /// Whether forces at its end push it back.
+    pub(super) fn goes_too_far(&self) -> bool {
+        self.left < -OVERSHOOT
+    }
+}
+
+pub(super) fn norm(vector: &[f64]) -> f64 {
+    vector.iter().fold(0.0, |norm, &entry| entry.hypot(norm))
+}
+
+pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+impl<const D: usize> AtRest<'_, D> {
+    /// The system at the trial.
+    pub(super) fn renew(&mut self) -> Result<(), StepFailure> {
+        self.solver.balance(self.view);
+        self.assemble()
+    }
+
+    /// Evaluates the elements at a trial whose system has been started.
+    pub(super) fn assemble(&mut self) -> Result<(), StepFailure> {
+        self.solver.evaluate(self.groups, self.view, true)?;
+        let (values, right) = self.solver.tangent.parts();
+        let left = 1.0 - self.share;
+        self.sizes.clear();
+        for (at, node) in self.solver.nodes.iter().enumerate() {
+            let first = self.first.get(at * D..).unwrap_or_default();
+            for (force, first) in node.place.rows_mut(right).iter_mut().zip(first) {
+                *force -= left * first;
+            }
+            let diagonal = node.place.diagonal().into_iter();
+            let size = diagonal.fold(0.0_f64, |size, place| size.max(values[place].abs()));
+            self.sizes.push(size);
+        }
+        // Nodes without stiffness, or with that of viscous forces in a step without end, η/h.
+        let least = LONG.sqrt();
+        let sizes = self.sizes.iter();
+        let largest = sizes.fold(0.0_f64, |most, &size| most.max(size));
+        let unit = if largest > least { largest } else { LONG };
+        for size in self.sizes.iter_mut().filter(|size| **size <= least) {
+            *size = unit;
+        }
+        Ok(())
+    }
+
+    /// Adds a shift, in units of D, to K.
+    pub(super) fn shift(&mut self, shift: f64) {
+        let (values, _) = self.solver.tangent.parts();
+        for (node, size) in self.solver.nodes.iter().zip(&self.sizes) {
+            for place in node.place.diagonal() {
+                values[place] += shift * size;
+            }
+        }
+    }
+
+    /// The largest coordinate, m.
+    pub(super) fn extent(&self) -> f64 {
+        let positions = self.view.state.positions.values();
+        let moved = self.solver.trial.displacements.as_flattened();
+        let all = positions.iter().zip(moved);
+        all.fold(0.0, |most, (q, moved)| most.max((q + moved).abs()))
+    }
+
+    /// Whether R is what the rounding of positions explains.
+    pub(super) fn is_balanced(&self) -> bool {
+        let unit = ROUNDINGS * f64::EPSILON * self.extent();
+        let nodes = self.solver.nodes.iter().zip(&self.sizes);
+        let right = self.solver.tangent.right();
+        nodes.into_iter().all(|(node, size)| {
+            let mut forces = node.place.rows(right).iter();
+            forces.all(|force| force.abs() <= unit * size)
+        })
+    }
+
+    /// R, N.
+    pub(super) fn forces(&self) -> Vec<f64> {
+        let nodes = self.solver.nodes.iter();
+        nodes
+            .flat_map(|node| *node.place.rows(self.solver.tangent.right()))
+            .collect()
+    }
+
+    /// The last update, m.
+    pub(super) fn solution(&self) -> Vec<f64> {
+        let nodes = self.solver.nodes.iter();
+        nodes
+            .flat_map(|node| *node.place.rows(self.solver.tangent.solution()))
+            .collect()
+    }
+
+    /// Replaces R.
+    pub(super) fn set_right(&mut self, forces: &[f64]) {
+        let (_, right) = self.solver.tangent.parts();
+        for (node, force) in self.solver.nodes.iter().zip(forces.as_chunks::<D>().0) {
+            *node.place.rows_mut(right) = *force;
+        }
+    }
+
+    /// An update with friction, or by Newton's method without. It is applied as far as elements are admissible and,
+    /// without friction, forces along it do not turn round. After an error none of it is, unless the tangent is singular:
+    /// then there is no system.
+    pub(super) fn update(&mut self, friction: f64) -> Result<Update, StepFailure> {
+        let (forces, place) = (self.forces(), self.place());
+        self.shift(friction);
+        let is_symmetric = self.solver.rockets.are_none();
+        let is_definite = self.solver.tangent.solve_and_judge();
+        let is_definite = is_definite.map_err(|_| StepFailure::SingularTangent)? || !is_symmetric;
+        let size = self.solver.correct(self.groups, self.view);
+        let change = self.solution();
+        if !size.is_finite() {
+            // What is not finite cannot be taken back.
+            self.start(Some(&place))?;
+            return Err(StepFailure::NotConverged { update: size });
+        }
+        if self.turn() > LARGEST_TURN {
+            self.take_back(1.0, 0.0);
+            self.assemble()?;
+            return Err(StepFailure::NotConverged { update: size });
+        }
+        let slope = dot(&forces, &change);
+        let mut part = 1.0;
+        loop {
+            let next = match self.assemble() {
+                Ok(()) => {
+                    let now = dot(&self.forces(), &change);
+                    let turns = slope > 0.0 && now < -OVERSHOOT * slope;
+                    if friction > 0.0 || !turns || part < LEAST_PART {
+                        break;
+                    }
+                    (part * slope / (slope - now)).clamp(0.1 * part, 0.5 * part)
+                }
+                Err(failure) if part < LEAST_PART => {
+                    self.take_back(part, 0.0);
+                    self.assemble()?;
+                    return Err(failure);
+                }
+                Err(_) => 0.5 * part,
+            };
+            self.take_back(part, next);
+            part = next;
+        }
+        let after = self.forces();
+        Ok(Update {
+            size,
+            is_definite,
+            part,
+            before: norm(&forces),
+            after: norm(&after),
+            left: if slope > 0.0 {
+                dot(&after, &change) / slope
+            } else {
+                0.0
+            },
+        })
+    }
+
+    /// The largest motion of an arm by the last solution, which has been applied, in lengths of the arm.
+    pub(super) fn turn(&self) -> f64 {
+        let mut moved = vec![[0.0; D]; self.solver.trial.displacements.len()];
+        for node in &self.solver.nodes {
+            moved[node.place.node()] = *node.place.rows(self.solver.tangent.solution());
+        }
+        let turns = self.arms.iter().map(|ends| {
+            let [from, to] = ends.map(|end| self.position(end));
+            let by: [f64; D] = array::from_fn(|axis| moved[ends[1]][axis] - moved[ends[0]][axis]);
+            let before: [f64; D] = array::from_fn(|axis| (to[axis] - from[axis]) - by[axis]);
+            norm(&by) / norm(&before)
+        });
+        turns.fold(0.0, f64::max)
+    }
+
+    /// Reduces the part of the last update that is applied, and starts the next system.
+    pub(super) fn take_back(&mut self, part: f64, next: f64) {
+        self.solver.take_back(self.view, part - next);
+        for group in &mut *self.groups {
+            group.apply(next);
+        }
+    }
+}
