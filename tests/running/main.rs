@@ -8,6 +8,7 @@ mod allocation;
 mod automatic;
 mod changing;
 mod control;
+mod controlling;
 mod ends;
 mod ensemble;
 mod events;

@@ -1,6 +1,6 @@
 //! The handles of a scene that may be a copy of another one.
 
-use super::handle::{Handle, Kind, SceneId};
+use super::handle::{Handle, Kind, Node, SceneId};
 
 /// A scene and its ancestors, of which it is a copy: their handles are valid in it if they are older than the copy.
 #[derive(Clone, Debug)]
@@ -63,6 +63,12 @@ impl Lineage {
         let mut copied = self.copied.iter();
         copied
             .any(|(scene, counts)| *scene == handle.scene() && handle.index() < counts.of(H::KIND))
+    }
+
+    /// The handle of a node.
+    pub(crate) fn node(&self, index: usize) -> Node {
+        let scene = self.giver(Kind::Node, index);
+        Node { scene, index }
     }
 
     /// The scene that created a handle.

@@ -83,6 +83,8 @@ pub struct Checkpoint<S = f64> {
     pub(crate) choice: Option<SavedChoice>,
     pub(crate) state: State<S>,
     pub(crate) energies: SavedEnergies<S>,
+    #[cfg_attr(feature = "serde", serde(default = "SavedLoads::none"))]
+    pub(crate) loads: SavedLoads<S>,
     pub(crate) past: SavedPast<S>,
     /// For explicit schemes, which otherwise start again from the state.
     #[cfg_attr(
@@ -92,6 +94,36 @@ pub struct Checkpoint<S = f64> {
     pub(crate) explicit: Option<SavedExplicit<S>>,
     /// Digests of the entries that follow from the steps.
     pub(crate) seals: Vec<Digest>,
+}
+
+/// What controllers have set: nodes and elements, and as many values.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct SavedLoads<S> {
+    pub(crate) forced: Vec<usize>,
+    pub(crate) forces: Vec<S>,
+    pub(crate) moved: Vec<usize>,
+    pub(crate) positions: Vec<S>,
+    pub(crate) held: Vec<usize>,
+    pub(crate) temperatures: Vec<S>,
+}
+
+impl<S> SavedLoads<S> {
+    /// Nothing.
+    pub(crate) const fn none() -> Self {
+        Self {
+            forced: Vec::new(),
+            forces: Vec::new(),
+            moved: Vec::new(),
+            positions: Vec::new(),
+            held: Vec::new(),
+            temperatures: Vec::new(),
+        }
+    }
 }
 
 /// The energies of the elements as the last step found them: evaluated again they have other roundings, by which the next

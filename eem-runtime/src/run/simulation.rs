@@ -7,6 +7,7 @@ pub(crate) mod change;
 mod check;
 mod compiled;
 mod control;
+mod controller;
 pub(crate) mod event;
 pub(crate) mod generic;
 mod guard;
@@ -24,6 +25,7 @@ mod stepper;
 use core::fmt;
 use core::mem;
 use core::sync::atomic::{AtomicBool, Ordering};
+use std::collections::BTreeMap;
 
 use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
@@ -78,6 +80,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     has_stepped: bool,
     /// The time at which the run began, s.
     start: S,
+    /// Where the anchors were that a controller has moved, m.
+    homes: BTreeMap<usize, [S; D]>,
     /// Somebody asks for sums of dissipation and heat.
     wants_meters: AtomicBool,
     /// The report with the largest `|defect|/bound` so far.
@@ -151,10 +155,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let systems = systems.map_err(|error| vec![error.into()])?;
         let groups = mem::take(&mut scene.groups);
         let (nodes, pairs) = (&mut scene.nodes, &mut scene.pairs);
+        let entries = &mut scene.elements;
         let stepper = Stepper::new(groups, systems, parts, &mut state, |state, elements| {
             let found = find_entropies(elements, state, parts);
-            // Nodes and pairs are large, and contained in the masses and in the state.
-            found.map(|()| drop((mem::take(nodes), mem::take(pairs))))
+            // They are large, and contained in masses, state and groups.
+            found.map(|()| drop((mem::take(nodes), mem::take(pairs), mem::take(entries))))
         });
         let stepper = stepper.map_err(|(errors, groups)| {
             scene.groups = groups;
@@ -181,6 +186,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state,
             has_stepped: false,
             start: scene.start,
+            homes: BTreeMap::new(),
             wants_meters: AtomicBool::new(false),
             worst: None,
             corrections: Corrections::none(),

@@ -11,7 +11,7 @@ use crate::element::kinematics::Shape;
 use crate::element::loads::PushLine;
 use crate::scene::body::Body;
 use crate::scene::error::{RocketError, SceneError};
-use crate::scene::loads::Rocket;
+use crate::scene::loads::{Course, Rocket};
 use crate::scene::solid_error::SolidError;
 use eem_material::number::scalar::Real;
 use eem_mesh::Face;
@@ -39,7 +39,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
     pub fn force(&mut self, node: Node, force: impl Fn(S) -> [S; D] + Send + Sync + 'static) {
         if self.expect_kind(node, true, "a force") {
             let force = move |time| SVector::from(force(time));
-            self.loads.forces.push((node, Arc::new(force)));
+            self.loads
+                .forces
+                .push((node, Course::Function(Arc::new(force))));
         }
     }
 
@@ -108,7 +110,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ) {
         if self.expect_kind(anchor, false, "a prescribed motion") {
             let position = move |time| SVector::from(position(time));
-            self.loads.motions.push((anchor, Arc::new(position)));
+            self.loads
+                .motions
+                .push((anchor, Course::Function(Arc::new(position))));
         }
     }
 
@@ -130,13 +134,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
         temperature: impl Fn(S) -> S + Send + Sync + 'static,
     ) {
         if self.expect_own(&element) {
-            let temperature = Arc::new(temperature);
+            let temperature = Course::Function(Arc::new(temperature) as _);
             self.loads.temperatures.push((element, temperature));
         }
     }
 
-    /// Sets the initial temperature of an element, K, and holds it there (a thermostat). The ledger counts the heat
-    /// and the entropy that the thermostat supplies.
+    /// Sets the initial temperature of an element, K, and holds it there (a thermostat), unless a controller
+    /// [sets](crate::Simulation::set_temperature_of) another one. The ledger counts the heat and the entropy that the
+    /// thermostat supplies.
     ///
     /// ```
     /// use eem::materials::ThermoelasticSpring;
@@ -157,7 +162,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// ```
     pub fn hold_temperature(&mut self, element: Element, temperature: S) {
         self.set_temperature(element, temperature);
-        self.prescribe_temperature(element, move |_| temperature);
+        if self.expect_own(&element) {
+            let temperature = Course::Set(temperature);
+            self.loads.temperatures.push((element, temperature));
+        }
     }
 
     /// Whether a node is of this scene, and a mass or an anchor as required; if not, that is an error.

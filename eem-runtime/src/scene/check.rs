@@ -283,7 +283,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let scale = extent(positions.flat_map(|position| position.iter()));
         for (anchor, motion) in &self.loads.motions {
             let created = self.nodes[anchor.index].position;
-            let prescribed = motion(self.start);
+            let prescribed = motion.at(self.start, &created.into(), S::zero());
             for axis in 0..D {
                 if !is_rounding(prescribed[axis] - created[axis], scale) {
                     errors.push(SceneError::AnchorJump {
@@ -303,7 +303,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let Some(initial) = self.elements[element.index()].temperature else {
                 continue;
             };
-            let prescribed = temperature(self.start);
+            let prescribed = temperature.at(self.start, initial, S::zero());
             if !is_rounding(prescribed - initial, initial) {
                 errors.push(SceneError::TemperatureJump {
                     element: *element,

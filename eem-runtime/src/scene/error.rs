@@ -171,6 +171,24 @@ pub enum SceneError {
         /// The element.
         element: Element,
     },
+    /// A controller sets what a load of the scene gives.
+    #[error(
+        "the {quantity} of {handle} is given by the scene: leave it out there to set it in a run"
+    )]
+    GivenLoad {
+        /// The node or the element.
+        handle: String,
+        /// What is given.
+        quantity: &'static str,
+    },
+    /// A controller sets the temperature of an element without a thermostat.
+    #[error(
+        "{element} has no thermostat: call `hold_temperature` for it in the scene to set its temperature in a run"
+    )]
+    NoThermostat {
+        /// The element.
+        element: Element,
+    },
     /// Dissipation and heat of a scheme that does not close its balances.
     #[error(
         "{scheme} has no exact balances, by which dissipation and heat are defined; take a scheme that keeps the laws"

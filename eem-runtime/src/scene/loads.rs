@@ -30,6 +30,46 @@ pub(crate) type OfTime<S, const D: usize> = Arc<dyn Fn(S) -> SVector<S, D> + Sen
 /// A temperature in K as a function of time in s.
 pub(crate) type TemperatureOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
 
+/// A value that a load gives: `F` is a function of time in s.
+#[derive(Clone)]
+pub(crate) enum Course<F, T> {
+    /// A function of the user.
+    Function(F),
+    /// A value that is reached at the end of a step, and kept until another one is set.
+    Set(T),
+}
+
+/// The value on the way from one to another, at a share of the step.
+pub(crate) fn between<S: Real>(from: S, to: S, share: S) -> S {
+    S::branch(share.equal(S::one()), || to, || from + share * (to - from))
+}
+
+impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
+    /// The value at a time, at this share of a step that begins at `from`.
+    pub(crate) fn at(&self, time: S, from: &[S; D], share: S) -> SVector<S, D> {
+        match self {
+            Self::Function(of) => of(time),
+            Self::Set(to) => SVector::from_fn(|axis, _| between(from[axis], to[axis], share)),
+        }
+    }
+}
+
+impl<S: Real> Course<TemperatureOfTime<S>, S> {
+    /// The value at a time, at this share of a step that begins at `from`.
+    pub(crate) fn at(&self, time: S, from: S, share: S) -> S {
+        match self {
+            Self::Function(of) => of(time),
+            Self::Set(to) => between(from, *to, share),
+        }
+    }
+}
+
+/// The course of a force or of a position.
+pub(crate) type VectorCourse<S, const D: usize> = Course<OfTime<S, D>, SVector<S, D>>;
+
+/// The course of a temperature.
+pub(crate) type TemperatureCourse<S> = Course<TemperatureOfTime<S>, S>;
+
 /// A force of a given size in N as a function of time in s, along a line that turns with two nodes.
 #[derive(Clone)]
 pub(crate) struct Rocket<S> {
@@ -42,10 +82,10 @@ pub(crate) struct Rocket<S> {
 pub(crate) struct Loads<S: Real, const D: usize> {
     /// Acceleration of free fall, m/s².
     pub(crate) gravity: SVector<S, D>,
-    pub(crate) forces: Vec<(Node, OfTime<S, D>)>,
+    pub(crate) forces: Vec<(Node, VectorCourse<S, D>)>,
     pub(crate) rockets: Vec<Rocket<S>>,
-    pub(crate) motions: Vec<(Node, OfTime<S, D>)>,
-    pub(crate) temperatures: Vec<(Element, TemperatureOfTime<S>)>,
+    pub(crate) motions: Vec<(Node, VectorCourse<S, D>)>,
+    pub(crate) temperatures: Vec<(Element, TemperatureCourse<S>)>,
 }
 
 impl<S: Real, const D: usize> Loads<S, D> {

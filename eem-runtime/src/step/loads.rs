@@ -8,7 +8,8 @@ use std::collections::BTreeSet;
 use crate::element::layout::Layout;
 use crate::element::loads::{Prescribed, Push, StepLoads, point};
 use crate::element::masses::Masses;
-use crate::scene::loads::Loads;
+use crate::element::state::State;
+use crate::scene::loads::{Course, Loads};
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::{Real, is_positive};
 
@@ -44,7 +45,7 @@ impl<S: Real> StepLoads<S> {
         }
     }
 
-    /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.
+    /// Evaluates the loads of the step from `time` by `step`, from the old state.
     ///
     /// A force that depends on time is evaluated in the middle of the step, by the trapezoidal rule too: forces at both ends
     /// would halve the impulse of a load that is switched on between two steps.
@@ -53,34 +54,34 @@ impl<S: Real> StepLoads<S> {
         loads: &Loads<S, D>,
         masses: &Masses<S>,
         [time, step]: [S; 2],
-        q0: &[S],
+        old: &State<S>,
     ) -> Result<(), StepFailure> {
         self.evaluate_forces_at(loads, masses, time + S::from_f64(0.5) * step)?;
-        self.evaluate_supports_by(&CUBIC, loads, [time, step], q0)
+        self.evaluate_supports_by(&CUBIC, loads, ([time, step], S::one()), old)
     }
 
-    /// Evaluates prescribed motions and temperatures at the end of the span from `time` by `step`; forces are those of
-    /// stages.
+    /// Evaluates prescribed motions and temperatures at the end of a span, which is a share of the step; forces are those
+    /// of stages.
     pub(crate) fn evaluate_supports<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        span: [S; 2],
-        q0: &[S],
+        span: ([S; 2], S),
+        old: &State<S>,
     ) -> Result<(), StepFailure> {
-        self.evaluate_supports_by(&SEXTIC, loads, span, q0)
+        self.evaluate_supports_by(&SEXTIC, loads, span, old)
     }
 
     fn evaluate_supports_by<const D: usize>(
         &mut self,
         polynomial: &Polynomial,
         loads: &Loads<S, D>,
-        [time, step]: [S; 2],
-        q0: &[S],
+        ([time, span], share): ([S; 2], S),
+        old: &State<S>,
     ) -> Result<(), StepFailure> {
-        let (middle, end) = (time + S::from_f64(0.5) * step, time + step);
-        self.evaluate_motions(loads, end, q0)?;
-        self.evaluate_speeds(loads, [time, step], q0, polynomial)?;
-        self.evaluate_temperatures(loads, [middle, end])
+        let q0 = old.positions.values();
+        self.evaluate_motions(loads, (time + span, share), q0)?;
+        self.evaluate_speeds(loads, ([time, span], share), q0, polynomial)?;
+        self.evaluate_temperatures(loads, ([time, span], share), &old.temperatures)
     }
 
     /// Evaluates forces, rockets and weights at a time.
@@ -92,7 +93,10 @@ impl<S: Real> StepLoads<S> {
     ) -> Result<(), StepFailure> {
         self.force.fill(S::zero());
         for (node, force) in &loads.forces {
-            let value = force(time);
+            let value = match force {
+                Course::Function(of) => of(time),
+                Course::Set(force) => *force,
+            };
             for axis in 0..D {
                 // The sum of all loads on the node may overflow although none of them does.
                 let sum = &mut self.force[node.index * D + axis];
@@ -133,11 +137,11 @@ impl<S: Real> StepLoads<S> {
     fn evaluate_motions<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        end: S,
+        (end, share): (S, S),
         q0: &[S],
     ) -> Result<(), StepFailure> {
         for (node, motion) in &loads.motions {
-            let position = motion(end);
+            let position = motion.at(end, &point(q0, node.index), share);
             for axis in 0..D {
                 let at = node.index * D + axis;
                 self.motion[at] = position[axis] - q0[at];
@@ -159,7 +163,7 @@ impl<S: Real> StepLoads<S> {
     fn evaluate_speeds<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        [time, span]: [S; 2],
+        ([time, span], share): ([S; 2], S),
         q0: &[S],
         polynomial: &Polynomial,
     ) -> Result<(), StepFailure> {
@@ -174,7 +178,9 @@ impl<S: Real> StepLoads<S> {
             for &weight in polynomial.weights {
                 before -= 1.0;
                 let at = time + S::from_f64(before) * part;
-                let position = (before > 0.0).then(|| motion(at));
+                let part = S::from_f64(before / polynomial.degree) * share;
+                let from = point(q0, node.index);
+                let position = (before > 0.0).then(|| motion.at(at, &from, part));
                 for (axis, sum) in sums.iter_mut().enumerate() {
                     let coordinate = node.index * D + axis;
                     // Zero at the start.
@@ -209,10 +215,15 @@ impl<S: Real> StepLoads<S> {
     fn evaluate_temperatures<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        [middle, end]: [S; 2],
+        ([time, span], share): ([S; 2], S),
+        old: &[S],
     ) -> Result<(), StepFailure> {
+        let half = S::from_f64(0.5);
         for ((element, temperature), slot) in loads.temperatures.iter().zip(&self.slots) {
-            let at = |time: S| match temperature(time) {
+            let Some(slot) = *slot else {
+                continue;
+            };
+            let at = |time: S, share: S| match temperature.at(time, old[slot], share) {
                 value if is_positive(value) => Ok(value),
                 value => Err(StepFailure::PrescribedTemperature {
                     element: *element,
@@ -220,12 +231,10 @@ impl<S: Real> StepLoads<S> {
                     time: time.to_f64(),
                 }),
             };
-            if let Some(slot) = *slot {
-                self.prescribed[slot] = Some(Prescribed {
-                    middle: at(middle)?,
-                    end: at(end)?,
-                });
-            }
+            self.prescribed[slot] = Some(Prescribed {
+                middle: at(time + half * span, half * share)?,
+                end: at(time + span, share)?,
+            });
         }
         Ok(())
     }

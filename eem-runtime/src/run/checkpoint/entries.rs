@@ -161,6 +161,19 @@ impl<S: Real> Checkpoint<S> {
             Entry::sums("conducted heat", &state.meters.conducted).metered(),
             Entry::new("temperatures", Positive, temperatures).counted(state.temperatures.len()),
             Entry::new("step size", Positive, [self.step]),
+            Entry::new("set forces", Finite, self.loads.forces.iter().copied()).sealed(),
+            Entry::new(
+                "set positions",
+                Finite,
+                self.loads.positions.iter().copied(),
+            )
+            .sealed(),
+            Entry::new(
+                "set temperatures",
+                Positive,
+                self.loads.temperatures.iter().copied(),
+            )
+            .sealed(),
             Entry::list("last forces", last),
             Entry::list("earlier forces", before),
             Entry::new("forces", Finite, last.iter().chain(before).copied()).sealed(),

@@ -103,6 +103,11 @@ pub enum RestoreError {
     /// The scheme of the checkpoint, or the one that the run returns to, needs more memory than allowed.
     #[error(transparent)]
     Memory(#[from] TooLarge),
+    /// What controllers have set does not fit the scene: other thermostats, or values that cannot be set.
+    #[error(
+        "what controllers have set in the checkpoint does not fit the scene: build the scene with the thermostats that it had"
+    )]
+    Loads,
     /// The scenes have other numbers: the parameters of a material, a mass, a conductance.
     #[error(
         "the checkpoint is one of a scene with other {kind}: build the scene with the numbers that it had"

@@ -2,7 +2,7 @@
 
 use super::fingerprint::{ElementOutline, Numbers, Outline};
 use super::text::{Read, Text};
-use super::{Checkpoint, SavedChoice, SavedControl, SavedEnergies};
+use super::{Checkpoint, SavedChoice, SavedControl, SavedEnergies, SavedLoads};
 use crate::algebra::memory::TooLarge;
 use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
@@ -31,6 +31,7 @@ impl<S: Real> Checkpoint<S> {
             choice: text.part("choice of a scheme", own.map(|own| &own.choice), choice)?,
             state: state(text, own.map(|own| &own.state))?,
             energies: energies(text, own.map(|own| &own.energies))?,
+            loads: loads(text, own.map(|own| &own.loads))?,
             past: past(text, own.map(|own| &own.past))?,
             explicit: text.part("explicit", own.map(|own| &own.explicit), explicit)?,
             seals: text.items("digests", own.map(|own| &own.seals[..]))?,
@@ -216,6 +217,17 @@ fn energies<S: Real>(
         .map(|&numbers| Energy::of(numbers))
         .collect();
     Ok(SavedEnergies { of, list })
+}
+
+fn loads<S: Real>(text: &mut Text<'_>, own: Option<&SavedLoads<S>>) -> Read<SavedLoads<S>> {
+    Ok(SavedLoads {
+        forced: text.items("nodes with a force", own.map(|own| &own.forced[..]))?,
+        forces: text.numbers("forces on them", own.map(|own| &own.forces[..]))?,
+        moved: text.items("moved anchors", own.map(|own| &own.moved[..]))?,
+        positions: text.numbers("positions of them", own.map(|own| &own.positions[..]))?,
+        held: text.items("thermostats", own.map(|own| &own.held[..]))?,
+        temperatures: text.numbers("temperatures of them", own.map(|own| &own.temperatures[..]))?,
+    })
 }
 
 fn past<S: Real>(text: &mut Text<'_>, own: Option<&SavedPast<S>>) -> Read<SavedPast<S>> {

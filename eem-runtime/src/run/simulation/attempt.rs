@@ -135,8 +135,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let span = [self.time(), size];
         match &mut self.stepper {
             Stepper::Newton(newton) if !self.loads.are_none() => {
-                let q0 = self.state.positions.values();
-                newton.evaluate_loads(&self.loads, &self.masses, self.in_use, span, q0)
+                let old = &self.state;
+                newton.evaluate_loads(&self.loads, &self.masses, self.in_use, span, old)
             }
             _ => Ok(()),
         }

@@ -7,7 +7,7 @@ use crate::element::conduction::Partner;
 use crate::element::state::State;
 use crate::run::checkpoint::{Numbers, RestoreError};
 use crate::run::ledger::Ledger;
-use crate::scene::loads::{MOTION_ROUNDINGS, extent};
+use crate::scene::loads::{Course, MOTION_ROUNDINGS, extent};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::{Mask, Real};
 
@@ -126,18 +126,28 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let masses = self.masses.iter().enumerate();
         for (node, _) in masses.filter(|(_, mass)| mass.is_none()) {
             let motion = motions.get(&node);
+            let home = self.homes.get(&node);
             for axis in 0..D {
                 let at = node * D + axis;
                 if !self.masses.are_coupled() {
                     audit_zero(node, axis, momenta[at])?;
                 }
+                let created = home.map_or(created[at], |home| home[axis]);
                 let (value, carry) = positions[at];
+                if matches!(motion, Some(Course::Set(_))) {
+                    // Where the controller has brought it, or brings it next.
+                    continue;
+                }
+                let motion = motion.and_then(|motion| match motion {
+                    Course::Function(of) => Some(of),
+                    Course::Set(_) => None,
+                });
                 let is_right = motion.map_or(
-                    value.equal(created[at]).all() && carry.equal(S::zero()).all(),
+                    value.equal(created).all() && carry.equal(S::zero()).all(),
                     |by| follows(&|time| by(time)[axis], value, [time, begin], scale),
                 );
                 if !is_right {
-                    let expected = motion.map_or(created[at], |by| by(time)[axis]);
+                    let expected = motion.map_or(created, |by| by(time)[axis]);
                     return Err(RestoreError::Anchor {
                         node,
                         axis,
@@ -159,6 +169,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 continue;
             };
             let own = state.temperatures[slot];
+            let Course::Function(temperature) = temperature else {
+                continue;
+            };
             if !follows(&**temperature, own, [time; 2], own) {
                 return Err(RestoreError::Thermostat {
                     element: *element,

@@ -49,6 +49,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 ..State::clone(&self.state)
             },
             energies: self.saved_energies(),
+            loads: self.saved_loads(),
             past,
             explicit,
             seals: Vec::new(),
@@ -84,19 +85,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     pub(super) fn restore_here(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
-        let before = self.scheme_at_work();
+        let (before, loads) = (self.scheme_at_work(), self.saved_loads());
         let saved = self.choice_in(checkpoint)?;
         if let Some(saved) = saved.filter(|saved| saved.scheme != before.scheme) {
             self.use_scheme(saved.scheme)
                 .inspect_err(|_| self.diverge())?;
         }
-        let restored = self.restore_in_scheme(checkpoint);
+        let taken = self.take_loads(&checkpoint.loads);
+        let restored = taken.and_then(|()| self.restore_in_scheme(checkpoint));
         if restored.is_err() {
             self.diverge();
             if self.in_use != before.scheme {
                 self.use_scheme(before.scheme)?;
-                self.resume_scheme(&before);
             }
+            self.take_loads(&loads)?;
+            self.resume_scheme(&before);
         }
         restored
     }

@@ -12,7 +12,7 @@ use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use crate::scene::loads::OfTime;
+use crate::scene::loads::{Course, OfTime};
 use crate::scene::solid_error::SolidError;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
@@ -49,6 +49,9 @@ pub(crate) fn initial_state<const D: usize, S: Real>(
     }
     if let Some(step) = step.filter(|_| is_coupled) {
         for (node, motion) in &scene.loads.motions {
+            let Course::Function(motion) = motion else {
+                continue;
+            };
             for (axis, speed) in first_speed(motion, [scene.start, step])
                 .into_iter()
                 .enumerate()

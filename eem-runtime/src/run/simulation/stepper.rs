@@ -217,27 +217,28 @@ impl<S: Real, const D: usize> Newton<S, D> {
         }
     }
 
-    /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.
+    /// Evaluates the loads of the step from `time` by `step`, from the old state.
     pub(super) fn evaluate_loads(
         &mut self,
         loads: &Loads<S, D>,
         masses: &Masses<S>,
         scheme: Scheme,
         [time, step]: [S; 2],
-        q0: &[S],
+        old: &State<S>,
     ) -> Result<(), StepFailure> {
         let span = [time, step];
         let Some(rule) = scheme.tableau() else {
-            return self.loads.evaluate(loads, masses, span, q0);
+            return self.loads.evaluate(loads, masses, span, old);
         };
-        self.loads.evaluate_supports(loads, span, q0)?;
+        self.loads.evaluate_supports(loads, (span, S::one()), old)?;
         for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
             stage.evaluate_forces_at(loads, masses, time + S::from_f64(share) * step)?;
         }
         // The paths of elements have their own times for supports.
         let supports = rule.path.map_or(rule.times, |path| path.supports.times);
         for (stage, &share) in self.stages.iter_mut().zip(supports) {
-            stage.evaluate_supports(loads, [time, S::from_f64(share) * step], q0)?;
+            let share = S::from_f64(share);
+            stage.evaluate_supports(loads, ([time, share * step], share), old)?;
         }
         Ok(())
     }

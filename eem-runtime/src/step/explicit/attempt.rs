@@ -38,7 +38,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let [start, h] = [view.state.time.value, view.step];
         let time = start + h;
         if self.is_driven {
-            self.prescribed.evaluate(view.loads, [start, h])?;
+            self.prescribed
+                .evaluate(view.loads, [start, h], view.state)?;
         }
         self.begin(view, next)?;
         self.go_through_stages(view)?;

@@ -6,8 +6,10 @@
 
 use core::f64::consts::PI;
 
+use crate::element::group::points;
 use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
+use crate::element::state::State;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::components::Components;
@@ -128,16 +130,19 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
         &mut self,
         loads: &Loads<S, D>,
         [time, step]: [S; 2],
+        old: &State<S>,
     ) -> Result<(), StepFailure> {
         if let Some(interpolation) = &self.interpolation {
             for moved in &mut self.moved {
-                moved.evaluate(interpolation, loads, [time, step])?;
+                let from = points::<S, D>(old.positions.values())[moved.node.index];
+                moved.evaluate(interpolation, loads, ([time, step], &from))?;
             }
         }
         for held in &mut self.held {
             for (stage, &share) in TIMES.iter().enumerate() {
                 let at = time + S::from_f64(share) * step;
-                let theta = (loads.temperatures[held.temperature].1)(at);
+                let (_, course) = &loads.temperatures[held.temperature];
+                let theta = course.at(at, old.temperatures[held.slot], S::from_f64(share));
                 if !is_positive(theta) {
                     return Err(StepFailure::PrescribedTemperature {
                         element: held.element,
@@ -157,12 +162,12 @@ impl<S: Real, const D: usize> Moved<S, D> {
         &mut self,
         interpolation: &Interpolation<S>,
         loads: &Loads<S, D>,
-        [time, step]: [S; 2],
+        ([time, step], from): ([S; 2], &[S; D]),
     ) -> Result<(), StepFailure> {
         let mut positions = [[S::zero(); D]; POINTS];
         for (position, &share) in positions.iter_mut().zip(&interpolation.points) {
             let at = time + share * step;
-            let found = (loads.motions[self.motion].1)(at);
+            let found = loads.motions[self.motion].1.at(at, from, share);
             for axis in 0..D {
                 position[axis] = found[axis];
                 if !found[axis].is_finite() {

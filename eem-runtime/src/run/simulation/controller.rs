@@ -1,0 +1,317 @@
+//! Loads that are set in the middle of a run.
+
+use super::Simulation;
+use super::stepper::Stepper;
+use crate::element::error::StateError;
+use crate::element::group::points;
+use crate::element::handle::{Element, Node};
+use crate::run::checkpoint::{RestoreError, SavedLoads};
+use crate::scene::entry::infinite;
+use crate::scene::error::SceneError;
+use crate::scene::loads::{Course, VectorCourse};
+use eem_material::number::scalar::{Real, is_positive};
+use nalgebra::SVector;
+
+/// # Controllers
+///
+/// What is set holds for all steps until something else is set, is booked as work and heat like every load, and is part of
+/// checkpoints. Set it between steps, for instance before each [`step`](Self::step).
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Sets a force on a mass, N, beside its weight. It is constant until another one is set, so that the work of a step is
+    /// `f·Δq`.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::WrongKind`] for an anchor, [`SceneError::GivenLoad`] if the scene has a force on this mass,
+    /// [`SceneError::DeadLoad`] for a component that is not finite, [`SceneError::ForeignHandle`],
+    /// [`SceneError::TooLarge`]. Nothing is changed then.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(2.0, [0.0], [0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.5)?;
+    /// run.set_force(mass, [4.0])?;
+    /// run.run_until(1.0)?;
+    /// run.set_force(mass, [0.0])?;
+    /// run.run_until(2.0)?;
+    /// assert_eq!(run.momentum(mass)?[0], 4.0);
+    /// assert_eq!((run.ledger().work, run.ledger().kinetic_energy), (4.0, 4.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_force(&mut self, node: Node, force: [S; D]) -> Result<(), SceneError> {
+        let checked = self.expect_mass(node, true, "a force");
+        checked.inspect_err(|_| self.diverge())?;
+        if let Some((axis, value)) = infinite(&force).next() {
+            self.diverge();
+            return Err(SceneError::DeadLoad { node, axis, value });
+        }
+        let had_none = self.loads.forces.is_empty();
+        let is_new = set(&mut self.loads.forces, node, force.into());
+        let Some(is_new) = is_new else {
+            return Err(self.given(node, "force"));
+        };
+        let rebuilt = self.reload(is_new && had_none);
+        rebuilt.inspect_err(|_| {
+            self.loads.forces.pop();
+        })
+    }
+
+    /// Sets the position that an anchor reaches at the end of the next step, m, with a constant velocity; there it stays until
+    /// another one is set. The ledger counts the work of the support.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::WrongKind`] for a mass, [`SceneError::GivenLoad`] if the scene [moves](crate::Scene::move_anchor) this
+    /// anchor, [`SceneError::Position`] for a coordinate that is not finite, [`SceneError::ForeignHandle`],
+    /// [`SceneError::TooLarge`]. Nothing is changed then.
+    ///
+    /// ```
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let hook = scene.anchor([0.0]);
+    /// let mass = scene.mass(1.0, [1.0], [0.0]);
+    /// scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, [hook, mass]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.set_motion(hook, [0.1])?;
+    /// run.step()?;
+    /// assert_eq!(run.position(hook)?[0], 0.1);
+    /// run.run_until(1.0)?;
+    /// assert_eq!(run.position(hook)?[0], 0.1);
+    /// let ledger = run.ledger();
+    /// assert!((ledger.energy - ledger.work).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_motion(&mut self, anchor: Node, position: [S; D]) -> Result<(), SceneError> {
+        let checked = self.expect_mass(anchor, false, "a prescribed motion");
+        checked.inspect_err(|_| self.diverge())?;
+        if let Some((axis, value)) = infinite(&position).next() {
+            self.diverge();
+            let node = anchor;
+            return Err(SceneError::Position { node, axis, value });
+        }
+        let is_new = set(&mut self.loads.motions, anchor, position.into());
+        let Some(is_new) = is_new else {
+            return Err(self.given(anchor, "motion"));
+        };
+        let rebuilt = self.reload(is_new);
+        rebuilt.inspect_err(|_| {
+            self.loads.motions.pop();
+        })?;
+        self.note_home(anchor.index);
+        Ok(())
+    }
+
+    /// Remembers where an anchor is before it is moved for the first time.
+    fn note_home(&mut self, anchor: usize) {
+        let positions = points::<S, D>(self.state.positions.values());
+        let home = positions[anchor];
+        self.homes.entry(anchor).or_insert(home);
+    }
+
+    /// Sets the temperature that an element with a thermostat reaches at the end of the next step, K, linearly in time; it
+    /// keeps it until another one is set. The thermostat comes from [`hold_temperature`](crate::Scene::hold_temperature).
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::NoThermostat`] without one, [`SceneError::GivenLoad`] if the scene
+    /// [prescribes](crate::Scene::prescribe_temperature) the temperature, [`StateError::Temperature`] unless it is positive
+    /// and finite, [`SceneError::NotThermal`], [`SceneError::ForeignHandle`]. Nothing is changed then.
+    ///
+    /// ```
+    /// use eem::materials::ThermoelasticSpring;
+    /// use eem::prelude::*;
+    ///
+    /// let wire = ThermoelasticSpring {
+    ///     stiffness: 5.0, coupling: 0.0, capacity: 2.0, natural_length: 1.0, theta_ref: 300.0,
+    /// };
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
+    /// let wire = scene.spring(wire, ends);
+    /// scene.hold_temperature(wire, 300.0);
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.1)?;
+    /// run.set_temperature_of(wire, 310.0)?;
+    /// run.run_until(1.0)?;
+    /// assert_eq!(run.temperature(wire)?, 310.0);
+    /// assert!((run.ledger().heat - 20.0).abs() < 1e-11);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_temperature_of(
+        &mut self,
+        element: Element,
+        temperature: S,
+    ) -> Result<(), SceneError> {
+        let checked = self.thermal_slot(element);
+        checked.inspect_err(|_| self.diverge())?;
+        if !is_positive(temperature) {
+            self.diverge();
+            let value = temperature.to_f64();
+            return Err(StateError::Temperature { element, value }.into());
+        }
+        let mut all = self.loads.temperatures.iter_mut();
+        match all.find(|(own, _)| *own == element) {
+            Some((_, Course::Set(own))) => *own = temperature,
+            Some(_) => return Err(self.given(element, "temperature")),
+            None => {
+                self.diverge();
+                return Err(SceneError::NoThermostat { element });
+            }
+        }
+        self.stepper.forget_loads();
+        Ok(())
+    }
+
+    /// The error of setting what a function of the scene gives.
+    fn given(&self, handle: impl ToString, quantity: &'static str) -> SceneError {
+        self.diverge();
+        let handle = handle.to_string();
+        SceneError::GivenLoad { handle, quantity }
+    }
+
+    /// An error unless a node is of this scene, and a mass or an anchor as required.
+    fn expect_mass(
+        &self,
+        node: Node,
+        mass: bool,
+        quantity: &'static str,
+    ) -> Result<(), SceneError> {
+        self.expect_own(&node)?;
+        let is_mass = self.masses.get(node.index).is_some();
+        if is_mass == mass {
+            return Ok(());
+        }
+        Err(SceneError::WrongKind {
+            node,
+            quantity,
+            kind: if is_mass { "a mass" } else { "an anchor" },
+        })
+    }
+
+    /// Prepares steps with the present loads, of which some are new.
+    fn reload(&mut self, are_new: bool) -> Result<(), SceneError> {
+        if are_new {
+            self.use_scheme(self.in_use)?;
+            self.set_control(self.control.as_ref().map(|control| control.memory));
+        }
+        self.stepper.forget_loads();
+        Ok(())
+    }
+
+    /// All that controllers have set.
+    pub(super) fn saved_loads(&self) -> SavedLoads<S> {
+        let mut saved = SavedLoads::none();
+        for (node, force) in set_ones(&self.loads.forces) {
+            saved.forced.push(node.index);
+            saved.forces.extend(force.iter());
+        }
+        for (node, position) in set_ones(&self.loads.motions) {
+            saved.moved.push(node.index);
+            saved.positions.extend(position.iter());
+        }
+        for (element, temperature) in &self.loads.temperatures {
+            if let Course::Set(temperature) = temperature {
+                saved.held.push(element.index());
+                saved.temperatures.push(*temperature);
+            }
+        }
+        saved
+    }
+
+    /// Sets what controllers had set in a checkpoint, and nothing else.
+    pub(super) fn take_loads(&mut self, saved: &SavedLoads<S>) -> Result<(), RestoreError> {
+        let (old, loads) = (self.saved_loads(), &mut self.loads);
+        if old == *saved {
+            return Ok(());
+        }
+        if old.held != saved.held || saved.held.len() != saved.temperatures.len() {
+            return Err(RestoreError::Loads);
+        }
+        let forces = saved.forces.as_chunks::<D>().0;
+        let positions = saved.positions.as_chunks::<D>().0;
+        let is_valid = |nodes: &[usize], values: &[[S; D]], mass: bool| {
+            let masses = &self.masses;
+            let is_one = |&node: &usize| node < masses.len() && masses.get(node).is_some() == mass;
+            let all = values.as_flattened().iter();
+            nodes.len() == values.len()
+                && nodes.iter().all(is_one)
+                && all.copied().all(Real::is_finite)
+        };
+        if !is_valid(&saved.forced, forces, true)
+            || !is_valid(&saved.moved, positions, false)
+            || !saved.temperatures.iter().all(|&theta| is_positive(theta))
+        {
+            return Err(RestoreError::Loads);
+        }
+        let scene = &self.scene;
+        let node = |index: usize| scene.node(index);
+        loads
+            .forces
+            .retain(|(_, force)| matches!(force, Course::Function(_)));
+        loads
+            .motions
+            .retain(|(_, motion)| matches!(motion, Course::Function(_)));
+        for (&index, force) in saved.forced.iter().zip(forces) {
+            loads
+                .forces
+                .push((node(index), Course::Set((*force).into())));
+        }
+        for (&index, position) in saved.moved.iter().zip(positions) {
+            loads
+                .motions
+                .push((node(index), Course::Set((*position).into())));
+        }
+        let mut temperatures = saved.temperatures.iter();
+        for (_, own) in &mut loads.temperatures {
+            if let (Course::Set(own), Some(saved)) = (own, temperatures.next()) {
+                *own = *saved;
+            }
+        }
+        for &anchor in &saved.moved {
+            self.note_home(anchor);
+        }
+        self.reload(old.forced != saved.forced || old.moved != saved.moved)?;
+        Ok(())
+    }
+}
+
+/// The values that are set.
+fn set_ones<S: Real, const D: usize>(
+    all: &[(Node, VectorCourse<S, D>)],
+) -> impl Iterator<Item = (Node, &SVector<S, D>)> {
+    all.iter().filter_map(|(node, course)| match course {
+        Course::Set(value) => Some((*node, value)),
+        Course::Function(_) => None,
+    })
+}
+
+/// Sets a value of a node. Whether it is the first one; `None` if a function gives it.
+fn set<S: Real, const D: usize>(
+    all: &mut Vec<(Node, VectorCourse<S, D>)>,
+    node: Node,
+    value: SVector<S, D>,
+) -> Option<bool> {
+    let mut own = all.iter_mut().filter(|(own, _)| *own == node);
+    match own.next() {
+        Some((_, Course::Set(own))) => {
+            *own = value;
+            Some(false)
+        }
+        Some(_) => None,
+        None => {
+            all.push((node, Course::Set(value)));
+            Some(true)
+        }
+    }
+}
+
+impl<S: Real, const D: usize> Stepper<S, D> {
+    /// The next step does not begin with the loads at the end of the last one.
+    pub(super) fn forget_loads(&mut self) {
+        if let Self::Explicit(explicit) = self {
+            explicit.forget();
+        }
+    }
+}
