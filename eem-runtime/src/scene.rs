@@ -17,6 +17,8 @@ pub(crate) mod refused;
 pub(crate) mod solid;
 pub(crate) mod solid_error;
 
+use std::sync::Arc;
+
 use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::{Conduction, Conductor};
 use crate::element::ends::Ends;
@@ -105,7 +107,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let elements = self.elements.iter();
         let shapes = elements.map(|entry| self.groups[entry.group].shape());
         let mut layout = Layout::new(D, is_mass, shapes);
-        let conduction = Conduction::new(&self.conductors, &self.reservoirs, &layout);
+        let reservoirs = self.reservoir_temperatures();
+        let conduction = Conduction::new(&self.conductors, &reservoirs, &layout);
         layout.couple(|slot| conduction.meets_slots(slot));
         (layout, conduction)
     }
@@ -224,6 +227,49 @@ impl<const D: usize, S: Real> Scene<D, S> {
     pub fn reservoir(&mut self, temperature: S) -> Reservoir {
         self.reservoirs.push(temperature);
         self.reservoir_at(self.reservoirs.len() - 1)
+    }
+
+    /// A heat reservoir whose temperature is a function of time, K of s: an oven, or the weather. What it gives is heat of the
+    /// ledger, as that of thermostats; it keeps none.
+    ///
+    /// A step sees the temperature in its middle, with every scheme: the laws hold exactly, and the error of the oven is of
+    /// order 2 in the step.
+    ///
+    /// ```
+    /// use eem::materials::ThermoelasticSpring;
+    /// use eem::prelude::*;
+    ///
+    /// let wire = ThermoelasticSpring {
+    ///     stiffness: 5.0, coupling: 0.0, capacity: 2.0, natural_length: 1.0, theta_ref: 300.0,
+    /// };
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
+    /// let wire = scene.spring(wire, ends);
+    /// scene.set_temperature(wire, 300.0);
+    /// let oven = scene.oven(|t: f64| 300.0 + 10.0 * t);
+    /// scene.conduct(wire, oven, 4.0);
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01)?;
+    /// run.run_until(1.0)?;
+    /// // θ̇ = (4/2) (θ_oven − θ), so that θ − 300 = 10 t − 5 (1 − e⁻²ᵗ)
+    /// let exact = 310.0 - 5.0 * (1.0 - (-2.0_f64).exp());
+    /// assert!((run.temperature(wire)? - exact).abs() < 1e-3);
+    /// let ledger = run.ledger();
+    /// assert!((ledger.heat - 2.0 * (run.temperature(wire)? - 300.0)).abs() < 1e-11);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn oven(&mut self, temperature: impl Fn(S) -> S + Send + Sync + 'static) -> Reservoir {
+        let oven = self.reservoir(S::one());
+        self.loads.ovens.push((oven.index, Arc::new(temperature)));
+        oven
+    }
+
+    /// The temperatures of all reservoirs at the start, K.
+    pub(crate) fn reservoir_temperatures(&self) -> Vec<S> {
+        let mut temperatures = self.reservoirs.clone();
+        for (index, temperature) in &self.loads.ovens {
+            temperatures[*index] = temperature(self.start);
+        }
+        temperatures
     }
 
     /// Fourier conduction with conductance κ (W/K) from an element to another or to a reservoir:

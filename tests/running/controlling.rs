@@ -289,3 +289,101 @@ fn what_cannot_be_set_is_refused() {
     let (_, foreign) = scene();
     assert!(run.set_force(foreign.masses[0], [0.0; 2]).is_err());
 }
+
+/// A wire without expansion that an oven warms: θ̇ = 2/s (θ_oven − θ).
+fn oven() -> (Scene<1>, Element, HeatPath, Reservoir) {
+    let wire = eem::materials::ThermoelasticSpring {
+        stiffness: 5.0,
+        coupling: 0.0,
+        capacity: 2.0,
+        natural_length: 1.0,
+        theta_ref: 300.0,
+    };
+    let mut scene = Scene::<1>::new();
+    let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    let wire = scene.spring(wire, ends);
+    scene.set_temperature(wire, 300.0);
+    let oven = scene.oven(|t: f64| 300.0 + 10.0 * t);
+    let path = scene.conduct(wire, oven, 4.0);
+    (scene, wire, path, oven)
+}
+
+#[test]
+fn ovens_warm_with_order_two_and_keep_the_balance() {
+    let exact = 310.0 - 5.0 * (1.0 - (-2.0_f64).exp());
+    for scheme in EXACT {
+        let error = |step: f64| {
+            let (scene, wire, path, oven) = oven();
+            let mut run = Simulation::new(scene, scheme, step).unwrap();
+            run.fix_steps();
+            run.meter_heat();
+            let start = run.ledger();
+            let (mut bound, mut entropy) = (0.0, start.entropy);
+            for _ in 0..(1.0 / step).round() as usize {
+                bound += 2.0 * run.step().unwrap().bound;
+                let now = run.ledger();
+                assert!(now.entropy >= entropy - 4.0 * f64::EPSILON * now.element_entropy.abs());
+                entropy = now.entropy;
+            }
+            let end = run.ledger();
+            assert!((end.balance - start.balance).abs() <= bound, "{scheme}");
+            let conducted = run.conducted_heat(path).unwrap();
+            assert!((conducted - end.heat).abs() < 1e-12 * end.heat, "{scheme}");
+            assert_eq!(
+                run.reservoir_heat(oven),
+                Err(SceneError::Oven { reservoir: oven })
+            );
+            run.temperature(wire).unwrap() - exact
+        };
+        let errors = [0.1, 0.05].map(|step| error(step).abs());
+        if scheme == Scheme::Staggered {
+            assert!(errors[0] < 0.2 && errors[1] < errors[0], "{errors:?}");
+        } else {
+            let order = (errors[0] / errors[1]).log2();
+            assert!((order - 2.0).abs() < 0.1, "{scheme}: {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn runs_with_ovens_resume_with_all_bits() {
+    for scheme in EXACT {
+        let (scene, ..) = oven();
+        let build = || Simulation::new(scene.clone(), scheme, 0.02).unwrap();
+        let mut whole = build();
+        whole.run_until(0.2).unwrap();
+        let saved = whole.checkpoint();
+        let mut fresh = build();
+        fresh.restore(&saved).unwrap();
+        for run in [&mut whole, &mut fresh] {
+            run.run_until(0.4).unwrap();
+        }
+        let bits = [&whole, &fresh].map(|run| format!("{:?}", run.checkpoint()));
+        assert!(bits[0] == bits[1], "{scheme}");
+    }
+}
+
+#[test]
+fn an_oven_below_zero_is_an_error_of_the_step() {
+    let (mut scene, wire, ..) = oven();
+    let cold = scene.oven(|t: f64| 10.0 - 100.0 * t);
+    scene.conduct(wire, cold, 0.1);
+    let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.05).unwrap();
+    let error = run.run_until(1.0).unwrap_err();
+    let StepFailure::Oven {
+        reservoir: 1,
+        value,
+        ..
+    } = error.failure
+    else {
+        panic!("{error}");
+    };
+    assert!(value <= 0.0 && run.time() > 0.05);
+    let (mut scene, ..) = oven();
+    scene.oven(|_| f64::NAN);
+    let refused = Simulation::new(scene, Scheme::EemTemperature, 0.05).unwrap_err();
+    assert!(matches!(
+        refused.errors(),
+        [SceneError::ReservoirTemperature { .. }]
+    ));
+}

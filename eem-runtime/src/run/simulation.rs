@@ -16,6 +16,7 @@ mod inspect;
 pub(crate) mod linearize;
 mod memory;
 mod meters;
+mod ovens;
 mod resume;
 pub(crate) mod run;
 mod settings;

@@ -36,7 +36,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 });
             }
         }
-        for (index, &temperature) in self.reservoirs.iter().enumerate() {
+        for (index, temperature) in self.reservoir_temperatures().into_iter().enumerate() {
             if !is_positive(temperature) {
                 errors.push(SceneError::ReservoirTemperature {
                     reservoir: self.reservoir_at(index),
@@ -242,11 +242,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
     fn check_heat_flows(&self) -> Result<(), SceneError> {
         let temperature = |element: Element| self.elements[element.index()].temperature;
         let mut received = vec![S::zero(); self.elements.len()];
+        let reservoirs = self.reservoir_temperatures();
         for conductor in &self.conductors {
             let (element, partner) = (conductor.element, conductor.partner);
             let (there, other) = match partner {
                 HeatPartner::Element(other) => (temperature(other), Some(other)),
-                HeatPartner::Reservoir(reservoir) => (Some(self.reservoirs[reservoir.index]), None),
+                HeatPartner::Reservoir(reservoir) => (Some(reservoirs[reservoir.index]), None),
             };
             let (Some(here), Some(there)) = (temperature(element), there) else {
                 continue;

@@ -171,6 +171,14 @@ pub enum SceneError {
         /// The element.
         element: Element,
     },
+    /// Heat and entropy of an oven: what it gives is counted by the ledger and by its paths.
+    #[error(
+        "{reservoir} is an oven and keeps no heat: see the heat of the ledger, or `conducted_heat` of its paths"
+    )]
+    Oven {
+        /// The oven.
+        reservoir: Reservoir,
+    },
     /// A controller sets what a load of the scene gives.
     #[error(
         "the {quantity} of {handle} is given by the scene: leave it out there to set it in a run"

@@ -86,6 +86,8 @@ pub(crate) struct Loads<S: Real, const D: usize> {
     pub(crate) rockets: Vec<Rocket<S>>,
     pub(crate) motions: Vec<(Node, VectorCourse<S, D>)>,
     pub(crate) temperatures: Vec<(Element, TemperatureCourse<S>)>,
+    /// Reservoirs whose temperature changes.
+    pub(crate) ovens: Vec<(usize, TemperatureOfTime<S>)>,
 }
 
 impl<S: Real, const D: usize> Loads<S, D> {
@@ -97,6 +99,7 @@ impl<S: Real, const D: usize> Loads<S, D> {
             rockets: Vec::new(),
             motions: Vec::new(),
             temperatures: Vec::new(),
+            ovens: Vec::new(),
         }
     }
 
@@ -130,6 +133,7 @@ impl<S: Real, const D: usize> core::fmt::Debug for Loads<S, D> {
             .field("rockets", &self.rockets.len())
             .field("motions", &self.motions.len())
             .field("temperatures", &self.temperatures.len())
+            .field("ovens", &self.ovens.len())
             .finish()
     }
 }

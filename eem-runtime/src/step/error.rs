@@ -117,6 +117,16 @@ pub enum StepFailure {
         /// The time, s.
         time: f64,
     },
+    /// The temperature of an oven is not positive or not finite in a step.
+    #[error("the temperature of reservoir {reservoir} is {value} K at t = {time} s, it must be positive and finite", value = Readable(*value), time = Readable(*time))]
+    Oven {
+        /// The reservoir, counted in the order of creation.
+        reservoir: usize,
+        /// The temperature, K.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
     /// A prescribed temperature is not positive and finite.
     #[error(
         "the temperature prescribed on {element} is {value} K at t = {time} s, it must be positive and finite", value = Readable(*value), time = Readable(*time))]

@@ -41,7 +41,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 }
             }),
             conductances: Digest::of(|digest| self.digest_conductances(digest)),
-            reservoirs: of_list(&self.conduction.reservoirs),
+            reservoirs: of_list(&self.reservoirs_at_start()),
             gravity: of_list(self.loads.gravity.as_slice()),
         }
     }

@@ -160,7 +160,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 return Err(SceneError::NoThermostat { element });
             }
         }
-        self.stepper.forget_loads();
+        self.forget_loads();
         Ok(())
     }
 
@@ -196,8 +196,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             self.use_scheme(self.in_use)?;
             self.set_control(self.control.as_ref().map(|control| control.memory));
         }
-        self.stepper.forget_loads();
+        self.forget_loads();
         Ok(())
+    }
+
+    /// The next step does not begin with the loads at the end of the last one.
+    pub(super) fn forget_loads(&mut self) {
+        if let Stepper::Explicit(explicit) = &mut self.stepper {
+            explicit.forget();
+            // As after a restart.
+            let state = &mut self.state;
+            self.stepper.each_mut(|group| group.find_energies(state));
+        }
     }
 
     /// All that controllers have set.
@@ -303,15 +313,6 @@ fn set<S: Real, const D: usize>(
         None => {
             all.push((node, Course::Set(value)));
             Some(true)
-        }
-    }
-}
-
-impl<S: Real, const D: usize> Stepper<S, D> {
-    /// The next step does not begin with the loads at the end of the last one.
-    pub(super) fn forget_loads(&mut self) {
-        if let Self::Explicit(explicit) = self {
-            explicit.forget();
         }
     }
 }

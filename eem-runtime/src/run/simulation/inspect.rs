@@ -192,7 +192,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         for link in self.conduction.links(slot) {
             let (other, share) = match link.partner {
                 Partner::Slot(far) => (self.state.temperatures[far], S::from_f64(0.5)),
-                Partner::Reservoir(far) => (self.conduction.reservoirs[far], S::one()),
+                Partner::Reservoir(far) => (self.reservoir_now(far), S::one()),
             };
             let difference = other - theta;
             production += share * link.conductance * difference * difference / (theta * other);
@@ -271,9 +271,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// For a foreign handle.
+    /// For a foreign handle; [`SceneError::Oven`] for an [oven](crate::Scene::oven), which keeps none.
     pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<S, SceneError> {
         self.expect_own(&reservoir)?;
+        if self
+            .loads
+            .ovens
+            .iter()
+            .any(|(oven, _)| *oven == reservoir.index)
+        {
+            return Err(SceneError::Oven { reservoir });
+        }
         Ok(self.state.reservoir_entropies.values()[reservoir.index])
     }
 
@@ -281,7 +289,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// For a foreign handle.
+    /// As [`reservoir_entropy`](Self::reservoir_entropy).
     pub fn reservoir_heat(&self, reservoir: Reservoir) -> Result<S, SceneError> {
         let entropy = self.reservoir_entropy(reservoir)?;
         Ok(self.conduction.reservoirs[reservoir.index] * entropy)
