@@ -24,7 +24,7 @@ use eem_runtime::Scheme;
 ///
 /// // A mass that swings with ω = 2/s; the scheme has an error of (ωh)²ωt/12 in ωt.
 /// let report = Study::new(scene, 1.0)
-///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 2))
+///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 3))
 ///     .run()?;
 /// let [q, dq_dphase] = [1.0 + 0.5 * 2.0_f64.cos(), 0.5 * 2.0_f64.sin()];
 /// let expected = dq_dphase * 0.2_f64.powi(2) * 2.0 / 12.0 / q;

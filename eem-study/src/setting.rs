@@ -68,17 +68,17 @@ impl Setting {
         Self::new(scheme, StepChoice::Fixed(step))
     }
 
-    /// The steps `h, h/2, …, h/2ⁿ` of a scheme: `halvings` is n, `largest` is h, s.
+    /// So many steps of a scheme, each half of the one before: `h, h/2, h/4, …` with h = `largest`, s.
     ///
     /// ```
     /// use eem::{Scheme, Setting};
     ///
-    /// let steps = Setting::halved(Scheme::Gauss4, 0.2, 2).filter_map(|setting| setting.step());
+    /// let steps = Setting::halved(Scheme::Gauss4, 0.2, 3).filter_map(|setting| setting.step());
     /// assert_eq!(steps.collect::<Vec<_>>(), [0.2, 0.1, 0.05]);
     /// ```
-    pub fn halved(scheme: Scheme, largest: f64, halvings: u32) -> impl Iterator<Item = Self> {
+    pub fn halved(scheme: Scheme, largest: f64, count: u32) -> impl Iterator<Item = Self> {
         let steps = iter::successors(Some(largest), |step| Some(0.5 * step));
-        let steps = (0..=halvings).zip(steps);
+        let steps = (0..count).zip(steps);
         steps.map(move |(_, step)| Self::fixed(scheme, step))
     }
 
@@ -88,17 +88,17 @@ impl Setting {
         Self::new(scheme, StepChoice::Tolerance(tolerance))
     }
 
-    /// The tolerances `r, r/10, …, r/10ⁿ` of a scheme: `decades` is n, `largest` is r.
+    /// So many tolerances of a scheme, each a tenth of the one before: `r, r/10, r/100, …` with r = `largest`.
     ///
     /// ```
     /// use eem::{Scheme, Setting};
     ///
-    /// let settings = Setting::by_decades(Scheme::EemEntropy, 1e-2, 1);
+    /// let settings = Setting::by_decades(Scheme::EemEntropy, 1e-2, 2);
     /// let tolerances: Vec<_> = settings.filter_map(|setting| setting.tolerance()).collect();
     /// assert_eq!(tolerances, [1e-2, 1e-3]);
     /// ```
-    pub fn by_decades(scheme: Scheme, largest: f64, decades: u32) -> impl Iterator<Item = Self> {
-        let divisors = (0..=decades).map(|decade| 10.0_f64.powi(decade.cast_signed()));
+    pub fn by_decades(scheme: Scheme, largest: f64, count: u32) -> impl Iterator<Item = Self> {
+        let divisors = (0..count).map(|decade| 10.0_f64.powi(decade.cast_signed()));
         divisors.map(move |divisor| Self::controlled(scheme, largest / divisor))
     }
 

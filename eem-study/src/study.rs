@@ -39,8 +39,8 @@ const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// }
 ///
 /// let report = Study::new(scene, 2.0)
-///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 3))
-///     .settings(Setting::halved(Scheme::Variational4, 0.1, 3))
+///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 4))
+///     .settings(Setting::halved(Scheme::Variational4, 0.1, 4))
 ///     .run()?;
 /// println!("{report}");
 ///

@@ -33,7 +33,7 @@ macro_rules! examples {
 }
 
 examples! {
-    accuracy damper double_pendulum ensemble loads_and_events log_stiffness satellite single_pendulum solid spring
+    accuracy controller damper double_pendulum ensemble loads_and_events log_stiffness satellite single_pendulum solid spring
 }
 
 #[test]

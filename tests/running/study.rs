@@ -22,7 +22,7 @@ fn study(schemes: &[Scheme], halvings: u32) -> Study<'static, 2> {
 
 fn study_until(end: f64, schemes: &[Scheme], halvings: u32) -> Study<'static, 2> {
     let settings = schemes.iter();
-    let settings = settings.flat_map(|&scheme| Setting::halved(scheme, STEP, halvings));
+    let settings = settings.flat_map(|&scheme| Setting::halved(scheme, STEP, halvings + 1));
     Study::new(pendulum, end).settings(settings).repeats(1)
 }
 

@@ -116,6 +116,26 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
+    /// The initial temperature of all points of a solid, K; the last call for a point counts.
+    ///
+    /// ```
+    /// use eem::materials::ThermoelasticSolid;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let mesh = Mesh::<Quad4, 2>::block([2, 1], [[0.0, 2.0], [0.0, 1.0]])?;
+    /// let plate = scene.solid(ThermoelasticSolid::RUBBER, &mesh, &Bulk::new(10.0));
+    /// scene.set_temperatures(&plate, 310.0);
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// assert_eq!(run.temperature(plate.points()[7])?, 310.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_temperatures<H: Shape<D>>(&mut self, body: &Body<H, D>, temperature: S) {
+        for &point in body.points() {
+            self.set_temperature(point, temperature);
+        }
+    }
+
     /// Sets the initial momentum of a mass, kg m/s, instead of its velocity.
     pub fn set_momentum(&mut self, node: Node, momentum: [S; D]) {
         if self.expect_kind(node, true, "a momentum") {

@@ -59,7 +59,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.02)?;
     let start = run.ledger();
-    println!("  time   temperature   kinetic energy   total energy    total entropy");
+    run.meter_heat();
+    println!(
+        "  time   temperature   kinetic energy   dissipated     total energy    total entropy"
+    );
     let mut entropy = start.entropy;
     for second in 0..=20 {
         run.run_until(f64::from(second))?;
@@ -69,8 +72,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if second % 4 == 0 {
             let theta = run.temperature(band)?;
             println!(
-                "{second:4} s {theta:11.4} K {:14.6} J {:13.9} J {:12.9} J/K",
-                now.kinetic_energy, now.energy, now.entropy
+                "{second:4} s {theta:11.4} K {:14.6} J {:10.6} J {:14.9} J {:12.9} J/K",
+                now.kinetic_energy,
+                run.dissipation(band)?,
+                now.energy,
+                now.entropy
             );
         }
     }

@@ -246,9 +246,9 @@ fn fastest(rows: &[StudyRow], scheme: Scheme, error: f64) -> String {
 /// Constant steps from this one on, and steps by tolerances, for the schemes that can change them.
 fn settings(largest: f64) -> impl Iterator<Item = Setting> {
     COMPARED.into_iter().flat_map(move |scheme| {
-        let halved = Setting::halved(scheme, largest, 6);
-        let decades = if scheme.order() > 2 { 6 } else { 2 };
-        let decades = Setting::by_decades(scheme, 1e-2, decades);
+        let halved = Setting::halved(scheme, largest, 7);
+        let count = if scheme.order() > 2 { 7 } else { 3 };
+        let decades = Setting::by_decades(scheme, 1e-2, count);
         halved.chain(decades.filter(move |_| scheme.may_change_steps()))
     })
 }

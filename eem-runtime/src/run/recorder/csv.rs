@@ -1,6 +1,8 @@
 //! Recorded columns as CSV, with enough digits to restore every bit.
 
+use std::fs::File;
 use std::io;
+use std::path::Path;
 
 use super::{Column, Recorder};
 use eem_material::number::scalar::Real;
@@ -30,6 +32,29 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         let mut writer = csv::Writer::from_writer(writer);
         writer.write_record(self.columns().iter().map(Column::head))?;
         self.write_rows(0, writer)
+    }
+
+    /// The same into a file, which is replaced if there is one.
+    ///
+    /// # Errors
+    ///
+    /// Those of the file system.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let pivot = scene.anchor([0.1]);
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
+    /// let recorder = Recorder::new(&run, [("q", Quantity::Position(pivot))])?;
+    /// let path = std::env::temp_dir().join(format!("rows-{}.csv", std::process::id()));
+    /// recorder.save_csv(&path)?;
+    /// assert!(std::fs::read_to_string(&path)?.starts_with("time (s),q_x (m)\n"));
+    /// # std::fs::remove_file(path)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn save_csv(&self, path: impl AsRef<Path>) -> io::Result<()> {
+        self.write_csv(File::create(path)?)
     }
 
     /// Continues the file of an interrupted run: writes the rows without the header and without the first row,

@@ -93,8 +93,8 @@ enum CaseName {
 /// The relative tolerance that the runs with tolerances begin with.
 const LARGEST_TOLERANCE: f64 = 1e-2;
 
-/// How many others follow, each a tenth of the one before.
-const DECADES: u32 = 6;
+/// How many there are, each a tenth of the one before.
+const TOLERANCES: u32 = 7;
 
 /// How a case is run unless the command line says otherwise.
 #[derive(Clone, Copy, Debug)]
@@ -148,10 +148,10 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     let largest = end / (grid.end() / grid.step).round();
     let schemes = options.common.schemes_of_any_step().into_iter();
     let mut settings: Vec<Setting> = schemes
-        .flat_map(|scheme| settings(scheme, largest, plan.halvings))
+        .flat_map(|scheme| settings(scheme, largest, plan.halvings + 1))
         .collect();
     if options.common.takes_all_schemes() {
-        let chosen = Setting::by_decades(Scheme::Auto, LARGEST_TOLERANCE, DECADES);
+        let chosen = Setting::by_decades(Scheme::Auto, LARGEST_TOLERANCE, TOLERANCES);
         settings.extend(chosen);
     }
     let report = study(options.case, &settings, end)?;
@@ -164,12 +164,12 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
 }
 
 /// Equal steps of many sizes; and for the schemes that keep the laws, steps that an accuracy chooses.
-fn settings(scheme: Scheme, largest: f64, halvings: u32) -> Vec<Setting> {
-    let mut settings: Vec<_> = Setting::halved(scheme, largest, halvings).collect();
+fn settings(scheme: Scheme, largest: f64, count: u32) -> Vec<Setting> {
+    let mut settings: Vec<_> = Setting::halved(scheme, largest, count).collect();
     if scheme.is_exact() && scheme.order() > 1 {
         // A scheme of order 2 needs ten thousands of steps for what lies beyond.
-        let decades = if scheme.order() > 2 { DECADES } else { 2 };
-        settings.extend(Setting::by_decades(scheme, LARGEST_TOLERANCE, decades));
+        let count = if scheme.order() > 2 { TOLERANCES } else { 3 };
+        settings.extend(Setting::by_decades(scheme, LARGEST_TOLERANCE, count));
     }
     settings
 }
