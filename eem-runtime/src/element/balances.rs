@@ -52,17 +52,18 @@ impl<S: Real> Balances<'_, S> {
     pub(crate) fn conduct(
         &mut self,
         [slot, other]: [usize; 2],
-        (link, path): (usize, &Exchange<S>),
+        (link, path): (u32, &Exchange<S>),
         received: &mut Received<S>,
     ) {
         self.next.entropies.add(slot, path.entropy);
         received.add(path.entropy);
         received.heat += path.heat;
         if slot > other {
-            let production = self.produce(slot, path, received);
-            self.next.meters.produce_between([slot, other], production);
-        } else {
-            self.next.meters.conduct(link, path.heat);
+            self.produce(slot, path, received);
+        }
+        if self.next.meters.are_on {
+            let meters = &mut self.next.meters;
+            meters.see_path([slot, other], link as usize, path);
         }
     }
 
@@ -76,8 +77,7 @@ impl<S: Real> Balances<'_, S> {
         (share, [theta, correction]): (S, [S; 2]),
         received: &mut Received<S>,
     ) {
-        let links = conduction.links(slot).iter();
-        for (link, place) in links.zip(conduction.first_link(slot)..) {
+        for (place, link) in conduction.links(slot).iter().enumerate() {
             let Partner::Reservoir(index) = link.partner else {
                 continue;
             };
@@ -87,21 +87,22 @@ impl<S: Real> Balances<'_, S> {
             self.next.reservoir_entropies.add(index, -path.entropy);
             self.next.entropies.add(slot, path.entropy);
             received.add(path.entropy);
-            let production = self.produce(slot, &path, received);
-            self.next.meters.produce(slot, production);
-            self.next.meters.conduct(place, path.heat);
+            self.produce(slot, &path, received);
+            if self.next.meters.are_on {
+                let link = conduction.first_link(slot) + place;
+                self.next.meters.see_path_outside(slot, link, &path);
+            }
         }
     }
 
-    /// The production of a path, at this end of it, J/K.
+    /// The production of a path, at this end of it.
     #[inline]
-    fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) -> S {
+    fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) {
         let production = path.production();
         self.next.entropies.add(slot, production);
         received.add(production);
         self.tally.produce(production);
         self.tally.turn_over(path.heat);
-        production
     }
 }
 

@@ -1,6 +1,7 @@
 //! What dashpots have dissipated, elements have produced and paths of heat have conducted: sums that are kept once somebody
 //! has asked for them.
 
+use crate::element::conduction::Exchange;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::scalar::Real;
 
@@ -76,6 +77,23 @@ impl<S: Real> Meters<S> {
         }
     }
 
+    /// A path between two slots, seen from the first of them, where it has this link.
+    #[cold]
+    pub(crate) fn see_path(&mut self, [slot, other]: [usize; 2], link: usize, path: &Exchange<S>) {
+        if slot > other {
+            self.produce_between([slot, other], path.production());
+        } else {
+            self.conduct(link, path.heat);
+        }
+    }
+
+    /// A path from a slot to a reservoir.
+    #[cold]
+    pub(crate) fn see_path_outside(&mut self, slot: usize, link: usize, path: &Exchange<S>) {
+        self.produce(slot, path.production());
+        self.conduct(link, path.heat);
+    }
+
     /// Heat that a path brings to the slot that lists it first, J.
     #[inline]
     pub(crate) fn conduct(&mut self, path: usize, heat: S) {
@@ -87,11 +105,18 @@ impl<S: Real> Meters<S> {
     /// Copies those of a state of the same scene.
     #[inline]
     pub(crate) fn copy_from(&mut self, other: &Self) {
+        if self.are_on | other.are_on {
+            self.copy_kept(other);
+        }
+    }
+
+    #[cold]
+    fn copy_kept(&mut self, other: &Self) {
         if self.are_on && other.are_on {
             self.dissipated.copy_from(&other.dissipated);
             self.produced.copy_from(&other.produced);
             self.conducted.copy_from(&other.conducted);
-        } else if self.are_on || other.are_on {
+        } else {
             self.clone_from(other);
         }
     }

@@ -169,7 +169,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         };
         received.add(dissipated * per_theta);
         received.heat = dissipated;
-        next.meters.produce(slot, dissipated * per_theta);
+        if M::DASHPOTS + Self::DRAGS > 0 {
+            next.meters.produce(slot, dissipated * per_theta);
+        }
         self.book_heat(
             view,
             slot,
@@ -200,7 +202,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             for partner in &contact.partners {
                 let other = partner.slot as usize;
                 let path = (trial.seen).exchange(share * partner.conductance, slot, other);
-                let path = (partner.link as usize, &path);
+                let path = (partner.link, &path);
                 balances.conduct([slot, other], path, &mut received);
             }
         }

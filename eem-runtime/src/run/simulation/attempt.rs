@@ -57,7 +57,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = true;
-        self.book_ovens();
+        if !self.loads.ovens.is_empty() {
+            self.book_ovens();
+        }
         let report = StepReport {
             time: self.time(),
             step: size,
@@ -102,7 +104,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let value = end.to_f64();
             return Err(StepFailure::Time { value });
         }
-        self.heat_ovens(size)?;
+        if !self.loads.ovens.is_empty() {
+            self.heat_ovens(size)?;
+        }
         self.evaluate_loads(size)?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
         let newton = match &mut self.stepper {

@@ -57,7 +57,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Begins the sums if they are wanted and have not begun.
     #[inline]
     pub(super) fn begin_meters(&mut self) {
-        if self.wants_meters.load(Ordering::Relaxed) && !self.state.meters.are_on {
+        if self.wants_meters.load(Ordering::Relaxed) {
+            self.ensure_meters();
+        }
+    }
+
+    #[cold]
+    fn ensure_meters(&mut self) {
+        if !self.state.meters.are_on {
             self.state.meters = Meters::new(self.meter_counts());
         }
     }

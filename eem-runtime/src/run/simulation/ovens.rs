@@ -6,7 +6,7 @@ use eem_material::number::scalar::{Real, is_positive};
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Sets the temperatures of ovens to those in the middle of a step of this size.
-    #[inline]
+    #[cold]
     pub(super) fn heat_ovens(&mut self, size: S) -> Result<(), StepFailure> {
         for (index, temperature) in &self.loads.ovens {
             let time = self.state.time.value + S::from_f64(0.5) * size;
@@ -24,11 +24,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Books what ovens have given in the last step as heat: `−θ Δσ` and the entropy `−Δσ`.
-    #[inline]
+    #[cold]
     pub(super) fn book_ovens(&mut self) {
-        if self.loads.ovens.is_empty() {
-            return;
-        }
         let state = &mut self.state;
         for &(index, _) in &self.loads.ovens {
             let received = state.reservoir_entropies.sum(index);

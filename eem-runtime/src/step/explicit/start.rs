@@ -53,6 +53,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn begin_heats(&mut self) {
         let stage = &mut self.stage;
         stage.heats.resize(stage.productions.len(), S::zero());
+        stage.has_heats = true;
         let dashpots = self.components.dashpots.iter().enumerate();
         for (index, dashpot) in dashpots {
             let theta = dashpot

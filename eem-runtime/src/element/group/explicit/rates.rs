@@ -143,8 +143,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             stage.inner_rates[viscous + k] = creep;
             let power = g * creep;
             stage.productions[viscous + k].add(stage.weight, power * per_theta);
-            if let Some(sum) = stage.heats.get_mut(viscous + k) {
-                *sum += stage.weight * power;
+            if stage.has_heats {
+                stage.add_heat(viscous + k, power);
             }
             heat += power;
             drift += slopes[M::MEASURES + k] * creep;

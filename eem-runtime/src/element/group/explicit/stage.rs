@@ -161,6 +161,7 @@ pub(crate) struct Stage<S: Real, const D: usize> {
     pub(crate) productions: Vec<Integral<S>>,
     /// The heat of each dashpot, summed with the weights of the stages, W; empty unless it is metered.
     pub(crate) heats: Vec<S>,
+    pub(crate) has_heats: bool,
     /// The weight of this stage.
     pub(crate) weight: S,
     /// `f λ̇` and the heat that flows in, of each thermal slot, W; empty without thermostats.
@@ -188,11 +189,18 @@ impl<S: Real, const D: usize> Stage<S, D> {
             temperatures: layout.viscous,
             productions: vec![Integral::none(); layout.viscous],
             heats: Vec::new(),
+            has_heats: false,
             weight: S::zero(),
             supply: vec![Integral::none(); held.len()],
             has_thermostats: !held.is_empty(),
             held,
         }
+    }
+
+    /// Adds the heat of a dashpot at this stage, W.
+    #[cold]
+    pub(crate) fn add_heat(&mut self, dashpot: usize, power: S) {
+        self.heats[dashpot] += self.weight * power;
     }
 
     /// An internal variable at the start of the step.

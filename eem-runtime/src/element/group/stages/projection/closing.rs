@@ -115,7 +115,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             let other = partner.slot as usize;
             let [own, far] = [slot, other].map(|slot| trial.seen_of_set(stage, slot));
             let path = trial.seen.exchange(share * partner.conductance, own, far);
-            let path = (partner.link as usize, &path);
+            let path = (partner.link, &path);
             balances.conduct([slot, other], path, received);
         }
     }
