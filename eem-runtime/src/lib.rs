@@ -45,11 +45,15 @@
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
 //! | check a material before use | `domain` in `eem-material` |
 
+// Each uses those before it; the documentation shows their methods in this order.
 mod algebra;
 mod element;
-mod run;
+
 mod scene;
+
 mod step;
+
+mod run;
 
 #[doc(inline)]
 pub use eem_material::{

@@ -19,8 +19,7 @@ use crate::step::solver::SavedPast;
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
-pub use error::RestoreError;
-pub use file::{FormatError, LoadError};
+pub use error::{FormatError, LoadError, RestoreError};
 pub(crate) use fingerprint::{Numbers, Outline};
 
 /// A saved state of a [`Simulation`](crate::Simulation), to resume it later: values with their compensated rounding,

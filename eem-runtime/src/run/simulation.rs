@@ -1,25 +1,36 @@
 //! A scene in motion.
 
+// The documentation shows methods in this order.
+mod compiled;
+
+pub(crate) mod run;
+
+pub(crate) mod event;
+
+mod inspect;
+
+mod control;
+
+mod settings;
+
+pub(crate) mod change;
+
+mod controller;
+
+mod meters;
+
+mod resume;
+
 mod attempt;
 mod audit;
 mod automatic;
-pub(crate) mod change;
 mod check;
-mod compiled;
-mod control;
-mod controller;
-pub(crate) mod event;
 pub(crate) mod generic;
 mod guard;
 mod halves;
-mod inspect;
 pub(crate) mod linearize;
 mod memory;
-mod meters;
 mod ovens;
-mod resume;
-pub(crate) mod run;
-mod settings;
 pub(crate) mod start;
 mod stepper;
 
@@ -53,6 +64,14 @@ use start::{find_entropies, initial_state};
 use stepper::{Parts, Stepper};
 
 /// A run: a scene, a scheme and the present state.
+///
+/// | to | methods |
+/// |---|---|
+/// | begin and go on | [`new`](Self::new), [`step`](Self::step), [`run_until`](Self::run_until), [`run_at`](Self::run_at), [`run_until_event`](Self::run_until_event) |
+/// | look | [`time`](Self::time), [`position`](Self::position), [`temperature`](Self::temperature), [`ledger`](Self::ledger), or a [`Recorder`](crate::Recorder) |
+/// | choose steps and scheme | [`control_steps`](Self::control_steps), [`set_step_size`](Self::set_step_size), [`with_scheme`](Self::with_scheme) |
+/// | act | [`set_force`](Self::set_force), [`set_motion`](Self::set_motion), [`set_temperature_of`](Self::set_temperature_of) |
+/// | save | [`checkpoint`](Self::checkpoint), [`restore`](Self::restore) |
 ///
 /// A step either succeeds, or returns an error and leaves everything unchanged.
 pub struct Simulation<const D: usize, S: Real = f64> {
@@ -233,33 +252,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             failure,
             shorter: None,
             history: Box::default(),
-        }
-    }
-
-    /// The time, s.
-    #[must_use]
-    pub fn time(&self) -> S {
-        self.state.time.value
-    }
-
-    /// The scheme.
-    #[must_use]
-    pub const fn scheme(&self) -> Scheme {
-        self.scheme
-    }
-
-    /// The scheme of the next step; it differs from [`scheme`](Self::scheme) for [`Scheme::Auto`].
-    #[must_use]
-    pub const fn scheme_in_use(&self) -> Scheme {
-        self.in_use
-    }
-
-    /// Number of unknowns of the linear system in a Newton iteration; 0 for the explicit scheme.
-    #[must_use]
-    pub fn unknowns(&self) -> usize {
-        match &self.stepper {
-            Stepper::Newton(newton) => newton.solver.sets() * self.layout.unknowns,
-            Stepper::Explicit(_) => 0,
         }
     }
 

@@ -1,4 +1,7 @@
-//! Errors of restoring a checkpoint.
+//! Errors of restoring a checkpoint, and of loading it from a file.
+
+use std::io;
+use std::path::PathBuf;
 
 use thiserror::Error;
 
@@ -193,6 +196,76 @@ pub enum RestoreError {
         value: f64,
         /// Its unit.
         unit: &'static str,
+    },
+}
+
+/// The first words of a file.
+pub(super) const KIND: &str = "eem checkpoint";
+
+/// The version of the format; files of another one are not read.
+pub(super) const VERSION: &str = "1";
+
+/// Why a checkpoint cannot be loaded.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// The file cannot be read.
+    #[error("{} cannot be read: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// The contents of the file are not those of a checkpoint.
+    #[error("{}: {source}", path.display())]
+    Format {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with them.
+        source: FormatError,
+    },
+}
+
+/// What is wrong with the contents of a file.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum FormatError {
+    /// It is another kind of file.
+    #[error(
+        "the file does not begin with `{KIND}`: it is none that `Checkpoint::save` has written"
+    )]
+    Kind,
+    /// It has another version of the format.
+    #[error(
+        "the checkpoint has the version `{found}` of the format, this library reads version {VERSION}: continue with the version of the library that wrote it"
+    )]
+    Version {
+        /// The version of the file.
+        found: String,
+    },
+    /// It is the checkpoint of a run with another number type.
+    #[error(
+        "the checkpoint has numbers of the type `{found}`: load it as `Checkpoint<{found}>` instead of `Checkpoint<{expected}>`"
+    )]
+    Scalar {
+        /// The number type of the file.
+        found: String,
+        /// That of the checkpoint to be loaded.
+        expected: &'static str,
+    },
+    /// The last line is not the digest of the lines before.
+    #[error(
+        "the file has been cut off or edited: its last line is not the digest of the others; take another copy of it"
+    )]
+    Digest,
+    /// A line is not as expected.
+    #[error("line {line} is not the list `{expected}` that version {VERSION} has there")]
+    Line {
+        /// The line, from 1.
+        line: usize,
+        /// The name of its list.
+        expected: &'static str,
     },
 }
 

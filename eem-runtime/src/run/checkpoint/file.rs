@@ -11,18 +11,11 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
 use super::Checkpoint;
+use super::error::{FormatError, KIND, LoadError, VERSION};
 use super::text::{Fault, Text};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
-
-/// The first words of a file.
-const KIND: &str = "eem checkpoint";
-
-/// The version of the format; files of another one are not read.
-const VERSION: &str = "1";
 
 /// The last line.
 const DIGEST: &str = "digest: ";
@@ -153,68 +146,4 @@ fn write(path: &Path, text: &str) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(text.as_bytes())?;
     file.sync_all()
-}
-
-/// Why a checkpoint cannot be loaded.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum LoadError {
-    /// The file cannot be read.
-    #[error("{} cannot be read: {source}", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// The reason.
-        source: io::Error,
-    },
-    /// The contents of the file are not those of a checkpoint.
-    #[error("{}: {source}", path.display())]
-    Format {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with them.
-        source: FormatError,
-    },
-}
-
-/// What is wrong with the contents of a file.
-#[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum FormatError {
-    /// It is another kind of file.
-    #[error(
-        "the file does not begin with `{KIND}`: it is none that `Checkpoint::save` has written"
-    )]
-    Kind,
-    /// It has another version of the format.
-    #[error(
-        "the checkpoint has the version `{found}` of the format, this library reads version {VERSION}: continue with the version of the library that wrote it"
-    )]
-    Version {
-        /// The version of the file.
-        found: String,
-    },
-    /// It is the checkpoint of a run with another number type.
-    #[error(
-        "the checkpoint has numbers of the type `{found}`: load it as `Checkpoint<{found}>` instead of `Checkpoint<{expected}>`"
-    )]
-    Scalar {
-        /// The number type of the file.
-        found: String,
-        /// That of the checkpoint to be loaded.
-        expected: &'static str,
-    },
-    /// The last line is not the digest of the lines before.
-    #[error(
-        "the file has been cut off or edited: its last line is not the digest of the others; take another copy of it"
-    )]
-    Digest,
-    /// A line is not as expected.
-    #[error("line {line} is not the list `{expected}` that version {VERSION} has there")]
-    Line {
-        /// The line, from 1.
-        line: usize,
-        /// The name of its list.
-        expected: &'static str,
-    },
 }

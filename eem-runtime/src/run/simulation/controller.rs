@@ -50,7 +50,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let had_none = self.loads.forces.is_empty();
         let is_new = set(&mut self.loads.forces, node, force.into());
         let Some(is_new) = is_new else {
-            return Err(self.given(node, "force"));
+            return Err(self.given(&node, "force"));
         };
         let rebuilt = self.reload(is_new && had_none);
         rebuilt.inspect_err(|_| {
@@ -95,7 +95,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let is_new = set(&mut self.loads.motions, anchor, position.into());
         let Some(is_new) = is_new else {
-            return Err(self.given(anchor, "motion"));
+            return Err(self.given(&anchor, "motion"));
         };
         let rebuilt = self.reload(is_new);
         rebuilt.inspect_err(|_| {
@@ -154,7 +154,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut all = self.loads.temperatures.iter_mut();
         match all.find(|(own, _)| *own == element) {
             Some((_, Course::Set(own))) => *own = temperature,
-            Some(_) => return Err(self.given(element, "temperature")),
+            Some(_) => return Err(self.given(&element, "temperature")),
             None => {
                 self.diverge();
                 return Err(SceneError::NoThermostat { element });
@@ -165,7 +165,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The error of setting what a function of the scene gives.
-    fn given(&self, handle: impl ToString, quantity: &'static str) -> SceneError {
+    fn given(&self, handle: &dyn ToString, quantity: &'static str) -> SceneError {
         self.diverge();
         let handle = handle.to_string();
         SceneError::GivenLoad { handle, quantity }

@@ -4,6 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::Simulation;
 use super::compiled::Functions;
+use super::stepper::Stepper;
 use crate::element::conduction::Partner;
 use crate::element::group::ElementView;
 use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
@@ -15,6 +16,7 @@ use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
+use crate::step::scheme::Scheme;
 use eem_material::joint::{COMPONENTS, tensor};
 use eem_material::number::scalar::Real;
 
@@ -22,6 +24,33 @@ use eem_material::number::scalar::Real;
 ///
 /// All functions return [`SceneError::ForeignHandle`] for a handle of another scene.
 impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The time, s.
+    #[must_use]
+    pub fn time(&self) -> S {
+        self.state.time.value
+    }
+
+    /// The scheme.
+    #[must_use]
+    pub const fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// The scheme of the next step; it differs from [`scheme`](Self::scheme) for [`Scheme::Auto`].
+    #[must_use]
+    pub const fn scheme_in_use(&self) -> Scheme {
+        self.in_use
+    }
+
+    /// Number of unknowns of the linear system in a Newton iteration; 0 for the explicit scheme.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        match &self.stepper {
+            Stepper::Newton(newton) => newton.solver.sets() * self.layout.unknowns,
+            Stepper::Explicit(_) => 0,
+        }
+    }
+
     /// The step so far with the largest `|defect|/bound`. `None` before the first step and after
     /// [`restore`](Self::restore).
     #[must_use]

@@ -1,0 +1,236 @@
+//! The parts of a scene: nodes, springs, initial temperatures, reservoirs and paths of heat.
+
+use std::sync::Arc;
+
+use super::Scene;
+use crate::algebra::memory::MemoryLimit;
+use crate::element::conduction::Conductor;
+use crate::element::group::LooseElements;
+use crate::element::handle::{Element, HeatPartner, HeatPath, Kind, Node, Reservoir};
+use crate::element::kinematics::Stretch;
+use crate::scene::error::SceneError;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
+
+impl<const D: usize> Scene<D> {
+    /// An empty scene in double precision. Use [`Scene::default`] for other number types.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+}
+
+/// # Nodes, springs and heat
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// A node that does not move; position in m.
+    pub fn anchor(&mut self, position: [S; D]) -> Node {
+        self.push_node(None, position, [S::zero(); D])
+    }
+
+    /// A point mass (kg) with its initial position (m) and velocity (m/s).
+    pub fn mass(&mut self, mass: S, position: [S; D], velocity: [S; D]) -> Node {
+        self.push_node(Some(mass), position, velocity)
+    }
+
+    /// A spring between two nodes, made of the material `model`.
+    ///
+    /// Springs of different materials can be mixed in a scene. A material with a temperature needs
+    /// [`set_temperature`](Self::set_temperature). Viscous stretches are zero at first.
+    pub fn spring<M>(&mut self, model: M, nodes: [Node; 2]) -> Element
+    where
+        M: Material<S>,
+    {
+        const {
+            assert!(
+                M::MEASURES == 1 && !M::PER_VOLUME,
+                "a spring has one measure, its stretch"
+            );
+        }
+        let element = self.next_element::<M>();
+        for node in nodes {
+            self.expect_own(&node);
+        }
+        if nodes[0] == nodes[1] {
+            let node = nodes[0];
+            self.refuse(SceneError::SelfSpring { element, node });
+        }
+        let (group, set) = self.set_of(LooseElements::<S, M, Stretch<D>, D>::new);
+        let place = set.points();
+        set.elements.push((element, [(model, Stretch)]));
+        self.push_element(&nodes, [group, place]);
+        element
+    }
+
+    /// The initial temperature of an element, K. Every element with a temperature needs one, also if a thermostat
+    /// [prescribes it](Self::prescribe_temperature). The last call counts.
+    pub fn set_temperature(&mut self, element: Element, temperature: S) {
+        if self.expect_own(&element) {
+            self.elements[element.index()].temperature = Some(temperature);
+        }
+    }
+
+    /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero by default. For a viscous strain
+    /// tensor use [`set_viscous_strain`](Self::set_viscous_strain).
+    pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: S) {
+        if self.expect_own(&element) {
+            let entry = &mut self.elements[element.index()];
+            let shape = self.groups.get(entry.group).map(|group| group.shape());
+            let shape = shape.filter(|shape| shape.viscous_strain > 0);
+            let dashpots = shape.map(|shape| shape.scalar_dashpots());
+            match dashpots.filter(|&dashpots| dashpot >= dashpots) {
+                None => entry.viscous_stretches.push((dashpot, stretch)),
+                Some(dashpots) => self.refuse(SceneError::NoSuchDashpot {
+                    element,
+                    dashpot,
+                    dashpots,
+                }),
+            }
+        }
+    }
+
+    /// A heat reservoir at a constant temperature, K.
+    pub fn reservoir(&mut self, temperature: S) -> Reservoir {
+        self.reservoirs.push(temperature);
+        self.reservoir_at(self.reservoirs.len() - 1)
+    }
+
+    /// A heat reservoir whose temperature is a function of time, K of s: an oven, or the weather. What it gives is heat of the
+    /// ledger, as that of thermostats; it keeps none.
+    ///
+    /// A step sees the temperature in its middle, with every scheme: the laws hold exactly, and the error of the oven is of
+    /// order 2 in the step.
+    ///
+    /// ```
+    /// use eem::materials::ThermoelasticSpring;
+    /// use eem::prelude::*;
+    ///
+    /// let wire = ThermoelasticSpring {
+    ///     stiffness: 5.0, coupling: 0.0, capacity: 2.0, natural_length: 1.0, theta_ref: 300.0,
+    /// };
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
+    /// let wire = scene.spring(wire, ends);
+    /// scene.set_temperature(wire, 300.0);
+    /// let oven = scene.oven(|t: f64| 300.0 + 10.0 * t);
+    /// scene.conduct(wire, oven, 4.0);
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01)?;
+    /// run.run_until(1.0)?;
+    /// // θ̇ = (4/2) (θ_oven − θ), so that θ − 300 = 10 t − 5 (1 − e⁻²ᵗ)
+    /// let exact = 310.0 - 5.0 * (1.0 - (-2.0_f64).exp());
+    /// assert!((run.temperature(wire)? - exact).abs() < 1e-3);
+    /// let ledger = run.ledger();
+    /// assert!((ledger.heat - 2.0 * (run.temperature(wire)? - 300.0)).abs() < 1e-11);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn oven(&mut self, temperature: impl Fn(S) -> S + Send + Sync + 'static) -> Reservoir {
+        let oven = self.reservoir(S::one());
+        self.loads.ovens.push((oven.index, Arc::new(temperature)));
+        oven
+    }
+
+    /// Fourier conduction with conductance κ (W/K) from an element to another or to a reservoir:
+    /// the element receives the heat flow `κ (θ_partner − θ_element)`.
+    ///
+    /// Conductances of several calls for the same two partners add, in either order of the partners.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
+    ///     0.5 * k * (lambda - 1.0).powi(2) + c * (theta - theta * ln(theta / 300.0))
+    /// })]
+    /// struct Warm { k: f64, c: f64 }
+    ///
+    /// let heat = |conductances: &[f64]| {
+    ///     let mut scene = Scene::<1>::new();
+    ///     let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
+    ///     let spring = scene.spring(Warm { k: 1.0, c: 1.0 }, ends);
+    ///     scene.set_temperature(spring, 350.0);
+    ///     let air = scene.reservoir(300.0);
+    ///     for &conductance in conductances {
+    ///         scene.conduct(spring, air, conductance);
+    ///     }
+    ///     let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    ///     run.step()?;
+    ///     Ok::<f64, Box<dyn std::error::Error>>(run.reservoir_heat(air)?)
+    /// };
+    /// assert!((heat(&[1.5, 0.5])? - heat(&[2.0])?).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn conduct(
+        &mut self,
+        element: Element,
+        partner: impl Into<HeatPartner>,
+        conductance: S,
+    ) -> HeatPath {
+        let partner = partner.into();
+        let is_own = self.expect_own(&element);
+        let is_partner_own = match partner {
+            HeatPartner::Element(other) => self.expect_own(&other),
+            HeatPartner::Reservoir(other) => self.expect_own(&other),
+        };
+        if is_own && is_partner_own {
+            self.conductors.push(Conductor {
+                element,
+                partner,
+                conductance,
+            });
+        }
+        let index = self.conductors.len().saturating_sub(1);
+        HeatPath {
+            scene: self.lineage.giver(Kind::HeatPath, index),
+            index,
+        }
+    }
+
+    /// The time at which a run begins, s; zero by default. It may be negative. Loads, motions and thermostats are functions of
+    /// this time.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(2.0, [0.0], [0.0]);
+    /// scene.force(mass, |t: f64| [if t < 0.0 { 1.0 } else { 0.0 }]);
+    /// scene.start_at(-0.5);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
+    /// assert_eq!(run.time(), -0.5);
+    /// run.run_until(1.0)?;
+    /// assert_eq!(run.momentum(mass)?[0], 0.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn start_at(&mut self, time: S) {
+        self.start = time;
+    }
+
+    /// Limits the memory of the matrix of Newton's method and its factors, bytes. Without a limit it is the memory
+    /// available when the simulation begins.
+    ///
+    /// The factors of solids in space need most: about 16 GB for a block of 50³ cells with eight nodes. A scene
+    /// that does not fit is rejected before memory is reserved, with
+    /// [`SceneError::TooLarge`](crate::SceneError::TooLarge).
+    ///
+    /// ```
+    /// use eem::TooLarge;
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let mut last = scene.anchor([0.0, 0.0]);
+    /// for index in 1..=100 {
+    ///     let next = scene.mass(1.0, [f64::from(index), 0.0], [0.0, 0.0]);
+    ///     scene.spring(Hooke { stiffness: 1.0, natural_length: 1.0 }, [last, next]);
+    ///     last = next;
+    /// }
+    /// scene.limit_memory(1_000);
+    /// let refused = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+    /// assert!(matches!(
+    ///     refused.errors(),
+    ///     [SceneError::TooLarge(TooLarge { unknowns: 200, available: Some(1_000), .. })]
+    /// ));
+    /// ```
+    pub fn limit_memory(&mut self, bytes: u64) {
+        self.memory_limit = MemoryLimit::new(Some(bytes));
+    }
+}
