@@ -37,6 +37,11 @@
 //! | add a shape of cell | `shape.rs` in `eem-mesh` |
 //! | change solids and their checks | `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `cell.rs` in `scene`; meshes: `eem-mesh` |
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
+//! | let a controller set something else | `run/simulation/controller.rs`; `Course` in `scene/loads.rs`; `SavedLoads` in `run/checkpoint.rs` |
+//! | change ovens | `run/simulation/ovens.rs` |
+//! | change the scheme in the middle of a run | `run/simulation/change.rs`; what not every scheme can step: `check.rs` there |
+//! | measure what elements do in a step | `element/meters.rs`, where balances book; `run/simulation/meters.rs`, `run/recorder/quantity.rs` |
+//! | add something to checkpoints | `run/checkpoint`: `entries.rs` for rules and digests, `lines.rs` for files |
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
 //! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |

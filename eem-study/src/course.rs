@@ -88,7 +88,8 @@ impl Course {
                 }
             }
             StepChoice::Tolerance(_) => {
-                run.run_until_with(S::from_f64(self.end), |run, report| {
+                let end = run.time() + S::from_f64(self.end);
+                run.run_until_with(end, |run, report| {
                     watch(run, report);
                     ControlFlow::Continue(())
                 })?;

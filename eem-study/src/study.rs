@@ -84,7 +84,7 @@ impl<const D: usize> fmt::Debug for Study<'_, D> {
 }
 
 impl<'a, const D: usize> Study<'a, D> {
-    /// A study of the scene that `build` makes, from its start to the time `end`, s. Every run builds it again, so
+    /// A study of the scene that `build` makes, over the time `end` from its start, s. Every run builds it again, so
     /// it must be the same each time.
     pub fn new(build: impl Fn() -> Scene<D> + 'a, end: f64) -> Self {
         Self {
