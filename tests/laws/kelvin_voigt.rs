@@ -444,7 +444,7 @@ fn a_viscosity_that_is_not_positive_is_refused() {
     assert_eq!(
         error.to_string(),
         format!(
-            "at t = 0 s: the viscosity of the stretch of {spring} is 0 N s/m, it must be positive and finite"
+            "at the start: the viscosity of the stretch of {spring} is 0 N s/m, it must be positive and finite"
         )
     );
     let domain = Domain::of_stretch([0.5, 2.0]);

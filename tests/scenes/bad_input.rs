@@ -82,7 +82,7 @@ fn masses_and_positions() {
     assert_error!(
         |draft| draft.position = [0.0, 0.0],
         SceneError::State(StateError::Stretch { .. }),
-        "at t = 0 s: the stretch of element 0 (ThermoViscoElastic) is 0 m, it must lie between 1.5e-154 m and 1.3e154 m, so that its square neither underflows nor overflows"
+        "at the start: the stretch of element 0 (ThermoViscoElastic) is 0 m, it must lie between 1.5e-154 m and 1.3e154 m, so that its square neither underflows nor overflows"
     );
 }
 
@@ -96,12 +96,12 @@ fn temperatures_and_heat() {
     assert_error!(
         |draft| draft.temperature = Some(0.0),
         SceneError::State(StateError::Temperature { .. }),
-        "at t = 0 s: the temperature of element 0 (ThermoViscoElastic) is 0 K, it must be positive and finite"
+        "at the start: the temperature of element 0 (ThermoViscoElastic) is 0 K, it must be positive and finite"
     );
     assert_error!(
         |draft| draft.temperature = Some(-3.0),
         SceneError::State(StateError::Temperature { .. }),
-        "at t = 0 s: the temperature of element 0 (ThermoViscoElastic) is -3 K, it must be positive and finite"
+        "at the start: the temperature of element 0 (ThermoViscoElastic) is -3 K, it must be positive and finite"
     );
     assert_error!(
         |draft| draft.reservoir = NAN,
@@ -128,7 +128,7 @@ fn parameters_and_steps() {
     assert_error!(
         |draft| draft.viscous_stretch = NAN,
         SceneError::State(StateError::ViscousStretch { .. }),
-        "at t = 0 s: the viscous stretch of dashpot 0 of element 0 (ThermoViscoElastic) is NaN m, it must be finite"
+        "at the start: the viscous stretch of dashpot 0 of element 0 (ThermoViscoElastic) is NaN m, it must be finite"
     );
     assert_error!(
         |draft| draft.step = 0.0,
@@ -143,13 +143,13 @@ fn parameters_and_steps() {
     assert_error!(
         |draft| (draft.model.eta0, draft.model.a) = (-100.0, 0.0),
         SceneError::State(StateError::Viscosity { dashpot: 0, .. }),
-        "at t = 0 s: the viscosity of dashpot 0 of element 0 (ThermoViscoElastic) is -100 N s/m at 380 K, \
+        "at the start: the viscosity of dashpot 0 of element 0 (ThermoViscoElastic) is -100 N s/m at 380 K, \
          it must be positive and finite"
     );
     assert_error!(
         |draft| draft.model.capacity = -1.0,
         SceneError::State(StateError::HeatCapacity { .. }),
-        "at t = 0 s: the heat capacity of element 0 (ThermoViscoElastic) is -1.1 J/K at 380 K, \
+        "at the start: the heat capacity of element 0 (ThermoViscoElastic) is -1.1 J/K at 380 K, \
          it must be positive and finite"
     );
 }
@@ -265,7 +265,7 @@ fn an_energy_that_is_not_a_number_is_refused() {
     };
     scene.spring(model, [pivot, bob]);
     let error = only_error(Simulation::new(scene, Scheme::EemEntropy, 0.1));
-    let text = "at t = 0 s: the free energy of element 0 (Broken) is NaN, it must be finite";
+    let text = "at the start: the free energy of element 0 (Broken) is NaN, it must be finite";
     assert_eq!(error.to_string(), text);
 }
 

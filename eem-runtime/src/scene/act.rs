@@ -95,12 +95,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// The position of an anchor as a function of time, m of s, for example of a shaking table. The ledger counts
     /// the work of the support.
     ///
-    /// The function is evaluated at the end of each step. At t = 0 it must return the initial position of the
+    /// The function is evaluated at the end of each step. At the start it must return the initial position of the
     /// anchor, to rounding; otherwise the error is [`SceneError::AnchorJump`].
     ///
     /// Next to a solid with consistent mass an anchor also has a velocity, which accelerates neighbouring nodes. It
     /// is the derivative of the cubic through the positions before and after a step and at its thirds; its error is
-    /// `O(h³)`, plus 15ε|x|/h of rounding. The initial velocity is the derivative at t = 0, or
+    /// `O(h³)`, plus 15ε|x|/h of rounding. The initial velocity is the derivative at the start, or
     /// [`SolidError::AnchorSpeed`](crate::SolidError::AnchorSpeed) if there is none. After a jump within a step the
     /// velocity depends on the position of the jump in the step, so resolve fast motions by several steps.
     pub fn move_anchor(
@@ -146,7 +146,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// Prescribes the temperature of an element as a function of time, K of s (a thermostat). The ledger counts the
     /// heat and the entropy that the thermostat supplies.
     ///
-    /// The initial temperature must be set as well, and must equal the prescribed one at t = 0 to rounding;
+    /// The initial temperature must be set as well, and must equal the prescribed one at the start to rounding;
     /// otherwise the error is [`SceneError::TemperatureJump`].
     pub fn prescribe_temperature(
         &mut self,

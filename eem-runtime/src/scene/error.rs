@@ -320,7 +320,7 @@ pub enum SceneError {
     },
     /// The initial heat flow or entropy flow of a conductance, or the sum at an element, is not finite.
     #[error(
-        "the {quantity} from {partner} to {element} at t = 0 s is {value} {unit}, it must be finite, and so must the sum of all flows to an element",
+        "the {quantity} from {partner} to {element} at the start is {value} {unit}, it must be finite, and so must the sum of all flows to an element",
         value = Readable(*value)
     )]
     HeatFlow {
@@ -337,7 +337,7 @@ pub enum SceneError {
     },
     /// A sum over the scene in its initial state is not finite, although each term is.
     #[error(
-        "the {quantity} of the scene at t = 0 s is {value} {unit}, it must be finite: the terms of its sum are too large",
+        "the {quantity} of the scene at the start is {value} {unit}, it must be finite: the terms of its sum are too large",
         value = Readable(*value)
     )]
     Total {
@@ -350,7 +350,7 @@ pub enum SceneError {
     },
     /// The prescribed motion of an anchor does not begin where the anchor was created.
     #[error(
-        "coordinate {axis} of the motion of {node} is {prescribed} m at t = 0 s, but the anchor was created at {created} m: create it where its motion begins",
+        "coordinate {axis} of the motion of {node} is {prescribed} m at the start, but the anchor was created at {created} m: create it where its motion begins",
         created = Readable(*created), prescribed = Readable(*prescribed)
     )]
     AnchorJump {
@@ -360,12 +360,12 @@ pub enum SceneError {
         axis: usize,
         /// The coordinate given to [`Scene::anchor`](crate::Scene::anchor), m.
         created: f64,
-        /// The coordinate that the motion has at t = 0, m.
+        /// The coordinate that the motion has at the start, m.
         prescribed: f64,
     },
     /// A prescribed temperature does not begin at the initial one.
     #[error(
-        "the temperature prescribed on {element} is {prescribed} K at t = 0 s, but its initial temperature is {initial} K: set the temperature with which the thermostat begins",
+        "the temperature prescribed on {element} is {prescribed} K at the start, but its initial temperature is {initial} K: set the temperature with which the thermostat begins",
         initial = Readable(*initial), prescribed = Readable(*prescribed)
     )]
     TemperatureJump {
@@ -373,7 +373,7 @@ pub enum SceneError {
         element: Element,
         /// The temperature given to [`Scene::set_temperature`](crate::Scene::set_temperature), K.
         initial: f64,
-        /// The temperature that is prescribed at t = 0, K.
+        /// The temperature that is prescribed at the start, K.
         prescribed: f64,
     },
     /// Something is prescribed twice.
@@ -385,7 +385,7 @@ pub enum SceneError {
         quantity: &'static str,
     },
     /// The initial state of an element is outside the domain of its model.
-    #[error("at t = 0 s: {0}")]
+    #[error("at the start: {0}")]
     State(StateError),
 }
 

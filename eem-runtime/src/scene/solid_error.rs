@@ -52,9 +52,9 @@ pub enum SolidError {
         /// The number of directions.
         given: usize,
     },
-    /// The prescribed motion of a node of a solid has no velocity at t = 0.
+    /// The prescribed motion of a node of a solid has no velocity at the start.
     #[error(
-        "coordinate {axis} of the motion of {node} has no finite velocity at t = 0 s, which the solid there needs: give it finite positions from t = 0 s on"
+        "coordinate {axis} of the motion of {node} has no finite velocity at the start, which the solid there needs: give it finite positions from the start on"
     )]
     AnchorSpeed {
         /// The anchor.

@@ -27,7 +27,7 @@ fn an_anchor_that_jumps_at_the_start_is_refused_with_both_places() {
     };
     assert_eq!(
         error.to_string(),
-        "coordinate 0 of the motion of node 0 is 1 m at t = 0 s, but the anchor was created at 0.7 m: \
+        "coordinate 0 of the motion of node 0 is 1 m at the start, but the anchor was created at 0.7 m: \
          create it where its motion begins"
     );
     for bad in [f64::NAN, f64::INFINITY, 1e-12] {
@@ -44,7 +44,7 @@ fn a_thermostat_that_jumps_at_the_start_is_refused_with_both_temperatures() {
     let error = build(|_| [0.7, 0.0], |t| 330.0 + t).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "the temperature prescribed on element 0 (Warm) is 330 K at t = 0 s, but its initial temperature is \
+        "the temperature prescribed on element 0 (Warm) is 330 K at the start, but its initial temperature is \
          310 K: set the temperature with which the thermostat begins"
     );
     for bad in [f64::NAN, f64::INFINITY, -310.0, 0.0, 310.0 + 1e-9] {

@@ -67,14 +67,14 @@ fn heat_flows_that_overflow_alone_or_together() {
         let room = scene.reservoir(1e200);
         scene.conduct(spring, room, 1e200);
     });
-    let text = "the heat flow from reservoir 0 to element 0 (Warm) at t = 0 s is inf W, it must be finite, \
+    let text = "the heat flow from reservoir 0 to element 0 (Warm) at the start is inf W, it must be finite, \
                 and so must the sum of all flows to an element";
     assert_eq!(error.to_string(), text);
     let error = refusal(|scene, _, spring| {
         let room = scene.reservoir(1e-310);
         scene.conduct(spring, room, 1.0);
     });
-    let text = "the flow of entropy from reservoir 0 to element 0 (Warm) at t = 0 s is -inf W/K, it must be \
+    let text = "the flow of entropy from reservoir 0 to element 0 (Warm) at the start is -inf W/K, it must be \
                 finite, and so must the sum of all flows to an element";
     assert_eq!(error.to_string(), text);
     let error = refusal(|scene, _, spring| {

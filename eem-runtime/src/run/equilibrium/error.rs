@@ -26,7 +26,7 @@ pub enum EquilibriumError {
         /// Its value.
         value: f64,
     },
-    /// A load at t = 0 is not finite, or an element has no force in the initial state.
+    /// A load at the start is not finite, or an element has no force in the initial state.
     #[error(transparent)]
     Start(StepFailure),
     /// A motion that no force holds: a body without supports, or a mechanism.
