@@ -57,12 +57,12 @@ fn scene() -> (Scene<2>, Handles) {
 fn act(run: &mut Simulation<2>, random: &mut Random, at: Handles) {
     let mut number = |size: f64| size * (2.0 * random.unit() - 1.0);
     let force = [number(5.0), number(5.0)];
-    let place = [number(0.01), number(0.01)];
+    let speed = [number(0.5), number(0.5)];
     let theta = 310.0 + number(2.0);
     let which = random.below(4);
     match which {
         0 | 1 => run.set_force(at.masses[which], force).unwrap(),
-        2 => run.set_motion(at.hook, place).unwrap(),
+        2 => run.set_motion(at.hook, speed).unwrap(),
         _ => run.set_temperature_of(at.held, theta).unwrap(),
     }
 }
@@ -98,11 +98,13 @@ fn work_and_heat_of_random_controllers_are_booked() {
 #[test]
 fn solids_are_moved_and_pushed_too() {
     use crate::support::solids::SaintVenant;
-    for scheme in [
+    let exact = [
         Scheme::EemEntropy,
         Scheme::EemTemperature,
         Scheme::EemEntropy6,
-    ] {
+    ];
+    let both = |own| [(own, false), (own, true)];
+    for (scheme, is_controlled) in exact.into_iter().flat_map(both) {
         let rubber = SaintVenant {
             lame: 2000.0,
             shear: 1000.0,
@@ -117,18 +119,21 @@ fn solids_are_moved_and_pushed_too() {
         }
         let mut run = Simulation::new(scene, scheme, 0.01).unwrap();
         let [root, tip] = [[0.0, 0.0], [3.0, 1.0]].map(|place| plate.node_at(place, 1e-9).unwrap());
+        if is_controlled {
+            run.control_steps(Tolerance::new(1e-3)).unwrap();
+        }
         let start = run.ledger().balance;
         let mut bound = 0.0;
         for step in 0..40 {
             let time = f64::from(step) * 0.01;
             run.set_force(tip, [0.0, 20.0 * (9.0 * time).sin()])
                 .unwrap();
-            run.set_motion(root, [0.02 * (5.0 * time).sin(), 0.0])
+            run.set_motion(root, [0.1 * (5.0 * time).cos(), 0.0])
                 .unwrap();
             bound += 2.0 * run.step().unwrap().bound;
         }
         let end = run.ledger();
-        assert!(end.work.abs() > 0.01);
+        assert!(end.work.abs() > 1e-6);
         let defect = (end.balance - start).abs();
         assert!(defect <= bound, "{scheme}: {defect:e} above {bound:e}");
     }
@@ -153,16 +158,22 @@ fn a_constant_force_is_that_of_the_scene() {
 }
 
 #[test]
-fn values_are_reached_at_the_end_of_the_next_step_and_kept() {
+fn velocities_and_temperatures_are_kept() {
     for scheme in EXACT {
         let (scene, at) = scene();
         let mut run = Simulation::new(scene, scheme, 0.01).unwrap();
         run.step().unwrap();
-        run.set_motion(at.hook, [0.01, -0.02]).unwrap();
+        let start = run.time();
+        run.set_motion(at.hook, [0.5, -1.0]).unwrap();
         run.set_temperature_of(at.held, 312.5).unwrap();
         for _ in 0..3 {
             run.step().unwrap();
-            assert_eq!(run.position(at.hook).unwrap().as_slice(), [0.01, -0.02]);
+            let elapsed = run.time() - start;
+            let place = run.position(at.hook).unwrap();
+            // Three sums of displacements, each rounded.
+            let rounding = 8.0 * f64::EPSILON * elapsed;
+            assert!((place[0] - 0.5 * elapsed).abs() < rounding, "{scheme}");
+            assert!((place[1] + elapsed).abs() < rounding, "{scheme}");
             assert_eq!(run.temperature(at.held), Ok(312.5));
         }
     }
@@ -183,7 +194,7 @@ fn runs_with_controllers_resume_with_all_bits() {
         let mut run = build();
         steps(&mut run, at, 1);
         // Set, but not reached yet.
-        run.set_motion(at.hook, [0.005, 0.0]).unwrap();
+        run.set_motion(at.hook, [0.1, 0.0]).unwrap();
         run.set_temperature_of(at.held, 309.0).unwrap();
         let saved = run.checkpoint();
         let mut fresh = build();
@@ -285,7 +296,7 @@ fn what_cannot_be_set_is_refused() {
     let message = text(run.set_temperature_of(at.warm, 300.0));
     assert!(message.contains("call `hold_temperature`"), "{message}");
     let message = text(run.set_motion(at.hook, [f64::INFINITY, 0.0]));
-    assert!(message.contains("inf m"), "{message}");
+    assert!(message.contains("inf m/s"), "{message}");
     let (_, foreign) = scene();
     assert!(run.set_force(foreign.masses[0], [0.0; 2]).is_err());
 }

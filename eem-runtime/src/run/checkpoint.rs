@@ -106,7 +106,7 @@ pub(crate) struct SavedLoads<S> {
     pub(crate) forced: Vec<usize>,
     pub(crate) forces: Vec<S>,
     pub(crate) moved: Vec<usize>,
-    pub(crate) positions: Vec<S>,
+    pub(crate) velocities: Vec<S>,
     pub(crate) held: Vec<usize>,
     pub(crate) temperatures: Vec<S>,
 }
@@ -118,7 +118,7 @@ impl<S> SavedLoads<S> {
             forced: Vec::new(),
             forces: Vec::new(),
             moved: Vec::new(),
-            positions: Vec::new(),
+            velocities: Vec::new(),
             held: Vec::new(),
             temperatures: Vec::new(),
         }

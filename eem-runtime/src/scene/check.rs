@@ -284,7 +284,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let scale = extent(positions.flat_map(|position| position.iter()));
         for (anchor, motion) in &self.loads.motions {
             let created = self.nodes[anchor.index].position;
-            let prescribed = motion.at(self.start, &created.into(), S::zero());
+            let prescribed = motion.position(self.start, &created.into(), S::zero());
             for axis in 0..D {
                 if !is_rounding(prescribed[axis] - created[axis], scale) {
                     errors.push(SceneError::AnchorJump {

@@ -30,26 +30,29 @@ pub(crate) type OfTime<S, const D: usize> = Arc<dyn Fn(S) -> SVector<S, D> + Sen
 /// A temperature in K as a function of time in s.
 pub(crate) type TemperatureOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
 
-/// A value that a load gives: `F` is a function of time in s.
+/// What a load gives: `F` is a function of time in s.
 #[derive(Clone)]
 pub(crate) enum Course<F, T> {
     /// A function of the user.
     Function(F),
-    /// A value that is reached at the end of a step, and kept until another one is set.
+    /// A value that holds until another one is set: a force, the velocity of an anchor, or a temperature that is reached at
+    /// the end of a step.
     Set(T),
 }
 
 /// The value on the way from one to another, at a share of the step.
-pub(crate) fn between<S: Real>(from: S, to: S, share: S) -> S {
+fn between<S: Real>(from: S, to: S, share: S) -> S {
     S::branch(share.equal(S::one()), || to, || from + share * (to - from))
 }
 
 impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
-    /// The value at a time, at this share of a step that begins at `from`.
-    pub(crate) fn at(&self, time: S, from: &[S; D], share: S) -> SVector<S, D> {
+    /// The position of an anchor at a time, so long after it was at `from`.
+    pub(crate) fn position(&self, time: S, from: &[S; D], elapsed: S) -> SVector<S, D> {
         match self {
             Self::Function(of) => of(time),
-            Self::Set(to) => SVector::from_fn(|axis, _| between(from[axis], to[axis], share)),
+            Self::Set(velocity) => {
+                SVector::from_fn(|axis, _| from[axis] + elapsed * velocity[axis])
+            }
         }
     }
 }
@@ -64,7 +67,7 @@ impl<S: Real> Course<TemperatureOfTime<S>, S> {
     }
 }
 
-/// The course of a force or of a position.
+/// The course of a force or of an anchor.
 pub(crate) type VectorCourse<S, const D: usize> = Course<OfTime<S, D>, SVector<S, D>>;
 
 /// The course of a temperature.

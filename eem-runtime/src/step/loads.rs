@@ -79,8 +79,8 @@ impl<S: Real> StepLoads<S> {
         old: &State<S>,
     ) -> Result<(), StepFailure> {
         let q0 = old.positions.values();
-        self.evaluate_motions(loads, (time + span, share), q0)?;
-        self.evaluate_speeds(loads, ([time, span], share), q0, polynomial)?;
+        self.evaluate_motions(loads, [time, span], q0)?;
+        self.evaluate_speeds(loads, [time, span], q0, polynomial)?;
         self.evaluate_temperatures(loads, ([time, span], share), &old.temperatures)
     }
 
@@ -137,11 +137,12 @@ impl<S: Real> StepLoads<S> {
     fn evaluate_motions<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        (end, share): (S, S),
+        [time, span]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
         for (node, motion) in &loads.motions {
-            let position = motion.at(end, &point(q0, node.index), share);
+            let end = time + span;
+            let position = motion.position(end, &point(q0, node.index), span);
             for axis in 0..D {
                 let at = node.index * D + axis;
                 self.motion[at] = position[axis] - q0[at];
@@ -163,7 +164,7 @@ impl<S: Real> StepLoads<S> {
     fn evaluate_speeds<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        ([time, span], share): ([S; 2], S),
+        [time, span]: [S; 2],
         q0: &[S],
         polynomial: &Polynomial,
     ) -> Result<(), StepFailure> {
@@ -178,9 +179,9 @@ impl<S: Real> StepLoads<S> {
             for &weight in polynomial.weights {
                 before -= 1.0;
                 let at = time + S::from_f64(before) * part;
-                let part = S::from_f64(before / polynomial.degree) * share;
                 let from = point(q0, node.index);
-                let position = (before > 0.0).then(|| motion.at(at, &from, part));
+                let elapsed = S::from_f64(before) * part;
+                let position = (before > 0.0).then(|| motion.position(at, &from, elapsed));
                 for (axis, sum) in sums.iter_mut().enumerate() {
                     let coordinate = node.index * D + axis;
                     // Zero at the start.

@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let before = run.ledger();
     println!("  time      hook      load      swing         work");
     for step in 0_u32..=400 {
-        let [x, y] = run.position(hook)?.into();
+        let x = run.position(hook)?[0];
         let swing = run.position(load)?[0] - x;
         if step % 40 == 0 {
             println!(
@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 run.ledger().work
             );
         }
-        run.set_motion(hook, [x + STEP * 2.0 * DAMPING * omega * swing, y])?;
+        run.set_motion(hook, [2.0 * DAMPING * omega * swing, 0.0])?;
         run.step()?;
     }
     let swing = run.position(load)?[0] - run.position(hook)?[0];

@@ -163,9 +163,9 @@ impl<S: Real> Checkpoint<S> {
             Entry::new("step size", Positive, [self.step]),
             Entry::new("set forces", Finite, self.loads.forces.iter().copied()).sealed(),
             Entry::new(
-                "set positions",
+                "set velocities",
                 Finite,
-                self.loads.positions.iter().copied(),
+                self.loads.velocities.iter().copied(),
             )
             .sealed(),
             Entry::new(

@@ -224,7 +224,7 @@ fn loads<S: Real>(text: &mut Text<'_>, own: Option<&SavedLoads<S>>) -> Read<Save
         forced: text.items("nodes with a force", own.map(|own| &own.forced[..]))?,
         forces: text.numbers("forces on them", own.map(|own| &own.forces[..]))?,
         moved: text.items("moved anchors", own.map(|own| &own.moved[..]))?,
-        positions: text.numbers("positions of them", own.map(|own| &own.positions[..]))?,
+        velocities: text.numbers("velocities of them", own.map(|own| &own.velocities[..]))?,
         held: text.items("thermostats", own.map(|own| &own.held[..]))?,
         temperatures: text.numbers("temperatures of them", own.map(|own| &own.temperatures[..]))?,
     })

@@ -135,7 +135,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let created = home.map_or(created[at], |home| home[axis]);
                 let (value, carry) = positions[at];
                 if matches!(motion, Some(Course::Set(_))) {
-                    // Where the controller has brought it, or brings it next.
+                    // Where the controller has brought it.
                     continue;
                 }
                 let motion = motion.and_then(|motion| match motion {

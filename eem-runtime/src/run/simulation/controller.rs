@@ -58,13 +58,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })
     }
 
-    /// Sets the position that an anchor reaches at the end of the next step, m, with a constant velocity; there it stays until
-    /// another one is set. The ledger counts the work of the support.
+    /// Sets the velocity of an anchor, m/s, with which it moves until another one is set. The ledger counts the work of the
+    /// support. Next to a solid with consistent mass, the anchor reaches the velocity within the next step.
     ///
     /// # Errors
     ///
     /// [`SceneError::WrongKind`] for a mass, [`SceneError::GivenLoad`] if the scene [moves](crate::Scene::move_anchor) this
-    /// anchor, [`SceneError::Position`] for a coordinate that is not finite, [`SceneError::ForeignHandle`],
+    /// anchor, [`SceneError::Velocity`] for a component that is not finite, [`SceneError::ForeignHandle`],
     /// [`SceneError::TooLarge`]. Nothing is changed then.
     ///
     /// ```
@@ -75,25 +75,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// let hook = scene.anchor([0.0]);
     /// let mass = scene.mass(1.0, [1.0], [0.0]);
     /// scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, [hook, mass]);
-    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-    /// run.set_motion(hook, [0.1])?;
-    /// run.step()?;
-    /// assert_eq!(run.position(hook)?[0], 0.1);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.125)?;
+    /// run.set_motion(hook, [0.5])?;
     /// run.run_until(1.0)?;
-    /// assert_eq!(run.position(hook)?[0], 0.1);
+    /// run.set_motion(hook, [0.0])?;
+    /// run.run_until(2.0)?;
+    /// assert_eq!(run.position(hook)?[0], 0.5);
     /// let ledger = run.ledger();
     /// assert!((ledger.energy - ledger.work).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn set_motion(&mut self, anchor: Node, position: [S; D]) -> Result<(), SceneError> {
+    pub fn set_motion(&mut self, anchor: Node, velocity: [S; D]) -> Result<(), SceneError> {
         let checked = self.expect_mass(anchor, false, "a prescribed motion");
         checked.inspect_err(|_| self.diverge())?;
-        if let Some((axis, value)) = infinite(&position).next() {
+        if let Some((axis, value)) = infinite(&velocity).next() {
             self.diverge();
             let node = anchor;
-            return Err(SceneError::Position { node, axis, value });
+            return Err(SceneError::Velocity { node, axis, value });
         }
-        let is_new = set(&mut self.loads.motions, anchor, position.into());
+        let is_new = set(&mut self.loads.motions, anchor, velocity.into());
         let Some(is_new) = is_new else {
             return Err(self.given(&anchor, "motion"));
         };
@@ -217,9 +217,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             saved.forced.push(node.index);
             saved.forces.extend(force.iter());
         }
-        for (node, position) in set_ones(&self.loads.motions) {
+        for (node, velocity) in set_ones(&self.loads.motions) {
             saved.moved.push(node.index);
-            saved.positions.extend(position.iter());
+            saved.velocities.extend(velocity.iter());
         }
         for (element, temperature) in &self.loads.temperatures {
             if let Course::Set(temperature) = temperature {
@@ -240,7 +240,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(RestoreError::Loads);
         }
         let forces = saved.forces.as_chunks::<D>().0;
-        let positions = saved.positions.as_chunks::<D>().0;
+        let velocities = saved.velocities.as_chunks::<D>().0;
         let is_valid = |nodes: &[usize], values: &[[S; D]], mass: bool| {
             let masses = &self.masses;
             let is_one = |&node: &usize| node < masses.len() && masses.get(node).is_some() == mass;
@@ -250,7 +250,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 && all.copied().all(Real::is_finite)
         };
         if !is_valid(&saved.forced, forces, true)
-            || !is_valid(&saved.moved, positions, false)
+            || !is_valid(&saved.moved, velocities, false)
             || !saved.temperatures.iter().all(|&theta| is_positive(theta))
         {
             return Err(RestoreError::Loads);
@@ -268,10 +268,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 .forces
                 .push((node(index), Course::Set((*force).into())));
         }
-        for (&index, position) in saved.moved.iter().zip(positions) {
+        for (&index, velocity) in saved.moved.iter().zip(velocities) {
             loads
                 .motions
-                .push((node(index), Course::Set((*position).into())));
+                .push((node(index), Course::Set((*velocity).into())));
         }
         let mut temperatures = saved.temperatures.iter();
         for (_, own) in &mut loads.temperatures {

@@ -167,7 +167,9 @@ impl<S: Real, const D: usize> Moved<S, D> {
         let mut positions = [[S::zero(); D]; POINTS];
         for (position, &share) in positions.iter_mut().zip(&interpolation.points) {
             let at = time + share * step;
-            let found = loads.motions[self.motion].1.at(at, from, share);
+            let found = loads.motions[self.motion]
+                .1
+                .position(at, from, share * step);
             for axis in 0..D {
                 position[axis] = found[axis];
                 if !found[axis].is_finite() {
