@@ -63,7 +63,7 @@ fn bar<H: Shape<D>, const D: usize>(
     (is_clamped, is_lumped): (bool, bool),
     start: impl Fn([f64; D]) -> [f64; D],
     (scheme, step): (Scheme, f64),
-) -> (Simulation<D>, eem::Body<H, D>) {
+) -> (Simulation<D>, Body<H, D>) {
     let (mut counts, mut sides) = ([1; D], [[0.0, height]; D]);
     (counts[0], sides[0]) = (cells, [0.0, 1.0]);
     let mesh = Mesh::<H, D>::block(counts, sides).unwrap();

@@ -18,7 +18,7 @@ const AMPLITUDE: f64 = 1e-3;
 const LONG: f64 = 1e6;
 
 /// The panel, one end of which is clamped.
-fn panel<H: Shape<3>>(scene: &mut Scene<3>, cells: [usize; 3]) -> eem::Body<H, 3> {
+fn panel<H: Shape<3>>(scene: &mut Scene<3>, cells: [usize; 3]) -> Body<H, 3> {
     let mesh = Mesh::<H, 3>::block(cells, SIZE).unwrap();
     let material = SaintVenant {
         lame: MODULUS * RATIO / ((1.0 + RATIO) * (1.0 - 2.0 * RATIO)),

@@ -35,7 +35,7 @@ fn solid(
     group: usize,
     (material, bulk): (SaintVenant, &Bulk<3>),
     nodes: &mut BTreeMap<usize, Node>,
-) -> eem::Body<Hex8, 3> {
+) -> Body<Hex8, 3> {
     let cells = elements(group);
     let mut numbers: Vec<_> = cells.iter().flatten().copied().collect();
     numbers.sort_unstable();
