@@ -2,18 +2,8 @@
 
 use eem::prelude::*;
 
-use crate::support::ThermoViscoElastic;
 use crate::support::solids::Viscous;
-
-const EXACT: [Scheme; 7] = [
-    Scheme::EemEntropy,
-    Scheme::EemTemperature,
-    Scheme::EemEntropy4,
-    Scheme::EemEntropy6,
-    Scheme::EemExplicit,
-    Scheme::Staggered,
-    Scheme::Auto,
-];
+use crate::support::{EXACT, ThermoViscoElastic};
 
 /// A Maxwell element without temperature.
 #[derive(Clone, Debug, FreeEnergy)]

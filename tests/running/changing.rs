@@ -4,18 +4,7 @@ use eem::materials::Hooke;
 use eem::prelude::*;
 use eem_testkit::random::Random;
 
-use crate::support::{Hencky, ThermoViscoElastic};
-
-/// The exact schemes, and the choice among them.
-const EXACT: [Scheme; 7] = [
-    Scheme::EemEntropy,
-    Scheme::EemTemperature,
-    Scheme::EemEntropy4,
-    Scheme::EemEntropy6,
-    Scheme::EemExplicit,
-    Scheme::Staggered,
-    Scheme::Auto,
-];
+use crate::support::{EXACT, Hencky, busy};
 
 /// A spring of 1 m with a dashpot in parallel.
 #[derive(Clone, Debug, FreeEnergy)]
@@ -27,31 +16,6 @@ struct Damper {
 }
 
 const CHANGES: usize = 10_000;
-
-/// Springs with dashpots and conduction, a pushed mass, a moved anchor, a thermostat.
-fn springs() -> Scene<2> {
-    let mut scene = Scene::<2>::new();
-    let support = scene.anchor([0.0, 0.0]);
-    let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
-    let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
-    let warm = scene.spring(ThermoViscoElastic::PENDULUM, [support, bob]);
-    let kept = scene.spring(ThermoViscoElastic::PENDULUM, [bob, tail]);
-    let hencky = Hencky {
-        stiffness: 30.0,
-        natural_length: 1.5,
-    };
-    scene.spring(hencky, [support, tail]);
-    scene.set_temperature(warm, 320.0);
-    scene.set_temperature(kept, 310.0);
-    scene.prescribe_temperature(kept, |t| 310.0 + 5.0 * t.sin());
-    scene.conduct(warm, kept, 3.0);
-    let air = scene.reservoir(300.0);
-    scene.conduct(warm, air, 10.0);
-    scene.set_gravity([0.0, -9.81]);
-    scene.force(bob, |t| [(3.0 * t).sin(), 0.2]);
-    scene.move_anchor(support, |t| [0.1 * (2.0 * t).sin(), 0.0]);
-    scene
-}
 
 /// The stored state in all bits; energies are evaluated again by another scheme.
 fn bits<const D: usize>(run: &Simulation<D>) -> String {
@@ -71,7 +35,7 @@ fn bits<const D: usize>(run: &Simulation<D>) -> String {
 fn every_scheme_goes_on_from_the_state_of_every_other() {
     for from in EXACT.into_iter().chain(Scheme::ALL) {
         for to in EXACT.into_iter().chain(Scheme::ALL) {
-            let mut run = Simulation::new(springs(), from, 0.01).unwrap();
+            let mut run = Simulation::new(busy(), from, 0.01).unwrap();
             if from == Scheme::Auto {
                 run.fix_steps();
             }
@@ -84,7 +48,7 @@ fn every_scheme_goes_on_from_the_state_of_every_other() {
             run.run_until(0.1).unwrap();
 
             // A run that began with the other scheme goes on in the same way.
-            let mut other = Simulation::new(springs(), to, 0.3).unwrap();
+            let mut other = Simulation::new(busy(), to, 0.3).unwrap();
             other.restore(&saved).unwrap();
             other.run_until(0.1).unwrap();
             assert_eq!(bits(&other), bits(&run), "{from} to {to}");
@@ -95,7 +59,7 @@ fn every_scheme_goes_on_from_the_state_of_every_other() {
 #[test]
 fn the_balance_holds_over_random_changes_of_scheme_and_step() {
     let mut random = Random::new(31);
-    let mut run = Simulation::new(springs(), Scheme::EemEntropy, 0.01).unwrap();
+    let mut run = Simulation::new(busy(), Scheme::EemEntropy, 0.01).unwrap();
     let start = run.ledger().balance;
     let mut bound = 0.0;
     for _ in 0..CHANGES {
@@ -121,7 +85,7 @@ fn the_balance_holds_over_random_changes_of_scheme_and_step() {
 
 #[test]
 fn tolerances_stay_and_choose_steps_for_the_new_scheme() {
-    let mut run = Simulation::new(springs(), Scheme::EemExplicit, 0.01).unwrap();
+    let mut run = Simulation::new(busy(), Scheme::EemExplicit, 0.01).unwrap();
     run.control_steps(Tolerance::new(1e-5)).unwrap();
     run.run_until(0.2).unwrap();
     let accepted = run.step_statistics().unwrap().accepted;

@@ -3,17 +3,7 @@
 use eem::prelude::*;
 use eem_testkit::random::Random;
 
-use crate::support::{Hencky, ThermoViscoElastic};
-
-const EXACT: [Scheme; 7] = [
-    Scheme::EemEntropy,
-    Scheme::EemTemperature,
-    Scheme::EemEntropy4,
-    Scheme::EemEntropy6,
-    Scheme::EemExplicit,
-    Scheme::Staggered,
-    Scheme::Auto,
-];
+use crate::support::{EXACT, Hencky, ThermoViscoElastic};
 
 /// What a controller acts on.
 #[derive(Clone, Copy)]

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use eem::prelude::*;
 use eem::{FormatError, LoadError, Real};
 
-use crate::support::{Hencky, ThermoViscoElastic, single_pendulum_scene};
+use crate::support::{busy, single_pendulum_scene};
 
 /// A file of this process that is removed at the end.
 struct Temporary(PathBuf);
@@ -22,29 +22,6 @@ impl Drop for Temporary {
     fn drop(&mut self) {
         _ = fs::remove_file(&self.0);
     }
-}
-
-/// Everything a checkpoint can have: a moved anchor, a thermostat, loads, conduction, dashpots.
-fn scene() -> Scene<2> {
-    let mut scene = Scene::<2>::new();
-    let support = scene.anchor([0.0, 0.0]);
-    let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
-    let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
-    let warm = scene.spring(ThermoViscoElastic::PENDULUM, [support, bob]);
-    let kept = scene.spring(ThermoViscoElastic::PENDULUM, [bob, tail]);
-    let hencky = Hencky {
-        stiffness: 30.0,
-        natural_length: 1.5,
-    };
-    scene.spring(hencky, [support, tail]);
-    scene.set_temperature(warm, 320.0);
-    scene.set_temperature(kept, 310.0);
-    scene.prescribe_temperature(kept, |t| 310.0 + 5.0 * t.sin());
-    let air = scene.reservoir(300.0);
-    scene.conduct(warm, air, 10.0);
-    scene.force(bob, |t| [(3.0 * t).sin(), 0.2]);
-    scene.move_anchor(support, |t| [0.1 * (2.0 * t).sin(), 0.0]);
-    scene
 }
 
 /// A checkpoint after some steps is the same from a file, and a run goes on from it with the same bits.
@@ -76,10 +53,10 @@ fn assert_survives<const D: usize, S: Real>(
 fn checkpoints_keep_every_bit_in_a_file() {
     let file = Temporary::new("bits");
     for scheme in Scheme::ALL.into_iter().chain([Scheme::Auto]) {
-        assert_survives(|| Simulation::new(scene(), scheme, 0.01).unwrap(), &file);
+        assert_survives(|| Simulation::new(busy(), scheme, 0.01).unwrap(), &file);
         if scheme.may_change_steps() {
             let controlled = || {
-                let mut run = Simulation::new(scene(), scheme, 0.01).unwrap();
+                let mut run = Simulation::new(busy(), scheme, 0.01).unwrap();
                 run.control_steps(Tolerance::new(1e-4)).unwrap();
                 run
             };
@@ -96,7 +73,7 @@ fn checkpoints_keep_every_bit_in_a_file() {
 #[test]
 fn a_file_that_lost_something_is_refused() {
     let file = Temporary::new("damaged");
-    let mut run = Simulation::new(scene(), Scheme::EemExplicit, 0.01).unwrap();
+    let mut run = Simulation::new(busy(), Scheme::EemExplicit, 0.01).unwrap();
     run.step().unwrap();
     run.checkpoint().save(&file.0).unwrap();
     let whole = fs::read(&file.0).unwrap();
@@ -154,7 +131,7 @@ fn other_files_are_refused_with_what_they_are() {
 
 #[test]
 fn a_file_is_complete_or_as_it_was() {
-    let run = Simulation::new(scene(), Scheme::EemEntropy, 0.01).unwrap();
+    let run = Simulation::new(busy(), Scheme::EemEntropy, 0.01).unwrap();
     // A folder is in the way.
     let folder = std::env::temp_dir().join(format!("eem-folder-{}", std::process::id()));
     fs::create_dir_all(folder.join("inside")).unwrap();

@@ -3,7 +3,7 @@
 use eem::RestoreError;
 use eem::prelude::*;
 
-use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic, single_pendulum};
+use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic, busy, single_pendulum};
 
 const STEP: f64 = 0.05;
 
@@ -12,29 +12,9 @@ fn bits<const D: usize>(run: &Simulation<D>) -> String {
     format!("{:?}", run.checkpoint())
 }
 
-/// A scene with everything in it: two models, gravity, a pushed mass, a moved anchor, a thermostat.
+/// A scene with everything in it.
 fn busy_scene(scheme: Scheme) -> Simulation<2> {
-    let mut scene = Scene::<2>::new();
-    let support = scene.anchor([0.0, 0.0]);
-    let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
-    let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
-    let warm = scene.spring(ThermoViscoElastic::PENDULUM, [support, bob]);
-    let kept = scene.spring(ThermoViscoElastic::PENDULUM, [bob, tail]);
-    let hencky = Hencky {
-        stiffness: 30.0,
-        natural_length: 1.5,
-    };
-    scene.spring(hencky, [support, tail]);
-    scene.set_temperature(warm, 320.0);
-    scene.set_temperature(kept, 310.0);
-    scene.prescribe_temperature(kept, |t| 310.0 + 5.0 * t.sin());
-    scene.conduct(warm, kept, 3.0);
-    let air = scene.reservoir(300.0);
-    scene.conduct(warm, air, 10.0);
-    scene.set_gravity([0.0, -9.81]);
-    scene.force(bob, |t| [(3.0 * t).sin(), 0.2]);
-    scene.move_anchor(support, |t| [0.1 * (2.0 * t).sin(), 0.0]);
-    Simulation::new(scene, scheme, 0.01).unwrap()
+    Simulation::new(busy(), scheme, 0.01).unwrap()
 }
 
 /// Steps on and keeps the bits of every report and of the state at the end.

@@ -14,7 +14,7 @@ use std::thread;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Programs that measure for minutes: nobody runs them here.
-const MEASURING: [&str; 2] = ["digests", "hot_cases"];
+const MEASURING: [&str; 3] = ["cost_tables", "digests", "hot_cases"];
 
 /// The folder of the studies, built once. Together with this test they have the features of all tests, so that the library
 /// is not built again; examples have the names of some of them.

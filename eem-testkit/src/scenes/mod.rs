@@ -18,6 +18,42 @@ pub fn only_error<const D: usize>(refused: Result<Simulation<D>, RefusedScene<D>
     error.clone()
 }
 
+/// The schemes that keep the laws, and the choice among them.
+pub const EXACT: [Scheme; 7] = [
+    Scheme::EemEntropy,
+    Scheme::EemTemperature,
+    Scheme::EemEntropy4,
+    Scheme::EemEntropy6,
+    Scheme::EemExplicit,
+    Scheme::Staggered,
+    Scheme::Auto,
+];
+
+/// A scene with everything in it: two models, gravity, a pushed mass, a moved anchor, a thermostat.
+pub fn busy() -> Scene<2> {
+    let mut scene = Scene::<2>::new();
+    let support = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
+    let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
+    let warm = scene.spring(ThermoViscoElastic::PENDULUM, [support, bob]);
+    let kept = scene.spring(ThermoViscoElastic::PENDULUM, [bob, tail]);
+    let hencky = Hencky {
+        stiffness: 30.0,
+        natural_length: 1.5,
+    };
+    scene.spring(hencky, [support, tail]);
+    scene.set_temperature(warm, 320.0);
+    scene.set_temperature(kept, 310.0);
+    scene.prescribe_temperature(kept, |t| 310.0 + 5.0 * t.sin());
+    scene.conduct(warm, kept, 3.0);
+    let air = scene.reservoir(300.0);
+    scene.conduct(warm, air, 10.0);
+    scene.set_gravity([0.0, -9.81]);
+    scene.force(bob, |t| [(3.0 * t).sin(), 0.2]);
+    scene.move_anchor(support, |t| [0.1 * (2.0 * t).sin(), 0.0]);
+    scene
+}
+
 /// A run with the handles of what is in it.
 #[derive(Debug)]
 pub struct Pendulum {
