@@ -2,18 +2,20 @@
 
 use core::fmt;
 
-use crate::error::StudyError;
-use crate::quantity::{DOUBT, StateQuantity};
+use crate::error::{StudyError, listed};
+use crate::quantity::{DOUBT, StateQuantity, larger};
 use crate::report::StudyReport;
-use crate::row::{StudyRow, largest};
+use crate::row::StudyRow;
 use eem_material::number::readable::Readable;
 
 /// A recommendation for an accuracy; `Display` prints it in words.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Recommendation<'a> {
-    /// The largest relative error that is allowed, in every kind of quantity at the end time.
+    /// The largest relative error that is allowed, in each of these kinds of quantities at the end time.
     pub accuracy: f64,
+    /// The kinds of quantities.
+    pub quantities: Vec<StateQuantity>,
     /// The advice.
     pub advice: Advice<'a>,
 }
@@ -51,22 +53,79 @@ impl StudyReport {
     /// [`StudyError::Accuracy`] if it is not positive and finite.
     pub fn recommend(&self, accuracy: f64) -> Result<Recommendation<'_>, StudyError> {
         check_accuracy(accuracy)?;
-        let doubts = StateQuantity::ALL.into_iter();
+        Ok(self.recommendation(accuracy, StateQuantity::ALL.to_vec()))
+    }
+
+    /// The same for errors in some kinds of quantities only.
+    ///
+    /// ```
+    /// use eem::materials::ThermoelasticSpring;
+    /// use eem::prelude::*;
+    /// use eem::StateQuantity;
+    ///
+    /// fn scene() -> Scene<1> {
+    ///     let mut scene = Scene::new();
+    ///     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.3], [0.0])];
+    ///     let spring = ThermoelasticSpring {
+    ///         stiffness: 4.0,
+    ///         coupling: 0.1,
+    ///         capacity: 10.0,
+    ///         natural_length: 1.0,
+    ///         theta_ref: 300.0,
+    ///     };
+    ///     let spring = scene.spring(spring, ends);
+    ///     scene.set_temperature(spring, 310.0);
+    ///     scene
+    /// }
+    ///
+    /// // The temperature hardly changes: large steps find it.
+    /// let report = Study::new(scene, 1.0).settings(Setting::halved(Scheme::EemTemperature, 0.1, 3)).run()?;
+    /// let recommended = report.recommend_for(&[StateQuantity::Temperatures], 1e-6)?;
+    /// assert!(matches!(recommended.advice, Advice::Take { .. }));
+    /// assert!(matches!(report.recommend(1e-6)?.advice, Advice::NoneReaches { .. }));
+    /// # Ok::<(), eem::StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError::Accuracy`] if the accuracy is not positive and finite; [`StudyError::NoSuchQuantity`] if the scene has
+    /// none of these kinds.
+    pub fn recommend_for(
+        &self,
+        quantities: &[StateQuantity],
+        accuracy: f64,
+    ) -> Result<Recommendation<'_>, StudyError> {
+        check_accuracy(accuracy)?;
+        let doubts = self.reference.doubts();
+        let is_there = |quantity: &StateQuantity| doubts[quantity.index()].is_some();
+        if !quantities.iter().any(is_there) {
+            let quantities = quantities.to_vec();
+            return Err(StudyError::NoSuchQuantity { quantities });
+        }
+        Ok(self.recommendation(accuracy, quantities.to_vec()))
+    }
+
+    fn recommendation(&self, accuracy: f64, quantities: Vec<StateQuantity>) -> Recommendation<'_> {
+        let doubts = quantities.iter();
         let doubts =
-            doubts.filter_map(|quantity| Some((quantity, self.reference.doubt(quantity)?)));
+            doubts.filter_map(|&quantity| Some((quantity, self.reference.doubt(quantity)?)));
         let worst = doubts.reduce(|a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a });
         let is_known = worst.is_none_or(|(_, doubt)| doubt <= DOUBT * accuracy);
         let advice = match worst.filter(|_| !is_known) {
             Some((quantity, doubt)) => Advice::Refused { quantity, doubt },
-            None => self.advice(accuracy),
+            None => self.advice(accuracy, &quantities),
         };
-        Ok(Recommendation { accuracy, advice })
+        Recommendation {
+            accuracy,
+            quantities,
+            advice,
+        }
     }
 
-    fn advice(&self, accuracy: f64) -> Advice<'_> {
+    fn advice(&self, accuracy: f64, quantities: &[StateQuantity]) -> Advice<'_> {
         let within = || {
             let rows = self.rows.iter();
-            rows.filter(move |row| row.is_within(accuracy))
+            rows.filter(move |row| row.is_within(accuracy, quantities))
         };
         let fastest = |a: &&StudyRow, b: &&StudyRow| a.seconds.total_cmp(&b.seconds);
         let lawful = within().filter(|row| row.setting.scheme.is_exact());
@@ -76,15 +135,15 @@ impl StudyReport {
                 lawful: lawful.min_by(fastest),
             },
             None => Advice::NoneReaches {
-                closest: self.closest(),
+                closest: self.closest(quantities),
             },
         }
     }
 
     /// The most accurate row.
-    fn closest(&self) -> Option<&StudyRow> {
+    fn closest(&self, quantities: &[StateQuantity]) -> Option<&StudyRow> {
         let rows = self.rows.iter();
-        let rows = rows.filter_map(|row| Some((row, largest(&row.differences)?)));
+        let rows = rows.filter_map(|row| Some((row, row.largest_difference(quantities)?)));
         let rows = rows.filter(|(_, difference)| difference.is_finite());
         let least = rows.min_by(|a, b| a.1.total_cmp(&b.1));
         least.map(|(row, _)| row)
@@ -93,11 +152,20 @@ impl StudyReport {
 
 impl StudyRow {
     /// Whether every error plus the uncertainty of the reference is within an accuracy.
-    fn is_within(&self, accuracy: f64) -> bool {
-        let pairs = self.differences.iter().zip(&self.doubts);
-        let errors = pairs.filter_map(|(difference, doubt)| Some((*difference)? + (*doubt)?));
-        let mut errors = errors.peekable();
+    fn is_within(&self, accuracy: f64, quantities: &[StateQuantity]) -> bool {
+        let error = |quantity: &StateQuantity| {
+            let index = quantity.index();
+            Some(self.differences[index]? + self.doubts[index]?)
+        };
+        let mut errors = quantities.iter().filter_map(error).peekable();
         errors.peek().is_some() && errors.all(|error| error <= accuracy)
+    }
+
+    fn largest_difference(&self, quantities: &[StateQuantity]) -> Option<f64> {
+        let there = quantities
+            .iter()
+            .filter_map(|quantity| self.differences[quantity.index()]);
+        there.reduce(larger)
     }
 }
 
@@ -113,7 +181,11 @@ pub(crate) fn check_accuracy(accuracy: f64) -> Result<(), StudyError> {
 impl fmt::Display for Recommendation<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let accuracy = Readable(self.accuracy);
-        write!(f, "For errors of at most {accuracy}: ")?;
+        write!(f, "For errors of at most {accuracy}")?;
+        if self.quantities != StateQuantity::ALL {
+            write!(f, " in the {}", listed(&self.quantities))?;
+        }
+        f.write_str(": ")?;
         match self.advice {
             Advice::Take { fastest, lawful } => {
                 let words = words(fastest);
@@ -137,7 +209,9 @@ impl fmt::Display for Recommendation<'_> {
             Advice::NoneReaches {
                 closest: Some(closest),
             } => {
-                let error = largest(&closest.differences).unwrap_or(f64::NAN);
+                let error = closest
+                    .largest_difference(&self.quantities)
+                    .unwrap_or(f64::NAN);
                 let setting = closest.setting;
                 write!(
                     f,

@@ -137,18 +137,37 @@ pub(crate) struct Finished {
     pub(crate) seconds: f64,
 }
 
-/// Runs a setting. With a row, every step is watched, which takes time, and the row is filled in.
+/// What is watched in every step, which takes time.
+#[derive(Debug)]
+pub(crate) enum Watched<'a> {
+    /// Nothing: the run is timed.
+    Nothing,
+    /// The momenta, for the scale of their errors.
+    Momenta,
+    /// The laws, which fill in a row.
+    Laws(&'a mut StudyRow),
+}
+
+/// Runs a setting.
 pub(crate) fn run<const D: usize, S: Real>(
     build: &Build<'_, D, S>,
     course: &Course,
-    row: Option<&mut StudyRow>,
+    watched: Watched<'_>,
 ) -> Result<Finished, SceneError> {
     let start = Instant::now();
     let mut run = course.start(build)?;
     let setup = start.elapsed().as_secs_f64();
-    let mut laws = row.map(|row| Laws::new(&run, row));
+    let watches_momenta = matches!(watched, Watched::Momenta);
+    let mut largest_momentum = run.largest_momentum();
+    let mut laws = match watched {
+        Watched::Laws(row) => Some(Laws::new(&run, row)),
+        Watched::Nothing | Watched::Momenta => None,
+    };
     let start = Instant::now();
     let end = course.go(&mut run, |run, report| {
+        if watches_momenta {
+            largest_momentum = largest_momentum.max(run.largest_momentum());
+        }
         if let Some(laws) = &mut laws {
             laws.watch(run, report);
         }
@@ -162,7 +181,7 @@ pub(crate) fn run<const D: usize, S: Real>(
         row.failure = end.clone().err();
     }
     Ok(Finished {
-        end: end.map(|()| EndState::of(&run)),
+        end: end.map(|()| EndState::of(&run).with_largest_momentum(largest_momentum)),
         setup,
         seconds,
     })

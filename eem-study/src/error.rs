@@ -57,6 +57,15 @@ pub enum StudyError {
         /// The accuracy.
         accuracy: f64,
     },
+    /// A recommendation is asked for kinds of quantities that the scene does not have.
+    #[error(
+        "the scene has none of the quantities that a recommendation was asked for: {}",
+        listed(quantities)
+    )]
+    NoSuchQuantity {
+        /// The kinds of quantities.
+        quantities: Vec<StateQuantity>,
+    },
     /// A setting is in single precision, but there is no scene with `f32`.
     #[error("`{setting}` needs the scene with f32; give the closure that builds it to `single`")]
     NoSingleScene {
@@ -96,4 +105,10 @@ pub enum StudyError {
         /// The quantity.
         quantity: StateQuantity,
     },
+}
+
+/// The names of kinds of quantities.
+pub(crate) fn listed(quantities: &[StateQuantity]) -> String {
+    let names: Vec<_> = quantities.iter().map(ToString::to_string).collect();
+    names.join(", ")
 }

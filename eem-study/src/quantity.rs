@@ -82,6 +82,10 @@ pub(crate) type PerQuantity = [Option<f64>; 4];
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndState {
     values: [Vec<f64>; 4],
+    /// Which viscous variables are strains of solids.
+    are_strains: Vec<bool>,
+    /// kg m/s.
+    largest_momentum: f64,
 }
 
 impl EndState {
@@ -90,6 +94,18 @@ impl EndState {
     pub fn of<const D: usize, S: Real>(run: &Simulation<D, S>) -> Self {
         Self {
             values: run.values(),
+            are_strains: run.viscous_strains(),
+            largest_momentum: run.largest_momentum(),
+        }
+    }
+
+    /// The same state with the largest `|p|₂` on the way to it, kg m/s, to which errors of momenta are relative. Without
+    /// this it is that of the state, or of all steps of a run whose steps are controlled. A [`Study`](crate::Study) knows it.
+    #[must_use]
+    pub fn with_largest_momentum(self, momentum: f64) -> Self {
+        Self {
+            largest_momentum: self.largest_momentum.max(momentum),
+            ..self
         }
     }
 
@@ -100,29 +116,35 @@ impl EndState {
         &self.values[quantity.index()]
     }
 
-    /// The relative difference of this state from `exact` in one kind of quantity:
+    /// The relative difference of this state from `exact` in one kind of quantity, in the units of
+    /// [`Tolerance`](eem_runtime::Tolerance):
     ///
     /// ```text
-    /// max |Δq|/|q|₂,   max |Δp|/|p|₂,   max |Δθ|/θ,   max |Δγ|/|γ|₂
+    /// max |Δq|/|q|₂,   max |Δp|/max |p|₂,   max |Δθ|/θ,   max |Δγ|/|q|₂
     /// ```
     ///
     /// with the largest component of the difference in the numerator and the Euclidean norm of all components of
-    /// `exact` in the denominator; temperatures are compared one by one. `None` if there is no such quantity, or if
-    /// the numbers of values differ. Equal states differ by zero, also if all values vanish.
+    /// `exact` in the denominator, that of momenta the largest on the way; temperatures are compared one by one, viscous
+    /// strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal states
+    /// differ by zero, also if all values vanish.
     #[must_use]
     pub fn difference(&self, exact: &Self, quantity: StateQuantity) -> Option<f64> {
-        let [values, exact] = [self, exact].map(|state| state.values(quantity));
-        if exact.is_empty() || values.len() != exact.len() {
+        let [own, values] = [self, exact].map(|state| state.values(quantity));
+        if values.is_empty() || own.len() != values.len() {
             return None;
         }
-        let norm = exact.iter().map(|value| value * value).sum::<f64>().sqrt();
-        let shares = values.iter().zip(exact).map(|(value, exact)| {
-            let size = match quantity {
-                StateQuantity::Temperatures => exact.abs(),
-                _ => norm,
-            };
-            share((value - exact).abs(), size)
-        });
+        let positions = exact.values(StateQuantity::Positions).iter();
+        let length = positions.map(|value| value * value).sum::<f64>().sqrt();
+        let size = |index: usize, value: f64| match quantity {
+            StateQuantity::Positions => length,
+            StateQuantity::Momenta => exact.largest_momentum,
+            StateQuantity::Temperatures => value.abs(),
+            StateQuantity::ViscousStretches if exact.are_strains[index] => 1.0,
+            StateQuantity::ViscousStretches => length,
+        };
+        let pairs = own.iter().zip(values).enumerate();
+        let shares =
+            pairs.map(|(index, (own, &value))| share((own - value).abs(), size(index, value)));
         Some(shares.fold(0.0, larger))
     }
 

@@ -7,7 +7,7 @@
 //! hundred times the error of the reference. It is halved until the difference is at most a hundredth of each error of a
 //! setting, until halving no longer helps, or up to a limit.
 
-use crate::course::{Build, Course, run};
+use crate::course::{Build, Course, Watched, run};
 use crate::quantity::{DOUBT, EndState, PerQuantity, StateQuantity};
 use eem_runtime::{RocketError, SceneError, Scheme, StepError};
 
@@ -206,7 +206,11 @@ fn solve<const D: usize>(
     (steps, end_time): (u32, f64),
 ) -> Result<StudyReference, SceneError> {
     let end = |scheme| {
-        let finished = run(build, &Course::equal(scheme, steps, end_time), None);
+        let finished = run(
+            build,
+            &Course::equal(scheme, steps, end_time),
+            Watched::Momenta,
+        );
         finished.map(|finished| finished.end)
     };
     let (states, end) = match (end(schemes[0])?, end(schemes[1])?) {

@@ -132,7 +132,7 @@ impl Statement {
 }
 
 /// The largest number; NaN if there is one.
-pub(crate) fn largest(numbers: &PerQuantity) -> Option<f64> {
+fn largest(numbers: &PerQuantity) -> Option<f64> {
     let there = numbers.iter().copied().flatten();
     there.reduce(larger)
 }

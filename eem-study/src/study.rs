@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::advice::check_accuracy;
-use crate::course::{Build, Course, Finished, run};
+use crate::course::{Build, Course, Finished, Watched, run};
 use crate::error::StudyError;
 use crate::quantity::{EndState, StateQuantity};
 use crate::reference::{ReferenceEnd, Search, StudyReference};
@@ -51,10 +51,11 @@ const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// # Ok::<(), eem::StudyError>(())
 /// ```
 ///
-/// Errors are relative, one per kind of quantity, measured from the first reference:
+/// Errors are relative, one per kind of quantity, measured from the first reference in the units of
+/// [`Tolerance`](eem_runtime::Tolerance), with the largest momentum on the way to the end time:
 ///
 /// ```text
-/// max |Δq|/|q|₂,   max |Δp|/|p|₂,   max |Δθ|/θ,   max |Δγ|/|γ|₂
+/// max |Δq|/|q|₂,   max |Δp|/max |p|₂,   max |Δθ|/θ,   max |Δγ|/|q|₂
 /// ```
 ///
 /// An error is stated only if the references differ by at most a hundredth of it, see
@@ -184,7 +185,7 @@ impl<'a, const D: usize> Study<'a, D> {
         let mut rows: Vec<_> = self.settings.iter().copied().map(StudyRow::new).collect();
         let mut ends = Vec::with_capacity(rows.len());
         for (row, course) in rows.iter_mut().zip(&courses) {
-            let finished = self.run_setting(row.setting, course, Some(row))?;
+            let finished = self.run_setting(row.setting, course, Watched::Laws(row))?;
             ends.push(finished.end.ok());
             progress.advance(u64::from(course.planned));
         }
@@ -266,11 +267,11 @@ impl<'a, const D: usize> Study<'a, D> {
         &self,
         setting: Setting,
         course: &Course,
-        row: Option<&mut StudyRow>,
+        watched: Watched<'_>,
     ) -> Result<Finished, StudyError> {
         let finished = match (setting.precision, &self.single) {
-            (Precision::Double, _) => run(&*self.build, course, row),
-            (Precision::Single, Some(build)) => run(&**build, course, row),
+            (Precision::Double, _) => run(&*self.build, course, watched),
+            (Precision::Single, Some(build)) => run(&**build, course, watched),
             (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
         };
         finished.map_err(|source| StudyError::Scene { setting, source })
@@ -288,7 +289,7 @@ impl<'a, const D: usize> Study<'a, D> {
         for _ in 0..self.repeats.max(1) {
             for ((row, course), (setups, times)) in rows.iter().zip(courses).zip(&mut repeats) {
                 // The end is the same as that of the watched run.
-                let finished = self.run_setting(row.setting, course, None)?;
+                let finished = self.run_setting(row.setting, course, Watched::Nothing)?;
                 setups.push(finished.setup);
                 times.push(finished.seconds);
                 progress.advance(u64::from(course.planned));

@@ -87,7 +87,7 @@ impl<const D: usize> Drawing<D> {
     }
 
     /// At most the smallest period of the linearised scene, s.
-    fn smallest_period(&self) -> f64 {
+    pub(crate) fn smallest_period(&self) -> f64 {
         2.0 * PI / (self.largest_frequency() * MISSED)
     }
 

@@ -38,4 +38,6 @@ pub(crate) mod rest;
 pub(crate) mod scenes;
 pub(crate) mod steps;
 pub(crate) mod stiffness;
+#[cfg(test)]
+pub(crate) mod tolerances;
 pub(crate) mod units;

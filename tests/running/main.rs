@@ -21,3 +21,4 @@ mod resuming;
 mod study;
 #[cfg(feature = "parallel")]
 mod threads;
+mod tolerances;

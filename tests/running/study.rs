@@ -1,9 +1,11 @@
 //! Studies state errors that are right, refuse those that nobody knows, and recommend what holds when it is run.
 
+use std::ops::ControlFlow;
+
 use eem::prelude::*;
 use eem::{
     Advice, EndState, ReferenceEnd, Setting, StateQuantity, Statement, Study, StudyError,
-    StudyReport,
+    StudyReport, StudyRow,
 };
 
 use crate::support::{DoublePendulum, single_pendulum, single_pendulum_scene};
@@ -89,9 +91,13 @@ fn a_row_says_what_its_run_does() {
         least = least.min(ledger.entropy - entropy);
         entropy = ledger.entropy;
     }
+    let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     for _ in 0..20 * 256 {
         fine.run.step().unwrap();
     }
+    let reference = &report.reference;
+    let (first, step) = (reference.schemes.unwrap()[0], reference.step.unwrap());
+    let (_, largest_momentum) = end_of(first, step);
     assert_eq!(
         (row.steps, row.rejected, row.iterations),
         (20, 0, iterations)
@@ -100,19 +106,17 @@ fn a_row_says_what_its_run_does() {
     assert_eq!(row.energy_defect.to_bits(), defect.to_bits());
     assert_eq!(row.least_entropy_change.to_bits(), least.to_bits());
     let [values, exact] = [run.row(), fine.row()];
-    let difference = |range: std::ops::Range<usize>| {
-        let norm = exact[range.clone()]
-            .iter()
-            .map(|x| x * x)
-            .sum::<f64>()
-            .sqrt();
-        let parts = range.map(|i| (values[i] - exact[i]).abs() / norm);
-        parts.fold(0.0, f64::max)
-    };
+    let length = norm(&exact[0..2]);
+    let sizes = [length, largest_momentum, exact[4], length];
+    let ranges = [0..2, 2..4, 4..5, 5..6];
     // The fine run of second order is off by 1/256² of it.
-    for (quantity, range) in StateQuantity::ALL.into_iter().zip([0..2, 2..4, 4..5, 5..6]) {
+    for (quantity, (range, size)) in StateQuantity::ALL
+        .into_iter()
+        .zip(ranges.into_iter().zip(sizes))
+    {
         let error = row.error(quantity).unwrap();
-        let expected = difference(range);
+        let parts = range.map(|i| (values[i] - exact[i]).abs() / size);
+        let expected = parts.fold(0.0, f64::max);
         assert!(
             (error / expected - 1.0).abs() < 1e-3,
             "{quantity}: {error} {expected}"
@@ -150,15 +154,51 @@ fn errors_of_a_chaotic_motion_are_refused() {
 }
 
 #[test]
+fn recommendations_can_be_asked_for_some_quantities() {
+    let report = study(&[Scheme::EemTemperature], 5).run().unwrap();
+    let rows = &report.rows;
+    let error = |row: &StudyRow, quantity| row.error(quantity).unwrap();
+    let worst = |row| {
+        StateQuantity::ALL
+            .map(|quantity| error(row, quantity))
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    // Temperatures of the largest step are more accurate than something else of it.
+    let accuracy = 1.1 * error(&rows[0], StateQuantity::Temperatures);
+    assert!(worst(&rows[0]) > 2.0 * accuracy);
+    let some = report
+        .recommend_for(&[StateQuantity::Temperatures], accuracy)
+        .unwrap();
+    assert!(matches!(some.advice, Advice::Take { .. }));
+    assert!(some.to_string().contains("in the temperatures: "), "{some}");
+    let Advice::Take { fastest, .. } = report.recommend(accuracy).unwrap().advice else {
+        panic!("{report}");
+    };
+    assert!(worst(fastest) <= accuracy);
+    let none = report.recommend_for(&[], 1e-3);
+    assert!(matches!(none, Err(StudyError::NoSuchQuantity { .. })));
+}
+
+/// The state at the end, and the largest momentum after a step, kg m/s.
+fn end_of(scheme: Scheme, step: f64) -> (EndState, f64) {
+    let mut run = single_pendulum(scheme, step).run;
+    let mut momentum = run.largest_momentum();
+    run.run_until_with(END, |run, _| {
+        momentum = momentum.max(run.largest_momentum());
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    let end = EndState::of(&run).with_largest_momentum(momentum);
+    (end, momentum)
+}
+
+#[test]
 fn what_is_recommended_holds_when_it_is_run() {
     let schemes = [Scheme::EemEntropy, Scheme::Midpoint, Scheme::Variational4];
     let report = study(&schemes, 5).run().unwrap();
     // A reference of its own: a scheme that is none of the study's, in steps of its own.
-    let mut exact = single_pendulum(Scheme::Gauss4, END / 3000.0).run;
-    for _ in 0..3000 {
-        exact.step().unwrap();
-    }
-    let exact = EndState::of(&exact);
+    let (exact, _) = end_of(Scheme::Gauss4, END / 3000.0);
     for accuracy in [1e-1, 1e-2, 1e-4] {
         let Advice::Take { fastest, lawful } = report.recommend(accuracy).unwrap().advice else {
             panic!("{report}");
@@ -261,12 +301,7 @@ fn a_run_that_fails_is_a_row_without_errors() {
 
 #[test]
 fn references_can_be_given() {
-    let end_of = |scheme| {
-        let mut run = single_pendulum(scheme, STEP / 64.0).run;
-        run.run_until(END).unwrap();
-        EndState::of(&run)
-    };
-    let states = [Scheme::Gauss4, Scheme::Variational4].map(end_of);
+    let states = [Scheme::Gauss4, Scheme::Variational4].map(|scheme| end_of(scheme, STEP / 64.0).0);
     let given = study(&[Scheme::EemEntropy], 1)
         .reference(states.clone())
         .run()

@@ -254,6 +254,12 @@ pub enum SceneError {
         /// Its unit.
         unit: &'static str,
     },
+    /// The time of a tolerance is not positive and finite.
+    #[error("the errors of all steps in {} s are to be within the tolerance; that time must be positive and finite", Readable(*time))]
+    ToleranceTime {
+        /// The time, s.
+        time: f64,
+    },
     /// Limits of steps are invalid, or step control is off.
     #[error("steps from {smallest} to {largest} s: the smallest must be positive, the largest finite and not below it{}",
         if *is_controlled { "" } else { ", and steps must be controlled: call `control_steps` first" },

@@ -83,6 +83,8 @@ fn control<S: Real>(text: &mut Text<'_>, own: Option<&SavedControl<S>>) -> Read<
         ]
     });
     let [relative, position, momentum, temperature] = text.array("tolerances", tolerance)?;
+    let over = own.map(|own| own.tolerance.over.map(|time| [time]));
+    let over = text.few("time of the tolerance", over.as_ref())?;
     let statistics = own.map(|own| &own.statistics);
     Ok(SavedControl {
         tolerance: Tolerance {
@@ -90,6 +92,7 @@ fn control<S: Real>(text: &mut Text<'_>, own: Option<&SavedControl<S>>) -> Read<
             position,
             momentum,
             temperature,
+            over: over.map(|[time]| time),
         },
         controller: Controller {
             last: text.few(

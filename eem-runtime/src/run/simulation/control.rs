@@ -9,7 +9,7 @@ use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
-use crate::step::control::{AFTER_FAILURE, Controller, Estimate, StepStatistics, Tolerance, norm};
+use crate::step::control::{AFTER_FAILURE, Controller, StepStatistics, Tolerance, norm};
 use crate::step::error::{StepFailure, StepLimit};
 use crate::step::explicit::Demand;
 use crate::step::scheme::Scheme;
@@ -25,8 +25,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// [`SceneError::Tolerance`] or [`SceneError::AbsoluteTolerance`] if a tolerance is invalid, or below what the
-    /// scheme can reach; [`SceneError::FixedSteps`] for the variational schemes.
+    /// [`SceneError::Tolerance`], [`SceneError::AbsoluteTolerance`] or [`SceneError::ToleranceTime`] if a tolerance or its
+    /// time is invalid, or the tolerance below what the scheme can reach; [`SceneError::FixedSteps`] for the variational schemes.
     ///
     /// ```
     /// use eem::Tolerance;
@@ -91,7 +91,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Step control of the scheme in use with this history.
     pub(super) fn control_of(&self, memory: SavedControl<S>) -> Control<S> {
         let accuracy = self.in_use.accuracy();
-        let halves = (accuracy.estimate == Estimate::Halves).then(|| self.new_halves());
+        let accuracy = match memory.tolerance.over {
+            Some(_) => accuracy.over_time(),
+            None => accuracy,
+        };
+        let halves = accuracy.has_halves().then(|| self.new_halves());
         Control {
             memory,
             accuracy,

@@ -52,7 +52,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut report = self.step_in_halves(halves, size)?;
         report.iterations += whole.iterations;
         let ends = [&halves.before, &*self.state];
-        let scales = Scales::new(&memory.tolerance, accuracy, ends, memory.largest_momentum);
+        let accurate = (accuracy, size);
+        let scales = Scales::new(&memory.tolerance, accurate, ends, memory.largest_momentum);
         let share = S::from_f64(accuracy.order().exp2() - 1.0).recip();
         report.error = share * scales.error([&halves.whole, &self.state], &halves.kinds);
         if accuracy.accepts(report.error) {
@@ -88,7 +89,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Which viscous variables are strains of solids.
-    fn viscous_strains(&self) -> Vec<bool> {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn viscous_strains(&self) -> Vec<bool> {
         let mut are_strains = vec![false; self.layout.viscous];
         for &[group, place] in &self.places {
             let shape = self.shapes[group as usize];

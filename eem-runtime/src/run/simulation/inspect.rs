@@ -14,6 +14,7 @@ use crate::element::loads::point;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
+use crate::step::control::norm;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
@@ -344,6 +345,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             all(&state.temperatures),
             all(state.viscous.values()),
         ]
+    }
+
+    /// `|p|₂` of the masses, the largest so far if steps are controlled, kg m/s.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn largest_momentum(&self) -> f64 {
+        let own = norm(self.state.momenta.values().iter().copied());
+        let control = self.control.as_ref();
+        let before = control.map_or(S::zero(), |control| control.memory.largest_momentum);
+        own.maximum(before).to_f64()
     }
 
     /// How often the forces of all elements have been evaluated since the simulation was made, once for each

@@ -24,6 +24,8 @@ pub(crate) struct Accuracy {
 pub(crate) enum Estimate {
     /// The step in two halves. Tolerances are those of the state and not of a step.
     Halves,
+    /// The same, with a tolerance of the errors of all steps in a given time.
+    HalvesOverTime,
     /// An embedded scheme; the estimate is of order p.
     Embedded,
 }
@@ -36,29 +38,44 @@ impl Accuracy {
         f64::from(self.order)
     }
 
-    /// The relative tolerance of a step.
-    pub(super) fn of_step<S: Real>(self, relative: S) -> S {
-        if self.estimate == Estimate::Halves {
-            relative.powf(S::from_f64(1.0 + 1.0 / self.order()))
-        } else {
-            relative
+    /// With a tolerance of the errors of all steps in a given time, unless the estimate is embedded.
+    pub(crate) fn over_time(self) -> Self {
+        let estimate = match self.estimate {
+            Estimate::Halves | Estimate::HalvesOverTime => Estimate::HalvesOverTime,
+            Estimate::Embedded => Estimate::Embedded,
+        };
+        Self { estimate, ..self }
+    }
+
+    /// Whether errors are found from the step in two halves.
+    pub(crate) fn has_halves(self) -> bool {
+        self.estimate != Estimate::Embedded
+    }
+
+    /// The relative tolerance of a step that is this part of the time of the tolerance.
+    pub(super) fn of_step<S: Real>(self, relative: S, part: S) -> S {
+        match self.estimate {
+            Estimate::Halves => relative.powf(S::from_f64(1.0 + 1.0 / self.order())),
+            Estimate::HalvesOverTime => relative * part,
+            Estimate::Embedded => relative,
         }
     }
 
     /// The smallest relative tolerance whose errors are above rounding.
     pub(super) fn floor<S: Real>(self) -> f64 {
         let rounding = ROUNDINGS * S::EPSILON.to_f64();
-        if self.estimate == Estimate::Halves {
-            rounding.powf(self.order() / (self.order() + 1.0))
-        } else {
-            rounding
+        match self.estimate {
+            Estimate::Halves | Estimate::HalvesOverTime => {
+                rounding.powf(self.order() / (self.order() + 1.0))
+            }
+            Estimate::Embedded => rounding,
         }
     }
 
     /// Whether a step with this error, in units of the tolerance, is accepted.
     pub(crate) fn accepts<S: Real>(self, error: S) -> bool {
         let most = match self.estimate {
-            Estimate::Halves => MOST,
+            Estimate::Halves | Estimate::HalvesOverTime => MOST,
             Estimate::Embedded => 1.0,
         };
         error.at_most(S::from_f64(most)).all()
@@ -73,11 +90,11 @@ impl Accuracy {
         if least.less(left).all() { left } else { least }
     }
 
-    /// The power of the step size to which its estimated error is proportional.
+    /// The power of the step size to which its estimated error, in units of the tolerance, is proportional.
     pub(super) fn order_of_estimate(self) -> f64 {
         match self.estimate {
             Estimate::Halves => self.order() + 1.0,
-            Estimate::Embedded => self.order(),
+            Estimate::HalvesOverTime | Estimate::Embedded => self.order(),
         }
     }
 }
@@ -132,7 +149,7 @@ impl<S: Real> Controller<S> {
         let last = self.last.replace([error, size]).unwrap_or([error, size]);
         let order = accuracy.order_of_estimate();
         let factor = match accuracy.estimate {
-            Estimate::Halves => filtered([size, error], last, order),
+            Estimate::Halves | Estimate::HalvesOverTime => filtered([size, error], last, order),
             Estimate::Embedded => proportional(error, last, order),
         };
         size * factor

@@ -19,12 +19,16 @@ const SINGLE: f64 = 1e-12;
 ///
 /// Viscous strains of solids are dimensionless and compared with `r + a_q`. Momenta of prescribed nodes are ignored.
 ///
-/// The relative tolerance r is the accuracy of the state after the time scale of the motion, in which the state
-/// changes by its own size. Errors are proportional to r: a scheme of order p makes steps with an error of
-/// `r^(1 + 1/p)`, and `r^(−1/p)` of them make up that time (tolerance proportionality; Söderlind & Wang 2006,
-/// *Adaptive time-stepping and computational stability*, §4). The explicit scheme, whose estimate has a lower
-/// order than the scheme, uses r directly. How errors grow with time depends on the motion; a
-/// `Study` measures them.
+/// A `Study` measures errors in the same way, in units of `|q|₂`, the largest `|p|₂` and θ.
+///
+/// The relative tolerance r is what the errors of the steps add up to in the time scale of the motion, in which the state
+/// changes by its own size, about a period of the fastest vibration. Errors are proportional to r: a scheme of order p
+/// makes steps with an error of `r^(1 + 1/p)`, and `r^(−1/p)` of them make up that time (tolerance proportionality;
+/// Söderlind & Wang 2006, *Adaptive time-stepping and computational stability*, §4). With [`over`](Self::over) r is what
+/// they add up to in a time of your choice. The explicit scheme, whose estimate has a lower order than the scheme, uses r
+/// directly.
+///
+/// A motion can damp the errors of its steps or amplify them; the page about choosing has an example of each.
 ///
 /// Absolute tolerances are zero by default. They matter only for quantities that pass through zero and are small
 /// compared with all others.
@@ -51,6 +55,8 @@ pub struct Tolerance<S = f64> {
     pub momentum: S,
     /// The absolute tolerance `a_θ` of temperatures, K.
     pub temperature: S,
+    /// The time in which the errors of all steps may add up to the tolerance, s; without one, the time scale of the motion.
+    pub over: Option<S>,
 }
 
 /// A relative tolerance of 1e-6, in single precision of 1e-3.
@@ -70,7 +76,35 @@ impl<S: Real> Tolerance<S> {
             position: S::zero(),
             momentum: S::zero(),
             temperature: S::zero(),
+            over: None,
         }
+    }
+
+    /// The errors of all steps in this time, s, may add up to the tolerance: a step of the size h may have the part `h/time`
+    /// of it (error per unit step). The explicit scheme takes no notice; its estimate is that of a lower order.
+    ///
+    /// ```
+    /// use eem::Tolerance;
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// // ω = 10/s: the error of the phase is the sum of those of 16 periods.
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    /// let mass = ends[1];
+    /// scene.spring(Hooke { stiffness: 100.0, natural_length: 1.0 }, ends);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy4, 0.01)?;
+    /// run.control_steps(Tolerance::new(1e-6).over(10.0))?;
+    /// run.run_until(10.0)?;
+    ///
+    /// let error = (run.position(mass)?[0] - (1.0 + 0.1 * 100.0_f64.cos())).abs();
+    /// assert!(error < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn over(self, time: S) -> Self {
+        let over = Some(time);
+        Self { over, ..self }
     }
 
     /// Sets the absolute tolerance of positions and viscous stretches, m.
@@ -106,6 +140,10 @@ impl<S: Real> Tolerance<S> {
             ("momenta", self.momentum, "kg m/s"),
             ("temperatures", self.temperature, "K"),
         ];
+        if let Some(time) = self.over.filter(|&time| !is_positive(time)) {
+            let time = time.to_f64();
+            return Err(SceneError::ToleranceTime { time });
+        }
         for (quantity, value, unit) in absolute {
             if !(is_positive(value) || value.equal(S::zero()).all()) {
                 let value = value.to_f64();
@@ -142,14 +180,15 @@ pub(crate) struct Scales<S> {
 }
 
 impl<S: Real> Scales<S> {
-    /// For a step between two states, given the largest momentum so far, kg m/s.
+    /// For a step of this size between two states, given the largest momentum so far, kg m/s.
     pub(crate) fn new(
         tolerance: &Tolerance<S>,
-        accuracy: Accuracy,
+        (accuracy, step): (Accuracy, S),
         [old, new]: [&State<S>; 2],
         largest_momentum: S,
     ) -> Self {
-        let relative = accuracy.of_step(tolerance.relative);
+        let part = tolerance.over.map_or(S::one(), |time| step / time);
+        let relative = accuracy.of_step(tolerance.relative, part);
         let share = relative / tolerance.relative;
         let of = |size: S, absolute: S| relative * size + share * absolute;
         let size = |of: &dyn Fn(&State<S>) -> S| of(old).maximum(of(new));
@@ -226,8 +265,10 @@ mod tests {
             order,
             estimate: Estimate::Halves,
         };
-        let step: f64 = accuracy(2).of_step(1e-6);
+        let step: f64 = accuracy(2).of_step(1e-6, 0.5);
         assert!((step / 1e-9 - 1.0).abs() < 1e-12);
+        let step: f64 = accuracy(2).over_time().of_step(1e-6, 0.5);
+        assert_eq!(step.to_bits(), 5e-7_f64.to_bits());
         assert!(accuracy(4).floor::<f64>() < accuracy(2).floor::<f64>());
     }
 

@@ -5,7 +5,7 @@
 //! end time and measures their errors there:
 //!
 //! ```text
-//! error of q = max |Δq|/|q|₂,   of p = max |Δp|/|p|₂,   of θ = max |Δθ|/θ,   of γ = max |Δγ|/|γ|₂
+//! error of q = max |Δq|/|q|₂,   of p = max |Δp|/max |p|₂,   of θ = max |Δθ|/θ,   of γ = max |Δγ|/|q|₂
 //! energy defect = max |B − B₀|/|E₀| over the run,   B = E − work − heat
 //! ```
 //!

@@ -1,0 +1,106 @@
+//! Tolerances mean what they say: over the published cases the errors of all steps add up to about the tolerance.
+
+use std::ops::ControlFlow;
+
+use eem::prelude::*;
+use eem::{EndState, StateQuantity, Tolerance};
+
+use crate::support::{DoublePendulum, single_pendulum_scene};
+
+/// The longest step of what is exact, s; conduction of the case `romero` is stable below 0.05 s.
+const LONGEST: f64 = 0.02;
+
+/// What the errors of all steps may add up to, in tolerances.
+const SUMS: [f64; 2] = [0.1, 3.0];
+
+/// The largest error of a kind, in units of a tolerance.
+fn error([own, exact]: [&EndState; 2], tolerance: f64) -> f64 {
+    let errors = StateQuantity::ALL.map(|quantity| own.difference(exact, quantity));
+    errors.into_iter().flatten().fold(0.0, f64::max) / tolerance
+}
+
+/// The sum of the errors of all steps, and the error at the end, in tolerances. Steps are compared with shorter ones of
+/// order 8 from the same state, the end with a run at a tolerance of 1e-13.
+fn errors<const D: usize>(
+    scene: impl Fn() -> Scene<D>,
+    scheme: Scheme,
+    relative: f64,
+    end: f64,
+) -> [f64; 2] {
+    let new = |scheme| Simulation::new(scene(), scheme, 0.01).unwrap();
+    let mut run = new(scheme);
+    run.control_steps(Tolerance::new(relative).over(end))
+        .unwrap();
+    let mut before = run.checkpoint();
+    let (mut sum, mut momentum) = (0.0, 0.0_f64);
+    run.run_until_with(end, |run, report| {
+        let mut fine = new(scheme);
+        fine.restore(&before).unwrap();
+        fine.fix_steps();
+        let mut fine = fine.with_scheme(Scheme::EemExplicit).unwrap();
+        let parts = (report.step / LONGEST).ceil().max(4.0);
+        fine.set_step_size(report.step / parts).unwrap();
+        fine.run_until(report.time).unwrap();
+        momentum = momentum.max(fine.largest_momentum());
+        let exact = EndState::of(&fine).with_largest_momentum(momentum);
+        sum += error([&EndState::of(run), &exact], relative);
+        before = run.checkpoint();
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    let mut exact = new(Scheme::EemExplicit);
+    exact.control_steps(Tolerance::new(1e-13)).unwrap();
+    exact.run_until(end).unwrap();
+    [
+        sum,
+        error([&EndState::of(&run), &EndState::of(&exact)], relative),
+    ]
+}
+
+#[test]
+fn the_errors_of_all_steps_add_up_to_the_tolerance() {
+    let [_, krueger, log] = DoublePendulum::ALL;
+    for (scheme, relative) in [
+        (Scheme::EemEntropy4, 1e-6),
+        (Scheme::EemEntropy6, 1e-8),
+        (Scheme::EemExplicit, 1e-6),
+        (Scheme::EemExplicit, 1e-10),
+    ] {
+        let of_cases = [
+            (
+                "single",
+                errors(|| single_pendulum_scene().0, scheme, relative, 5.0),
+            ),
+            (
+                krueger.name,
+                errors(|| krueger.scene().0, scheme, relative, 5.0),
+            ),
+            (log.name, errors(|| log.scene().0, scheme, relative, 2.0)),
+        ];
+        for (case, [sum, _]) in of_cases {
+            let is_within = (SUMS[0]..=SUMS[1]).contains(&sum);
+            assert!(is_within, "{case}, {scheme}, {relative:e}: {sum}");
+        }
+    }
+}
+
+/// Order 2, with its many steps.
+#[test]
+fn the_errors_of_steps_of_order_2_add_up_to_the_tolerance() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
+        let [sum, _] = errors(|| single_pendulum_scene().0, scheme, 1e-6, 0.5);
+        assert!((SUMS[0]..=SUMS[1]).contains(&sum), "{scheme}: {sum}");
+    }
+}
+
+/// The examples of the page about choosing: fast conduction damps the errors of the steps, whose sum says nothing then; a
+/// double pendulum amplifies them.
+#[test]
+fn motions_damp_errors_or_amplify_them() {
+    let [romero, krueger, _] = DoublePendulum::ALL;
+    let [sum, end] = errors(|| romero.scene().0, Scheme::EemExplicit, 1e-8, 5.0);
+    assert!(sum > 3.0 && end < 0.01, "{sum} {end}");
+    let long = |end| errors(|| krueger.scene().0, Scheme::EemExplicit, 1e-8, end)[1];
+    let [early, late] = [2.0, 20.0].map(long);
+    assert!(late > 100.0 * early, "{early} {late}");
+}
