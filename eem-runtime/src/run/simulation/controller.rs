@@ -16,6 +16,10 @@ use nalgebra::SVector;
 ///
 /// What is set holds for all steps until something else is set, is booked as work and heat like every load, and is part of
 /// checkpoints. Set it between steps, for instance before each [`step`](Self::step).
+///
+/// With step control, the step in which a value jumps is as small as the jump needs: 10⁻⁴ s after a force of the size of the
+/// others, 10⁻⁷ s after a temperature that rises by 1 K, for a vibration of 1 s at a tolerance of 10⁻⁶. Controllers that set values
+/// often are cheaper with fixed steps.
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Sets a force on a mass, N, beside its weight. It is constant until another one is set, so that the work of a step is
     /// `f·Δq`.
