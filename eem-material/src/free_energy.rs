@@ -121,6 +121,25 @@ pub trait FreeEnergy<S: Scalar> {
     /// [`temperature_form_adjoint`](Self::temperature_form_adjoint) to [`drag_adjoint`](Self::drag_adjoint). The derive
     /// generates them with the feature `gradients` of `eem`. Where this is `false` they are all NaN, and nothing calls
     /// them.
+    ///
+    /// ```
+    /// use eem::FreeEnergy;
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - 1.0).powi(2))]
+    /// struct Spring {
+    ///     stiffness: f64,
+    /// }
+    ///
+    /// let spring = Spring { stiffness: 40.0 };
+    /// // f* = k ((λ⁰ + λ¹)/2 − 1), with the weight 2.
+    /// let [by_stiffness]: [f64; 1] = spring.temperature_form_adjoint(&[1.25], &[1.75], &[2.0]);
+    /// if <Spring as FreeEnergy<f64>>::HAS_PARAMETER_DERIVATIVES {
+    ///     assert_eq!(by_stiffness, 2.0 * 0.5);
+    /// } else {
+    ///     assert!(by_stiffness.is_nan());
+    /// }
+    /// ```
     const HAS_PARAMETER_DERIVATIVES: bool = false;
     /// The name of the struct.
     const MODEL: &'static str;
