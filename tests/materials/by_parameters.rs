@@ -85,7 +85,8 @@ const FLOWING: [f64; 7] = [2000.0, 1500.0, 500.0, 800.0, 2.0, 100.0, 300.0];
 
 /// e1 and e2, six components of E, g, six of Γ, θ.
 fn flowing_states() -> [[f64; 16]; 2] {
-    let strain = |k: u8, size: f64| size * f64::from(k + 1) * if k % 2 == 0 { 0.1 } else { -0.07 };
+    let strain =
+        |k: u8, size: f64| size * f64::from(k + 1) * if k.is_multiple_of(2) { 0.1 } else { -0.07 };
     [(0.3, 310.0), (0.33, 306.0)].map(|(size, theta)| {
         let mut x = [0.0; 16];
         (x[0], x[1], x[8], x[15]) = (0.4 * size, 0.2 * size, 0.1 * size, theta);
@@ -269,6 +270,7 @@ struct Damper {
 }
 
 #[test]
+#[allow(clippy::float_cmp, reason = "no operation rounds")]
 fn closed_forms_of_a_damper() {
     let damper = Damper {
         stiffness: 100.0,
