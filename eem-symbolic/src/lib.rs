@@ -33,6 +33,7 @@
 //! | change what is generated | `programs.rs`, `discrete`; the printer is `expand` in `eem-language` |
 //! | compute several values in one call | an `Operation` in `operation.rs`, chosen in `joint.rs` |
 //! | change the order of operations, or what is shared | `schedule`, `factor.rs`; `discrete/logarithm.rs` for what an iteration can reuse |
+//! | change the derivatives by the parameters | `parameters.rs` |
 //! | differentiate a program | the rules in `sweep.rs`, used backwards by `adjoint.rs` and forwards by `tangent.rs` |
 //! | detect impossible models | `flaw.rs`, `sign.rs`, `range.rs` |
 //! | change the bound for the rounding of ψ | `magnitude.rs` |
@@ -75,6 +76,7 @@ mod interpret;
 mod joint;
 mod model;
 mod operation;
+mod parameters;
 mod program;
 mod programs;
 mod quadrature;
@@ -108,8 +110,9 @@ pub use interpret::{Arithmetic, F64, JointDifferences};
 pub use joint::Restriction;
 pub use model::Model;
 pub use operation::{DifferencePart, Operation, ProgramKernel, Value};
+pub use parameters::ParameterPrograms;
 pub use program::{Input, Instruction, Program, Stage};
-pub use programs::{ParameterPrograms, Programs};
+pub use programs::Programs;
 pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;
 pub use tangent::tangent;

@@ -1,6 +1,5 @@
 //! From one free energy to all programs of a constitutive law.
 
-mod parameters;
 mod point;
 
 use crate::discrete::{self, Step};
@@ -8,7 +7,6 @@ use crate::model::Model;
 use crate::node::Symbol;
 use crate::program::Program;
 use crate::verify_error::VerifyError;
-pub use parameters::ParameterPrograms;
 use point::PointPrograms;
 
 /// Everything that a constitutive law computes, scheduled.

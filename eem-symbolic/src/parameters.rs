@@ -16,11 +16,10 @@ use crate::model::Model;
 use crate::number::Number;
 use crate::operation::{Operation, Value};
 use crate::program::{Input, Program, Stage};
+use crate::programs::Programs;
 use crate::sweep::Sweep;
 use crate::tangent::tangent;
 use crate::verify_error::VerifyError;
-
-use super::Programs;
 
 /// Derivatives by the parameters μ, in the order of [`Model::parameters`].
 ///
