@@ -1,7 +1,9 @@
 //! Derivatives by the parameters: generated code against the interpreter, bit for bit, and against 96 digits.
 
 use eem::FreeEnergy;
-use eem_symbolic::{Bounded, ParameterPrograms, Program, RunningError};
+use eem_symbolic::{
+    Bounded, Operation, ParameterPrograms, Program, ProgramKernel, RunningError, Value as Place,
+};
 use eem_testkit::random::Random;
 use eem_testkit::table::array;
 
@@ -286,6 +288,59 @@ fn adjoints_agree_with_tangents() {
                     a[0],
                     t[0]
                 );
+            }
+        }
+    }
+}
+
+/// What an adjoint costs, values included, over what it is the derivative of; Baur & Strassen 1983 allow four times for
+/// products and quotients. A difference `xᵖ[a, b]` with p a parameter takes two second ones and one of the logarithm more,
+/// which is four kernels, and the powers and logarithms at the ends.
+fn allowed(program: &Program) -> [usize; 2] {
+    let is_constant = |exponent: Place| {
+        let operation = &program.instructions[exponent.index()].operation;
+        matches!(operation, Operation::Constant(_))
+    };
+    let has_exponents = program.instructions.iter().any(|instruction| {
+        matches!(instruction.operation, Operation::DividedDifference(ProgramKernel::Powf(p), ..)
+            if !is_constant(p))
+    });
+    if has_exponents { [5, 4] } else { [3, 3] }
+}
+
+#[test]
+fn adjoints_cost_three_times_the_values_at_most() {
+    let cost = |program: &Program| {
+        let count = program.operation_count();
+        let kernels = count.old.kernels + count.new.kernels;
+        [count.old.total() + count.new.total(), kernels]
+    };
+    for specimen in families::all() {
+        let model = specimen.symbolic();
+        let programs = model.programs();
+        let derivatives = model.parameter_programs(&programs);
+        let responses = specimen.state().len() + usize::from(specimen.thermal());
+        let response = |form: &Program| form.restricted_to(responses).program;
+        // The adjoint of the entropy form differentiates what determines its corners, too.
+        let corners = programs.mixed_states.as_ref().map_or([0, 0], cost);
+        let mut rows = vec![(
+            "entropy",
+            response(&programs.entropy_form),
+            corners,
+            &derivatives.entropy_form_adjoint,
+        )];
+        let temperature = programs.temperature_form.as_ref();
+        let adjoint = derivatives.temperature_form_adjoint.as_ref();
+        if let Some((form, adjoint)) = temperature.zip(adjoint) {
+            rows.push(("temperature", response(form), [0, 0], adjoint));
+        }
+        for (form, response, corners, adjoint) in rows {
+            let [values, adjoint] = [cost(&response), cost(adjoint)];
+            let values = [values[0] + corners[0], values[1] + corners[1]];
+            let what = format!("{:24} {form:12} {values:?} {adjoint:?}", specimen.name());
+            println!("{what}");
+            for (i, allowed) in allowed(&response).into_iter().enumerate() {
+                assert!(adjoint[i] <= allowed * values[i], "{what}");
             }
         }
     }
