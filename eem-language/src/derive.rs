@@ -14,7 +14,15 @@ use crate::{check, expand, fallback, model, parse, physics, units, warnings};
 /// together with an implementation that does nothing.
 ///
 /// A phase leaves a hole where it reported something, and the phases after it look at the rest.
+///
+/// With the feature `gradients` derivatives by the parameters are among it.
+#[must_use]
 pub fn derive(input: &DeriveInput) -> TokenStream {
+    derive_with(input, cfg!(feature = "gradients"))
+}
+
+/// The same with derivatives by the parameters or without.
+pub(crate) fn derive_with(input: &DeriveInput, gradients: bool) -> TokenStream {
     let cx = Ctxt::new();
     let attributes = Attributes::from_syn(&cx, input);
     let parsed = parse::input(&cx, input, &attributes);
@@ -34,9 +42,12 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
         .barrier(checked.as_ref().zip(model))
         .and_then(|(checked, (model, units))| {
             let programs = model.programs();
-            physics::check_programs(&cx, checked, &programs);
+            let derivatives = gradients.then(|| model.parameter_programs(&programs));
+            physics::check_programs(&cx, checked, &programs, derivatives.as_ref());
             cx.barrier(Some(()))?;
-            Ok(expand::expand(checked, &model, &programs, &units))
+            let derivatives = derivatives.as_ref();
+            let code = expand::expand(checked, &model, &programs, derivatives, &units);
+            Ok(code)
         })
         .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, &shape, &error));
     quote! { #warnings #implementation }

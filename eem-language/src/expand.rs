@@ -13,13 +13,14 @@ mod forms;
 mod header;
 mod inputs;
 mod lines;
+mod parameters;
 mod points;
 mod rates;
 mod statements;
 pub(crate) mod strains;
 mod viscosities;
 
-use eem_symbolic::{Model, Programs};
+use eem_symbolic::{Model, ParameterPrograms, Programs};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Path;
@@ -29,11 +30,12 @@ use crate::units::Units;
 pub(crate) use header::Header;
 use inputs::Inputs;
 
-/// The implementations of the traits.
+/// The implementations of the traits, with derivatives by the parameters if their programs are given.
 pub(crate) fn expand(
     checked: &Checked<'_>,
     model: &Model,
     programs: &Programs,
+    derivatives: Option<&ParameterPrograms>,
     units: &Units,
 ) -> TokenStream {
     let header = Header::new(checked.original, checked.scalar);
@@ -41,11 +43,13 @@ pub(crate) fn expand(
     let constants = constants::constants(checked, programs, &inputs);
     let points = points::points(programs, &inputs);
     let forms = forms::forms(programs, &inputs);
+    let parameters = derivatives.map(|programs| parameters::parameters(programs, &inputs));
     let equations = equation::equations(checked, &model.formulas());
     let formulas = docs::formulas(checked, &equations, units);
-    let description = description::description(checked, model, programs, &equations, units);
+    let costs = description::costs(programs, derivatives);
+    let description = description::description(checked, model, &costs, &equations, units);
     let duplicate = duplicate::duplicate(checked.original);
-    let body = quote! { #constants #duplicate #points #forms };
+    let body = quote! { #constants #duplicate #points #forms #parameters };
     let implementation = header.implementation(&body);
     let strains = strains::strains(checked, programs, &inputs);
     let all = quote! { #formulas #implementation #strains #description };

@@ -148,6 +148,7 @@ fn constants(scalar: &TokenStream, name: &str, shape: &Shape) -> TokenStream {
         const MODEL: &'static __eem::core::primitive::str = #name;
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[];
 
+        type Parameters = #nothing;
         type Variables = #state;
         type Hessian = #hessian;
         type Viscosities = #viscosities;

@@ -2,7 +2,7 @@
 //!
 //! [`eem_symbolic::Flaw`] says what is wrong; here it gets its place and its words.
 
-use eem_symbolic::{Flaw, Model, Programs};
+use eem_symbolic::{Flaw, Model, ParameterPrograms, Programs};
 
 use crate::ast::{self, Joint, Role};
 use crate::checked::{Checked, Variable};
@@ -54,8 +54,14 @@ fn dashpot_argument(checked: &Checked<'_>, dashpot: usize) -> Option<String> {
 
 /// Reports factors that are too large only when they come together; constants that are written out
 /// have been looked at one by one.
-pub(crate) fn check_programs(cx: &Ctxt, checked: &Checked<'_>, programs: &Programs) {
-    if programs.verify().is_err() {
+pub(crate) fn check_programs(
+    cx: &Ctxt,
+    checked: &Checked<'_>,
+    programs: &Programs,
+    derivatives: Option<&ParameterPrograms>,
+) {
+    let derivatives = derivatives.map_or(Ok(()), ParameterPrograms::verify);
+    if programs.verify().and(derivatives).is_err() {
         cx.error(checked.energy.value.original, &message::factor_too_large());
     }
 }

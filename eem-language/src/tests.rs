@@ -12,7 +12,13 @@ mod units;
 /// The expansion of an item.
 fn expand(item: TokenStream) -> TokenStream {
     let input: DeriveInput = syn::parse2(item).expect("the test item is Rust");
-    crate::derive::derive(&input)
+    crate::derive::derive_with(&input, false)
+}
+
+/// The same with derivatives by the parameters.
+fn expand_with_gradients(item: TokenStream) -> TokenStream {
+    let input: DeriveInput = syn::parse2(item).expect("the test item is Rust");
+    crate::derive::derive_with(&input, true)
 }
 
 /// The expansion as readable source.

@@ -82,9 +82,11 @@ impl<
     const PER_VOLUME: bool = true;
     const VISCOUS_STRAIN: usize = K - M::DASHPOTS;
     const HAS_CONSTANT_CAPACITY: bool = M::HAS_CONSTANT_CAPACITY;
+    const HAS_PARAMETER_DERIVATIVES: bool = M::HAS_PARAMETER_DERIVATIVES;
     const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
+    type Parameters = M::Parameters;
     type Variables = [S; N];
     type Hessian = [[S; N]; N];
     type Viscosities = [S; K];
@@ -225,5 +227,72 @@ impl<
         let variables = M::variables(x1);
         let response = self.material.temperature_form_response(&own, &variables);
         M::response(&tensors, x1, &response)
+    }
+
+    fn temperature_form_adjoint(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        weights: &[S; R],
+    ) -> M::Parameters {
+        let weights = M::response_weights([x0, x1], weights);
+        let [x0, x1] = [x0, x1].map(M::variables);
+        self.material.temperature_form_adjoint(&x0, &x1, &weights)
+    }
+
+    fn temperature_form_tangent(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        direction: &M::Parameters,
+    ) -> [S; R] {
+        let [old, new] = [x0, x1].map(M::variables);
+        let (material, tensors) = (&self.material, M::tensors(x0));
+        let tangent = material.temperature_form_tangent(&old, &new, direction);
+        M::response(&tensors, x1, &tangent)
+    }
+
+    fn entropy_form_adjoint(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        corners: &M::Corners,
+        weights: &[S; R],
+    ) -> M::Parameters {
+        let weights = M::response_weights([x0, x1], weights);
+        let [x0, x1] = [x0, x1].map(M::variables);
+        let material = &self.material;
+        material.entropy_form_adjoint(&x0, &x1, corners, &weights)
+    }
+
+    fn entropy_form_tangent(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        corners: &M::Corners,
+        direction: &M::Parameters,
+    ) -> [S; R] {
+        let [old, new] = [x0, x1].map(M::variables);
+        let (material, tensors) = (&self.material, M::tensors(x0));
+        let tangent = material.entropy_form_tangent(&old, &new, corners, direction);
+        M::response(&tensors, x1, &tangent)
+    }
+
+    fn gradient_adjoint(&self, x: &[S; N], weights: &[S; N]) -> M::Parameters {
+        let weights = M::weights(&M::tensors(x), weights, S::one());
+        self.material.gradient_adjoint(&M::variables(x), &weights)
+    }
+
+    fn energy_by_parameters(&self, x: &[S; N]) -> M::Parameters {
+        self.material.energy_by_parameters(&M::variables(x))
+    }
+
+    fn viscosity_adjoint(&self, theta: S, weights: &[S; K]) -> M::Parameters {
+        let weights = M::gathered(weights);
+        self.material.viscosity_adjoint(theta, &weights)
+    }
+
+    fn drag_adjoint(&self, theta: S, weights: &M::Drag) -> M::Parameters {
+        self.material.drag_adjoint(theta, weights)
     }
 }

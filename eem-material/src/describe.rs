@@ -190,16 +190,18 @@ impl Display for Description {
         )?;
         formulas(f, differences)?;
         heading(f, "Operations", self.costs.len())?;
+        let names = self.costs.iter().map(|cost| cost.function.len());
+        let name = names.max().unwrap_or_default().max(NAME);
         if !self.costs.is_empty() {
             writeln!(
                 f,
-                "  {:NAME$}{:>COLUMN$}{:>COLUMN$}",
+                "  {:name$}{:>COLUMN$}{:>COLUMN$}",
                 "", "per step", "per call"
             )?;
         }
         for cost in self.costs {
             let (function, step, call) = (cost.function, cost.per_step, cost.per_call);
-            writeln!(f, "  {function:NAME$}{step:>COLUMN$}{call:>COLUMN$}")?;
+            writeln!(f, "  {function:name$}{step:>COLUMN$}{call:>COLUMN$}")?;
         }
         Ok(())
     }

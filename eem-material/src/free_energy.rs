@@ -117,11 +117,37 @@ pub trait FreeEnergy<S: Scalar> {
     const VISCOUS_STRAIN: usize = 0;
     /// Whether the heat capacity does not depend on the temperature.
     const HAS_CONSTANT_CAPACITY: bool = false;
+    /// Whether the derivatives by the parameters are there, from
+    /// [`temperature_form_adjoint`](Self::temperature_form_adjoint) to [`drag_adjoint`](Self::drag_adjoint). The derive
+    /// generates them with the feature `gradients` of `eem`. Where this is `false` they are all NaN, and nothing calls
+    /// them.
+    ///
+    /// ```
+    /// use eem::FreeEnergy;
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - 1.0).powi(2))]
+    /// struct Spring {
+    ///     stiffness: f64,
+    /// }
+    ///
+    /// let spring = Spring { stiffness: 40.0 };
+    /// // f* = k ((λ⁰ + λ¹)/2 − 1), with the weight 2.
+    /// let [by_stiffness]: [f64; 1] = spring.temperature_form_adjoint(&[1.25], &[1.75], &[2.0]);
+    /// if <Spring as FreeEnergy<f64>>::HAS_PARAMETER_DERIVATIVES {
+    ///     assert_eq!(by_stiffness, 2.0 * 0.5);
+    /// } else {
+    ///     assert!(by_stiffness.is_nan());
+    /// }
+    /// ```
+    const HAS_PARAMETER_DERIVATIVES: bool = false;
     /// The name of the struct.
     const MODEL: &'static str;
     /// The names of the parameters that the model uses.
     const PARAMETERS: &'static [&'static str];
 
+    /// `[S; P]`, an entry for each of the P [`PARAMETERS`](Self::PARAMETERS), in their order.
+    type Parameters: Array<S>;
     /// `[S; N]`, the variables.
     type Variables: Array<S>;
     /// `[[S; N]; N]`.
@@ -319,6 +345,84 @@ pub trait FreeEnergy<S: Scalar> {
     ) -> Self::Response {
         self.temperature_form(old, x1).0
     }
+
+    /// `Σ w_i ∂(response_i)/∂μ` of the response in temperature form at fixed `x0` and `x1`, for every parameter μ.
+    ///
+    /// A derivative by a parameter has the unit of what is differentiated over the unit of the parameter.
+    fn temperature_form_adjoint(
+        &self,
+        _x0: &Self::Variables,
+        _x1: &Self::Variables,
+        _weights: &Self::Response,
+    ) -> Self::Parameters {
+        absent()
+    }
+
+    /// `Σ ∂(response)/∂μ δμ` of the response in temperature form at fixed `x0` and `x1`, for a `direction` δμ.
+    fn temperature_form_tangent(
+        &self,
+        _x0: &Self::Variables,
+        _x1: &Self::Variables,
+        _direction: &Self::Parameters,
+    ) -> Self::Response {
+        absent()
+    }
+
+    /// `Σ w_i d(response_i)/dμ` of the response in entropy form at fixed `x0` and `x1`, for every parameter μ.
+    ///
+    /// The derivative is total: [`Corners`](Self::Corners) move with the parameters, because they keep the entropy
+    /// of `x0` or of `x1`.
+    fn entropy_form_adjoint(
+        &self,
+        _x0: &Self::Variables,
+        _x1: &Self::Variables,
+        _corners: &Self::Corners,
+        _weights: &Self::Response,
+    ) -> Self::Parameters {
+        absent()
+    }
+
+    /// `Σ d(response)/dμ δμ` of the response in entropy form at fixed `x0` and `x1`, for a `direction` δμ; total as
+    /// [`entropy_form_adjoint`](Self::entropy_form_adjoint).
+    fn entropy_form_tangent(
+        &self,
+        _x0: &Self::Variables,
+        _x1: &Self::Variables,
+        _corners: &Self::Corners,
+        _direction: &Self::Parameters,
+    ) -> Self::Response {
+        absent()
+    }
+
+    /// `Σ w_i ∂²ψ/∂x_i∂μ` for every parameter μ: of forces and of the entropy of a state, with the signs of
+    /// [`gradient`](Self::gradient).
+    fn gradient_adjoint(
+        &self,
+        _x: &Self::Variables,
+        _weights: &Self::Variables,
+    ) -> Self::Parameters {
+        absent()
+    }
+
+    /// `∂e/∂μ` at fixed `x` for every parameter μ, with the temperature if there is one.
+    fn energy_by_parameters(&self, _x: &Self::Variables) -> Self::Parameters {
+        absent()
+    }
+
+    /// `Σ w_k ∂η_k/∂μ` for every parameter μ.
+    fn viscosity_adjoint(&self, _theta: S, _weights: &Self::Viscosities) -> Self::Parameters {
+        absent()
+    }
+
+    /// `w ∂η/∂μ` of the dashpot in parallel with the spring for every parameter μ.
+    fn drag_adjoint(&self, _theta: S, _weights: &Self::Drag) -> Self::Parameters {
+        absent()
+    }
+}
+
+/// Derivatives that nobody has generated.
+fn absent<S: Scalar, A: Array<S>>() -> A {
+    A::filled(S::from_f64(f64::NAN))
 }
 
 /// A free energy that a scene can use. Implemented for every type that qualifies.

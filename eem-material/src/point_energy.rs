@@ -86,9 +86,11 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     const THERMAL: bool = M::THERMAL;
     const VISCOUS_STRAIN: usize = M::VISCOUS_STRAIN;
     const HAS_CONSTANT_CAPACITY: bool = M::HAS_CONSTANT_CAPACITY;
+    const HAS_PARAMETER_DERIVATIVES: bool = M::HAS_PARAMETER_DERIVATIVES;
     const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
+    type Parameters = M::Parameters;
     type Variables = M::Variables;
     type Hessian = M::Hessian;
     type Viscosities = M::Viscosities;
@@ -225,5 +227,63 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         x1: &M::Variables,
     ) -> M::Response {
         self.scaled_response(self.density.temperature_form_response(old, x1))
+    }
+
+    fn temperature_form_adjoint(
+        &self,
+        x0: &M::Variables,
+        x1: &M::Variables,
+        weights: &M::Response,
+    ) -> M::Parameters {
+        let weights = self.scaled_response(*weights);
+        self.density.temperature_form_adjoint(x0, x1, &weights)
+    }
+
+    fn temperature_form_tangent(
+        &self,
+        x0: &M::Variables,
+        x1: &M::Variables,
+        direction: &M::Parameters,
+    ) -> M::Response {
+        self.scaled_response(self.density.temperature_form_tangent(x0, x1, direction))
+    }
+
+    fn entropy_form_adjoint(
+        &self,
+        x0: &M::Variables,
+        x1: &M::Variables,
+        corners: &M::Corners,
+        weights: &M::Response,
+    ) -> M::Parameters {
+        let weights = self.scaled_response(*weights);
+        self.density.entropy_form_adjoint(x0, x1, corners, &weights)
+    }
+
+    fn entropy_form_tangent(
+        &self,
+        x0: &M::Variables,
+        x1: &M::Variables,
+        corners: &M::Corners,
+        direction: &M::Parameters,
+    ) -> M::Response {
+        let density = &self.density;
+        self.scaled_response(density.entropy_form_tangent(x0, x1, corners, direction))
+    }
+
+    fn gradient_adjoint(&self, x: &M::Variables, weights: &M::Variables) -> M::Parameters {
+        self.density.gradient_adjoint(x, &self.scaled(*weights))
+    }
+
+    fn energy_by_parameters(&self, x: &M::Variables) -> M::Parameters {
+        self.scaled(self.density.energy_by_parameters(x))
+    }
+
+    fn viscosity_adjoint(&self, theta: S, weights: &M::Viscosities) -> M::Parameters {
+        let weights = self.scaled(*weights);
+        self.density.viscosity_adjoint(theta, &weights)
+    }
+
+    fn drag_adjoint(&self, theta: S, weights: &M::Drag) -> M::Parameters {
+        self.density.drag_adjoint(theta, &self.scaled(*weights))
     }
 }

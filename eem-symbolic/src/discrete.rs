@@ -19,7 +19,7 @@ mod step;
 mod temperature_form;
 
 pub(crate) use elastic::elastic_form;
-pub(crate) use entropy_form::entropy_form;
+pub(crate) use entropy_form::{entropy_form, entropy_form_with_corners};
 pub(crate) use mixed_states::mixed_states;
 pub(crate) use step::Step;
 pub(crate) use temperature_form::temperature_form;

@@ -108,6 +108,11 @@ impl Program {
         Restriction { program, origins }
     }
 
+    /// The same with every divided difference in an instruction of its own.
+    pub(crate) fn alone(&self) -> Program {
+        Rewriting::alone(self).program
+    }
+
     /// The same with one call for the differences of one function between the same ends.
     pub(crate) fn with_joint_differences(&self) -> Program {
         Rewriting::joint(self).program

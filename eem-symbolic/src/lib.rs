@@ -33,6 +33,8 @@
 //! | change what is generated | `programs.rs`, `discrete`; the printer is `expand` in `eem-language` |
 //! | compute several values in one call | an `Operation` in `operation.rs`, chosen in `joint.rs` |
 //! | change the order of operations, or what is shared | `schedule`, `factor.rs`; `discrete/logarithm.rs` for what an iteration can reuse |
+//! | change the derivatives by the parameters | `parameters.rs` |
+//! | differentiate a program | the rules in `sweep.rs`, used backwards by `adjoint.rs` and forwards by `tangent.rs` |
 //! | detect impossible models | `flaw.rs`, `sign.rs`, `range.rs` |
 //! | change the bound for the rounding of ψ | `magnitude.rs` |
 
@@ -63,6 +65,8 @@ mod sign;
 mod substitute;
 
 // Programs.
+mod adjoint;
+mod composer;
 mod cost;
 mod difference_formulas;
 mod discrete;
@@ -72,11 +76,14 @@ mod interpret;
 mod joint;
 mod model;
 mod operation;
+mod parameters;
 mod program;
 mod programs;
 mod quadrature;
 mod running_error;
 mod schedule;
+mod sweep;
+mod tangent;
 mod verify;
 mod verify_error;
 
@@ -94,6 +101,7 @@ pub use range::{Range, range};
 pub use sign::{Sign, sign};
 pub use substitute::substitute;
 
+pub use adjoint::adjoint;
 pub use cost::{OperationCount, StageCount, TranscendentalCount};
 pub use difference_formulas::DifferenceFormula;
 pub use flaw::Flaw;
@@ -102,10 +110,12 @@ pub use interpret::{Arithmetic, F64, JointDifferences};
 pub use joint::Restriction;
 pub use model::Model;
 pub use operation::{DifferencePart, Operation, ProgramKernel, Value};
+pub use parameters::ParameterPrograms;
 pub use program::{Input, Instruction, Program, Stage};
 pub use programs::Programs;
 pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;
+pub use tangent::tangent;
 pub use verify_error::VerifyError;
 
 /// The example of the README is part of the tests.

@@ -142,7 +142,7 @@ impl Schedule<'_> {
 }
 
 /// A constant that overflows is the caller's to report; all else is a mistake made here.
-fn check(program: &Program) {
+pub(crate) fn check(program: &Program) {
     debug_assert!(matches!(
         program.verify(),
         Ok(()) | Err(VerifyError::NonFiniteConstant { .. })

@@ -136,6 +136,7 @@ macro_rules! springs {
                 const MODEL: &'static str = stringify!($name);
                 const PARAMETERS: &'static [&'static str] = &[];
 
+                type Parameters = [f64; 0];
                 type Variables = [f64; $n];
                 type Hessian = [[f64; $n]; $n];
                 type Viscosities = [f64; $dashpots];

@@ -31,6 +31,7 @@ impl<M: FreeEnergy<f64>> FreeEnergy<f64> for Spoilt<M> {
     const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
+    type Parameters = M::Parameters;
     type Variables = M::Variables;
     type Hessian = M::Hessian;
     type Viscosities = M::Viscosities;

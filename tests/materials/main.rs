@@ -9,6 +9,8 @@ extern crate eem as renamed;
 
 use eem_testkit::scenes as support;
 
+#[cfg(feature = "gradients")]
+mod by_parameters;
 mod describing;
 mod domain;
 mod generics;

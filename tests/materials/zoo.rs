@@ -13,8 +13,12 @@ mod digits;
 mod dual;
 mod expression;
 mod families;
+#[cfg(feature = "gradients")]
+mod generated;
 mod homes;
 mod number;
+#[cfg(feature = "gradients")]
+mod parameters;
 mod precise;
 mod properties;
 mod rest;

@@ -63,6 +63,7 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
         let (row, rows) = (array(inputs.variables), Literal::usize_unsuffixed(rows));
         quote!([#row; #rows])
     };
+    let parameters = array(inputs.parameters.len());
     let (variables, hessian) = (array(inputs.variables), matrix(inputs.variables));
     let (viscosities, drag) = (array(inputs.viscosities), array(inputs.drags));
     let corners = array(inputs.corners());
@@ -74,6 +75,7 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
         .unwrap_or(&programs.entropy_form);
     let temperature = array(kept(temperature, inputs).len());
     quote! {
+        type Parameters = #parameters;
         type Variables = #variables;
         type Hessian = #hessian;
         type Viscosities = #viscosities;

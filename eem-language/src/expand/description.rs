@@ -1,6 +1,6 @@
 //! The description of the model: the implementation of `Describe`.
 
-use eem_symbolic::{Model, Program, Programs};
+use eem_symbolic::{Model, ParameterPrograms, Program, Programs};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -17,7 +17,7 @@ use crate::units::{Quantities, Units};
 pub(super) fn description(
     checked: &Checked<'_>,
     model: &Model,
-    programs: &Programs,
+    costs: &[TokenStream],
     equations: &[Equation],
     units: &Units,
 ) -> TokenStream {
@@ -27,7 +27,6 @@ pub(super) fn description(
     let formulas = equations.iter().map(Equation::tokens);
     let differences = differences(checked, model);
     let differences = differences.iter().map(Equation::tokens);
-    let costs = costs(programs);
     let body = quote! {
         const DESCRIPTION: __eem::Description = __eem::Description {
             name: #name,
@@ -73,7 +72,11 @@ fn parameters(checked: &Checked<'_>, units: &Units) -> impl Iterator<Item = Toke
     })
 }
 
-fn costs(programs: &Programs) -> impl Iterator<Item = TokenStream> {
+/// What each generated function costs.
+pub(super) fn costs(
+    programs: &Programs,
+    derivatives: Option<&ParameterPrograms>,
+) -> Vec<TokenStream> {
     let rows = [
         ("free_energy", Some(&programs.free_energy), false),
         ("energy_magnitude", Some(&programs.energy_magnitude), false),
@@ -89,7 +92,11 @@ fn costs(programs: &Programs) -> impl Iterator<Item = TokenStream> {
         ("temperature_form", programs.temperature_form.as_ref(), true),
     ];
     let rows = rows.into_iter();
-    rows.filter_map(|(function, program, two_states)| Some(cost(function, program?, two_states)))
+    let rows = rows
+        .filter_map(|(function, program, two_states)| Some(cost(function, program?, two_states)));
+    let derivatives = derivatives.into_iter().flat_map(ParameterPrograms::named);
+    let derivatives = derivatives.map(|(function, program)| cost(function, program, false));
+    rows.chain(derivatives).collect()
 }
 
 /// A function of one state computes everything in every call.

@@ -76,9 +76,13 @@ impl Inputs {
         })
     }
 
-    /// Input `index` of a viscosity: parameters, θ.
+    /// Input `index` of viscosities or of their adjoint: parameters, θ if there is one, weights.
     pub(super) fn viscosity(&self, index: usize) -> TokenStream {
-        self.parameter_or(index, |_| quote!(__theta))
+        let first = usize::from(self.thermal);
+        self.parameter_or(index, |index| match index.checked_sub(first) {
+            None => quote!(__theta),
+            Some(weight) => element(&quote!(__weights), weight),
+        })
     }
 
     /// Input `index` of an algorithmic form: parameters, x⁰, x¹, corner temperatures.
@@ -88,6 +92,19 @@ impl Inputs {
             0 => element(&quote!(__x0), index),
             1 => element(&quote!(__x1), index - variables),
             _ => element(&quote!(__corners), index - 2 * variables),
+        })
+    }
+
+    /// Input `index` of a program with these arrays as arguments: parameters, then the elements of each, so many.
+    pub(super) fn argument(&self, index: usize, arrays: &[(TokenStream, usize)]) -> TokenStream {
+        self.parameter_or(index, |mut index| {
+            for (array, count) in arrays {
+                if index < *count {
+                    return element(array, index);
+                }
+                index -= count;
+            }
+            unreachable!("a program has no other inputs")
         })
     }
 

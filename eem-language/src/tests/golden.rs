@@ -9,7 +9,7 @@ use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
 use syn::{Block, Expr, ImplItem, Item, ItemConst, ItemImpl};
 
-use super::{expand, pretty};
+use super::{expand, expand_with_gradients, pretty};
 
 fn compare(name: &str, found: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -29,6 +29,10 @@ fn compare(name: &str, found: &str) {
 /// The expansion of a model with these items of its implementations only, without the implementations that have none
 /// of them. `*` is everything but functions.
 fn excerpt(model: TokenStream, wanted: &[&str]) -> String {
+    excerpt_of(expand(model), wanted)
+}
+
+fn excerpt_of(expansion: TokenStream, wanted: &[&str]) -> String {
     let mut missing = wanted.to_vec();
     let mut keep = |item: &ImplItem| {
         let name = match item {
@@ -38,7 +42,7 @@ fn excerpt(model: TokenStream, wanted: &[&str]) -> String {
         missing.retain(|wanted| *wanted != name);
         wanted.contains(&name.as_str())
     };
-    let file: syn::File = syn::parse2(expand(model)).expect("the expansion is Rust");
+    let file: syn::File = syn::parse2(expansion).expect("the expansion is Rust");
     let mut shown = TokenStream::new();
     for item in file.items {
         for mut implementation in implementations(item) {
@@ -137,6 +141,27 @@ fn functions_of_the_temperature_alone() {
 fn forms_of_a_step() {
     let functions = ["temperature_form_old", "temperature_form"];
     compare("step.rs", &excerpt(thermal(), &functions));
+}
+
+#[test]
+fn derivatives_by_parameters() {
+    let functions = [
+        "entropy_form_adjoint",
+        "temperature_form_tangent",
+        "gradient_adjoint",
+        "energy_by_parameters",
+        "viscosity_adjoint",
+        "drag_adjoint",
+    ];
+    let model = quote! {
+        #[free_energy(|lambda: Stretch, gamma: Viscous| 0.5 * k * (lambda - gamma).powi(2))]
+        #[viscosity(gamma = eta)]
+        pub struct Maxwell { k: f64, eta: f64 }
+    };
+    compare(
+        "parameters.rs",
+        &excerpt_of(expand_with_gradients(model), &functions),
+    );
 }
 
 #[test]

@@ -83,6 +83,30 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
         conjugates
     }
 
+    /// Weights of conjugates of the material from those of the components: the transpose of
+    /// [`conjugates`](Self::conjugates).
+    fn weights<A: Array<S>>(along: &Tensors<S>, of_components: &[S], sign: S) -> A {
+        let [strain, viscous] = Self::FIRST;
+        let mut weights = A::filled(S::zero());
+        for (index, weight) in weights.as_mut().iter_mut().enumerate() {
+            let Some(joint) = Self::joint(index) else {
+                *weight = of_components[Self::index(index)];
+                continue;
+            };
+            for k in 0..Self::COMPONENTS {
+                *weight += of_components[strain + k] * along.by_strain(joint, k);
+                *weight += sign * (of_components[viscous + k] * along.by_viscous(joint, k));
+            }
+        }
+        weights
+    }
+
+    /// Weights of the response of the material from those of the response by components.
+    fn response_weights<const N: usize>(ends: [&[S; N]; 2], of_components: &[S]) -> Self::Response {
+        let [old, new] = ends.map(Self::tensors);
+        Self::weights(&old.mean(&new), of_components, -S::one())
+    }
+
     /// The derivatives of conjugates by the new components, from those of the material; the gradients change by
     /// the given fraction of those at the new state.
     fn slopes<const N: usize, const W: usize>(
@@ -171,6 +195,22 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
             Some(component) if component < DEVIATORIC => own[dashpots],
             Some(_) => own[dashpots + 1],
         })
+    }
+
+    /// Weights of the viscosities of the material from those of the components: the transpose of
+    /// [`spread`](Self::spread).
+    fn gathered(of_components: &[S]) -> Self::Viscosities {
+        let dashpots = Self::DASHPOTS;
+        let mut own = Self::Viscosities::filled(S::zero());
+        for (k, &weight) in of_components.iter().enumerate() {
+            let place = match k.checked_sub(dashpots) {
+                None => k,
+                Some(component) if component < DEVIATORIC => dashpots,
+                Some(_) => dashpots + 1,
+            };
+            own[place] += weight;
+        }
+        own
     }
 }
 

@@ -14,6 +14,7 @@
 //! ```
 
 use super::edge::{self, Edge};
+use super::mixed_states::mixed_states;
 use super::step::{Form, Point, Step, mixed};
 use crate::node::{ExprId, Symbol};
 
@@ -42,6 +43,16 @@ pub(crate) fn entropy_form(step: &mut Step) -> Form {
     }
     response.push(jump(step));
     tangent.extend(stairs.slopes);
+    Form { response, tangent }
+}
+
+/// `[f*_a …, g*_k …, θ*, Δs]` without tangent, and what says how corner temperatures follow the parameters:
+/// `[S(c) − s_c …, θ_c S_θ(c) …]`. Both are made of the same divided differences.
+pub(crate) fn entropy_form_with_corners(step: &mut Step, theta: Symbol) -> Form {
+    let form = entropy_form(step);
+    let corners = mixed_states(step, theta);
+    let response = [form.response, corners.response, corners.tangent].concat();
+    let tangent = Vec::new();
     Form { response, tangent }
 }
 

@@ -20,5 +20,7 @@ mod interpreter;
 mod joint_differences;
 mod laws;
 mod magnitudes;
+mod parameters;
 mod programs;
 mod random_expressions;
+mod sweeps;

@@ -12,6 +12,8 @@ pub(crate) struct Evaluated {
     pub(crate) law: Law,
     pub(crate) programs: Programs,
     pub(crate) precise: Precise,
+    /// Values of the parameters, those of the law unless a test changes them.
+    pub(crate) parameters: State,
 }
 
 /// A state in high precision.
@@ -19,11 +21,12 @@ pub(crate) type State = Vec<BigFloat>;
 
 impl Evaluated {
     pub(crate) fn new(law: Law) -> Self {
-        let programs = law.model.programs();
+        let (programs, precise) = (law.model.programs(), Precise::new());
         Self {
+            parameters: precise.all(&law.parameters),
             law,
             programs,
-            precise: Precise::new(),
+            precise,
         }
     }
 
@@ -38,7 +41,7 @@ impl Evaluated {
 
     /// Outputs of a program at parameters followed by `inputs`.
     pub(crate) fn run(&self, program: &Program, inputs: &[&[BigFloat]]) -> Vec<BigFloat> {
-        let mut all = self.precise.all(&self.law.parameters);
+        let mut all = self.parameters.clone();
         for part in inputs {
             all.extend_from_slice(part);
         }

@@ -17,7 +17,7 @@ const ALLOWED: f64 = 1.25;
 const TANGENT: f64 = 1e-2;
 
 fn compare_points(specimen: &dyn Specimen, programs: &Programs, worst: &mut Worst) -> Vec<String> {
-    let (law, mut wrong) = (Law { specimen }, Vec::new());
+    let (law, mut wrong) = (Law::new(specimen), Vec::new());
     for x in states::around(specimen) {
         for Output {
             function,
@@ -59,12 +59,7 @@ const UNITS: f64 = 8.0;
 #[test]
 fn free_energies_are_within_their_magnitude() {
     for specimen in families::all() {
-        let (law, name) = (
-            Law {
-                specimen: &*specimen,
-            },
-            specimen.name(),
-        );
+        let (law, name) = (Law::new(&*specimen), specimen.name());
         let mut worst = 0.0_f64;
         for x in states::around(&*specimen) {
             let (psi, magnitude) = (specimen.free_energy(&x), specimen.energy_magnitude(&x));
@@ -84,7 +79,7 @@ fn free_energies_are_within_their_magnitude() {
 }
 
 fn compare_forms(specimen: &dyn Specimen, programs: &Programs, worst: &mut Worst) -> Vec<String> {
-    let (law, mut wrong) = (Law { specimen }, Vec::new());
+    let (law, mut wrong) = (Law::new(specimen), Vec::new());
     for step in states::steps(specimen) {
         let corners = states::corners(specimen, &step[0], &step[1]);
         let near: Vec<f64> = corners.iter().map(|corner| corner.theta).collect();
@@ -145,7 +140,7 @@ fn compare_tangents(
     programs: &Programs,
     worst: &mut Worst,
 ) -> Vec<String> {
-    let (law, mut wrong) = (Law { specimen }, Vec::new());
+    let (law, mut wrong) = (Law::new(specimen), Vec::new());
     let step = states::step(specimen, TANGENT);
     let corners = states::corners(specimen, &step[0], &step[1]);
     let near: Vec<f64> = corners.iter().map(|corner| corner.theta).collect();

@@ -15,11 +15,18 @@ pub(crate) fn exact(x: &[f64]) -> Vec<Precise> {
 /// ψ and what follows from it.
 pub(crate) struct Law<'s> {
     pub(crate) specimen: &'s dyn Specimen,
+    /// A parameter that has another value than in the specimen.
+    pub(crate) moved: Option<(usize, Precise)>,
 }
 
-impl Law<'_> {
+impl<'s> Law<'s> {
+    pub(crate) fn new(specimen: &'s dyn Specimen) -> Self {
+        let moved = None;
+        Self { specimen, moved }
+    }
+
     fn psi(&self, x: &[Precise]) -> Precise {
-        self.specimen.precise_psi(x)
+        self.specimen.precise_psi(x, self.moved)
     }
 
     fn entropy(&self, x: &[Precise]) -> Precise {

@@ -118,7 +118,11 @@ pub(crate) trait Specimen: Table {
     fn symbolic(&self) -> Model;
     fn psi_of_duals(&self, x: &[Num<HyperDual64>]) -> Num<HyperDual64>;
     fn viscosities_of_duals(&self, x: &[Num<HyperDual64>]) -> Vec<Num<HyperDual64>>;
-    fn precise_psi(&self, x: &[Precise]) -> Precise;
+    /// ψ, with one parameter of another value.
+    fn precise_psi(&self, x: &[Precise], moved: Option<(usize, Precise)>) -> Precise;
+    /// A generated derivative by the parameters.
+    #[cfg(feature = "gradients")]
+    fn by_parameters(&self, function: &str, arguments: &[&[f64]]) -> Vec<f64>;
 
     /// The specimen, to be kept.
     fn table(&self) -> Arc<dyn Table>;
@@ -177,11 +181,21 @@ impl<F: Formula> Specimen for F {
         F::viscosities(x, &crate::zoo::dual::constants(&self.data()))
     }
 
-    fn precise_psi(&self, x: &[Precise]) -> Precise {
+    fn precise_psi(&self, x: &[Precise], moved: Option<(usize, Precise)>) -> Precise {
         let data = self.data();
-        let fields: Vec<_> = data.iter().map(|&value| Num(Precise::of(value))).collect();
+        let mut fields: Vec<_> = data.iter().map(|&value| Num(Precise::of(value))).collect();
+        if let Some((parameter, value)) = moved {
+            let mut names = F::FIELDS.iter();
+            let place = names.position(|name| *name == F::PARAMETERS[parameter]);
+            fields[place.expect("a field")] = Num(value);
+        }
         let x: Vec<_> = x.iter().map(|&value| Num(value)).collect();
         F::psi_of_numbers(&x, &fields).0
+    }
+
+    #[cfg(feature = "gradients")]
+    fn by_parameters(&self, function: &str, arguments: &[&[f64]]) -> Vec<f64> {
+        crate::zoo::parameters::generated(self, function, arguments)
     }
 
     fn table(&self) -> Arc<dyn Table> {

@@ -14,6 +14,7 @@ impl<__S: __eem::Scalar> __eem::FreeEnergy<__S> for Elastic {
         "stiffness",
         "length",
     ];
+    type Parameters = [__S; 2];
     type Variables = [__S; 1];
     type Hessian = [[__S; 1]; 1];
     type Viscosities = [__S; 0];

@@ -25,6 +25,7 @@ where
         "eta",
         "NU",
     ];
+    type Parameters = [T; 5];
     type Variables = [T; 4];
     type Hessian = [[T; 4]; 4];
     type Viscosities = [T; 1];
