@@ -43,15 +43,13 @@
 //! | change the generated code | `expand`; `expand/description.rs` for `Describe` |
 //! | see the generated code | `cargo run -p eem-language --example expand -- FILE` |
 
-// For `ctxt`, which behaves differently inside a compiler.
-extern crate proc_macro;
-
 mod ast;
 mod attr;
 mod check;
 mod checked;
 mod ctxt;
 mod derive;
+mod dialect;
 mod expand;
 mod fallback;
 mod message;
@@ -61,6 +59,7 @@ mod parse;
 mod physics;
 #[cfg(test)]
 mod tests;
+pub mod text;
 mod unit;
 mod units;
 mod warnings;

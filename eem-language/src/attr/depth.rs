@@ -7,7 +7,9 @@ use proc_macro2::{Span, TokenStream, TokenTree};
 
 /// Levels that a formula may have. Twice as many still fit the 8 MiB of the compiler's threads in a
 /// debug build, where they are operators between two values.
-const LIMIT: usize = 4000;
+pub(super) const LIMIT: usize = 4000;
+/// The same for a text, which is read on the 2 MiB of any thread.
+pub(super) const LIMIT_OF_TEXT: usize = LIMIT / 4;
 
 /// Levels of a pair of brackets: the functions of the parser between two expressions.
 const BRACKETS: usize = 20;
@@ -15,13 +17,13 @@ const BRACKETS: usize = 20;
 const PREFIX: usize = 2;
 
 /// The place where the tokens become too deep.
-pub(super) fn too_deep(tokens: TokenStream) -> Option<Span> {
+pub(super) fn too_deep(tokens: TokenStream, limit: usize) -> Option<Span> {
     // Groups that are yet to be looked into, with the level at which they stand.
     let mut pending = vec![(tokens, 0)];
     while let Some((tokens, outside)) = pending.pop() {
         let (mut level, mut after_value) = (outside, false);
         for token in tokens {
-            if level > LIMIT {
+            if level > limit {
                 return Some(token.span());
             }
             let value = !matches!(token, TokenTree::Punct(_));
@@ -46,7 +48,7 @@ mod tests {
 
     fn is_too_deep(text: &str) -> bool {
         let tokens: TokenStream = text.parse().expect("the text is made of tokens");
-        too_deep(tokens).is_some()
+        too_deep(tokens, LIMIT).is_some()
     }
 
     #[test]
