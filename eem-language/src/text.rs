@@ -32,6 +32,7 @@ mod fault;
 mod part;
 mod reader;
 mod source;
+mod stack;
 
 use crate::attr::Attributes;
 use crate::ctxt::Ctxt;
@@ -45,11 +46,10 @@ pub use source::{LONGEST, Source};
 
 /// Reads and checks all texts of a model.
 ///
-/// A text has at most [`LONGEST`] bytes and is not nested so deeply that reading it would need more than the 2 MiB of a
-/// thread's stack.
-///
-/// The places of tokens that `proc-macro2` has kept for this thread are forgotten at the end: a caller that has spans of
-/// its own calls this in another thread.
+/// A formula has at most [`LONGEST`] bytes, a name or a unit 256, and brackets and operators are nested some hundred times
+/// at most. The work is done on a thread with a stack of its own. Where there are no threads, as in a browser, it is done
+/// on this one, which needs a stack of some MiB for what is nested most deeply; then the places of all tokens that
+/// `proc-macro2` has kept for this thread are forgotten at the end.
 ///
 /// # Errors
 ///
@@ -75,9 +75,12 @@ pub use source::{LONGEST, Source};
 /// assert_eq!(faults.all()[0].text, "neither the free energy nor a viscosity uses `unused`");
 /// ```
 pub fn compile(source: &Source) -> Result<Compiled, Faults> {
-    let result = compile_in(source, Dialect::Text);
-    reader::forget_places();
-    result
+    stack::on_deep_stack(|| {
+        let result = compile_in(source, Dialect::Text);
+        // Without threads this one goes on, and would keep every text.
+        reader::forget_places();
+        result
+    })
 }
 
 /// The same with the words of a dialect, which tests choose.

@@ -5,7 +5,7 @@ use super::Message;
 pub(crate) fn too_long(bytes: usize, most: usize) -> Message {
     Message::new(
         format!("this text has {bytes} bytes, and may have {most} at most"),
-        "a formula is written by hand: bind what is repeated with `let`, or make it a helper",
+        "shorten it; a formula can bind what is repeated with `let`",
     )
 }
 

@@ -6,6 +6,7 @@ use eem_symbolic::{Model, Programs};
 
 use super::fault::{Fault, Faults};
 use super::source::Source;
+use super::stack::on_deep_stack;
 
 /// A model whose texts are right.
 ///
@@ -88,10 +89,11 @@ impl Compiled {
     /// assert_eq!(faults.all()[0].column, 19);
     /// ```
     pub fn programs(&self) -> Result<&Programs, Faults> {
-        let programs = self.programs.get_or_init(|| {
+        let make = || {
             let programs = self.model.programs();
             programs.verify().is_ok().then_some(programs)
-        });
+        };
+        let programs = self.programs.get_or_init(|| on_deep_stack(make));
         programs.as_ref().ok_or_else(|| self.too_large.clone())
     }
 

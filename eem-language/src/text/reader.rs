@@ -26,6 +26,9 @@ pub(super) struct Reader<'s> {
     faults: Vec<(usize, Fault)>,
 }
 
+/// Bytes of a name or of a unit, which may have parentheses in each other.
+const LONGEST_NAME: usize = 256;
+
 /// Lines and columns from 0.
 struct Place {
     line: usize,
@@ -99,8 +102,12 @@ impl<'s> Reader<'s> {
     fn part(&mut self, part: Part, text: &'s str, tokens: &str) -> Option<Group> {
         self.parts.push((part, text.split('\n').collect()));
         let index = self.parts.len() - 1;
-        if text.len() > LONGEST {
-            self.report_part(index, &message::too_long(text.len(), LONGEST));
+        let most = match self.parts[index].0 {
+            Part::FreeEnergy | Part::Viscosity(_) => LONGEST,
+            Part::Dashpot(_) | Part::Parameter(_) | Part::Unit(_) => LONGEST_NAME,
+        };
+        if text.len() > most {
+            self.report_part(index, &message::too_long(text.len(), most));
             return None;
         }
         // On lines of their own: a comment ends with its line.
@@ -258,8 +265,11 @@ fn attribute(name: &str, part: &Group, paren: Paren, tokens: TokenStream) -> Att
 /// `k` or `k[3]`
 fn as_name(tokens: TokenStream) -> Option<Name> {
     let mut tokens = tokens.into_iter();
-    // Also a name that Rust has taken is an identifier of `proc-macro2`.
-    let ident = syn::parse2(tokens.next()?.into()).ok()?;
+    let TokenTree::Ident(ident) = tokens.next()? else {
+        return None;
+    };
+    // A keyword is an identifier of `proc-macro2`, too.
+    let ident = syn::parse2(TokenTree::from(ident).into()).ok()?;
     let length = match tokens.next() {
         None => None,
         Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Bracket => {

@@ -1,6 +1,6 @@
 //! What a model is made of, as it was written.
 
-/// Bytes that one text may have.
+/// Bytes that the text of a formula may have.
 pub const LONGEST: usize = 64 << 10;
 
 /// A free energy, viscosities, and parameters with their units, as texts.

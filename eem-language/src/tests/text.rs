@@ -1,0 +1,7 @@
+//! Models as texts against the derive: messages, places, programs.
+
+mod cases;
+mod item;
+mod limits;
+mod words;
+mod zoo;
