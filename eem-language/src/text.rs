@@ -30,7 +30,7 @@
 mod compiled;
 mod fault;
 mod part;
-mod reader;
+pub(crate) mod reader;
 mod source;
 mod stack;
 

@@ -1,6 +1,7 @@
 //! Models as texts against the derive: messages, places, programs.
 
 mod cases;
+mod drawing;
 mod item;
 mod limits;
 mod words;

@@ -288,6 +288,6 @@ fn as_name(tokens: TokenStream) -> Option<Name> {
 }
 
 /// Frees what `proc-macro2` keeps of every text for the life of a thread.
-pub(super) fn forget_places() {
+pub(crate) fn forget_places() {
     proc_macro2::extra::invalidate_current_thread_spans();
 }
