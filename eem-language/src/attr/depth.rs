@@ -38,7 +38,7 @@ pub(super) fn too_deep(tokens: TokenStream, limit: usize) -> Option<Span> {
                 // The next statement or argument starts at the level outside.
                 TokenTree::Punct(punct) if matches!(punct.as_char(), ';' | ',') => level = outside,
                 TokenTree::Punct(punct) if before != Before::Operator && punct.as_char() != '.' => {
-                    level += 1
+                    level += 1;
                 }
                 TokenTree::Punct(_) => level += PREFIX,
                 // A keyword, `return x`, `x as f64`: a whole expression may follow.

@@ -140,15 +140,14 @@ pub(crate) fn exponent(text: &str, largest: i64) -> Message {
 
 pub(crate) fn missing(field: &Ident, unit: Option<&Unit>) -> Message {
     let name = ast::name(field);
-    let help = said(|d| match unit {
-        Some(unit) => {
-            let unit = d.the_unit(&unit.to_string());
-            format!("the formula needs {unit}{}", d.above())
-        }
-        None => {
-            let (unit, one, above) = (d.the_unit("…"), d.unit("1"), d.above());
-            format!("write {unit}{above}, {one} if it is dimensionless")
-        }
+    let help = said(|d| {
+        let (one, above) = (d.unit("1"), d.above());
+        let Some(unit) = unit else {
+            let unit = d.the_unit("…");
+            return format!("write {unit}{above}, {one} if it is dimensionless");
+        };
+        let unit = d.the_unit(&unit.to_string());
+        format!("the formula needs {unit}{above}")
     });
     Message::new(
         said(|d| {

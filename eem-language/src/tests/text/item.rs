@@ -80,8 +80,9 @@ impl AsText {
                 range: energy,
             }],
         };
-        for (name, law) in laws {
-            let [dashpot, text] = [&name, &law].map(|range| file[range.clone()].to_owned());
+        for [name, law] in laws {
+            let [dashpot, text] =
+                [&name, &law].map(|range: &Range<usize>| file[range.clone()].to_owned());
             this.origin(Part::Dashpot(dashpot.clone()), name);
             this.origin(Part::Viscosity(dashpot.clone()), law);
             this.source = this.source.viscosity(dashpot, text);
@@ -137,7 +138,7 @@ fn inside(meta: &Meta) -> Result<Range<usize>, RustOnly> {
 }
 
 /// Names and laws in `a = …, b = …`, up to `end`.
-fn split(tokens: TokenStream, end: usize) -> Result<Vec<(Range<usize>, Range<usize>)>, RustOnly> {
+fn split(tokens: TokenStream, end: usize) -> Result<Vec<[Range<usize>; 2]>, RustOnly> {
     let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     let is = |index: usize, c: char| matches!(tokens.get(index), Some(TokenTree::Punct(p)) if p.as_char() == c);
     let is_name = |index: usize| matches!(tokens.get(index), Some(TokenTree::Ident(_)));
@@ -152,17 +153,15 @@ fn split(tokens: TokenStream, end: usize) -> Result<Vec<(Range<usize>, Range<usi
     let ends = ends.chain([end]);
     let laws = first.iter().zip(ends);
     Ok(laws
-        .map(|(&i, end)| (byte(i), byte(i + 1).end..end))
+        .map(|(&i, end)| [byte(i), byte(i + 1).end..end])
         .collect())
 }
 
-/// Where its name stands, its name, and where its unit stands. Nothing for a field that is no number or is marked.
-#[expect(clippy::type_complexity, reason = "read once")]
-fn parameter(
-    file: &str,
-    item: &DeriveInput,
-    field: &Field,
-) -> Result<Option<(Range<usize>, String, Option<Range<usize>>)>, RustOnly> {
+/// Where its name stands, its name with the length of an array, and where its unit stands.
+type Declared = (Range<usize>, String, Option<Range<usize>>);
+
+/// Nothing for a field that is no number or is marked.
+fn parameter(file: &str, item: &DeriveInput, field: &Field) -> Result<Option<Declared>, RustOnly> {
     let mut unit = None;
     for attribute in &field.attrs {
         let path = attribute.path();

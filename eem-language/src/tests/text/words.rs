@@ -250,6 +250,13 @@ fn words_are_those_of_a_text() {
                 "there is only its closure",
             )],
         ),
+    ]);
+}
+
+#[test]
+fn laws_and_parameters_have_the_words_of_a_text() {
+    let end = "cannot read the formula: unexpected end of input, expected an expression";
+    check(&[
         (
             psi("|x: Stretch, a: Viscous, b: Viscous| (x - a - b).powi(2)")
                 .viscosity("a", "1, b = 2"),
@@ -311,6 +318,7 @@ fn every_message_of_texts_has_a_case() {
     names_are_names();
     constants_of_a_program_have_no_meaning();
     words_are_those_of_a_text();
+    laws_and_parameters_have_the_words_of_a_text();
     let key = "src/message/text.rs";
     let written = written::take().into_iter();
     let written = written.filter(|(file, _)| file_key(Path::new(file)) == key);

@@ -28,14 +28,14 @@ fn structs(text: &str) -> Vec<String> {
             let text = written(token);
             text[1..text.len() - 1].to_owned()
         };
-        let (mut name, mut groups, mut laws) = (String::new(), Vec::new(), String::new());
+        let (mut name, mut groups, mut laws) = (String::new(), Vec::new(), Vec::new());
         let mut before = None;
         for token in tokens {
             match &token {
                 TokenTree::Ident(ident) => name = name_unless_or(name, &ident.to_string()),
                 TokenTree::Group(group) if group.delimiter() == Delimiter::Bracket => {
                     if !matches!(&before, Some(TokenTree::Punct(_))) {
-                        laws += &format!("#[viscosity({})]\n", inside(&token));
+                        laws.push(format!("#[viscosity({})]\n", inside(&token)));
                     }
                 }
                 TokenTree::Group(_) => groups.push(token.clone()),
@@ -48,15 +48,17 @@ fn structs(text: &str) -> Vec<String> {
         let arguments = arguments
             .split(']')
             .filter_map(|one| one.split(" = ").next());
-        let arguments: String = arguments
+        let arguments: Vec<String> = arguments
             .map(|a| format!("{}, ", a.trim_matches([',', ' ', '\n'])))
             .collect();
+        let arguments = arguments.concat();
         let arguments = arguments.trim_end_matches([',', ' ']);
         let fields = inside(&groups[0]);
         let fields = fields.split(',').filter_map(|field| field.split_once(':'));
-        let fields: String = fields
+        let fields: Vec<String> = fields
             .map(|(name, _)| format!("{}: f64, ", name.trim()))
             .collect();
+        let (fields, laws) = (fields.concat(), laws.concat());
         let body = written(&groups[2]);
         format!(
             "#[derive(FreeEnergy)]\n#[free_energy(|{arguments}| {body})]\n{laws}struct {name} {{ {fields} }}"
