@@ -1,6 +1,6 @@
 //! Any texts as a model: there are programs, or faults with places in the texts.
 
-use eem_language::text::{Fault, Part, Source, compile};
+use eem_language::text::{Compiled, Fault, Faults, Part, Source, compile};
 
 use crate::expressions::WORDS;
 
@@ -32,26 +32,30 @@ pub fn text(data: &[u8]) {
     let answer = compile(&source);
     match &answer {
         Ok(compiled) => {
-            compiled.warnings().iter().for_each(|fault| check(&source, fault));
+            check_all(&source, compiled.warnings());
             if text.len() <= LONGEST_WITH_PROGRAMS {
                 match compiled.programs() {
                     Ok(programs) => programs.verify().expect("valid programs"),
-                    Err(faults) => faults.all().iter().for_each(|fault| check(&source, fault)),
+                    Err(faults) => check_all(&source, faults.all()),
                 }
             }
         }
         Err(faults) => {
-            assert!(!faults.all().is_empty(), "no model and no fault: {source:?}");
-            faults.all().iter().for_each(|fault| check(&source, fault));
+            assert_ne!(faults.all(), [], "no model and no fault: {source:?}");
+            check_all(&source, faults.all());
         }
     }
-    let again = compile(&source).map_err(|faults| faults.to_string());
-    let first = answer.as_ref().map_err(ToString::to_string);
     assert_eq!(
-        first.map(|compiled| compiled.warnings()),
-        again.as_ref().map(|compiled| compiled.warnings()).map_err(Clone::clone),
+        said(&answer),
+        said(&compile(&source)),
         "two answers to {source:?}"
     );
+}
+
+/// All that is said, as it is drawn.
+fn said(answer: &Result<Compiled, Faults>) -> Vec<String> {
+    let faults = answer.as_ref().map_or_else(Faults::all, Compiled::warnings);
+    faults.iter().map(ToString::to_string).collect()
 }
 
 fn source(text: &str, viscosities: usize) -> Source {
@@ -67,6 +71,12 @@ fn source(text: &str, viscosities: usize) -> Source {
         source = source.parameter(name, parts.next().filter(|unit| !unit.is_empty()));
     }
     source
+}
+
+fn check_all(source: &Source, faults: &[Fault]) {
+    for fault in faults {
+        check(source, fault);
+    }
 }
 
 /// The place of a fault is in its part, and can be drawn.
