@@ -13,9 +13,11 @@ use syn::parse::discouraged::Speculative as _;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, DeriveInput, Expr, ExprClosure, Meta, Path, Token, parse_quote};
 
+use crate::ast;
 use crate::ctxt::{Ctxt, precedes};
+use crate::dialect::Dialect;
 use crate::message::attribute as message;
-use crate::message::{Message, expression};
+use crate::message::{Message, expression, text};
 
 /// The attributes of one item.
 pub(crate) struct Attributes {
@@ -105,6 +107,14 @@ impl FreeEnergy {
 
     fn set(&mut self, cx: &Ctxt, attribute: &Attribute, entry: Entry) {
         match entry {
+            Entry::Crate(token, _) if cx.dialect() == Dialect::Text => {
+                self.failed = true;
+                cx.error(token, &message::unknown_option("crate"));
+            }
+            Entry::WrongCrate(span) if cx.dialect() == Dialect::Text => {
+                self.failed = true;
+                cx.error_at(span, &message::unknown_option("crate"));
+            }
             Entry::Crate(token, _) if self.krate.is_some() => {
                 cx.error(token, &message::second_crate());
             }
@@ -146,7 +156,8 @@ fn report_unreadable(cx: &Ctxt, attribute: &Attribute, error: &syn::Error, messa
 }
 
 fn is_too_deep(cx: &Ctxt, attribute: &Attribute) -> bool {
-    let place = depth::too_deep(tokens(attribute));
+    let limit = cx.dialect().choose(depth::LIMIT, depth::LIMIT_OF_TEXT);
+    let place = depth::too_deep(tokens(attribute), limit);
     if let Some(span) = place {
         cx.error_at(span, &message::too_deep());
     }
@@ -233,7 +244,12 @@ fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
             cx.error(attribute.path(), &message::empty_viscosity());
             None
         }
-        Ok(laws) => Some(laws.into_iter().collect()),
+        Ok(laws) => {
+            if let (Dialect::Text, Some((second, _))) = (cx.dialect(), laws.iter().nth(1)) {
+                cx.error(second, &text::second_law(&ast::name(second)));
+            }
+            Some(laws.into_iter().collect())
+        }
         Err(error) => {
             let message = if has_law(attribute) {
                 message::unreadable_formula(&error)

@@ -5,6 +5,7 @@ use std::cell::{Cell, RefCell};
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
 
+use crate::dialect::Dialect;
 use crate::message::Message;
 
 /// The errors found so far.
@@ -13,9 +14,10 @@ use crate::message::Message;
 /// the last phase is a [`Ctxt::barrier`].
 #[derive(Debug, Default)]
 pub(crate) struct Ctxt {
+    dialect: Dialect,
     reports: RefCell<Vec<Report>>,
     /// What is no error, with its place.
-    warnings: RefCell<Vec<(Span, String)>>,
+    warnings: RefCell<Vec<(Span, Message)>>,
     /// The calls of helpers that are looked into, outermost first, as quoted.
     calls: RefCell<Vec<String>>,
     /// Counts who wants to hear nothing because all has been reported before.
@@ -24,26 +26,34 @@ pub(crate) struct Ctxt {
 
 /// One error.
 #[derive(Debug)]
-struct Report {
+pub(crate) struct Report {
     /// Where it is; its text is that of the message.
     error: syn::Error,
     /// The tokens there, if there are any.
     tokens: TokenStream,
-    message: Message,
+    pub(crate) message: Message,
     /// The calls of helpers in which it was found: it is said once for all of them.
-    calls: Vec<String>,
+    pub(crate) calls: Vec<String>,
 }
 
 impl Ctxt {
     /// A collector without errors.
-    pub(crate) fn new() -> Self {
-        Self::default()
+    pub(crate) fn new(dialect: Dialect) -> Self {
+        let mut cx = Self::default();
+        cx.dialect = dialect;
+        cx
+    }
+
+    /// What the model is written as.
+    pub(crate) fn dialect(&self) -> Dialect {
+        self.dialect
     }
 
     /// Reports `message` at the given tokens, which should be as few as show the mistake.
     pub(crate) fn error(&self, tokens: impl ToTokens, message: &Message) {
         let tokens = tokens.into_token_stream();
-        self.push(syn::Error::new_spanned(&tokens, message), tokens, message);
+        let words = message.whole(self.dialect, &[]);
+        self.push(syn::Error::new_spanned(&tokens, words), tokens, message);
     }
 
     /// Warns at the first of the given tokens; once, if it is about the body of a helper.
@@ -51,24 +61,25 @@ impl Ctxt {
         if self.is_muted() {
             return;
         }
-        let warning = (syn::spanned::Spanned::span(&tokens), message.to_string());
+        let warning = (syn::spanned::Spanned::span(&tokens), message.clone());
         let mut warnings = self.warnings.borrow_mut();
         let place = format!("{:?}", warning.0);
         let is_same =
-            |(span, text): &(Span, String)| *text == warning.1 && format!("{span:?}") == place;
+            |(span, same): &(Span, Message)| *same == warning.1 && format!("{span:?}") == place;
         if !warnings.iter().any(is_same) {
             warnings.push(warning);
         }
     }
 
     /// All warnings.
-    pub(crate) fn take_warnings(&self) -> Vec<(Span, String)> {
+    pub(crate) fn take_warnings(&self) -> Vec<(Span, Message)> {
         self.warnings.take()
     }
 
     /// Reports `message` at a single span, for delimiters and other places without tokens.
     pub(crate) fn error_at(&self, span: Span, message: &Message) {
-        self.push(syn::Error::new(span, message), TokenStream::new(), message);
+        let words = message.whole(self.dialect, &[]);
+        self.push(syn::Error::new(span, words), TokenStream::new(), message);
     }
 
     /// From here on it is about the body of a helper in this call.
@@ -125,12 +136,19 @@ impl Ctxt {
         }
     }
 
+    /// All errors, in the order of the phases.
+    pub(crate) fn take_reports(&self) -> Vec<Report> {
+        self.reports.take()
+    }
+
     /// The value if nothing was reported, otherwise all errors in one, in the order of the source.
     pub(crate) fn barrier<T>(&self, value: Option<T>) -> syn::Result<T> {
-        let mut reports = self.reports.take();
+        let mut reports = self.take_reports();
         // Stable: errors at one place stay in the order of the phases.
-        reports.sort_by_cached_key(|report| position(report.error.span()));
-        match reports.into_iter().map(Report::into_error).reduce(combined) {
+        reports.sort_by_cached_key(|report| position(report.span()));
+        let errors = reports.into_iter();
+        let errors = errors.map(|report| report.into_error(self.dialect));
+        match errors.reduce(combined) {
             Some(error) => Err(error),
             None => Ok(value.unwrap_or_else(|| unreachable!("a phase without a value says why"))),
         }
@@ -138,26 +156,28 @@ impl Ctxt {
 }
 
 impl Report {
-    fn into_error(self) -> syn::Error {
+    /// From the first to the last of its tokens.
+    pub(crate) fn span(&self) -> Span {
+        self.error.span()
+    }
+
+    fn into_error(self, dialect: Dialect) -> syn::Error {
         if self.calls.is_empty() {
             return self.error;
         }
-        syn::Error::new_spanned(self.tokens, self.message.within(&self.calls))
+        syn::Error::new_spanned(self.tokens, self.message.whole(dialect, &self.calls))
     }
 }
 
-/// Whether a token stands before another one; unknown without a compiler.
+/// Whether a token stands before another one.
 pub(crate) fn precedes(first: Span, second: Span) -> bool {
     position(first) < position(second)
 }
 
-/// Line and column, where there is a compiler that knows them.
+/// Line and column.
 fn position(span: Span) -> (usize, usize) {
-    if proc_macro::is_available() {
-        let span = span.unwrap();
-        return (span.line(), span.column());
-    }
-    (0, 0)
+    let start = span.start();
+    (start.line, start.column)
 }
 
 fn combined(mut first: syn::Error, second: syn::Error) -> syn::Error {

@@ -1,5 +1,6 @@
 //! Runs the phases one after the other, with one barrier before the code is written.
 
+use eem_symbolic::Model;
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::DeriveInput;
@@ -7,7 +8,9 @@ use syn::DeriveInput;
 use crate::attr::Attributes;
 use crate::checked::Checked;
 use crate::ctxt::Ctxt;
+use crate::dialect::Dialect;
 use crate::fallback::Shape;
+use crate::units::Units;
 use crate::{check, expand, fallback, model, parse, physics, units, warnings};
 
 /// The code that `#[derive(FreeEnergy)]` generates for a struct, or the errors of all phases as `compile_error!`,
@@ -23,20 +26,13 @@ pub fn derive(input: &DeriveInput) -> TokenStream {
 
 /// The same with derivatives by the parameters or without.
 pub(crate) fn derive_with(input: &DeriveInput, gradients: bool) -> TokenStream {
-    let cx = Ctxt::new();
+    let cx = Ctxt::new(Dialect::Attribute);
     let attributes = Attributes::from_syn(&cx, input);
     let parsed = parse::input(&cx, input, &attributes);
     let mut shape = parsed.as_ref().map_or_else(Shape::default, Shape::new);
     let checked = parsed.as_ref().map(|parsed| check::check(&cx, parsed));
     shape.mention(checked.iter().flat_map(Checked::constants));
-    let model = checked.as_ref().and_then(|checked| {
-        let units = units::check(&cx, checked);
-        let model = model::lower(&cx, checked)?;
-        if checked.sound {
-            physics::check(&cx, checked, &model);
-        }
-        Some((model, units))
-    });
+    let model = checked.as_ref().and_then(|checked| model(&cx, checked));
     let warnings = warnings::warnings(&cx.take_warnings());
     let implementation = cx
         .barrier(checked.as_ref().zip(model))
@@ -51,4 +47,14 @@ pub(crate) fn derive_with(input: &DeriveInput, gradients: bool) -> TokenStream {
         })
         .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, &shape, &error));
     quote! { #warnings #implementation }
+}
+
+/// The model of what was checked, and its units; nothing if there is none because of what was reported.
+pub(crate) fn model(cx: &Ctxt, checked: &Checked<'_>) -> Option<(Model, Units)> {
+    let units = units::check(cx, checked);
+    let model = model::lower(cx, checked)?;
+    if checked.sound {
+        physics::check(cx, checked, &model);
+    }
+    Some((model, units))
 }

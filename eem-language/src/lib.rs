@@ -1,8 +1,9 @@
 //! The language of free energies: from the tokens of a struct to straight-line Rust.
 //!
 //! The input is a struct whose fields are the parameters of a material and whose attribute is its free energy. The
-//! output is one `impl FreeEnergy`, and for solids one `impl StrainEnergy`. The only entry point is [`derive()`];
-//! `eem-derive` turns it into the macro `#[derive(FreeEnergy)]`, whose documentation describes the language.
+//! output is one `impl FreeEnergy`, and for solids one `impl StrainEnergy`. The entry point is [`derive()`];
+//! `eem-derive` turns it into the macro `#[derive(FreeEnergy)]`, whose documentation describes the language. Models that
+//! are known only when a program runs are read by [`text`], which ends with the model and its programs.
 //!
 //! This crate does no mathematics. It reads and checks tokens, passes a model to [`eem_symbolic`], and prints the
 //! resulting programs. The phases:
@@ -35,6 +36,8 @@
 //!
 //! | to | look in |
 //! |---|---|
+//! | change the nouns of messages in texts | `dialect.rs`; `tests/text/cases.rs` compares all cases in both dialects, and lists what texts cannot say |
+//! | change what only texts have | `text`; messages in `message/text.rs`, with a case each in `tests/text/words.rs` |
 //! | change the syntax or a message | `parse`, `check`, `message`; a case per message in `eem-ui/tests/ui`; the reference is `eem-derive/src/free_energy.md` |
 //! | add a unit, or a rule for units | `unit/table.rs`, `units/rules` |
 //! | add a role of an argument | `Role` and `Strain` in `ast.rs`; the compiler then lists the phases to extend. Synonyms in `parse/closure.rs`, unit in `units/quantities.rs`, bound in `model/domain.rs` |
@@ -43,15 +46,13 @@
 //! | change the generated code | `expand`; `expand/description.rs` for `Describe` |
 //! | see the generated code | `cargo run -p eem-language --example expand -- FILE` |
 
-// For `ctxt`, which behaves differently inside a compiler.
-extern crate proc_macro;
-
 mod ast;
 mod attr;
 mod check;
 mod checked;
 mod ctxt;
 mod derive;
+mod dialect;
 mod expand;
 mod fallback;
 mod message;
@@ -61,6 +62,7 @@ mod parse;
 mod physics;
 #[cfg(test)]
 mod tests;
+pub mod text;
 mod unit;
 mod units;
 mod warnings;

@@ -5,12 +5,13 @@
 //! message. The modules are the folders of the compile-fail tests in `eem-ui/tests/ui`;
 //! `tests::catalogue` sees to it that every message has a case there.
 
-use std::fmt::{self, Display, Formatter};
+use crate::dialect::Dialect;
 
 pub(crate) mod attribute;
 pub(crate) mod expression;
 pub(crate) mod field;
 pub(crate) mod item;
+pub(crate) mod text;
 pub(crate) mod unit;
 #[cfg(test)]
 pub(crate) mod written;
@@ -18,16 +19,52 @@ pub(crate) mod written;
 /// Calls of helpers that a message names.
 const CALLS: usize = 3;
 
+/// Words of a message in both dialects.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Said {
+    attribute: String,
+    text: String,
+}
+
+/// Words that take their nouns from the dialect.
+fn said(words: impl Fn(Dialect) -> String) -> Said {
+    Said {
+        attribute: words(Dialect::Attribute),
+        text: words(Dialect::Text),
+    }
+}
+
+impl Said {
+    fn in_dialect(&self, dialect: Dialect) -> &str {
+        dialect.choose(&self.attribute, &self.text)
+    }
+}
+
+impl From<String> for Said {
+    fn from(words: String) -> Self {
+        Self {
+            text: words.clone(),
+            attribute: words,
+        }
+    }
+}
+
+impl From<&str> for Said {
+    fn from(words: &str) -> Self {
+        words.to_owned().into()
+    }
+}
+
 /// What is wrong and what to write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Message {
-    text: String,
-    help: String,
+    text: Said,
+    help: Said,
 }
 
 impl Message {
     #[cfg_attr(test, track_caller)]
-    fn new(text: impl Into<String>, help: impl Into<String>) -> Self {
+    fn new(text: impl Into<Said>, help: impl Into<Said>) -> Self {
         #[cfg(test)]
         written::record(std::panic::Location::caller());
         Self {
@@ -38,23 +75,32 @@ impl Message {
 }
 
 impl Message {
-    /// The message with the calls of helpers in which it is true, in quotes.
-    pub(crate) fn within(&self, calls: &[String]) -> String {
-        let mut lines = vec![self.text.clone()];
-        let shown = calls.iter().take(CALLS);
-        lines.extend(shown.map(|call| format!("in the call {call}")));
-        if let Some(others @ 1..) = calls.len().checked_sub(CALLS) {
-            lines.push(format!("and in other calls: {others}"));
-        }
-        lines.push(format!("help: {}", self.help));
+    /// What is wrong.
+    pub(crate) fn text(&self, dialect: Dialect) -> &str {
+        self.text.in_dialect(dialect)
+    }
+
+    /// What to write.
+    pub(crate) fn help(&self, dialect: Dialect) -> &str {
+        self.help.in_dialect(dialect)
+    }
+
+    /// All of it for the compiler, with the calls of helpers in which it is true, in quotes.
+    pub(crate) fn whole(&self, dialect: Dialect, calls: &[String]) -> String {
+        let mut lines = vec![self.text(dialect).to_owned()];
+        lines.extend(calls_shown(calls));
+        lines.push(format!("help: {}", self.help(dialect)));
         lines.join("\n")
     }
 }
 
-impl Display for Message {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.within(&[]))
-    }
+/// A line for every call that a message names, and one for all others.
+pub(crate) fn calls_shown(calls: &[String]) -> impl Iterator<Item = String> {
+    let shown = calls.iter().take(CALLS);
+    let others = calls.len().checked_sub(CALLS).filter(|&others| others > 0);
+    shown
+        .map(|call| format!("in the call {call}"))
+        .chain(others.map(|others| format!("and in other calls: {others}")))
 }
 
 /// `a`, `b` and `c` in backticks, for lists in messages.

@@ -7,6 +7,7 @@ use syn::{DeriveInput, parse_quote};
 mod catalogue;
 mod golden;
 mod mutation;
+mod text;
 mod units;
 
 /// The expansion of an item.

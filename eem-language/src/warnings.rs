@@ -3,6 +3,9 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
+use crate::dialect::Dialect;
+use crate::message::Message;
+
 /// Code whose compilation prints the warnings at their places.
 //
 // Expands to, with the place of the warning:
@@ -15,8 +18,9 @@ use quote::quote;
 //
 // A macro, because the compiler names it as it was called; the name of any other item would come with its module,
 // which here is `_`.
-pub(crate) fn warnings(all: &[(Span, String)]) -> TokenStream {
-    let one = |(span, text): &(Span, String)| {
+pub(crate) fn warnings(all: &[(Span, Message)]) -> TokenStream {
+    let one = |(span, message): &(Span, Message)| {
+        let text = message.whole(Dialect::Attribute, &[]);
         // With the place of what was written: the compiler does not warn of what a derive has written.
         let formula = Ident::new("formula", *span);
         quote! {

@@ -8,7 +8,7 @@ const LONGEST: usize = 600;
 const DEEPEST: usize = 40;
 
 /// What formulas are made of, and what looks like it.
-const WORDS: [&str; 96] = [
+pub(crate) const WORDS: [&str; 96] = [
     "lambda",
     "gamma",
     "theta",

@@ -14,6 +14,9 @@ mod laws;
 mod recipe;
 #[cfg(test)]
 mod replay;
+#[path = "text.rs"]
+mod texts;
 
 pub use expressions::expression;
 pub use laws::laws;
+pub use texts::text;

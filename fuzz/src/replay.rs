@@ -42,6 +42,11 @@ fn saved_expressions_are_answered() {
 }
 
 #[test]
+fn saved_texts_are_answered() {
+    replay("text", crate::text);
+}
+
+#[test]
 fn saved_laws_hold() {
     replay("laws", crate::laws);
 }

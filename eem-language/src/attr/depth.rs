@@ -7,7 +7,9 @@ use proc_macro2::{Span, TokenStream, TokenTree};
 
 /// Levels that a formula may have. Twice as many still fit the 8 MiB of the compiler's threads in a
 /// debug build, where they are operators between two values.
-const LIMIT: usize = 4000;
+pub(super) const LIMIT: usize = 4000;
+/// The same for a text, which a program may get from anybody: types in it need more stack than operators.
+pub(super) const LIMIT_OF_TEXT: usize = LIMIT / 4;
 
 /// Levels of a pair of brackets: the functions of the parser between two expressions.
 const BRACKETS: usize = 20;
@@ -15,28 +17,58 @@ const BRACKETS: usize = 20;
 const PREFIX: usize = 2;
 
 /// The place where the tokens become too deep.
-pub(super) fn too_deep(tokens: TokenStream) -> Option<Span> {
+pub(super) fn too_deep(tokens: TokenStream, limit: usize) -> Option<Span> {
     // Groups that are yet to be looked into, with the level at which they stand.
     let mut pending = vec![(tokens, 0)];
     while let Some((tokens, outside)) = pending.pop() {
-        let (mut level, mut after_value) = (outside, false);
+        let (mut level, mut before) = (outside, Before::Operator);
         for token in tokens {
-            if level > LIMIT {
+            if level > limit {
                 return Some(token.span());
             }
-            let value = !matches!(token, TokenTree::Punct(_));
+            let this = Before::from(&token);
             match token {
-                TokenTree::Group(group) => pending.push((group.stream(), level + BRACKETS)),
+                TokenTree::Group(group) => {
+                    // `x[0][1]`, `f(x)(y)`
+                    if before == Before::Group {
+                        level += PREFIX;
+                    }
+                    pending.push((group.stream(), level + BRACKETS));
+                }
                 // The next statement or argument starts at the level outside.
                 TokenTree::Punct(punct) if matches!(punct.as_char(), ';' | ',') => level = outside,
-                TokenTree::Punct(punct) if after_value && punct.as_char() != '.' => level += 1,
+                TokenTree::Punct(punct) if before != Before::Operator && punct.as_char() != '.' => {
+                    level += 1;
+                }
                 TokenTree::Punct(_) => level += PREFIX,
+                // A keyword, `return x`, `x as f64`: a whole expression may follow.
+                TokenTree::Ident(_) | TokenTree::Literal(_) if before != Before::Operator => {
+                    level += BRACKETS;
+                }
                 TokenTree::Ident(_) | TokenTree::Literal(_) => {}
             }
-            after_value = value;
+            before = this;
         }
     }
     None
+}
+
+/// What a token is for the one behind it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Before {
+    Operator,
+    Word,
+    Group,
+}
+
+impl From<&TokenTree> for Before {
+    fn from(token: &TokenTree) -> Self {
+        match token {
+            TokenTree::Punct(_) => Self::Operator,
+            TokenTree::Ident(_) | TokenTree::Literal(_) => Self::Word,
+            TokenTree::Group(_) => Self::Group,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -46,7 +78,7 @@ mod tests {
 
     fn is_too_deep(text: &str) -> bool {
         let tokens: TokenStream = text.parse().expect("the text is made of tokens");
-        too_deep(tokens).is_some()
+        too_deep(tokens, LIMIT).is_some()
     }
 
     #[test]
@@ -57,6 +89,13 @@ mod tests {
         assert!(!is_too_deep(&brackets(100)));
         assert!(is_too_deep(&brackets(1000)));
         assert!(is_too_deep(&"-".repeat(LIMIT)));
+        assert!(is_too_deep(&format!("x{}", "[0]".repeat(LIMIT))));
+        assert!(is_too_deep(&format!("x{}", " as f64".repeat(LIMIT))));
+        assert!(is_too_deep(&"return ".repeat(LIMIT)));
+        assert!(!is_too_deep(&format!(
+            "x{}",
+            " + k[0] * ln(x)".repeat(1900)
+        )));
     }
 
     #[test]

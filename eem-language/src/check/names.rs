@@ -9,6 +9,7 @@ use super::callee::is_function;
 use super::scope::{Meaning, Scope};
 use crate::ast::{self, Input};
 use crate::ctxt::Ctxt;
+use crate::dialect::Dialect;
 use crate::message::attribute;
 use crate::message::expression as message;
 
@@ -35,7 +36,8 @@ pub(super) fn check_binding(cx: &Ctxt, scope: &Scope, ident: &Ident) {
 pub(super) fn check_helper(cx: &Ctxt, scope: &Scope, ident: &Ident) {
     if is_function(ident) {
         let free = free(scope, ident);
-        let message = message::binding_hides(ident, "a function", &format!("let {free} = |…| …;"));
+        let message =
+            message::binding_hides(ident, |_| "a function", &format!("let {free} = |…| …;"));
         return cx.error(ident, &message);
     }
     check(cx, scope, ident, |free| format!("let {free} = |…| …;"));
@@ -47,13 +49,15 @@ pub(super) fn check_helper_argument(cx: &Ctxt, scope: &Scope, ident: &Ident) {
 }
 
 fn check(cx: &Ctxt, scope: &Scope, ident: &Ident, instead: impl Fn(String) -> String) {
-    let what = match scope.resolve(ident) {
-        Some(Meaning::Field(_) | Meaning::Array(..)) => "a field",
+    let what: fn(Dialect) -> &'static str = match scope.resolve(ident) {
+        Some(Meaning::Field(_) | Meaning::Array(..)) => Dialect::a_field,
         Some(Meaning::Argument(_) | Meaning::ForeignArgument(_) | Meaning::WrongArgument) => {
-            "an argument"
+            |_| "an argument"
         }
-        Some(Meaning::HelperArgument(_)) => "an argument of a helper",
-        Some(Meaning::Binding(_) | Meaning::Helper(_) | Meaning::OpenHelper) => "an earlier `let`",
+        Some(Meaning::HelperArgument(_)) => |_| "an argument of a helper",
+        Some(Meaning::Binding(_) | Meaning::Helper(_) | Meaning::OpenHelper) => {
+            |_| "an earlier `let`"
+        }
         Some(Meaning::ForeignBinding | Meaning::UnusedField | Meaning::Unreadable) | None => return,
     };
     let message = message::binding_hides(ident, what, &instead(free(scope, ident)));

@@ -12,7 +12,8 @@ use super::{constants, names};
 use crate::ast::{self, Binding, Block, Bound, Input};
 use crate::checked::{Body, Expr, ExprKind, Origin, Variable};
 use crate::ctxt::Ctxt;
-use crate::message::{expression as message, field};
+use crate::dialect::Dialect;
+use crate::message::{expression as message, field, text};
 use crate::nearest::nearest;
 
 /// The free energy with its names resolved.
@@ -136,7 +137,7 @@ impl<'a> Resolver<'_, 'a> {
                 self.names[index].1 = true;
                 return ExprKind::Binding(index);
             }
-            Some(Meaning::Unreadable) | None if ast::is_upper_case(ident) => {
+            Some(Meaning::Unreadable) | None if self.may_be_constant(ident) => {
                 return match constants::bare(ident) {
                     Some(value) => ExprKind::Number(value.into()),
                     None => self.constant(ident),
@@ -153,16 +154,31 @@ impl<'a> Resolver<'_, 'a> {
         if let Some(value) = constants::of_std(path) {
             return ExprKind::Number(value.into());
         }
+        let in_text = self.cx.dialect() == Dialect::Text;
+        let of_std = path.segments.iter().rev().nth(1);
+        let of_std = of_std.is_some_and(|module| module.ident == "consts");
         match path.segments.last() {
-            Some(last) if !ast::is_upper_case(&last.ident) => {
+            Some(last) if !ast::is_upper_case(&last.ident) || (in_text && of_std) => {
                 let meant = constants::meant(&last.ident);
                 let text = constants::text(path);
                 let message = message::syntax::constant_of_std(&text, meant.as_deref());
                 self.cx.error(path, &message);
                 self.wrong([])
             }
+            Some(last) if in_text => {
+                let (text, last) = (constants::text(path), ast::name(&last.ident));
+                let message = text::constant_of_program(&text, &last);
+                self.cx.error(path, &message);
+                self.wrong([])
+            }
             _ => self.constant(path),
         }
+    }
+
+    /// Whether a name that is not declared may be a constant. A text belongs to no program that has some.
+    fn may_be_constant(&self, ident: &Ident) -> bool {
+        let of_program = self.cx.dialect() == Dialect::Attribute && ast::is_upper_case(ident);
+        of_program || constants::bare(ident).is_some()
     }
 
     /// A constant of the program, which Rust resolves.
@@ -196,7 +212,7 @@ impl<'a> Resolver<'_, 'a> {
             }
             Some(Meaning::Argument(_) | Meaning::HelperArgument(_)) => "an argument",
             Some(Meaning::Binding(_)) => "a `let` binding",
-            None if ast::is_upper_case(ident) => "a constant",
+            None if self.may_be_constant(ident) => "a constant",
             Some(meaning) => {
                 self.refuse(ident, meaning);
                 return self.wrong([]);
@@ -302,7 +318,7 @@ fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -
         Some(Meaning::HelperArgument(_)) => refuse("helper argument"),
         Some(Meaning::Binding(_)) => refuse("`let` binding"),
         Some(meaning) => resolver.refuse(ident, meaning),
-        None if ast::is_upper_case(ident) => refuse("constant"),
+        None if resolver.may_be_constant(ident) => refuse("constant"),
         None => resolver.unknown(ident),
     }
     None

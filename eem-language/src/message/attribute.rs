@@ -1,39 +1,43 @@
 //! Messages about the attributes, the arguments of the closure and the viscosity laws.
 
+use std::fmt::Display;
+
 use proc_macro2::Ident;
 
-use super::{Message, alternatives, list};
+use super::{Message, alternatives, list, said};
 use crate::ast::{self, Joint, Role, Strain};
 
 pub(crate) mod physics;
 
-const CLOSURE: &str = "`#[free_energy(|lambda: Stretch, theta: Temperature| …)]`";
-
 pub(crate) fn missing_free_energy(item: &Ident) -> Message {
     Message::new(
         format!("`{item}` has no free energy"),
-        format!("write {CLOSURE} on top of the struct"),
+        said(|d| format!("write {} on top of the {}", d.closure(), d.item())),
     )
 }
 
 pub(crate) fn second_free_energy() -> Message {
     Message::new(
         "a second free energy",
-        "a struct has one `#[free_energy]`; add the terms, or derive for another struct",
+        said(|d| {
+            let (item, derive) = (d.item(), d.choose("derive for", "write"));
+            let one = d.choose(d.free_energy(), "closure");
+            format!("a {item} has one {one}; add the terms, or {derive} another {item}")
+        }),
     )
 }
 
 pub(crate) fn empty_free_energy() -> Message {
     Message::new(
-        "`#[free_energy]` without a closure",
-        format!("write {CLOSURE}"),
+        said(|d| format!("{} without a closure", d.free_energy())),
+        said(|d| format!("write {}", d.closure())),
     )
 }
 
 pub(crate) fn unreadable_free_energy(error: &syn::Error) -> Message {
     Message::new(
         format!("cannot read the free energy: {error}"),
-        format!("it is a closure with typed arguments, {CLOSURE}"),
+        said(|d| format!("it is a closure with typed arguments, {}", d.closure())),
     )
 }
 
@@ -69,14 +73,17 @@ pub(crate) fn after_the_closure() -> Message {
 pub(crate) fn free_energy_is_not_a_closure() -> Message {
     Message::new(
         "the free energy must be a closure, whose arguments have roles",
-        format!("write {CLOSURE}"),
+        said(|d| format!("write {}", d.closure())),
     )
 }
 
-pub(crate) fn unknown_option(name: &Ident) -> Message {
+pub(crate) fn unknown_option(name: impl Display) -> Message {
     Message::new(
-        format!("`#[free_energy]` has no option `{name}`"),
-        format!("there is `crate = path`, and the closure: {CLOSURE}"),
+        said(|d| format!("{} has no option `{name}`", d.free_energy())),
+        said(|d| {
+            let there_is = d.choose("`crate = path`, and the closure: ", "only its closure, ");
+            format!("there is {there_is}{}", d.closure())
+        }),
     )
 }
 
@@ -156,7 +163,10 @@ pub(crate) fn flow_without_strain(argument: &Ident, role: Role) -> Message {
             "`{name}` is a `{}`, but no `ViscousStrain` drives the viscous strain Γ",
             role.name()
         ),
-        "add the argument `m3: ViscousStrain`, which is E:Γ, and its viscosity, `#[viscosity(m3 = …)]`",
+        said(|d| {
+            let law = d.choose("its viscosity, `#[viscosity(m3 = …)]`", "its viscosity");
+            format!("add the argument `m3: ViscousStrain`, which is E:Γ, and {law}")
+        }),
     )
 }
 
@@ -188,8 +198,17 @@ pub(crate) fn second_argument(argument: &Ident) -> Message {
 pub(crate) fn argument_hides_field(argument: &Ident) -> Message {
     let name = ast::name(argument);
     Message::new(
-        format!("`{name}` is an argument here and a field of the struct"),
-        "rename one of them; a field that is no parameter can be marked with `#[free_energy(unused)]`",
+        said(|d| {
+            let field = d.choose("a field of the struct", "a parameter");
+            format!("`{name}` is an argument here and {field}")
+        }),
+        said(|d| {
+            let unless = d.choose(
+                "; a field that is no parameter can be marked with `#[free_energy(unused)]`",
+                "",
+            );
+            format!("rename one of them{unless}")
+        }),
     )
 }
 
@@ -220,7 +239,7 @@ pub(crate) fn missing_viscosity(dashpot: &Ident, role: Role, unit: &str) -> Mess
     };
     Message::new(
         format!("{what} `{name}` has no viscosity law"),
-        format!("write `#[viscosity({name} = …)]` on top of the struct, in {unit}"),
+        said(|d| format!("{}, in {unit}", d.law(&name))),
     )
 }
 

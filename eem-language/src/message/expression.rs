@@ -2,8 +2,9 @@
 
 use proc_macro2::Ident;
 
-use super::{Message, list};
+use super::{Message, list, said};
 use crate::ast::{self, Role};
+use crate::dialect::Dialect;
 
 pub(crate) mod digits;
 pub(crate) mod helper;
@@ -22,16 +23,20 @@ pub(crate) fn missing_argument(name: &str, role: Role) -> Message {
     let role = role.name();
     Message::new(
         format!("unknown name `{name}`"),
-        format!("declare it as an argument, `{name}: {role}`, or as a field, `{name}: f64`"),
+        said(|d| {
+            let field = d.field_named(name);
+            format!("declare it as an argument, `{name}: {role}`, or as a {field}")
+        }),
     )
 }
 
 pub(crate) fn unknown_name(name: &str) -> Message {
     Message::new(
         format!("unknown name `{name}`"),
-        format!(
-            "use an argument of the closure, a field or an earlier `let`; a parameter is a field, `{name}: f64`"
-        ),
+        said(|d| {
+            let (field, declaration) = (d.a_field(), d.declaration(name));
+            format!("use an argument of the closure, {field} or an earlier `let`; {declaration}")
+        }),
     )
 }
 
@@ -40,17 +45,24 @@ pub(crate) fn unknown_name_in_law(name: &str, theta: Option<&str>) -> Message {
     let theta = theta.map_or_else(String::new, |name| format!("the temperature `{name}`, "));
     Message::new(
         format!("unknown name `{name}`"),
-        format!(
-            "a viscosity law may use {theta}fields and its own `let` bindings; a parameter is a field, `{name}: f64`"
-        ),
+        said(|d| {
+            let (field, declaration) = (d.field(), d.declaration(name));
+            format!(
+                "a viscosity law may use {theta}{field}s and its own `let` bindings; {declaration}"
+            )
+        }),
     )
 }
 
-/// `instead` is how to write it with a free name.
-pub(crate) fn binding_hides(binding: &Ident, what: &str, instead: &str) -> Message {
+/// `what` is the noun for what has the name, `instead` how to write it with a free name.
+pub(crate) fn binding_hides(
+    binding: &Ident,
+    what: fn(Dialect) -> &'static str,
+    instead: &str,
+) -> Message {
     let name = ast::name(binding);
     Message::new(
-        format!("`{name}` is already the name of {what}"),
+        said(|d| format!("`{name}` is already the name of {}", what(d))),
         format!("choose another name: `{instead}`"),
     )
 }
@@ -204,10 +216,12 @@ pub(crate) fn diff_of_number() -> Message {
 pub(crate) fn law_of_state(name: &Ident, role: Role) -> Message {
     let name = ast::name(name);
     Message::new(
-        format!(
-            "a viscosity may depend on the temperature and the fields, but `{name}` is a `{}`",
-            role.name()
-        ),
+        said(|d| {
+            let (field, role) = (d.field(), role.name());
+            format!(
+                "a viscosity may depend on the temperature and the {field}s, but `{name}` is a `{role}`"
+            )
+        }),
         format!("remove `{name}` from the law"),
     )
 }

@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use super::Message;
+use super::{Message, said};
 use crate::ast;
 
 pub(crate) fn not_a_parameter(field: &Ident) -> Message {
@@ -35,7 +35,10 @@ pub(crate) fn index_of_number(name: &Ident, what: &str) -> Message {
     let name = ast::name(name);
     Message::new(
         format!("`{name}` is {what} and has no entries"),
-        format!("write `{name}` without an index; a field can be an array, `[f64; 3]`"),
+        said(|d| {
+            let (field, array) = (d.field(), d.choose("[f64; 3]", "stiffness[3]"));
+            format!("write `{name}` without an index; a {field} can be an array, `{array}`")
+        }),
     )
 }
 
@@ -61,7 +64,10 @@ pub(crate) fn second_scalar(parameter: &Ident, first: &Ident) -> Message {
 pub(crate) fn unused(name: &str) -> Message {
     Message::new(
         format!("neither the free energy nor a viscosity uses `{name}`"),
-        "add the term that is missing, remove the field, or mark it: `#[free_energy(unused)]`",
+        said(|d| {
+            let (field, unused) = (d.field(), d.unused(name));
+            format!("add the term that is missing, remove the {field}, or {unused}")
+        }),
     )
 }
 

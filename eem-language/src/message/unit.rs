@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use super::{Message, list};
+use super::{Message, Said, list, said};
 use crate::ast;
 use crate::unit::Unit;
 
@@ -76,7 +76,7 @@ pub(crate) fn of_no_constant<'n>(
 pub(crate) fn empty() -> Message {
     Message::new(
         "a unit without a symbol",
-        "write `#[unit(\"1\")]` if it is dimensionless",
+        said(|d| format!("write {} if it is dimensionless", d.unit("1"))),
     )
 }
 
@@ -85,7 +85,7 @@ pub(crate) fn unknown(symbol: &str, advice: String) -> Message {
 }
 
 #[cfg_attr(test, track_caller)]
-fn unreadable(text: &str, help: impl Into<String>) -> Message {
+fn unreadable(text: &str, help: impl Into<Said>) -> Message {
     Message::new(format!("cannot read the unit `{text}`"), help)
 }
 
@@ -140,14 +140,20 @@ pub(crate) fn exponent(text: &str, largest: i64) -> Message {
 
 pub(crate) fn missing(field: &Ident, unit: Option<&Unit>) -> Message {
     let name = ast::name(field);
-    let help = match unit {
-        Some(unit) => format!("the formula needs `#[unit(\"{unit}\")]` above it"),
-        None => {
-            "write `#[unit(\"…\")]` above it, `#[unit(\"1\")]` if it is dimensionless".to_owned()
-        }
-    };
+    let help = said(|d| {
+        let (one, above) = (d.unit("1"), d.above());
+        let Some(unit) = unit else {
+            let unit = d.the_unit("…");
+            return format!("write {unit}{above}, {one} if it is dimensionless");
+        };
+        let unit = d.the_unit(&unit.to_string());
+        format!("the formula needs {unit}{above}")
+    });
     Message::new(
-        format!("`{name}` has no unit, but other fields of the formula have one"),
+        said(|d| {
+            let field = d.field();
+            format!("`{name}` has no unit, but other {field}s of the formula have one")
+        }),
         help,
     )
 }
@@ -178,7 +184,12 @@ impl Side<'_> {
     }
 }
 
-pub(crate) fn sum(difference: bool, left: &Side<'_>, right: &Side<'_>, help: String) -> Message {
+pub(crate) fn sum(
+    difference: bool,
+    left: &Side<'_>,
+    right: &Side<'_>,
+    help: impl Into<Said>,
+) -> Message {
     let verb = if difference {
         format!("subtract {} from {}", right.name(), left.name())
     } else {
@@ -197,8 +208,11 @@ pub(crate) fn sum(difference: bool, left: &Side<'_>, right: &Side<'_>, help: Str
 }
 
 /// Help for a number beside a quantity: `theta - 300`.
-pub(crate) fn number_with_unit(number: &str, unit: &Unit) -> String {
-    format!("make `{number}` a field with `#[unit(\"{unit}\")]`: numbers in a formula have no unit")
+pub(crate) fn number_with_unit(number: &str, unit: &Unit) -> Said {
+    said(|d| {
+        let (field, unit) = (d.a_field(), d.the_unit(&unit.to_string()));
+        format!("make `{number}` {field} with {unit}: numbers in a formula have no unit")
+    })
 }
 
 /// Help for units that differ by a factor, which a field brings in.

@@ -16,7 +16,7 @@ use crate::message::written;
 const SUBJECTS: [&str; 5] = ["attribute", "expression", "field", "item", "unit"];
 
 /// The Rust files of a folder and of the folders in it, in order.
-fn sources(folder: &Path) -> Vec<PathBuf> {
+pub(super) fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let Ok(entries) = fs::read_dir(folder) else {
         return found;
@@ -34,7 +34,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// The messages of a file of the catalogue: first and last line and name.
-fn messages(source: &str) -> Vec<(u32, u32, String)> {
+pub(super) fn messages(source: &str) -> Vec<(u32, u32, String)> {
     let mut found: Vec<(u32, u32, String)> = Vec::new();
     let mut open = None;
     for (line, text) in (1..).zip(source.lines()) {
@@ -75,7 +75,7 @@ fn catalogue() -> BTreeMap<(String, u32, u32), String> {
 }
 
 /// The path below `src`, however the compiler and the file system spell what is above.
-fn file_key(path: &Path) -> String {
+pub(super) fn file_key(path: &Path) -> String {
     let path = path.to_string_lossy().replace('\\', "/");
     let below = path.rfind("src/message").unwrap_or_default();
     path[below..].to_owned()

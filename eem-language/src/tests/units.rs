@@ -4,12 +4,13 @@ use eem_symbolic::Rational;
 use proptest::prelude::*;
 use syn::{Data, DeriveInput, Field, parse_quote};
 
+use crate::dialect::Dialect;
 use crate::unit::Base;
 use crate::unit::Unit;
 use crate::units::grammar::parse;
 
 fn unit(text: &str) -> Unit {
-    parse(text).unwrap_or_else(|message| panic!("{text}: {message}"))
+    parse(text).unwrap_or_else(|message| panic!("{text}: {message:?}"))
 }
 
 #[test]
@@ -136,7 +137,7 @@ fn what_cannot_be_read_says_why() {
         ("foo", "known are"),
     ];
     for (text, part) in wrong {
-        let message = parse(text).expect_err(text).to_string();
+        let message = parse(text).expect_err(text).whole(Dialect::Attribute, &[]);
         assert!(message.contains(part), "{text}: {message}");
     }
 }
@@ -144,7 +145,8 @@ fn what_cannot_be_read_says_why() {
 #[test]
 fn exponents_beyond_128_bits_are_refused() {
     let nested = (0..40).fold("m".to_owned(), |unit, _| format!("({unit})^(98/99)"));
-    let message = parse(&nested).expect_err("this does not fit").to_string();
+    let message = parse(&nested).expect_err("this does not fit");
+    let message = message.whole(Dialect::Attribute, &[]);
     assert!(message.contains("an exponent is"), "{message}");
 }
 

@@ -1,6 +1,6 @@
 //! Messages about Rust syntax that a formula does not have.
 
-use crate::message::Message;
+use crate::message::{Message, Said, said};
 
 const SMOOTH: &str =
     "use one smooth expression; for a transition, a smooth function such as `tanh`";
@@ -94,13 +94,25 @@ const TABLE: &[(&[&str], &str)] = &[
     ),
 ];
 
+/// What to write in a text, where that is something else.
+const IN_TEXT: [(&str, &str); 3] = [
+    ("a path with `<…>`", "write a bare name"),
+    (
+        "an item",
+        "use `let` for an intermediate value and declare parameters",
+    ),
+    ("an attribute", REMOVE),
+];
+
 /// Rust syntax that is no formula, by a name from the table.
 pub(crate) fn not_allowed(what: &str) -> Message {
     let row = TABLE.iter().find(|(names, _)| names.contains(&what));
     #[cfg(test)]
     assert!(row.is_some(), "`{what}` is not in the table");
     let help = row.map_or(OPERATORS, |(_, help)| help);
-    Message::new(text(what), help)
+    let in_text = IN_TEXT.iter().find(|&&(name, _)| name == what);
+    let in_text = in_text.map_or(help, |&(_, help)| help);
+    Message::new(text(what), said(|d| d.choose(help, in_text).to_owned()))
 }
 
 fn text(what: &str) -> String {
@@ -128,7 +140,7 @@ pub(crate) fn unsupported() -> Message {
 
 pub(crate) fn caret() -> Message {
     Message::new(
-        "`^` is not a power in Rust",
+        said(|d| format!("`^` is not a power{}", d.choose(" in Rust", ""))),
         "write `x.powi(2)` or `x.powf(y)`",
     )
 }
@@ -136,7 +148,12 @@ pub(crate) fn caret() -> Message {
 pub(crate) fn index_of_value() -> Message {
     Message::new(
         "this expression cannot be indexed",
-        "a field can be an array, `stiffness: [f64; 3]`, with the entries `stiffness[0]` to `stiffness[2]`",
+        said(|d| {
+            let (field, array) = (d.a_field(), d.array("stiffness"));
+            format!(
+                "{field} can be an array, {array}, with the entries `stiffness[0]` to `stiffness[2]`"
+            )
+        }),
     )
 }
 
@@ -148,9 +165,12 @@ pub(crate) fn index_is_not_a_literal() -> Message {
 }
 
 pub(crate) fn field_access(name: Option<&str>) -> Message {
-    let help = match name {
-        Some(name) => format!("fields are used by bare name: write `{name}`"),
-        None => "a parameter is a field of its own, used by bare name; a method has parentheses, `x.sqrt()`".to_owned(),
+    let help: Said = match name {
+        Some(name) => said(|d| format!("{}s are used by bare name: write `{name}`", d.field())),
+        None => said(|d| {
+            let own = d.choose("a field of its own, used", "used");
+            format!("a parameter is {own} by bare name; a method has parentheses, `x.sqrt()`")
+        }),
     };
     Message::new("a field access is not allowed in a formula", help)
 }
@@ -158,7 +178,10 @@ pub(crate) fn field_access(name: Option<&str>) -> Message {
 pub(crate) fn path(path: &str, last: &str) -> Message {
     Message::new(
         format!("`{path}` is not a constant: constants have names in upper case"),
-        format!("for a field, an argument or a function write the bare name, `{last}`"),
+        said(|d| {
+            let field = d.a_field();
+            format!("for {field}, an argument or a function write the bare name, `{last}`")
+        }),
     )
 }
 
@@ -185,7 +208,7 @@ pub(crate) fn constant_of_paper(name: &str) -> Option<&'static str> {
 pub(crate) fn constant(name: &str, constant: &str) -> Message {
     Message::new(
         format!("unknown name `{name}`"),
-        format!("the constant is `{constant}`; a parameter is a field, `{name}: f64`"),
+        said(|d| format!("the constant is `{constant}`; {}", d.declaration(name))),
     )
 }
 

@@ -41,7 +41,8 @@ impl Rules<'_> {
                 b.scaled
             };
             let scale = same.then(|| self.scale_help(scaled)).flatten();
-            scale.unwrap_or_else(|| message::factor_is_missing("the right side", &a.unit, &b.unit))
+            let factor = || message::factor_is_missing("the right side", &a.unit, &b.unit);
+            scale.unwrap_or_else(factor).into()
         };
         let [left, right] = [(&texts[0], &a.unit), (&texts[1], &b.unit)];
         let [left, right] = [left, right].map(|(text, unit)| Side { text, unit });

@@ -1,0 +1,8 @@
+//! Models as texts against the derive: messages, places, programs.
+
+mod cases;
+mod drawing;
+mod item;
+mod limits;
+mod words;
+mod zoo;
