@@ -83,6 +83,10 @@ pub use run::ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Member
 pub use run::equilibrium::error::EquilibriumError;
 pub use run::equilibrium::motion::{FreeMotion, MotionKind};
 pub use run::equilibrium::{Equilibrium, EquilibriumReport};
+#[cfg(feature = "gradients")]
+pub use run::gradient::{
+    error::GradientError, history::History, objective::Objective, result::Gradient,
+};
 pub use run::ledger::Ledger;
 pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
 pub use run::simulation::Simulation;

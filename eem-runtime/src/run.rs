@@ -3,6 +3,8 @@
 pub(crate) mod checkpoint;
 pub(crate) mod ensemble;
 pub(crate) mod equilibrium;
+#[cfg(feature = "gradients")]
+pub(crate) mod gradient;
 pub(crate) mod ledger;
 pub(crate) mod recorder;
 pub(crate) mod simulation;

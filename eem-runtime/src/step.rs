@@ -1,5 +1,7 @@
 //! Steps: the schemes as data, Newton's method, the end of a step and its certificate; the explicit scheme.
 
+#[cfg(feature = "gradients")]
+pub(crate) mod adjoint;
 pub(crate) mod automatic;
 pub(crate) mod certificate;
 pub(crate) mod control;

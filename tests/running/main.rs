@@ -13,6 +13,8 @@ mod ends;
 mod ensemble;
 mod events;
 mod files;
+#[cfg(feature = "gradients")]
+mod gradients;
 mod lanes;
 #[cfg(feature = "vtk")]
 mod paraview;

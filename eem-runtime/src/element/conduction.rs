@@ -113,6 +113,20 @@ impl<S: Real> Conduction<S> {
         (link as usize, is_second)
     }
 
+    /// Number of paths.
+    #[cfg(feature = "gradients")]
+    pub(crate) const fn path_count(&self) -> usize {
+        self.paths.len()
+    }
+
+    /// The slot at which a link begins, and its partner.
+    #[cfg(feature = "gradients")]
+    pub(crate) fn ends_of(&self, link: usize) -> (usize, Partner) {
+        let mut slots = self.ranges.iter();
+        let slot = slots.position(|&[_, end]| link < end as usize);
+        (slot.unwrap_or(0), self.links[link].partner)
+    }
+
     /// The first link of a slot.
     #[inline]
     pub(crate) fn first_link(&self, slot: usize) -> usize {

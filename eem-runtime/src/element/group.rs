@@ -32,6 +32,8 @@ mod loose;
 mod member;
 mod point;
 mod pose;
+#[cfg(feature = "gradients")]
+mod pull_back;
 mod recounting;
 mod respond;
 mod settle;
@@ -47,6 +49,8 @@ pub(crate) use explicit::{
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
+#[cfg(feature = "gradients")]
+pub(crate) use pull_back::{PointStep, PointWeights};
 pub(crate) use view::{
     Along, Before, ElementGeneric, ElementTotals, ElementView, EntropySlopes, Old, Placed, Sites,
     StepView, Trial,

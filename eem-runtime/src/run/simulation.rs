@@ -19,6 +19,9 @@ mod controller;
 
 mod meters;
 
+#[cfg(feature = "gradients")]
+mod gradient;
+
 mod resume;
 
 mod attempt;
@@ -45,6 +48,8 @@ use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
+#[cfg(feature = "gradients")]
+use crate::run::gradient::history::Kept;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
@@ -102,6 +107,9 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     start: S,
     /// Where the anchors were that a controller has moved, m.
     homes: BTreeMap<usize, [S; D]>,
+    /// The states since a history is kept.
+    #[cfg(feature = "gradients")]
+    history: Option<Box<Kept<S>>>,
     /// Somebody asks for sums of dissipation and heat.
     wants_meters: AtomicBool,
     /// The report with the largest `|defect|/bound` so far.
@@ -207,6 +215,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             has_stepped: false,
             start: scene.start,
             homes: BTreeMap::new(),
+            #[cfg(feature = "gradients")]
+            history: None,
             wants_meters: AtomicBool::new(false),
             worst: None,
             corrections: Corrections::none(),

@@ -94,6 +94,17 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     ) -> M::Response {
         model.entropy_form_response(&start.old, x, corners)
     }
+
+    #[cfg(feature = "gradients")]
+    fn form_adjoint(
+        self,
+        model: &M,
+        [x0, x1]: [&M::Variables; 2],
+        corners: &Self::Memory,
+        weights: &M::Response,
+    ) -> M::Parameters {
+        model.entropy_form_adjoint(x0, x1, corners, weights)
+    }
 }
 
 /// The temperatures of all mixed states, by Newton's method in ln θ, from those of the last trial.

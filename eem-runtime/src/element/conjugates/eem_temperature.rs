@@ -57,4 +57,15 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     ) -> M::Response {
         model.temperature_form_response(&start.old, x)
     }
+
+    #[cfg(feature = "gradients")]
+    fn form_adjoint(
+        self,
+        model: &M,
+        [x0, x1]: [&M::Variables; 2],
+        (): &Self::Memory,
+        weights: &M::Response,
+    ) -> M::Parameters {
+        model.temperature_form_adjoint(x0, x1, weights)
+    }
 }

@@ -139,6 +139,18 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     ) -> M::Response {
         self.form(model, start, x, memory).0
     }
+
+    /// The derivative of the weighted response by the parameters at fixed `x⁰` and `x¹`; of the exact forms.
+    #[cfg(feature = "gradients")]
+    fn form_adjoint(
+        self,
+        _: &M,
+        _: [&M::Variables; 2],
+        _: &Self::Memory,
+        _weights: &M::Response,
+    ) -> M::Parameters {
+        M::Parameters::filled(S::from_f64(f64::NAN))
+    }
 }
 
 /// A response and its derivative by the variables.

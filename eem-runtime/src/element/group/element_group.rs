@@ -6,6 +6,8 @@ use super::interface::{Elements, Group, Loose};
 use super::loose::LooseElements;
 use super::member::Member;
 use super::point::Point;
+#[cfg(feature = "gradients")]
+use super::pull_back::{PointStep, PointWeights, SeeParameters};
 use super::share::Share;
 use super::site::{Contact, Site};
 use super::view::{Along, Old, Placed, Sites, StepView, Trial};
@@ -258,5 +260,30 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
             })
         });
         members.collect()
+    }
+
+    #[cfg(feature = "gradients")]
+    fn between(
+        &self,
+        step: S,
+        states: [&State<S>; 2],
+        see: &mut dyn FnMut(PointStep<S, D>),
+    ) -> Result<(), StateError> {
+        Self::between(self, step, states, see)
+    }
+
+    #[cfg(feature = "gradients")]
+    fn by_parameters(
+        &self,
+        states: [&State<S>; 2],
+        weights: &mut dyn FnMut() -> PointWeights<S>,
+        see: &mut SeeParameters<'_, S>,
+    ) -> Result<(), StateError> {
+        Self::by_parameters(self, states, weights, see)
+    }
+
+    #[cfg(feature = "gradients")]
+    fn energy_by_parameters(&self, state: &State<S>, see: &mut SeeParameters<'_, S>) {
+        Self::energy_by_parameters(self, state, see);
     }
 }

@@ -142,6 +142,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         elements
     }
 
+    #[cfg(feature = "gradients")]
+    fn parameters(&self) -> &'static [&'static str] {
+        M::PARAMETERS
+    }
+
     fn digest(&self, digest: &mut Digest) {
         for name in M::PARAMETERS {
             digest.bytes(name.as_bytes());

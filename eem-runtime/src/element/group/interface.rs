@@ -5,6 +5,8 @@ use core::fmt::Debug;
 
 use super::explicit::stage::Stage;
 use super::explicit::view::{ClosingView, NodeStiffness};
+#[cfg(feature = "gradients")]
+use super::pull_back::{PointStep, PointWeights, SeeParameters};
 use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::Conjugates;
@@ -44,6 +46,12 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// The nodes of the element at `place`.
     fn nodes(&self, place: usize) -> &[u32];
+
+    /// The names of the parameters of their model; none of a scheme without an adjoint.
+    #[cfg(feature = "gradients")]
+    fn parameters(&self) -> &'static [&'static str] {
+        &[]
+    }
 
     /// The state indices of the internal variables of the element at `place`.
     fn slots(&self, place: usize) -> Slots;
@@ -138,6 +146,33 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
 
     /// The contributions of the elements to the discrete GENERIC form of the last step, between two states.
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
+
+    /// Passes every point between two states to `see`, in a step of this size. Only of the energy–entropy–momentum forms.
+    #[cfg(feature = "gradients")]
+    fn between(
+        &self,
+        _step: S,
+        _states: [&State<S>; 2],
+        _see: &mut dyn FnMut(PointStep<S, D>),
+    ) -> Result<(), StateError> {
+        Ok(())
+    }
+
+    /// Passes the derivatives by the parameters of every point to `see`, with weights in the order of
+    /// [`between`](Self::between).
+    #[cfg(feature = "gradients")]
+    fn by_parameters(
+        &self,
+        _states: [&State<S>; 2],
+        _weights: &mut dyn FnMut() -> PointWeights<S>,
+        _see: &mut SeeParameters<'_, S>,
+    ) -> Result<(), StateError> {
+        Ok(())
+    }
+
+    /// Passes the derivatives of the internal energy of every point by its parameters in a state to `see`.
+    #[cfg(feature = "gradients")]
+    fn energy_by_parameters(&self, _state: &State<S>, _see: &mut SeeParameters<'_, S>) {}
 }
 
 /// Elements of one model in an explicit scheme.

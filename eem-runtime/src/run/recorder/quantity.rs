@@ -246,6 +246,22 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         }
     }
 
+    /// Its present components.
+    #[cfg(feature = "gradients")]
+    pub(crate) fn present(&self, run: &Simulation<D, S>) -> Result<Vec<f64>, SceneError> {
+        let mut row = Vec::new();
+        self.append(run, 0, &mut None, &mut [].iter(), &mut row)?;
+        Ok(row)
+    }
+
+    /// The name of its kind.
+    #[cfg(feature = "gradients")]
+    pub(crate) fn kind(&self) -> String {
+        let shown = format!("{self:?}");
+        let name = shown.split('(').next().unwrap_or_default();
+        format!("`Quantity::{name}`")
+    }
+
     /// The sum of which a row has the change since the last one; none of other quantities.
     fn metered(&self, run: &Simulation<D, S>) -> Result<Option<Sum<S>>, SceneError> {
         match self {

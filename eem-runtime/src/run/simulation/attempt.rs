@@ -60,6 +60,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if !self.loads.ovens.is_empty() {
             self.book_ovens();
         }
+        #[cfg(feature = "gradients")]
+        self.keep_step(size);
         let report = StepReport {
             time: self.time(),
             step: size,

@@ -117,7 +117,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The numbering of the unknowns and state variables, as the scene had it.
-    fn numbering(&self) -> Layout {
+    pub(super) fn numbering(&self) -> Layout {
         let is_mass = self.masses.iter().map(|mass| mass.is_some());
         let shapes = self.places.iter();
         let shapes = shapes.map(|&[group, _]| self.shapes[group as usize]);
@@ -127,7 +127,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The nodes of all elements.
-    fn ends(&self) -> Ends {
+    pub(super) fn ends(&self) -> Ends {
         let mut ends = Ends::none();
         for &[group, place] in &self.places {
             let elements = self.stepper.elements(group as usize);

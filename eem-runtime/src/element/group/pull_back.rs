@@ -1,0 +1,252 @@
+//! What the adjoint of a step needs of a point: its response between two states with the derivatives by both.
+//!
+//! The response `(f*, g*, θ*, Δs)` of a point is even in its two states, except Δs, which is odd. So its derivative by the
+//! old state is the tangent of the form from the new state to the old one, with the row of Δs negated. The same holds for the
+//! mean-value gradients of the measures.
+
+use super::arms::measures_in;
+use super::element_group::ElementGroup;
+use super::member::Member;
+use super::point::{Point, temperature_in};
+use crate::element::conjugates::{ElementScheme, Start};
+use crate::element::error::StateError;
+use crate::element::handle::Element;
+use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics};
+use crate::element::layout::Slots;
+use crate::element::state::State;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
+
+/// A point in a step: its response and the derivatives by both states. Arms are edge vectors from its first node.
+#[derive(Debug)]
+pub(crate) struct PointStep<S, const D: usize> {
+    pub(crate) nodes: Vec<u32>,
+    pub(crate) slots: Slots,
+    /// Numbers of measures, dashpots in series and dashpots in parallel.
+    pub(crate) measures: usize,
+    pub(crate) dashpots: usize,
+    pub(crate) drags: usize,
+    /// θ*, K; zero without temperature.
+    pub(crate) temperature: S,
+    /// The derivatives of `(f*, g*, θ*, Δs)` by the variables of the old state and of the new one.
+    pub(crate) slopes: [Vec<Vec<S>>; 2],
+    /// The derivatives of the measures by the arms in both states.
+    pub(crate) gradients: [Vec<Vec<[S; D]>>; 2],
+    /// The mean-value gradients of the measures, along which the forces act.
+    pub(crate) direction: Vec<Vec<[S; D]>>,
+    /// The derivatives of the forces on the arms by the arms of both states at constant `f* + f_d`, rows by arm and axis.
+    pub(crate) curvature: [Vec<Vec<S>>; 2],
+    /// Increments of measures and viscous stretches.
+    pub(crate) extension: Vec<S>,
+    pub(crate) creep: Vec<S>,
+    /// η at θ*, and dη/dθ, of the dashpots in series and in parallel.
+    pub(crate) viscosities: [Vec<S>; 2],
+    pub(crate) drag: [Vec<S>; 2],
+}
+
+/// The weights of a point in the derivatives by parameters: of its response, of the viscosities in series and in parallel.
+#[derive(Clone, Debug)]
+pub(crate) struct PointWeights<S> {
+    pub(crate) response: Vec<S>,
+    pub(crate) viscosities: Vec<S>,
+    pub(crate) drag: Vec<S>,
+}
+
+impl<S> PointWeights<S> {
+    pub(crate) const fn none() -> Self {
+        Self {
+            response: Vec::new(),
+            viscosities: Vec::new(),
+            drag: Vec::new(),
+        }
+    }
+}
+
+/// What receives the derivatives by the parameters of each element.
+pub(crate) type SeeParameters<'a, S> = dyn FnMut(Element, &[S]) + 'a;
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
+{
+    /// Every point between two states, in a step of this size.
+    pub(super) fn between(
+        &self,
+        step: S,
+        states: [&State<S>; 2],
+        see: &mut dyn FnMut(PointStep<S, D>),
+    ) -> Result<(), StateError> {
+        for member in &self.members {
+            for point in member.points.as_ref() {
+                see(point.between(member, step, states)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// The derivatives by the parameters, with the weights of each point in the order of [`between`](Self::between).
+    pub(super) fn by_parameters(
+        &self,
+        states: [&State<S>; 2],
+        weights: &mut dyn FnMut() -> PointWeights<S>,
+        see: &mut SeeParameters<'_, S>,
+    ) -> Result<(), StateError> {
+        for member in &self.members {
+            for point in member.points.as_ref() {
+                let [x0, x1] =
+                    states.map(|state| point.variables_in(&member.arms_in(state), state));
+                let by = point.by_parameters([&x0, &x1], &weights())?;
+                see(point.element, by.as_ref());
+            }
+        }
+        Ok(())
+    }
+
+    /// The derivatives of the internal energies by the parameters in a state.
+    pub(super) fn energy_by_parameters(&self, state: &State<S>, see: &mut SeeParameters<'_, S>) {
+        for member in &self.members {
+            for point in member.points.as_ref() {
+                let x = point.variables_in(&member.arms_in(state), state);
+                see(point.element, point.model.energy_by_parameters(&x).as_ref());
+            }
+        }
+    }
+}
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
+{
+    /// The step of the scheme from one state, and what it keeps of both.
+    fn start(
+        &self,
+        [x0, x1]: [&M::Variables; 2],
+    ) -> Result<(Start<S, M, C::Old>, C::Memory), StateError> {
+        let start = Start {
+            x0: *x0,
+            old: C::old(&self.model, x0, S::zero()),
+        };
+        let theta = if M::THERMAL {
+            x0[Self::TEMPERATURE]
+        } else {
+            S::one()
+        };
+        let mut memory = C::memory(theta);
+        C::prepare(&self.model, &start, x1, &mut memory)
+            .map_err(|infeasible| infeasible.of(self.element))?;
+        Ok((start, memory))
+    }
+
+    fn between(
+        &self,
+        member: &Member<S, M, K, C, D>,
+        step: S,
+        states: [&State<S>; 2],
+    ) -> Result<PointStep<S, D>, StateError> {
+        let arms = states.map(|state| member.arms_in(state));
+        let x = [0, 1].map(|end| self.variables_in(&arms[end], states[end]));
+        let form = |from: usize, to: usize| {
+            let (start, memory) = self.start([&x[from], &x[to]])?;
+            Ok(self.scheme.form(&self.model, &start, &x[to], &memory))
+        };
+        let (response, by_new) = form(0, 1)?;
+        let (_, by_old) = form(1, 0)?;
+        let rows = |tangent: &M::Tangent| {
+            let rows = tangent.as_ref().iter().map(|row| row.as_ref().to_vec());
+            rows.collect::<Vec<_>>()
+        };
+        let mut slopes = [rows(&by_old), rows(&by_new)];
+        if M::THERMAL {
+            for entry in &mut slopes[0][Self::ENTROPY] {
+                *entry = -*entry;
+            }
+        }
+        let theta = temperature_in::<S, M>(&response);
+        let (eta, eta_slope) = self.model.viscosity(theta);
+        let (drag, drag_slope) = self.model.drag(theta);
+        let change = |index: usize| x[1][index] - x[0][index];
+        let extension: Vec<S> = (0..M::MEASURES).map(change).collect();
+        let mut force = measures_in::<K, S, D>(&response);
+        for (a, eta) in drag.as_ref().iter().enumerate() {
+            force[a] += *eta * extension[a] / step;
+        }
+        let measures = x.map(|x| measures_in::<K, S, D>(&x));
+        let ends = |from: usize, to: usize| {
+            let (arms, measures) = ([arms[from], arms[to]], [measures[from], measures[to]]);
+            Ends::new(&self.kinematics, arms, measures)
+        };
+        let still = Gradient::<K, S, D>::filled(Arms::<K, S, D>::filled([S::zero(); D]));
+        let curvature = |from: usize, to: usize| {
+            let ends = ends(from, to);
+            let blocks = self.kinematics.discrete_tangent(&ends, &force, &still);
+            by_component::<K, S, D>(&blocks)
+        };
+        let gradient = |end: usize| self.kinematics.gradient(&arms[end], &measures[end]);
+        Ok(PointStep {
+            nodes: member.site.nodes.as_ref().to_vec(),
+            slots: self.slots(),
+            measures: M::MEASURES,
+            dashpots: M::DASHPOTS,
+            drags: M::Drag::LEN,
+            temperature: theta,
+            slopes,
+            gradients: [0, 1].map(|end| by_measure::<K, S, D>(&gradient(end))),
+            direction: by_measure::<K, S, D>(&self.kinematics.discrete_gradient(&ends(0, 1))),
+            curvature: [curvature(1, 0), curvature(0, 1)],
+            creep: (M::MEASURES..M::MEASURES + M::DASHPOTS)
+                .map(change)
+                .collect(),
+            extension,
+            viscosities: [eta.as_ref().to_vec(), eta_slope.as_ref().to_vec()],
+            drag: [drag.as_ref().to_vec(), drag_slope.as_ref().to_vec()],
+        })
+    }
+
+    fn by_parameters(
+        &self,
+        x: [&M::Variables; 2],
+        weights: &PointWeights<S>,
+    ) -> Result<M::Parameters, StateError> {
+        let (start, memory) = self.start(x)?;
+        let response: M::Response = filled(&weights.response);
+        let theta = self.scheme.response(&self.model, &start, x[1], &memory);
+        let theta = temperature_in::<S, M>(&theta);
+        let mut sum = self.scheme.form_adjoint(&self.model, x, &memory, &response);
+        let viscosities = self
+            .model
+            .viscosity_adjoint(theta, &filled(&weights.viscosities));
+        let drag = self.model.drag_adjoint(theta, &filled(&weights.drag));
+        for (at, sum) in sum.as_mut().iter_mut().enumerate() {
+            *sum += viscosities[at] + drag[at];
+        }
+        Ok(sum)
+    }
+}
+
+/// An array with these first entries, the others zero.
+fn filled<S: Real, A: Array<S>>(values: &[S]) -> A {
+    let mut array = A::filled(S::zero());
+    for (entry, value) in array.as_mut().iter_mut().zip(values) {
+        *entry = *value;
+    }
+    array
+}
+
+fn by_measure<K: Kinematics<S, D>, S: Real, const D: usize>(
+    gradient: &Gradient<K, S, D>,
+) -> Vec<Vec<[S; D]>> {
+    let rows = gradient.as_ref().iter();
+    rows.map(|row| row.as_ref().to_vec()).collect()
+}
+
+/// Blocks of pairs of arms as rows by arm and axis.
+fn by_component<K: Kinematics<S, D>, S: Real, const D: usize>(
+    blocks: &Blocks<K, S, D>,
+) -> Vec<Vec<S>> {
+    let mut rows = Vec::new();
+    for row in blocks.as_ref() {
+        for axis in 0..D {
+            let entries = row.as_ref().iter().flat_map(|block| block[axis]);
+            rows.push(entries.collect());
+        }
+    }
+    rows
+}

@@ -1,0 +1,102 @@
+//! What is differentiated: sums of quantities at times, of integrals and of squares of misfits.
+
+use core::ops::Add;
+
+use crate::run::recorder::Quantity;
+use eem_material::number::scalar::Real;
+
+/// A number that follows from the states of a run, see [`Simulation::gradient`](crate::Simulation::gradient).
+///
+/// | | |
+/// |---|---|
+/// | [`at_end`](Self::at_end), [`at`](Self::at) | a quantity at the end, or at the end of another step |
+/// | [`integral`](Self::integral) | `Σ ½h (g⁰ + g¹)` over the steps |
+/// | [`misfit`](Self::misfit) | `½ Σ ((g(tᵢ) − dᵢ)/σᵢ)²` |
+/// | [`component`](Self::component), [`times`](Self::times), `+` | one component of a vector; a factor; sums |
+#[derive(Debug)]
+pub struct Objective<const D: usize, S: Real = f64> {
+    pub(crate) terms: Vec<Term<D, S>>,
+}
+
+/// A quantity with the way in which it counts.
+#[derive(Debug)]
+pub(crate) struct Term<const D: usize, S: Real> {
+    pub(crate) factor: f64,
+    pub(crate) quantity: Quantity<D, S>,
+    pub(crate) component: usize,
+    pub(crate) when: When,
+}
+
+/// The times at which a quantity counts.
+#[derive(Clone, Debug)]
+pub(crate) enum When {
+    End,
+    /// s.
+    At(f64),
+    Integral,
+    /// Times, data and their standard deviations.
+    Misfit(Vec<[f64; 3]>),
+}
+
+impl<const D: usize, S: Real> Objective<D, S> {
+    fn new(quantity: Quantity<D, S>, when: When) -> Self {
+        let term = Term {
+            factor: 1.0,
+            quantity,
+            component: 0,
+            when,
+        };
+        Self { terms: vec![term] }
+    }
+
+    /// A quantity at the end of the run; of a vector the first component.
+    #[must_use]
+    pub fn at_end(quantity: Quantity<D, S>) -> Self {
+        Self::new(quantity, When::End)
+    }
+
+    /// A quantity at a time at which a step ends, s.
+    #[must_use]
+    pub fn at(time: f64, quantity: Quantity<D, S>) -> Self {
+        Self::new(quantity, When::At(time))
+    }
+
+    /// The integral of a quantity over the time of the history, by the trapezoidal rule over its steps.
+    #[must_use]
+    pub fn integral(quantity: Quantity<D, S>) -> Self {
+        Self::new(quantity, When::Integral)
+    }
+
+    /// Half the sum of the squares of `(g(t) − d)/σ` over records (t, d, σ); steps must end at the times, s.
+    #[must_use]
+    pub fn misfit(quantity: Quantity<D, S>, records: impl IntoIterator<Item = [f64; 3]>) -> Self {
+        Self::new(quantity, When::Misfit(records.into_iter().collect()))
+    }
+
+    /// Takes this component, from 0, of all its vectors.
+    #[must_use]
+    pub fn component(mut self, component: usize) -> Self {
+        for term in &mut self.terms {
+            term.component = component;
+        }
+        self
+    }
+
+    /// Multiplies it by a factor.
+    #[must_use]
+    pub fn times(mut self, factor: f64) -> Self {
+        for term in &mut self.terms {
+            term.factor *= factor;
+        }
+        self
+    }
+}
+
+impl<const D: usize, S: Real> Add for Objective<D, S> {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        self.terms.extend(other.terms);
+        self
+    }
+}

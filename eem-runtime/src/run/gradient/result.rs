@@ -1,0 +1,199 @@
+//! The gradient of an objective.
+
+use core::fmt;
+
+use nalgebra::SVector;
+
+use super::error::GradientError;
+use crate::element::handle::{Element, Handle, HeatPath, Node, Reservoir};
+use crate::element::layout::Slots;
+use crate::element::lineage::Lineage;
+use crate::scene::error::SceneError;
+use crate::step::adjoint::Costate;
+use eem_material::number::readable::Readable;
+use eem_material::number::scalar::Real;
+
+/// The value of an [`Objective`](crate::Objective) and its derivatives by all inputs of a run, each in the unit of the
+/// objective over that of the input.
+///
+/// `Display` prints the value, and the derivatives by the parameters of every element.
+#[derive(Clone, Debug)]
+pub struct Gradient<const D: usize, S: Real = f64> {
+    pub(crate) scene: Lineage,
+    pub(crate) value: f64,
+    pub(crate) start: Costate<S>,
+    pub(crate) masses: Vec<S>,
+    pub(crate) gravity: SVector<S, D>,
+    pub(crate) conductances: Vec<S>,
+    pub(crate) reservoirs: Vec<S>,
+    pub(crate) elements: Vec<OfElement<S>>,
+}
+
+/// The derivatives by the parameters of an element.
+#[derive(Clone, Debug)]
+pub(crate) struct OfElement<S> {
+    pub(crate) element: Element,
+    pub(crate) slots: Slots,
+    pub(crate) dashpots: usize,
+    pub(crate) names: &'static [&'static str],
+    pub(crate) values: Vec<S>,
+}
+
+impl<const D: usize, S: Real> Gradient<D, S> {
+    /// The value of the objective.
+    #[must_use]
+    pub const fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// The derivative by a parameter of an element, with the name that its struct gives it: `stiffness`, or `mu[2]` in an
+    /// array.
+    ///
+    /// # Errors
+    ///
+    /// [`GradientError::UnknownParameter`], [`GradientError::NoParameterDerivatives`], [`GradientError::Scene`].
+    pub fn by_parameter(&self, element: Element, name: &str) -> Result<S, GradientError> {
+        let own = self.of(element)?;
+        let Some(at) = own.names.iter().position(|own| *own == name) else {
+            return Err(GradientError::UnknownParameter {
+                name: name.to_owned(),
+                model: element.model(),
+                known: own.names.to_vec(),
+            });
+        };
+        let value = own.values[at];
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let model = element.model();
+        Err(GradientError::NoParameterDerivatives { model })
+    }
+
+    /// The derivative by the position of a node at the start; of an anchor by its place.
+    ///
+    /// # Errors
+    ///
+    /// [`GradientError::Scene`] if the node is of another scene; the same for all below.
+    pub fn by_position(&self, node: Node) -> Result<SVector<S, D>, GradientError> {
+        self.own(&node)?;
+        Ok(vector(&self.start.positions, node))
+    }
+
+    /// The derivative by the velocity of a mass at the start; zero for an anchor.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position).
+    pub fn by_velocity(&self, node: Node) -> Result<SVector<S, D>, GradientError> {
+        self.own(&node)?;
+        Ok(vector(&self.start.velocities, node))
+    }
+
+    /// The derivative by a mass, with its velocity kept; zero for an anchor. Solids have their mass by density, and only what
+    /// is added to a node counts here.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position).
+    pub fn by_mass(&self, node: Node) -> Result<S, GradientError> {
+        self.own(&node)?;
+        Ok(self.masses[node.index])
+    }
+
+    /// The derivative by the temperature of an element at the start.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position); [`SceneError::NotThermal`] if it has none.
+    pub fn by_temperature(&self, element: Element) -> Result<S, GradientError> {
+        let own = self.of(element)?;
+        let Some(slot) = own.slots.thermal else {
+            return Err(SceneError::NotThermal { element }.into());
+        };
+        Ok(self.start.temperatures[slot])
+    }
+
+    /// The derivative by a viscous stretch, from 0, of an element at the start.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position); [`GradientError::Component`] if there is no such dashpot.
+    pub fn by_viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, GradientError> {
+        let own = self.of(element)?;
+        if dashpot >= own.dashpots {
+            return Err(GradientError::Component {
+                quantity: format!("the viscous stretch of {element}"),
+                component: dashpot,
+                components: own.dashpots,
+            });
+        }
+        Ok(self.start.viscous[own.slots.viscous + dashpot])
+    }
+
+    /// The derivative by the conductance of a path of heat.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position).
+    pub fn by_conductance(&self, path: HeatPath) -> Result<S, GradientError> {
+        self.own(&path)?;
+        Ok(self.conductances[path.index])
+    }
+
+    /// The derivative by the temperature of a reservoir.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position).
+    pub fn by_reservoir_temperature(&self, reservoir: Reservoir) -> Result<S, GradientError> {
+        self.own(&reservoir)?;
+        Ok(self.reservoirs[reservoir.index])
+    }
+
+    /// The derivative by the acceleration of free fall.
+    #[must_use]
+    pub const fn by_gravity(&self) -> SVector<S, D> {
+        self.gravity
+    }
+
+    /// All derivatives: state, masses, gravity, conductances, reservoirs, parameters.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        let others = [&self.masses, &self.conductances, &self.reservoirs];
+        let others = others.into_iter().flatten().chain(self.gravity.iter());
+        let parameters = self.elements.iter().flat_map(|element| &element.values);
+        let others = others.chain(parameters).map(|number| number.to_f64());
+        self.start.numbers().map(Real::to_f64).chain(others).collect()
+    }
+
+    fn own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
+        if self.scene.owns(handle) {
+            return Ok(());
+        }
+        let handle = handle.to_string();
+        Err(SceneError::ForeignHandle { handle })
+    }
+
+    fn of(&self, element: Element) -> Result<&OfElement<S>, GradientError> {
+        self.own(&element)?;
+        Ok(&self.elements[element.index()])
+    }
+}
+
+fn vector<S: Real, const D: usize>(coordinates: &[S], node: Node) -> SVector<S, D> {
+    SVector::from_fn(|axis, _| coordinates[node.index * D + axis])
+}
+
+impl<const D: usize, S: Real> fmt::Display for Gradient<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "value {}", Readable(self.value))?;
+        for own in &self.elements {
+            for (name, value) in own.names.iter().zip(&own.values) {
+                let by = format!("by {name} of {}", own.element);
+                writeln!(f, "{by:<40} {:>13.6e}", value.to_f64())?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,552 @@
+//! The gradient of a run: the adjoint of its steps, from the last to the first.
+
+use core::mem;
+
+use super::Simulation;
+use super::stepper::{Parts, Stepper};
+use crate::element::conduction::Partner;
+use crate::element::group::{ElementGeneric, PointWeights};
+use crate::element::handle::{Element, Node};
+use crate::element::layout::Layout;
+use crate::element::state::State;
+use crate::run::gradient::error::GradientError;
+use crate::run::gradient::history::{History, Kept, KeptStep};
+use crate::run::gradient::objective::{Objective, Term, When};
+use crate::run::gradient::result::{Gradient, OfElement};
+use crate::run::recorder::Quantity;
+use crate::scene::error::SceneError;
+use crate::step::adjoint::{Costate, Place, StepWeights};
+use crate::step::scheme::Scheme;
+use eem_material::number::scalar::Real;
+use nalgebra::SVector;
+
+/// # Gradients
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Keeps the states of all further steps for [`gradient`](Self::gradient). It costs memory and changes no bit.
+    pub fn keep_history(&mut self, history: History) {
+        self.history = Some(Box::new(Kept::new(&self.state, history)));
+    }
+
+    /// Keeps the step that was just made.
+    pub(super) fn keep_step(&mut self, size: S) {
+        if let Some(history) = &mut self.history {
+            history.keep(size, self.in_use, [&self.next, &self.state]);
+        }
+    }
+
+    /// The derivatives of an objective by all inputs of the run since [`keep_history`](Self::keep_history): parameters of
+    /// materials, masses, gravity, conductances, temperatures of reservoirs, and the state at the start.
+    ///
+    /// They are those of the steps that were made, with their sizes kept, to rounding times the growth of errors along the
+    /// motion. All of them together cost about as much as the run.
+    ///
+    /// # Errors
+    ///
+    /// [`GradientError`]: for steps of other schemes than [`Scheme::EemTemperature`] or [`Scheme::EemEntropy`]; for moved
+    /// anchors, thermostats, rockets and ovens; without a history, or with one that does not end at the present state; for a
+    /// quantity without derivatives or a time at which no step ends. Nothing has changed then.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::{History, Objective};
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - 1.0).powi(2))]
+    /// struct Spring { stiffness: f64 }
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(1.0, [1.1], [0.0]);
+    /// let ends = [scene.anchor([0.0]), mass];
+    /// let spring = scene.spring(Spring { stiffness: 4.0 }, ends);
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.001)?;
+    /// run.keep_history(History::default());
+    /// run.run_until(1.0)?;
+    ///
+    /// // q = 1 + 0.1 cos(ωt) with ω² = k/m = 4/s².
+    /// let gradient = run.gradient(&Objective::at_end(Quantity::Position(mass)))?;
+    /// let by_position = 2.0_f64.cos();
+    /// assert!((gradient.by_position(mass)?[0] - by_position).abs() < 1e-6);
+    /// let by_stiffness = -0.1 * 2.0_f64.sin() / 4.0;
+    /// assert!((gradient.by_parameter(spring, "stiffness")? - by_stiffness).abs() < 1e-7);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn gradient(
+        &mut self,
+        objective: &Objective<D, S>,
+    ) -> Result<Gradient<D, S>, GradientError> {
+        let Some(mut kept) = self.history.take() else {
+            return Err(GradientError::NoHistory);
+        };
+        kept.return_to(self.time());
+        let found = self.gradient_of(&kept, objective);
+        self.history = Some(kept);
+        found
+    }
+
+    fn gradient_of(
+        &mut self,
+        kept: &Kept<S>,
+        objective: &Objective<D, S>,
+    ) -> Result<Gradient<D, S>, GradientError> {
+        self.check_gradient(kept)?;
+        let (value, seeds) = self.seeds(kept, objective)?;
+        let layout = self.numbering();
+        let mut found = self.no_gradient(value, &layout);
+        let mut costate = mem::replace(&mut found.start, Costate::zero(0, &layout, 0));
+        let ends = self.ends();
+        let parts = Parts {
+            scheme: self.in_use,
+            masses: &self.masses,
+            elements: &ends,
+            layout: &layout,
+            conduction: &self.conduction,
+            loads: &self.loads,
+        };
+        let systems = parts.systems(self.automatic.memory_limit);
+        let mut system = systems.map_err(SceneError::from)?.tangent;
+        self.add_seeds(
+            kept,
+            (kept.steps.len(), &seeds),
+            objective,
+            (&layout, &mut costate, &mut found),
+        )?;
+        for (index, step) in kept.steps.iter().enumerate().rev() {
+            let states = [kept.state(index), &step.state];
+            let mut points = Vec::new();
+            let Stepper::Newton(newton) = &self.stepper else {
+                continue;
+            };
+            for group in &newton.groups {
+                group.between(step.step, states, &mut |point| points.push(point))?;
+            }
+            let time = step.state.time.value.to_f64();
+            let place = Place {
+                layout: &layout,
+                conduction: &self.conduction,
+                masses: &self.masses,
+            };
+            let solved = place.solve(step.step, &points, &costate, &mut system);
+            let (old, mut weights) = solved.map_err(|_| GradientError::Singular { time })?;
+            if old.numbers().any(|number| !number.is_finite()) {
+                return Err(GradientError::NotFinite { time });
+            }
+            self.add_step((step, kept.state(index)), &costate, &weights, &mut found);
+            let mut of_points = mem::take(&mut weights.points).into_iter();
+            let mut next = || of_points.next().unwrap_or_else(PointWeights::none);
+            for group in &newton.groups {
+                group.by_parameters(states, &mut next, &mut |element, values| {
+                    add(
+                        &mut found.elements[element.index()].values,
+                        S::one(),
+                        values,
+                    );
+                })?;
+            }
+            costate = old;
+            self.add_seeds(
+                kept,
+                (index, &seeds),
+                objective,
+                (&layout, &mut costate, &mut found),
+            )?;
+        }
+        found.start = costate;
+        Ok(found)
+    }
+
+    /// An error unless all steps of the history have an adjoint.
+    fn check_gradient(&self, kept: &Kept<S>) -> Result<(), GradientError> {
+        let loads = &self.loads;
+        for (is_there, what) in [
+            (!loads.motions.is_empty(), "moved anchors"),
+            (!loads.temperatures.is_empty(), "thermostats"),
+            (!loads.rockets.is_empty(), "rockets"),
+            (!loads.ovens.is_empty(), "ovens"),
+            (S::LANES > 1, "several numbers in one"),
+        ] {
+            if is_there {
+                return Err(GradientError::NotDifferentiable { what });
+            }
+        }
+        if kept.is_full {
+            return Err(GradientError::HistoryTooLarge {
+                steps: kept.steps.len(),
+                needed: kept.needed,
+                allowed: kept.allowed(),
+            });
+        }
+        for step in &kept.steps {
+            if !matches!(step.scheme, Scheme::EemTemperature | Scheme::EemEntropy) {
+                return Err(GradientError::NoAdjoint {
+                    scheme: step.scheme.name(),
+                    time: step.state.time.value.to_f64(),
+                });
+            }
+        }
+        let others = kept.steps.iter().find(|step| step.scheme != self.in_use);
+        let other = others.map(|step| step.state.time.value);
+        let broken = (!kept.ends_in(&self.state)).then(|| kept.time());
+        match kept.broken.or(other).or(broken) {
+            Some(time) => Err(GradientError::HistoryBroken {
+                time: time.to_f64(),
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// A gradient of zeros, with the names of all parameters.
+    fn no_gradient(&self, value: f64, layout: &Layout) -> Gradient<D, S> {
+        let coordinates = self.masses.len() * D;
+        let mut elements = Vec::with_capacity(self.places.len());
+        for (index, &[group, at]) in self.places.iter().enumerate() {
+            let of_group = self.stepper.elements(group as usize);
+            let element = of_group.handle(at as usize);
+            let names = of_group.parameters();
+            elements.push(OfElement {
+                element,
+                slots: layout.elements[index],
+                dashpots: self.shapes[group as usize].dashpots,
+                names,
+                values: vec![S::zero(); names.len()],
+            });
+        }
+        Gradient {
+            scene: self.scene.clone(),
+            value,
+            start: Costate::zero(coordinates, layout, self.conduction.reservoirs.len()),
+            masses: vec![S::zero(); self.masses.len()],
+            gravity: SVector::from_element(S::zero()),
+            conductances: vec![S::zero(); self.conduction.path_count()],
+            reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
+            elements,
+        }
+    }
+
+    /// The derivatives of a step by masses, gravity, conductances and temperatures of reservoirs.
+    fn add_step(
+        &self,
+        (step, old): (&KeptStep<S>, &State<S>),
+        costate: &Costate<S>,
+        weights: &StepWeights<S>,
+        found: &mut Gradient<D, S>,
+    ) {
+        let h = step.step;
+        let sums = self.masses.weights();
+        for (node, mass) in self.masses.iter().enumerate() {
+            let Some(mass) = mass else { continue };
+            let [old, new] = [old, &step.state].map(|state| state.velocity::<D>(node, mass));
+            for axis in 0..D {
+                let weight = weights.motion[node * D + axis];
+                let fall = h * self.loads.gravity[axis];
+                found.masses[node] -= weight * (new[axis] - old[axis] - fall);
+                found.gravity[axis] += h * sums[node] * weight;
+            }
+        }
+        let theta = &weights.temperatures;
+        let per_theta = |slot: usize| weights.entropies[slot] / theta[slot];
+        for slot in 0..theta.len() {
+            for link in self.conduction.links(slot) {
+                if let Partner::Reservoir(at) = link.partner {
+                    let outer = self.conduction.reservoirs[at];
+                    let of_heat = costate.reservoirs[at] / outer;
+                    found.reservoirs[at] +=
+                        h * link.conductance * (per_theta(slot) - of_heat * theta[slot] / outer);
+                }
+            }
+        }
+        for (path, sum) in found.conductances.iter_mut().enumerate() {
+            let (link, _) = self.conduction.path(path);
+            let (slot, partner) = self.conduction.ends_of(link);
+            *sum += match partner {
+                Partner::Slot(other) => {
+                    h * (theta[other] - theta[slot]) * (per_theta(slot) - per_theta(other))
+                }
+                Partner::Reservoir(at) => {
+                    let outer = self.conduction.reservoirs[at];
+                    let of_heat = costate.reservoirs[at] / outer;
+                    h * (outer - theta[slot]) * (per_theta(slot) - of_heat)
+                }
+            };
+        }
+    }
+
+    /// The value of an objective, and the weights of its quantities in the state after each number of steps.
+    fn seeds(
+        &mut self,
+        kept: &Kept<S>,
+        objective: &Objective<D, S>,
+    ) -> Result<(f64, Vec<Vec<f64>>), GradientError> {
+        let states = kept.steps.len() + 1;
+        let mut value = 0.0;
+        let mut seeds = Vec::with_capacity(objective.terms.len());
+        for term in &objective.terms {
+            let mut weights = vec![0.0; states];
+            let own = &mut weights;
+            value += term.factor
+                * match &term.when {
+                    When::End => self.count_in(kept, term, (states - 1, 1.0), own)?,
+                    When::At(time) => self.count_in(kept, term, (end_of(kept, *time)?, 1.0), own)?,
+                    When::Integral => {
+                        let mut sum = 0.0;
+                        for (index, step) in kept.steps.iter().enumerate() {
+                            let half = 0.5 * step.step.to_f64();
+                            sum += self.count_in(kept, term, (index, half), own)?;
+                            sum += self.count_in(kept, term, (index + 1, half), own)?;
+                        }
+                        sum
+                    }
+                    When::Misfit(records) => {
+                        let mut sum = 0.0;
+                        for &[time, datum, deviation] in records {
+                            let at = end_of(kept, time)?;
+                            let got = self.count_in(kept, term, (at, 0.0), own)?;
+                            let got = got + self.value_at(kept, term, at)?;
+                            let misfit = (got - datum) / deviation;
+                            own[at] += term.factor * misfit / deviation;
+                            sum += 0.5 * misfit * misfit;
+                        }
+                        sum
+                    }
+                };
+            seeds.push(weights);
+        }
+        Ok((value, seeds))
+    }
+
+    /// A share of a quantity after so many steps, whose weight grows by the share.
+    fn count_in(
+        &mut self,
+        kept: &Kept<S>,
+        term: &Term<D, S>,
+        (steps, share): (usize, f64),
+        weights: &mut [f64],
+    ) -> Result<f64, GradientError> {
+        weights[steps] += term.factor * share;
+        Ok(share * self.value_at(kept, term, steps)?)
+    }
+
+    /// A quantity in a state of the history.
+    fn value_at(
+        &mut self,
+        kept: &Kept<S>,
+        term: &Term<D, S>,
+        steps: usize,
+    ) -> Result<f64, GradientError> {
+        let present = mem::replace(&mut *self.state, kept.state(steps).clone());
+        let values = term.quantity.present(self);
+        *self.state = present;
+        let values = values?;
+        let component = term.component;
+        values.get(component).copied().ok_or_else(|| {
+            let quantity = term.quantity.kind();
+            GradientError::Component {
+                quantity,
+                component,
+                components: values.len(),
+            }
+        })
+    }
+
+    /// Adds the derivatives of the quantities in the state after so many steps.
+    fn add_seeds(
+        &mut self,
+        kept: &Kept<S>,
+        (steps, seeds): (usize, &[Vec<f64>]),
+        objective: &Objective<D, S>,
+        (layout, costate, found): (&Layout, &mut Costate<S>, &mut Gradient<D, S>),
+    ) -> Result<(), GradientError> {
+        for (term, weights) in objective.terms.iter().zip(seeds) {
+            let weight = S::from_f64(weights[steps]);
+            self.add_seed(
+                kept,
+                (steps, weight),
+                term,
+                (layout, &mut *costate, &mut *found),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The same of one quantity with a weight.
+    fn add_seed(
+        &mut self,
+        kept: &Kept<S>,
+        (steps, weight): (usize, S),
+        term: &Term<D, S>,
+        (layout, costate, found): (&Layout, &mut Costate<S>, &mut Gradient<D, S>),
+    ) -> Result<(), GradientError> {
+        let state = kept.state(steps);
+        let at = |node: &Node| node.index * D + term.component;
+        let velocities = |node: usize, mass: S| state.velocity::<D>(node, mass);
+        let slots = |element: &Element| layout.elements[element.index()];
+        match &term.quantity {
+            Quantity::Position(node) => costate.positions[at(node)] += weight,
+            Quantity::Velocity(node) if self.masses.get(node.index).is_some() => {
+                costate.velocities[at(node)] += weight;
+            }
+            Quantity::Momentum(node) if !self.masses.are_coupled() => {
+                if let Some(mass) = self.masses.get(node.index) {
+                    costate.velocities[at(node)] += weight * mass;
+                    found.masses[node.index] +=
+                        weight * velocities(node.index, mass)[term.component];
+                }
+            }
+            Quantity::Stretch(element) => {
+                let [group, place] = self.places[element.index()].map(|index| index as usize);
+                let &[a, b] = self.stepper.elements(group).nodes(place) else {
+                    return Err(no_derivative(&term.quantity));
+                };
+                let positions = state.positions.values();
+                let arm: SVector<S, D> = SVector::from_fn(|axis, _| {
+                    positions[b as usize * D + axis] - positions[a as usize * D + axis]
+                });
+                let length = arm.iter().fold(S::zero(), |sum, &x| sum + x * x).sqrt();
+                for axis in 0..D {
+                    let entry = weight * arm[axis] / length;
+                    costate.positions[b as usize * D + axis] += entry;
+                    costate.positions[a as usize * D + axis] -= entry;
+                }
+            }
+            Quantity::ViscousStretch(element, dashpot) => {
+                costate.viscous[slots(element).viscous + dashpot] += weight;
+            }
+            Quantity::Temperature(element) => {
+                if let Some(slot) = slots(element).thermal {
+                    costate.temperatures[slot] += weight;
+                }
+            }
+            Quantity::ReservoirEntropy(reservoir) => {
+                costate.reservoirs[reservoir.index] += weight;
+            }
+            Quantity::ReservoirHeat(reservoir) => {
+                let theta = self.conduction.reservoirs[reservoir.index];
+                costate.reservoirs[reservoir.index] += weight * theta;
+                let entropy = state.reservoir_entropies.values()[reservoir.index];
+                found.reservoirs[reservoir.index] += weight * entropy;
+            }
+            Quantity::KineticEnergy => self.add_kinetic(kept, (steps, weight), (costate, found)),
+            Quantity::TotalEnergy => {
+                self.add_kinetic(kept, (steps, weight), (costate, found));
+                self.add_potential(kept, (steps, weight), (costate, found));
+                self.add_internal(kept, (steps, weight), (costate, found));
+                for (index, &theta) in self.conduction.reservoirs.iter().enumerate() {
+                    costate.reservoirs[index] += weight * theta;
+                    found.reservoirs[index] += weight * state.reservoir_entropies.values()[index];
+                }
+            }
+            other => return Err(no_derivative(other)),
+        }
+        Ok(())
+    }
+
+    /// `½ vᵀ M v`.
+    fn add_kinetic(
+        &self,
+        kept: &Kept<S>,
+        (steps, weight): (usize, S),
+        (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
+    ) {
+        let momenta = kept.state(steps).momenta.values();
+        let half = S::from_f64(0.5);
+        for (node, mass) in self.masses.iter().enumerate() {
+            let Some(mass) = mass else { continue };
+            let velocity = kept.state(steps).velocity::<D>(node, mass);
+            for axis in 0..D {
+                costate.velocities[node * D + axis] += weight * momenta[node * D + axis];
+                found.masses[node] += weight * half * velocity[axis] * velocity[axis];
+            }
+        }
+    }
+
+    /// `−Σ m g·q`.
+    fn add_potential(
+        &self,
+        kept: &Kept<S>,
+        (steps, weight): (usize, S),
+        (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
+    ) {
+        let positions = kept.state(steps).positions.values();
+        let sums = self.masses.weights();
+        for (node, &sum) in sums.iter().enumerate() {
+            let is_mass = self.masses.get(node).is_some();
+            for axis in 0..D {
+                let (at, fall) = (node * D + axis, self.loads.gravity[axis]);
+                costate.positions[at] -= weight * sum * fall;
+                found.gravity[axis] -= weight * sum * positions[at];
+                if is_mass {
+                    found.masses[node] -= weight * fall * positions[at];
+                }
+            }
+        }
+    }
+
+    /// `Σ e` of all elements.
+    fn add_internal(
+        &mut self,
+        kept: &Kept<S>,
+        (steps, weight): (usize, S),
+        (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
+    ) {
+        let state = kept.state(steps);
+        // The elements are evaluated elsewhere than at the ends of their last step.
+        self.has_stepped = false;
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return;
+        };
+        for group in &mut newton.groups {
+            for slopes in group.elements_mut().generic_in(state) {
+                add_energy(&slopes, weight, costate);
+            }
+            group.energy_by_parameters(state, &mut |element, values| {
+                add(&mut found.elements[element.index()].values, weight, values);
+            });
+        }
+    }
+}
+
+/// Adds the derivatives of an internal energy at fixed temperature: `∂e = f ∂π − g ∂γ + θ ∂s`.
+fn add_energy<S: Real>(element: &ElementGeneric<S>, weight: S, costate: &mut Costate<S>) {
+    for &(at, force) in &element.forces {
+        costate.positions[at] += weight * force;
+    }
+    for &(slot, force, _) in &element.dashpots {
+        costate.viscous[slot] -= weight * force;
+    }
+    let (Some((_, theta)), Some(entropy)) = (element.temperature, &element.entropy) else {
+        return;
+    };
+    let weight = weight * theta;
+    for &(at, slope) in &entropy.by_position {
+        costate.positions[at] += weight * slope;
+    }
+    for &(slot, slope) in &entropy.by_viscous {
+        costate.viscous[slot] += weight * slope;
+    }
+    costate.temperatures[entropy.slot] += weight * entropy.by_temperature;
+}
+
+/// `sum + factor values`.
+fn add<S: Real>(sum: &mut [S], factor: S, values: &[S]) {
+    for (sum, &value) in sum.iter_mut().zip(values) {
+        *sum += factor * value;
+    }
+}
+
+#[cold]
+fn no_derivative<const D: usize, S: Real>(quantity: &Quantity<D, S>) -> GradientError {
+    let quantity = quantity.kind();
+    GradientError::NoDerivative { quantity }
+}
+
+/// The number of steps that end at a time.
+fn end_of<S: Real>(kept: &Kept<S>, time: f64) -> Result<usize, GradientError> {
+    let of = |steps: usize| kept.state(steps).time.value.to_f64();
+    let all = 0..=kept.steps.len();
+    let off = |&steps: &usize| (of(steps) - time).abs();
+    let nearest = all.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+    if of(nearest).to_bits() == time.to_bits() {
+        return Ok(nearest);
+    }
+    let nearest = of(nearest);
+    Err(GradientError::NotAnEndOfStep { time, nearest })
+}
