@@ -82,7 +82,7 @@ pub(crate) struct StepWeights<S> {
 struct Heat<S> {
     /// `Σ κ (Θ_b − Θ_a) + Σ κ_r (θ_r − θ*)`, W.
     received: S,
-    /// Σ κ_r and Σ κ, W/K.
+    /// `Σ κ_r` and `Σ κ`, W/K.
     to_reservoirs: S,
     to_elements: S,
     /// `Σ λ_σ h κ_r/θ_r`.
@@ -553,7 +553,7 @@ impl<S: Real> Place<'_, S> {
         self.masses.find_momenta(D, motion, &mut inertia);
         let two = S::from_f64(2.0);
         for (node, mass) in self.masses.iter().enumerate() {
-            for at in node * D..(node + 1) * D {
+            for at in (0..D).map(|axis| node * D + axis) {
                 if mass.is_none() {
                     old.positions[at] = new.positions[at];
                     continue;

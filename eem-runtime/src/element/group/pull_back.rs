@@ -52,6 +52,12 @@ pub(crate) struct PointWeights<S> {
     pub(crate) drag: Vec<S>,
 }
 
+/// What a form needs of the old state, and besides the variables.
+type Begun<S, M, C> = (
+    Start<S, M, <C as ElementScheme<S, M>>::Old>,
+    <C as ElementScheme<S, M>>::Memory,
+);
+
 impl<S> PointWeights<S> {
     pub(crate) const fn none() -> Self {
         Self {
@@ -116,10 +122,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     Point<S, M, K, C, D>
 {
     /// The step of the scheme from one state, and what it keeps of both.
-    fn start(
-        &self,
-        [x0, x1]: [&M::Variables; 2],
-    ) -> Result<(Start<S, M, C::Old>, C::Memory), StateError> {
+    fn start(&self, [x0, x1]: [&M::Variables; 2]) -> Result<Begun<S, M, C>, StateError> {
         let start = Start {
             x0: *x0,
             old: C::old(&self.model, x0, S::zero()),

@@ -164,7 +164,11 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         let others = others.into_iter().flatten().chain(self.gravity.iter());
         let parameters = self.elements.iter().flat_map(|element| &element.values);
         let others = others.chain(parameters).map(|number| number.to_f64());
-        self.start.numbers().map(Real::to_f64).chain(others).collect()
+        self.start
+            .numbers()
+            .map(Real::to_f64)
+            .chain(others)
+            .collect()
     }
 
     fn own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {

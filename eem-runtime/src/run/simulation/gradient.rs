@@ -244,13 +244,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let theta = &weights.temperatures;
         let per_theta = |slot: usize| weights.entropies[slot] / theta[slot];
-        for slot in 0..theta.len() {
+        for (slot, &own) in theta.iter().enumerate() {
             for link in self.conduction.links(slot) {
                 if let Partner::Reservoir(at) = link.partner {
                     let outer = self.conduction.reservoirs[at];
                     let of_heat = costate.reservoirs[at] / outer;
                     found.reservoirs[at] +=
-                        h * link.conductance * (per_theta(slot) - of_heat * theta[slot] / outer);
+                        h * link.conductance * (per_theta(slot) - of_heat * own / outer);
                 }
             }
         }
@@ -285,7 +285,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             value += term.factor
                 * match &term.when {
                     When::End => self.count_in(kept, term, (states - 1, 1.0), own)?,
-                    When::At(time) => self.count_in(kept, term, (end_of(kept, *time)?, 1.0), own)?,
+                    When::At(time) => {
+                        self.count_in(kept, term, (end_of(kept, *time)?, 1.0), own)?
+                    }
                     When::Integral => {
                         let mut sum = 0.0;
                         for (index, step) in kept.steps.iter().enumerate() {
@@ -538,13 +540,17 @@ fn no_derivative<const D: usize, S: Real>(quantity: &Quantity<D, S>) -> Gradient
     GradientError::NoDerivative { quantity }
 }
 
+/// Roundings, in ε of the time, by which a time may differ from the end of its step: half a unit each of the number that was
+/// given and of the time of the run, and what steps of rounded sizes add.
+const ROUNDINGS: f64 = 4.0;
+
 /// The number of steps that end at a time.
 fn end_of<S: Real>(kept: &Kept<S>, time: f64) -> Result<usize, GradientError> {
     let of = |steps: usize| kept.state(steps).time.value.to_f64();
     let all = 0..=kept.steps.len();
     let off = |&steps: &usize| (of(steps) - time).abs();
     let nearest = all.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
-    if of(nearest).to_bits() == time.to_bits() {
+    if off(&nearest) <= ROUNDINGS * S::EPSILON.to_f64() * time.abs() {
         return Ok(nearest);
     }
     let nearest = of(nearest);
