@@ -332,6 +332,47 @@ impl<S: Real> Eliminated<S> {
     }
 }
 
+/// The momentum balances of the points of one cell, by their arms.
+struct Cell<S> {
+    nodes: Vec<u32>,
+    /// Row by row.
+    matrix: Vec<S>,
+    right: Vec<S>,
+}
+
+impl<S> Default for Cell<S> {
+    fn default() -> Self {
+        Self {
+            nodes: Vec::new(),
+            matrix: Vec::new(),
+            right: Vec::new(),
+        }
+    }
+}
+
+impl<S: Real> Cell<S> {
+    fn new<const D: usize>(local: &LocalStep<'_, S, D>) -> Self {
+        let arms = local.arms();
+        Self {
+            nodes: local.point.nodes.clone(),
+            matrix: vec![S::zero(); arms * arms],
+            right: vec![S::zero(); arms],
+        }
+    }
+
+    fn add(&mut self, own: &Eliminated<S>) {
+        let arms = self.right.len();
+        for (sum, &entry) in self.right.iter_mut().zip(&own.outer) {
+            *sum += entry;
+        }
+        for (column, entries) in own.outer_by_outer[..arms].iter().enumerate() {
+            for (row, &entry) in entries[..arms].iter().enumerate() {
+                self.matrix[row * arms + column] += entry;
+            }
+        }
+    }
+}
+
 impl<S: Real> Place<'_, S> {
     /// The heat of a point at temperatures θ* by thermal slot.
     fn heat(
@@ -397,11 +438,18 @@ impl<S: Real> Place<'_, S> {
             .collect();
         self.begin::<D>(step, new, system);
         let mut eliminated = Vec::with_capacity(locals.len());
+        let mut cell = Cell::default();
         for local in &locals {
             let own = Eliminated::new(local, &inner_of(local.point, new))?;
-            self.add(local, &own, system);
+            if cell.nodes != local.point.nodes {
+                self.add_cell::<D>(&cell, system);
+                cell = Cell::new(local);
+            }
+            cell.add(&own);
+            self.add_heat(local, &own, system);
             eliminated.push(own);
         }
+        self.add_cell::<D>(&cell, system);
         system.solve()?;
         let unknown = |unknown: usize| system.solution()[unknown][0];
         let mut weights = StepWeights {
@@ -471,20 +519,71 @@ impl<S: Real> Place<'_, S> {
         }
     }
 
-    /// Adds the equations of a point.
-    fn add<const D: usize>(
+    /// Adds the momentum balances of a cell.
+    fn add_cell<const D: usize>(&self, cell: &Cell<S>, system: &mut LinearSystem<S, 1>) {
+        let (arms, all) = (cell.right.len(), cell.nodes.len() * D);
+        // The first node has the negative sums of the others.
+        let mut rows = vec![S::zero(); arms * all];
+        for (row, entries) in cell.matrix.chunks_exact(arms.max(1)).enumerate() {
+            let row = &mut rows[row * all..(row + 1) * all];
+            for (column, &entry) in entries.iter().enumerate() {
+                row[column % D] -= entry;
+                row[column + D] = entry;
+            }
+        }
+        let mut matrix = vec![S::zero(); all * all];
+        for (row, entries) in rows.chunks_exact(all.max(1)).enumerate() {
+            for (column, &entry) in entries.iter().enumerate() {
+                matrix[(row % D) * all + column] -= entry;
+                matrix[(row + D) * all + column] = entry;
+            }
+        }
+        let unknown = |at: usize| {
+            let first = self.layout.nodes[cell.nodes[at / D] as usize];
+            first.map(|first| first + at % D)
+        };
+        for row in 0..all {
+            let Some(own) = unknown(row) else { continue };
+            let right = match row.checked_sub(D) {
+                Some(arm) => cell.right[arm],
+                None => {
+                    let axis = cell.right.iter().skip(row).step_by(D);
+                    -axis.fold(S::zero(), |sum, &entry| sum + entry)
+                }
+            };
+            system.parts().1[own][0] -= right;
+            for column in 0..all {
+                if let Some(other) = unknown(column) {
+                    let place = system.place(Some(own), Some(other));
+                    system.parts().0[place] += matrix[row * all + column];
+                }
+            }
+        }
+    }
+
+    /// Adds what the interface temperatures of a point and of its neighbours have to do with it.
+    fn add_heat<const D: usize>(
         &self,
         local: &LocalStep<'_, S, D>,
         own: &Eliminated<S>,
         system: &mut LinearSystem<S, 1>,
     ) {
+        if !local.is_coupled {
+            return;
+        }
         let unknowns = self.unknowns(local);
+        let heat = local.arms();
         for (row, rows) in unknowns.iter().enumerate() {
-            for &(unknown, sign) in rows {
-                let at = system.row(unknown);
-                system.parts().1[at][0] -= sign * own.outer[row];
+            if row == heat {
+                for &(unknown, _) in rows {
+                    let at = system.row(unknown);
+                    system.parts().1[at][0] -= own.outer[row];
+                }
             }
             for (column, columns) in unknowns.iter().enumerate() {
+                if row != heat && column != heat {
+                    continue;
+                }
                 let entry = own.outer_by_outer[column][row];
                 for &(unknown, sign) in rows {
                     for &(other, other_sign) in columns {
