@@ -9,6 +9,7 @@
 //! [performance]: crate::performance
 //! [extremes]: crate::extremes
 //! [reproducible]: crate::reproducible
+//! [gradients]: crate::gradients
 //! [sweeps]: crate::sweeps
 //! [scale]: crate::scale
 //!
@@ -90,6 +91,13 @@ pub mod guide {
     #[doc = include_str!("../docs/running.md")]
     pub mod running {}
 }
+
+/// Gradients: the derivatives of any number by all inputs of a run.
+///
+/// This page needs the feature `gradients`.
+///
+#[cfg_attr(feature = "gradients", doc = include_str!("../docs/gradients.md"))]
+pub mod gradients {}
 
 /// Tutorial: from an empty folder to a picture of energy and temperature, in ten minutes.
 ///

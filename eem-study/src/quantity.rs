@@ -136,11 +136,10 @@ impl EndState {
         let positions = exact.values(StateQuantity::Positions).iter();
         let length = positions.map(|value| value * value).sum::<f64>().sqrt();
         let size = |index: usize, value: f64| match quantity {
-            StateQuantity::Positions => length,
             StateQuantity::Momenta => exact.largest_momentum,
             StateQuantity::Temperatures => value.abs(),
             StateQuantity::ViscousStretches if exact.are_strains[index] => 1.0,
-            StateQuantity::ViscousStretches => length,
+            StateQuantity::Positions | StateQuantity::ViscousStretches => length,
         };
         let pairs = own.iter().zip(values).enumerate();
         let shares =

@@ -6,7 +6,7 @@ use eem::{Gradient, GradientError, History, Objective};
 
 use crate::support::dashpots::TwoDashpots;
 use crate::support::solids::{Relaxing, Viscous};
-use crate::support::{DoublePendulum, ThermoViscoElastic, busy, single_pendulum_scene};
+use crate::support::{DoublePendulum, ThermoViscoElastic, single_pendulum_scene};
 
 const FORMS: [Scheme; 2] = [Scheme::EemTemperature, Scheme::EemEntropy];
 
@@ -156,6 +156,9 @@ fn start(inputs: &Inputs, scheme: Scheme) -> (Net, Simulation<2>) {
     (net, run)
 }
 
+/// A change of an input.
+type Change = Box<dyn Fn(&mut Inputs, f64)>;
+
 /// Fourth order in the change of an input.
 fn difference_by(
     inputs: &Inputs,
@@ -180,7 +183,6 @@ fn gradients_are_differences_of_runs() {
         let [anchor, bob, _] = net.nodes;
         let [voigt, two] = net.springs;
         let by = |element, name: &str| gradient.by_parameter(element, name).unwrap();
-        type Change = Box<dyn Fn(&mut Inputs, f64)>;
         let mut all: Vec<(String, f64, f64, Change)> = Vec::new();
         let mut check = |name: &str, got: f64, size: f64, change: Change| {
             all.push((name.to_owned(), got, size, change));
@@ -267,6 +269,90 @@ fn gradients_are_differences_of_runs() {
             let bound = 1e-7 * expected.abs() + 1e-12 / size;
             assert!(off <= bound, "{scheme}, {name}: {got} {expected}");
         }
+    }
+}
+
+/// A pushed mass on a spring at a moved anchor, and another one on a spring at a given temperature, with these amplitudes of
+/// force (N), motion (m) and temperature (K).
+fn driven([force, motion, heating]: [f64; 3]) -> (Scene<2>, [Node; 2], [Element; 2]) {
+    let mut scene = Scene::<2>::new();
+    let support = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(1.0, [1.1, 0.0], [0.0, 1.0]);
+    let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
+    let springs = [
+        scene.spring(VOIGT, [support, bob]),
+        scene.spring(TWO, [bob, tail]),
+    ];
+    scene.set_temperature(springs[0], 320.0);
+    scene.prescribe_temperature(springs[1], move |t| 310.0 + heating * (4.0 * t).sin());
+    scene.set_temperature(springs[1], 310.0);
+    scene.conduct(springs[0], springs[1], 0.5);
+    scene.force(bob, move |t| [force * (3.0 * t).cos(), 0.2]);
+    scene.move_anchor(support, move |t| [motion * (5.0 * t).sin(), 0.0]);
+    (scene, [support, bob], springs)
+}
+
+const AMPLITUDES: [f64; 3] = [2.0, 0.1, 5.0];
+
+#[test]
+fn values_of_loads_have_derivatives() {
+    for scheme in FORMS {
+        let end = |amplitudes| {
+            let (scene, [support, bob], springs) = driven(amplitudes);
+            let mut run = Simulation::new(scene, scheme, 0.02).unwrap();
+            run.keep_history(History::default());
+            run.run_until(0.5).unwrap();
+            let objective = Objective::at_end(Quantity::Position(bob))
+                + Objective::integral(Quantity::Stretch(springs[0]))
+                + Objective::at_end(Quantity::Position(support))
+                + Objective::at_end(Quantity::Temperature(springs[0])).times(0.1);
+            run.gradient(&objective).unwrap()
+        };
+        let (scene, [support, bob], [free, held]) = driven(AMPLITUDES);
+        let mut run = Simulation::new(scene, scheme, 0.02).unwrap();
+        run.keep_history(History::default());
+        run.run_until(0.5).unwrap();
+        let objective = Objective::at_end(Quantity::Position(bob))
+            + Objective::integral(Quantity::Stretch(free))
+            + Objective::at_end(Quantity::Position(support))
+            + Objective::at_end(Quantity::Temperature(free)).times(0.1);
+        let gradient = run.gradient(&objective).unwrap();
+        let forces = gradient.by_force(bob).unwrap();
+        let motions = gradient.by_motion(support).unwrap();
+        let thermostat = gradient.by_thermostat(held).unwrap();
+        let total = motions.iter().fold(0.0, |sum, (_, by)| sum + by[0]);
+        let shifted = gradient.by_position(support).unwrap()[0];
+        assert!((total - shifted).abs() < 1e-13, "{total} {shifted}");
+        let found = [
+            forces
+                .iter()
+                .map(|(t, by)| by[0] * (3.0 * t).cos())
+                .sum::<f64>(),
+            motions.iter().map(|(t, by)| by[0] * (5.0 * t).sin()).sum(),
+            thermostat.iter().map(|(t, by)| by * (4.0 * t).sin()).sum(),
+        ];
+        for (at, found) in found.into_iter().enumerate() {
+            let size = 1e-3;
+            let value = |steps: f64| {
+                let mut amplitudes = AMPLITUDES;
+                amplitudes[at] += steps * size;
+                end(amplitudes).value()
+            };
+            let expected =
+                (8.0 * (value(1.0) - value(-1.0)) - (value(2.0) - value(-2.0))) / (12.0 * size);
+            let off = (found - expected).abs();
+            assert!(
+                off <= 1e-7 * expected.abs() + 1e-12 / size,
+                "{scheme}, {at}: {found} {expected}"
+            );
+        }
+        assert!(
+            gradient
+                .by_thermostat(free)
+                .unwrap_err()
+                .to_string()
+                .contains("no thermostat")
+        );
     }
 }
 
@@ -426,10 +512,12 @@ fn what_has_no_gradient_is_an_error() {
         matches!(broken, GradientError::HistoryBroken { .. }),
         "{broken}"
     );
-    let mut run = Simulation::new(busy(), Scheme::EemEntropy, 0.01).unwrap();
+    let mut scene = single_pendulum_scene().0;
+    scene.oven(|t| 300.0 + t);
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01).unwrap();
     run.keep_history(History::default());
-    let moved = error(&mut run, at_end(Quantity::TotalEnergy)).to_string();
-    assert!(moved.contains("moved anchors"), "{moved}");
+    let oven = error(&mut run, at_end(Quantity::TotalEnergy)).to_string();
+    assert!(oven.contains("the scene has ovens"), "{oven}");
     let scene = single_pendulum_scene().0;
     let mut run = Simulation::new(scene, Scheme::EemEntropy4, 0.01).unwrap();
     run.keep_history(History::default());

@@ -7,6 +7,7 @@
 //! R_q = Δq − (h/2)(v⁰ + v¹)                        R_γ = η Δγ/h − g*
 //! R_v = M Δv + h (Σ (f* + f_d) D*π − f_ext)        R_s = Δs − (h/θ*)(Σ η Δγ²/h² + Σ η_d Δπ²/h² + Σ κ (Θ_b − Θ_a) + Σ κ_r (θ_r − θ*))
 //! R_Θ = Θ − θ*                                     R_σ = Δσ − (h/θ_r) Σ κ_r (θ* − θ_r)
+//! R_p = θ¹ − θ_p  instead of R_s where a thermostat holds the temperature
 //! ```
 //!
 //! With λ¹ the derivatives by x¹, `(∂R/∂x¹)ᵀ w = λ¹` and `λ⁰ = −(∂R/∂x⁰)ᵀ w`. As in a step, v¹ and the variables of a point are
@@ -64,6 +65,8 @@ pub(crate) struct Place<'a, S> {
     pub(crate) layout: &'a Layout,
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) masses: &'a Masses<S>,
+    /// Whether thermostats hold the temperatures, by thermal slot.
+    pub(crate) held: &'a [bool],
 }
 
 /// The weights w of a step.
@@ -71,9 +74,12 @@ pub(crate) struct Place<'a, S> {
 pub(crate) struct StepWeights<S> {
     /// Of the momentum balances of all nodes, zero at anchors.
     pub(crate) motion: Vec<S>,
-    /// Of the entropy balances, and θ*, by thermal slot.
+    /// Of the entropy balances, of the temperatures that are held, and θ*, by thermal slot.
     pub(crate) entropies: Vec<S>,
+    pub(crate) held: Vec<S>,
     pub(crate) temperatures: Vec<S>,
+    /// The derivatives by the positions of anchors in the old state and in the new one, zero at masses.
+    pub(crate) anchors: [Vec<S>; 2],
     /// Of the points in the derivatives by their parameters.
     pub(crate) points: Vec<PointWeights<S>>,
 }
@@ -95,6 +101,7 @@ struct LocalStep<'a, S, const D: usize> {
     step: S,
     heat: Heat<S>,
     is_coupled: bool,
+    is_held: bool,
 }
 
 /// Weights of the response, and of increments of measures and viscous stretches.
@@ -134,10 +141,20 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
         along.collect()
     }
 
+    /// The weight of its entropy balance, or of its temperature where that is held; zero for the other one.
+    fn heat_weights(&self, weights: &[S]) -> [S; 2] {
+        let at = self.outer() + self.point.dashpots;
+        let own = weights.get(at).copied().unwrap_or(S::zero());
+        if self.is_held {
+            [S::zero(), own]
+        } else {
+            [own, S::zero()]
+        }
+    }
+
     /// The weight of its entropy balance.
     fn entropy_weight(&self, weights: &[S]) -> S {
-        let at = self.outer() + self.point.dashpots;
-        weights.get(at).copied().unwrap_or(S::zero())
+        self.heat_weights(weights)[0]
     }
 
     /// The heat of its dashpots, W, at viscosities `η` of those in series and in parallel.
@@ -235,6 +252,9 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
         }
         let outer = self.outer();
         pulled[outer..].copy_from_slice(&slopes[point.measures..]);
+        if self.is_held && end == 1 {
+            pulled[outer + point.dashpots] += self.heat_weights(weights)[1];
+        }
         pulled
     }
 
@@ -434,6 +454,7 @@ impl<S: Real> Place<'_, S> {
                     .slots
                     .thermal
                     .is_some_and(|slot| self.layout.coupled[slot].is_some()),
+                is_held: point.slots.thermal.is_some_and(|slot| self.held[slot]),
             })
             .collect();
         self.begin::<D>(step, new, system);
@@ -455,6 +476,8 @@ impl<S: Real> Place<'_, S> {
         let mut weights = StepWeights {
             motion: vec![S::zero(); new.positions.len()],
             entropies: vec![S::zero(); self.layout.thermal],
+            held: vec![S::zero(); self.layout.thermal],
+            anchors: [(); 2].map(|()| vec![S::zero(); new.positions.len()]),
             temperatures,
             points: Vec::with_capacity(points.len()),
         };
@@ -482,9 +505,9 @@ impl<S: Real> Place<'_, S> {
             }
             all.extend(inner);
             if let Some(slot) = point.slots.thermal {
-                weights.entropies[slot] = local.entropy_weight(&all);
+                [weights.entropies[slot], weights.held[slot]] = local.heat_weights(&all);
             }
-            self.subtract_old(local, &all, &mut old);
+            self.subtract_old(local, &all, &mut old, &mut weights.anchors);
             weights.points.push(local.parameter_weights(&all));
         }
         Ok((old, weights))
@@ -544,12 +567,11 @@ impl<S: Real> Place<'_, S> {
         };
         for row in 0..all {
             let Some(own) = unknown(row) else { continue };
-            let right = match row.checked_sub(D) {
-                Some(arm) => cell.right[arm],
-                None => {
-                    let axis = cell.right.iter().skip(row).step_by(D);
-                    -axis.fold(S::zero(), |sum, &entry| sum + entry)
-                }
+            let right = if let Some(arm) = row.checked_sub(D) {
+                cell.right[arm]
+            } else {
+                let axis = cell.right.iter().skip(row).step_by(D);
+                -axis.fold(S::zero(), |sum, &entry| sum + entry)
             };
             system.parts().1[own][0] -= right;
             for column in 0..all {
@@ -592,6 +614,9 @@ impl<S: Real> Place<'_, S> {
                     }
                 }
             }
+        }
+        if local.is_held {
+            return;
         }
         let Some(slot) = local.point.slots.thermal else {
             return;
@@ -670,6 +695,7 @@ impl<S: Real> Place<'_, S> {
         local: &LocalStep<'_, S, D>,
         weights: &[S],
         old: &mut Costate<S>,
+        anchors: &mut [Vec<S>; 2],
     ) {
         let (point, arms, outer) = (local.point, local.arms(), local.outer());
         let [by_old, by_new] = [0, 1].map(|end| local.pull(end, weights, S::one()));
@@ -685,10 +711,12 @@ impl<S: Real> Place<'_, S> {
                     }
                     _ => pulled[(place - 1) * D + axis],
                 };
-                let sum = &mut old.positions[node * D + axis];
-                *sum -= of(&by_old);
+                let at = node * D + axis;
+                old.positions[at] -= of(&by_old);
                 if is_anchor {
-                    *sum -= of(&by_new);
+                    old.positions[at] -= of(&by_new);
+                    anchors[0][at] -= of(&by_old);
+                    anchors[1][at] -= of(&by_new);
                 }
             }
         }

@@ -93,6 +93,12 @@ pub enum GradientError {
         /// The names that it has.
         known: Vec<&'static str>,
     },
+    /// There is no such function of time.
+    #[error("{why}: there are no values of it to differentiate by")]
+    NoSeries {
+        /// What is missing.
+        why: String,
+    },
     /// The adjoint equations of a step have no solution.
     #[error("the adjoint equations of the step to t = {} s are singular", Readable(*time))]
     Singular {

@@ -27,7 +27,14 @@ pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) conductances: Vec<S>,
     pub(crate) reservoirs: Vec<S>,
     pub(crate) elements: Vec<OfElement<S>>,
+    /// By forces at the middle of each step, by positions of moved anchors and by temperatures of thermostats at its ends.
+    pub(crate) forces: Vec<(usize, Series<SVector<S, D>, S>)>,
+    pub(crate) motions: Vec<(usize, Series<SVector<S, D>, S>)>,
+    pub(crate) temperatures: Vec<(usize, Series<S, S>)>,
 }
+
+/// Derivatives by the values of a function of time, with the times, s.
+pub(crate) type Series<T, S> = Vec<(S, T)>;
 
 /// The derivatives by the parameters of an element.
 #[derive(Clone, Debug)]
@@ -156,6 +163,42 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         self.gravity
     }
 
+    /// The derivatives by the force on a mass in each step, with the time in its middle, s. Those by a parameter of a force are
+    /// `Σ dJ/df(t)·∂f/∂α(t)`.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if no force acts on it.
+    pub fn by_force(&self, node: Node) -> Result<&[(S, SVector<S, D>)], GradientError> {
+        self.own(&node)?;
+        series(&self.forces, node.index, || format!("{node} has no force"))
+    }
+
+    /// The derivatives by the position of a moved anchor at the ends of all steps, with their times, s. Their sum is
+    /// [`by_position`](Self::by_position).
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if it is not moved.
+    pub fn by_motion(&self, anchor: Node) -> Result<&[(S, SVector<S, D>)], GradientError> {
+        self.own(&anchor)?;
+        series(&self.motions, anchor.index, || {
+            format!("{anchor} is not moved")
+        })
+    }
+
+    /// The derivatives by the temperature that a thermostat reaches at the end of each step, with its time, s.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] without a thermostat.
+    pub fn by_thermostat(&self, element: Element) -> Result<&[(S, S)], GradientError> {
+        self.own(&element)?;
+        series(&self.temperatures, element.index(), || {
+            format!("{element} has no thermostat")
+        })
+    }
+
     /// All derivatives: state, masses, gravity, conductances, reservoirs, parameters.
     #[doc(hidden)]
     #[must_use]
@@ -182,6 +225,19 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     fn of(&self, element: Element) -> Result<&OfElement<S>, GradientError> {
         self.own(&element)?;
         Ok(&self.elements[element.index()])
+    }
+}
+
+/// The series with this index.
+fn series<T, S>(
+    all: &[(usize, Series<T, S>)],
+    index: usize,
+    why: impl FnOnce() -> String,
+) -> Result<&[(S, T)], GradientError> {
+    let mut own = all.iter().filter(|(own, _)| *own == index);
+    match own.next() {
+        Some((_, series)) => Ok(series),
+        None => Err(GradientError::NoSeries { why: why() }),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The gradient of a run: the adjoint of its steps, from the last to the first.
 
 use core::mem;
+use std::collections::BTreeSet;
 
 use super::Simulation;
 use super::stepper::{Parts, Stepper};
@@ -12,7 +13,7 @@ use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::history::{History, Kept, KeptStep};
 use crate::run::gradient::objective::{Objective, Term, When};
-use crate::run::gradient::result::{Gradient, OfElement};
+use crate::run::gradient::result::{Gradient, OfElement, Series};
 use crate::run::recorder::Quantity;
 use crate::scene::error::SceneError;
 use crate::step::adjoint::{Costate, Place, StepWeights};
@@ -43,7 +44,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// [`GradientError`]: for steps of other schemes than [`Scheme::EemTemperature`] or [`Scheme::EemEntropy`]; for moved
-    /// anchors, thermostats, rockets and ovens; without a history, or with one that does not end at the present state; for a
+    /// anchors beside solids with consistent mass, rockets and ovens; without a history, or with one that does not end at the present state; for a
     /// quantity without derivatives or a time at which no step ends. Nothing has changed then.
     ///
     /// ```
@@ -93,6 +94,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let layout = self.numbering();
         let mut found = self.no_gradient(value, &layout);
         let mut costate = mem::replace(&mut found.start, Costate::zero(0, &layout, 0));
+        let mut held = vec![false; layout.thermal];
+        for (element, _) in &self.loads.temperatures {
+            if let Some(slot) = layout.elements[element.index()].thermal {
+                held[slot] = true;
+            }
+        }
         let ends = self.ends();
         let parts = Parts {
             scheme: self.in_use,
@@ -124,6 +131,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 layout: &layout,
                 conduction: &self.conduction,
                 masses: &self.masses,
+                held: &held,
             };
             let solved = place.solve(step.step, &points, &costate, &mut system);
             let (old, mut weights) = solved.map_err(|_| GradientError::Singular { time })?;
@@ -131,6 +139,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 return Err(GradientError::NotFinite { time });
             }
             self.add_step((step, kept.state(index)), &costate, &weights, &mut found);
+            self.add_series((step, kept.state(index)), (&layout, &weights), &mut found);
             let mut of_points = mem::take(&mut weights.points).into_iter();
             let mut next = || of_points.next().unwrap_or_else(PointWeights::none);
             for group in &newton.groups {
@@ -151,6 +160,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             )?;
         }
         found.start = costate;
+        for (_, series) in found.forces.iter_mut().chain(&mut found.motions) {
+            series.reverse();
+        }
+        for (_, series) in &mut found.temperatures {
+            series.reverse();
+        }
         Ok(found)
     }
 
@@ -158,8 +173,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn check_gradient(&self, kept: &Kept<S>) -> Result<(), GradientError> {
         let loads = &self.loads;
         for (is_there, what) in [
-            (!loads.motions.is_empty(), "moved anchors"),
-            (!loads.temperatures.is_empty(), "thermostats"),
+            (
+                !loads.motions.is_empty() && self.masses.are_coupled(),
+                "moved anchors beside solids with consistent mass",
+            ),
             (!loads.rockets.is_empty(), "rockets"),
             (!loads.ovens.is_empty(), "ovens"),
             (S::LANES > 1, "several numbers in one"),
@@ -219,6 +236,37 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conductances: vec![S::zero(); self.conduction.path_count()],
             reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
             elements,
+            forces: empty(self.loads.forces.iter().map(|(node, _)| node.index)),
+            motions: empty(self.loads.motions.iter().map(|(node, _)| node.index)),
+            temperatures: empty(self.loads.temperatures.iter().map(|(own, _)| own.index())),
+        }
+    }
+
+    /// The derivatives by the values of functions of time in a step; from the last one on.
+    fn add_series(
+        &self,
+        (step, old): (&KeptStep<S>, &State<S>),
+        (layout, weights): (&Layout, &StepWeights<S>),
+        found: &mut Gradient<D, S>,
+    ) {
+        let (h, start, end) = (step.step, old.time.value, step.state.time.value);
+        let vector =
+            |values: &[S], node: usize| SVector::<S, D>::from_fn(|axis, _| values[node * D + axis]);
+        for (node, series) in &mut found.forces {
+            let middle = start + S::from_f64(0.5) * h;
+            series.push((middle, vector(&weights.motion, *node) * h));
+        }
+        for (node, series) in &mut found.motions {
+            let [by_old, by_new] = [0, 1].map(|side| vector(&weights.anchors[side], *node));
+            if let Some((_, last)) = series.last_mut() {
+                *last += by_new;
+            }
+            series.push((start, by_old));
+        }
+        for (element, series) in &mut found.temperatures {
+            if let Some(slot) = layout.elements[*element].thermal {
+                series.push((end, weights.held[slot]));
+            }
         }
     }
 
@@ -357,6 +405,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         objective: &Objective<D, S>,
         (layout, costate, found): (&Layout, &mut Costate<S>, &mut Gradient<D, S>),
     ) -> Result<(), GradientError> {
+        let anchors = costate.positions.clone();
         for (term, weights) in objective.terms.iter().zip(seeds) {
             let weight = S::from_f64(weights[steps]);
             self.add_seed(
@@ -365,6 +414,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 term,
                 (layout, &mut *costate, &mut *found),
             )?;
+        }
+        let time = kept.state(steps).time.value;
+        for (node, series) in &mut found.motions {
+            let own = SVector::from_fn(|axis, _| {
+                let at = *node * D + axis;
+                costate.positions[at] - anchors[at]
+            });
+            match series.last_mut() {
+                Some((_, last)) => *last += own,
+                None => series.push((time, own)),
+            }
         }
         Ok(())
     }
@@ -525,6 +585,15 @@ fn add_energy<S: Real>(element: &ElementGeneric<S>, weight: S, costate: &mut Cos
         costate.viscous[slot] += weight * slope;
     }
     costate.temperatures[entropy.slot] += weight * entropy.by_temperature;
+}
+
+/// Series for these indices, each once.
+fn empty<T, S>(indices: impl Iterator<Item = usize>) -> Vec<(usize, Series<T, S>)> {
+    let indices: BTreeSet<usize> = indices.collect();
+    indices
+        .into_iter()
+        .map(|index| (index, Vec::new()))
+        .collect()
 }
 
 /// `sum + factor values`.
