@@ -376,7 +376,6 @@ fn assert_energy_law<const D: usize>(what: &str, scene: &Scene<D>, step: f64, st
         }
         let end = run.gradient(&energy).unwrap();
         let off = difference(&end, &start);
-        println!("{what}, {scheme}: {off:e}");
         assert!(off <= 1e-12, "{what}, {scheme}: {off:e}");
     }
 }
@@ -453,6 +452,25 @@ fn controlled_steps_and_resumed_ones_have_gradients() {
         );
         assert!(difference(&run.gradient(&energy).unwrap(), &start) <= 1e-12);
     }
+}
+
+#[test]
+fn growth_of_derivatives_is_noted() {
+    let [_, krueger, _] = DoublePendulum::ALL;
+    let growth = |steps: usize| {
+        let (scene, masses, _) = krueger.scene();
+        let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+        run.keep_history(History::default());
+        for _ in 0..steps {
+            run.step().unwrap();
+        }
+        let objective = Objective::at_end(Quantity::Position(masses[1]));
+        run.gradient(&objective).unwrap()
+    };
+    let [short, long] = [50, 2000].map(growth);
+    assert!(short.growth() >= 1.0 && short.growth() < 1e6);
+    assert!(!short.to_string().contains("grow"));
+    assert!(long.growth() > 1e6 && long.to_string().contains("about 0 digits"));
 }
 
 #[test]

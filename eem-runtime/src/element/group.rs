@@ -31,6 +31,8 @@ mod local;
 mod loose;
 mod member;
 mod point;
+#[cfg(feature = "gradients")]
+mod point_step;
 mod pose;
 #[cfg(feature = "gradients")]
 mod pull_back;
@@ -50,7 +52,7 @@ pub(crate) use explicit::{
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
 #[cfg(feature = "gradients")]
-pub(crate) use pull_back::{PointStep, PointWeights};
+pub(crate) use point_step::{PointStep, PointWeights};
 pub(crate) use view::{
     Along, Before, ElementGeneric, ElementTotals, ElementView, EntropySlopes, Old, Placed, Sites,
     StepView, Trial,

@@ -7,7 +7,7 @@ use super::loose::LooseElements;
 use super::member::Member;
 use super::point::Point;
 #[cfg(feature = "gradients")]
-use super::pull_back::{PointStep, PointWeights, SeeParameters};
+use super::point_step::{PointStep, PointWeights, SeeParameters};
 use super::share::Share;
 use super::site::{Contact, Site};
 use super::view::{Along, Old, Placed, Sites, StepView, Trial};

@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use super::explicit::stage::Stage;
 use super::explicit::view::{ClosingView, NodeStiffness};
 #[cfg(feature = "gradients")]
-use super::pull_back::{PointStep, PointWeights, SeeParameters};
+use super::point_step::{PointStep, PointWeights, SeeParameters};
 use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::Conjugates;

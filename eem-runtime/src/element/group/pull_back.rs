@@ -8,68 +8,19 @@ use super::arms::measures_in;
 use super::element_group::ElementGroup;
 use super::member::Member;
 use super::point::{Point, temperature_in};
+use super::point_step::{PointStep, PointWeights, SeeParameters};
 use crate::element::conjugates::{ElementScheme, Start};
 use crate::element::error::StateError;
-use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics};
-use crate::element::layout::Slots;
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
-
-/// A point in a step: its response and the derivatives by both states. Arms are edge vectors from its first node.
-#[derive(Debug)]
-pub(crate) struct PointStep<S, const D: usize> {
-    pub(crate) nodes: Vec<u32>,
-    pub(crate) slots: Slots,
-    /// Numbers of measures, dashpots in series and dashpots in parallel.
-    pub(crate) measures: usize,
-    pub(crate) dashpots: usize,
-    pub(crate) drags: usize,
-    /// θ*, K; zero without temperature.
-    pub(crate) temperature: S,
-    /// The derivatives of `(f*, g*, θ*, Δs)` by the variables of the old state and of the new one.
-    pub(crate) slopes: [Vec<Vec<S>>; 2],
-    /// The derivatives of the measures by the arms in both states.
-    pub(crate) gradients: [Vec<Vec<[S; D]>>; 2],
-    /// The mean-value gradients of the measures, along which the forces act.
-    pub(crate) direction: Vec<Vec<[S; D]>>,
-    /// The derivatives of the forces on the arms by the arms of both states at constant `f* + f_d`, rows by arm and axis.
-    pub(crate) curvature: [Vec<Vec<S>>; 2],
-    /// Increments of measures and viscous stretches.
-    pub(crate) extension: Vec<S>,
-    pub(crate) creep: Vec<S>,
-    /// η at θ*, and dη/dθ, of the dashpots in series and in parallel.
-    pub(crate) viscosities: [Vec<S>; 2],
-    pub(crate) drag: [Vec<S>; 2],
-}
-
-/// The weights of a point in the derivatives by parameters: of its response, of the viscosities in series and in parallel.
-#[derive(Clone, Debug)]
-pub(crate) struct PointWeights<S> {
-    pub(crate) response: Vec<S>,
-    pub(crate) viscosities: Vec<S>,
-    pub(crate) drag: Vec<S>,
-}
 
 /// What a form needs of the old state, and besides the variables.
 type Begun<S, M, C> = (
     Start<S, M, <C as ElementScheme<S, M>>::Old>,
     <C as ElementScheme<S, M>>::Memory,
 );
-
-impl<S> PointWeights<S> {
-    pub(crate) const fn none() -> Self {
-        Self {
-            response: Vec::new(),
-            viscosities: Vec::new(),
-            drag: Vec::new(),
-        }
-    }
-}
-
-/// What receives the derivatives by the parameters of each element.
-pub(crate) type SeeParameters<'a, S> = dyn FnMut(Element, &[S]) + 'a;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>

@@ -16,11 +16,13 @@ use eem_material::number::scalar::Real;
 /// The value of an [`Objective`](crate::Objective) and its derivatives by all inputs of a run, each in the unit of the
 /// objective over that of the input.
 ///
-/// `Display` prints the value, and the derivatives by the parameters of every element.
+/// `Display` prints the value, the derivatives by the parameters of every element, and a note where derivatives grow by more than
+/// a million.
 #[derive(Clone, Debug)]
 pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) scene: Lineage,
     pub(crate) value: f64,
+    pub(crate) growth: f64,
     pub(crate) start: Costate<S>,
     pub(crate) masses: Vec<S>,
     pub(crate) gravity: SVector<S, D>,
@@ -35,6 +37,9 @@ pub struct Gradient<const D: usize, S: Real = f64> {
 
 /// Derivatives by the values of a function of time, with the times, s.
 pub(crate) type Series<T, S> = Vec<(S, T)>;
+
+/// The growth from which it is noted.
+const NOTED: f64 = 1e6;
 
 /// The derivatives by the parameters of an element.
 #[derive(Clone, Debug)]
@@ -51,6 +56,13 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     #[must_use]
     pub const fn value(&self) -> f64 {
         self.value
+    }
+
+    /// How much more a relative change of an earlier state does to the objective than one of the state at the end, at most. It
+    /// grows without limit along chaotic motions. Errors of the gradient are about ε times the growth.
+    #[must_use]
+    pub const fn growth(&self) -> f64 {
+        self.growth
     }
 
     /// The derivative by a parameter of an element, with the name that its struct gives it: `stiffness`, or `mu[2]` in an
@@ -253,6 +265,15 @@ impl<const D: usize, S: Real> fmt::Display for Gradient<D, S> {
                 let by = format!("by {name} of {}", own.element);
                 writeln!(f, "{by:<40} {:>13.6e}", value.to_f64())?;
             }
+        }
+        if self.growth > NOTED {
+            let digits = -(S::EPSILON.to_f64() * self.growth).log10();
+            let digits = digits.floor().max(0.0);
+            let growth = self.growth;
+            writeln!(
+                f,
+                "Derivatives grow by {growth:.0e}: the motion is sensitive, and about {digits} digits are left."
+            )?;
         }
         Ok(())
     }

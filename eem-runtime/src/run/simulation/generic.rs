@@ -91,7 +91,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// v, m/s; zero for anchors.
-    fn velocities_in(&self, state: &State<S>) -> Vec<S> {
+    pub(super) fn velocities_in(&self, state: &State<S>) -> Vec<S> {
         let velocity = |(node, mass): (usize, Option<S>)| {
             mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
         };
