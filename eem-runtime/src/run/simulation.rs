@@ -94,6 +94,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     layout: Layout,
     conduction: Conduction<S>,
     loads: Loads<S, D>,
+    /// Whether there are loads, thermostats or ovens.
+    has_loads: bool,
     stepper: Stepper<S, D>,
     effort: Effort<S>,
     /// `None` without step control.
@@ -206,6 +208,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             shapes,
             layout,
             conduction,
+            has_loads: !loads.are_none(),
             loads,
             stepper,
             effort: Effort::new(),

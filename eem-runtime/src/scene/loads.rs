@@ -108,7 +108,8 @@ impl<S: Real, const D: usize> Loads<S, D> {
 
     pub(crate) fn are_none(&self) -> bool {
         let has_force = self.have_weight() || !self.forces.is_empty() || !self.rockets.is_empty();
-        !has_force && self.motions.is_empty() && self.temperatures.is_empty()
+        let has_heat = !self.temperatures.is_empty() || !self.ovens.is_empty();
+        !has_force && !has_heat && self.motions.is_empty()
     }
 
     /// The lines of all rockets.

@@ -57,7 +57,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = true;
-        if !self.loads.ovens.is_empty() {
+        if self.has_loads && !self.loads.ovens.is_empty() {
             self.book_ovens();
         }
         #[cfg(feature = "gradients")]
@@ -106,10 +106,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let value = end.to_f64();
             return Err(StepFailure::Time { value });
         }
-        if !self.loads.ovens.is_empty() {
+        if self.has_loads {
             self.heat_ovens(size)?;
+            self.evaluate_loads(size)?;
         }
-        self.evaluate_loads(size)?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
         let newton = match &mut self.stepper {
             Stepper::Newton(newton) => &mut **newton,
@@ -142,7 +142,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn evaluate_loads(&mut self, size: S) -> Result<(), StepFailure> {
         let span = [self.time(), size];
         match &mut self.stepper {
-            Stepper::Newton(newton) if !self.loads.are_none() => {
+            Stepper::Newton(newton) if self.has_loads => {
                 let old = &self.state;
                 newton.evaluate_loads(&self.loads, &self.masses, self.in_use, span, old)
             }

@@ -206,6 +206,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The next step does not begin with the loads at the end of the last one.
     pub(super) fn forget_loads(&mut self) {
+        self.has_loads = !self.loads.are_none();
         if let Stepper::Explicit(explicit) = &mut self.stepper {
             explicit.forget();
             // As after a restart.
