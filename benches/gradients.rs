@@ -6,11 +6,24 @@
 
 use std::time::Instant;
 
-use eem::kinematics::Hex8;
-use eem::materials::{SaintVenantKirchhoff, ThermoelasticSpring};
 use eem::prelude::*;
 use eem::{History, Objective};
 use eem_testkit::scenes::{DoublePendulum, single_pendulum_scene};
+
+#[path = "networks/scenes.rs"]
+#[allow(
+    dead_code,
+    clippy::unwrap_used,
+    reason = "another benchmark uses all of it"
+)]
+mod networks;
+#[path = "solids/scenes.rs"]
+#[allow(
+    dead_code,
+    clippy::unwrap_used,
+    reason = "another benchmark uses all of it"
+)]
+mod solids;
 
 /// Runs of which the fastest counts.
 const REPEATS: usize = 5;
@@ -57,59 +70,11 @@ fn print<const D: usize>(name: &str, scene: &Scene<D>, step: f64, steps: usize) 
     }
 }
 
-/// A square lattice of thermoelastic springs of 1 m, in motion.
-fn lattice(side: usize) -> Scene<2> {
-    let spring = ThermoelasticSpring {
-        stiffness: 5000.0,
-        natural_length: 1.0,
-        coupling: 20.0,
-        capacity: 2000.0,
-        theta_ref: 300.0,
-    };
-    let number = |index: usize| f64::from(u32::try_from(index).unwrap_or(0));
-    let wave = |index: usize, phase: f64| (0.7 * number(index) + phase).sin();
-    let mut scene = Scene::new();
-    let all: Vec<Node> = (0..side * side)
-        .map(|index| {
-            let position = [
-                number(index % side) + 0.02 * wave(index, 0.0),
-                number(index / side) + 0.02 * wave(index, 1.0),
-            ];
-            scene.mass(1.0, position, [wave(index, 2.0), wave(index, 3.0)])
-        })
-        .collect();
-    for index in 0..all.len() {
-        let right = (index % side + 1 < side).then_some(index + 1);
-        for other in [right, Some(index + side)].into_iter().flatten() {
-            if let Some(&end) = all.get(other) {
-                let spring = scene.spring(spring.clone(), [all[index], end]);
-                scene.set_temperature(spring, 300.0 + 10.0 * wave(index, 4.0));
-            }
-        }
-    }
-    scene
-}
-
-/// A cube of 1 m that turns and shears.
-fn cube(cells: usize) -> Scene<3> {
-    let mesh = Mesh::<Hex8, 3>::block([cells; 3], [[-0.5, 0.5]; 3]).expect("a mesh");
-    let mut scene = Scene::new();
-    let rubber = SaintVenantKirchhoff {
-        lame: 2000.0,
-        shear: 1000.0,
-    };
-    let body = scene.solid(rubber, &mesh, &Bulk::new(10.0));
-    for (&node, &[x, y, z]) in body.nodes().iter().zip(body.mesh().nodes()) {
-        scene.set_velocity(node, [z - y + 0.1 * y * z, x, 0.1 * x - x]);
-    }
-    scene
-}
-
 fn main() {
     print("single", &single_pendulum_scene().0, 0.1, 5000);
     let [_, krueger, log] = DoublePendulum::ALL;
     print("krueger", &krueger.scene().0, 0.02, 2000);
     print("log", &log.scene().0, 0.02, 2000);
-    print("lattice 100²", &lattice(100), 0.01, 4);
-    print("cube 8³", &cube(8), 0.01, 4);
+    print("lattice 100²", &networks::lattice(100, None), 0.01, 4);
+    print("cube 8³", &solids::cube(8), 0.01, 4);
 }

@@ -3,9 +3,9 @@
 use core::fmt;
 
 use crate::error::{StudyError, listed};
-use crate::quantity::{DOUBT, StateQuantity, larger};
+use crate::quantity::{DOUBT, StateQuantity};
 use crate::report::StudyReport;
-use crate::row::StudyRow;
+use crate::row::{StudyRow, largest};
 use eem_material::number::readable::Readable;
 
 /// A recommendation for an accuracy; `Display` prints it in words.
@@ -143,7 +143,7 @@ impl StudyReport {
     /// The most accurate row.
     fn closest(&self, quantities: &[StateQuantity]) -> Option<&StudyRow> {
         let rows = self.rows.iter();
-        let rows = rows.filter_map(|row| Some((row, row.largest_difference(quantities)?)));
+        let rows = rows.filter_map(|row| Some((row, largest(&row.differences, quantities)?)));
         let rows = rows.filter(|(_, difference)| difference.is_finite());
         let least = rows.min_by(|a, b| a.1.total_cmp(&b.1));
         least.map(|(row, _)| row)
@@ -159,13 +159,6 @@ impl StudyRow {
         };
         let mut errors = quantities.iter().filter_map(error).peekable();
         errors.peek().is_some() && errors.all(|error| error <= accuracy)
-    }
-
-    fn largest_difference(&self, quantities: &[StateQuantity]) -> Option<f64> {
-        let there = quantities
-            .iter()
-            .filter_map(|quantity| self.differences[quantity.index()]);
-        there.reduce(larger)
     }
 }
 
@@ -209,9 +202,7 @@ impl fmt::Display for Recommendation<'_> {
             Advice::NoneReaches {
                 closest: Some(closest),
             } => {
-                let error = closest
-                    .largest_difference(&self.quantities)
-                    .unwrap_or(f64::NAN);
+                let error = largest(&closest.differences, &self.quantities).unwrap_or(f64::NAN);
                 let setting = closest.setting;
                 write!(
                     f,

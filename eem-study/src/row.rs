@@ -79,8 +79,9 @@ impl StudyRow {
     /// The statement about the largest error of all kinds. It can be stated even if a much smaller one is not.
     #[must_use]
     pub fn largest_error(&self) -> Statement {
-        match (largest(&self.differences), largest(&self.doubts)) {
-            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
+        let all = [&self.differences, &self.doubts];
+        match all.map(|numbers| largest(numbers, &StateQuantity::ALL)) {
+            [Some(difference), Some(doubt)] => Statement::of(difference, doubt),
             _ => Statement::Absent,
         }
     }
@@ -131,8 +132,10 @@ impl Statement {
     }
 }
 
-/// The largest number; NaN if there is one.
-fn largest(numbers: &PerQuantity) -> Option<f64> {
-    let there = numbers.iter().copied().flatten();
+/// The largest number of these kinds; NaN if there is one.
+pub(crate) fn largest(numbers: &PerQuantity, quantities: &[StateQuantity]) -> Option<f64> {
+    let there = quantities
+        .iter()
+        .filter_map(|quantity| numbers[quantity.index()]);
     there.reduce(larger)
 }

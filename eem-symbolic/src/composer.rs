@@ -29,8 +29,6 @@ impl From<Value> for Signed {
     }
 }
 
-impl Signed {}
-
 impl Signed {
     pub(crate) fn negated(self) -> Self {
         let negative = !self.negative;

@@ -107,6 +107,17 @@ pub(crate) const WORDS: [&str; 96] = [
     "max(",
 ];
 
+/// The first byte, and the text of at most so many others; if the first is odd they are numbers of [`WORDS`], or `other`.
+pub(crate) fn decode(data: &[u8], most: usize, other: &str) -> Option<(u8, String)> {
+    let (&kind, data) = data.split_first()?;
+    let data = &data[..data.len().min(most)];
+    if kind % 2 == 0 {
+        return Some((kind, String::from_utf8_lossy(data).into_owned()));
+    }
+    let word = |&byte: &u8| WORDS.get(usize::from(byte)).copied().unwrap_or(other);
+    Some((kind, data.iter().map(word).collect()))
+}
+
 /// A struct with the first line as its free energy and the second as the law of its dashpot. If
 /// the first byte is odd, the bytes are numbers of [`WORDS`].
 ///
@@ -114,15 +125,8 @@ pub(crate) const WORDS: [&str; 96] = [
 ///
 /// If the front end does, if what it prints is not Rust, or not the same twice.
 pub fn expression(data: &[u8]) {
-    let Some((&kind, data)) = data.split_first() else {
+    let Some((kind, text)) = decode(data, LONGEST, "\n") else {
         return;
-    };
-    let data = &data[..data.len().min(LONGEST)];
-    let text = if kind % 2 == 0 {
-        String::from_utf8_lossy(data).into_owned()
-    } else {
-        let word = |&byte: &u8| WORDS.get(usize::from(byte)).copied().unwrap_or("\n");
-        data.iter().map(word).collect()
     };
     if depth(&text) > DEEPEST {
         return;

@@ -2,31 +2,24 @@
 
 use eem_language::text::{Compiled, Fault, Faults, Part, Source, compile};
 
-use crate::expressions::WORDS;
+use crate::expressions::decode;
 
 /// Bytes beyond this are ignored: longer texts are refused.
 const LONGEST: usize = 70_000;
 /// Of longer texts no programs are made: the longest would take seconds.
 const LONGEST_WITH_PROGRAMS: usize = 600;
 /// What ends a part.
-const END: char = '~';
+const END: &str = "~";
 
 /// A source with the texts before each `~`: ψ, then the names and laws of viscosities, whose number is in the first byte,
-/// then names and units of parameters. If the first byte is odd, the bytes are numbers of [`WORDS`].
+/// then names and units of parameters. If the first byte is odd, the bytes are numbers of words.
 ///
 /// # Panics
 ///
 /// If reading does, if a place is outside of its text, or if the answer is not the same twice.
 pub fn text(data: &[u8]) {
-    let Some((&kind, data)) = data.split_first() else {
+    let Some((kind, text)) = decode(data, LONGEST, END) else {
         return;
-    };
-    let data = &data[..data.len().min(LONGEST)];
-    let text = if kind % 2 == 0 {
-        String::from_utf8_lossy(data).into_owned()
-    } else {
-        let word = |&byte: &u8| WORDS.get(usize::from(byte)).copied().unwrap_or("~");
-        data.iter().map(word).collect()
     };
     let source = source(&text, usize::from(kind / 2 % 4));
     let answer = compile(&source);

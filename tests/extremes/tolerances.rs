@@ -1,7 +1,8 @@
 //! Errors at the end of random scenes, in units of the tolerance that their steps were controlled by.
 
+use eem::EndState;
 use eem::prelude::*;
-use eem::{EndState, StateQuantity};
+use eem_testkit::scenes::largest_error;
 
 use super::drawing::{Class, Drawing};
 use super::random::Random;
@@ -32,8 +33,7 @@ fn errors<const N: usize>(index: u64, schemes: [Scheme; N]) -> [f64; N] {
     let exact = run(Scheme::EemExplicit, Tolerance::new(EXACT));
     schemes.map(|scheme| {
         let own = run(scheme, Tolerance::new(TOLERANCE).over(end));
-        let errors = StateQuantity::ALL.map(|quantity| own.difference(&exact, quantity));
-        errors.into_iter().flatten().fold(0.0, f64::max) / TOLERANCE
+        largest_error(&own, &exact) / TOLERANCE
     })
 }
 

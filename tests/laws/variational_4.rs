@@ -7,9 +7,7 @@ use eem_testkit::length::at_length;
 use eem_testkit::table;
 
 use crate::support::orders::{exact_row, slope, step_to};
-use crate::support::{
-    DoublePendulum, Hencky, Laws, ThermoViscoElastic, pendulums_in_contact, single_pendulum,
-};
+use crate::support::{DoublePendulum, Laws, in_air, pendulums_in_contact, single_pendulum};
 
 const SCHEME: Scheme = Scheme::Variational4;
 
@@ -153,24 +151,8 @@ fn stiff_conduction_converges_and_keeps_momenta_and_the_second_law() {
 
 /// A scene with everything in it that can act on it from outside.
 fn busy_scene(step: f64) -> (Simulation<2>, Vec<Node>, Vec<Element>) {
-    let mut scene = Scene::<2>::new();
-    let support = scene.anchor([0.0, 0.0]);
-    let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
-    let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
-    let warm = scene.spring(ThermoViscoElastic::PENDULUM, [support, bob]);
-    let kept = scene.spring(ThermoViscoElastic::PENDULUM, [bob, tail]);
-    let hencky = Hencky {
-        stiffness: 30.0,
-        natural_length: 1.5,
-    };
-    scene.spring(hencky, [support, tail]);
-    scene.set_temperature(warm, 320.0);
-    scene.set_temperature(kept, 310.0);
+    let (mut scene, [support, bob, tail], [warm, kept]) = in_air();
     scene.prescribe_temperature(kept, |t| 310.0 + 15.0 * (8.0 * t).sin());
-    scene.conduct(warm, kept, 3.0);
-    let air = scene.reservoir(300.0);
-    scene.conduct(warm, air, 10.0);
-    scene.set_gravity([0.0, -9.81]);
     scene.dead_load(tail, [1.0, 0.0]);
     scene.force(bob, |t| [10.0 * (9.0 * t).sin(), 0.2]);
     scene.move_anchor(support, |t| {

@@ -15,6 +15,10 @@ mod describing;
 mod domain;
 mod generics;
 mod hygiene;
+#[cfg(feature = "gradients")]
+#[path = "../random_expressions/kernels.rs"]
+#[allow(dead_code, reason = "other tests bound its errors")]
+mod kernels;
 mod legal_forms;
 pub mod lint_silence;
 mod named_numbers;

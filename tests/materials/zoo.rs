@@ -13,8 +13,6 @@ mod digits;
 mod dual;
 mod expression;
 mod families;
-#[cfg(feature = "gradients")]
-mod generated;
 mod homes;
 mod number;
 #[cfg(feature = "gradients")]

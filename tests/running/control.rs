@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicI32, Ordering};
 use eem::prelude::*;
 use eem::{EndState, RunEnd, SceneError, StateQuantity, StepFailure, Tolerance};
 
-use crate::support::{single_pendulum, single_pendulum_scene};
+use crate::support::{largest_error, single_pendulum, single_pendulum_scene};
 
 fn controlled(scheme: Scheme, tolerance: f64) -> Simulation<2> {
     let mut run = single_pendulum(scheme, 0.05).run;
@@ -28,17 +28,6 @@ fn exact() -> EndState {
     EndState::of(&run)
 }
 
-fn largest_difference(run: &Simulation<2>, exact: &EndState) -> f64 {
-    let own = EndState::of(run);
-    let kinds = [
-        StateQuantity::Positions,
-        StateQuantity::Momenta,
-        StateQuantity::Temperatures,
-    ];
-    let differences = kinds.map(|kind| own.difference(exact, kind).unwrap());
-    differences.into_iter().fold(0.0, f64::max)
-}
-
 #[test]
 fn errors_are_proportional_to_tolerances() {
     let exact = exact();
@@ -51,7 +40,7 @@ fn errors_are_proportional_to_tolerances() {
         let errors = tolerances.map(|tolerance| {
             let mut run = controlled(scheme, tolerance);
             to(&mut run, 2.0);
-            let error = largest_difference(&run, &exact);
+            let error = largest_error(&EndState::of(&run), &exact);
             assert!(error < tolerance, "{scheme}: {error:e} at {tolerance:e}");
             error
         });
@@ -81,22 +70,9 @@ fn estimates_are_the_errors_of_the_steps() {
             fine.fix_steps();
             fine.set_step_size(report.step / 32.0).unwrap();
             to(&mut fine, report.time);
-            let [own, fine] = [run, &fine].map(EndState::of);
-            let norm = |quantity| {
-                let squares = fine.values(quantity).iter().map(|x| x * x);
-                squares.sum::<f64>().sqrt()
-            };
-            largest_momentum = largest_momentum.max(norm(StateQuantity::Momenta));
-            let length = norm(StateQuantity::Positions);
-            let mut error = own.difference(&fine, StateQuantity::Temperatures).unwrap();
-            for (quantity, scale) in [
-                (StateQuantity::Positions, length),
-                (StateQuantity::ViscousStretches, length),
-                (StateQuantity::Momenta, largest_momentum),
-            ] {
-                let pairs = own.values(quantity).iter().zip(fine.values(quantity));
-                error = pairs.fold(error, |error, (a, b)| error.max((a - b).abs() / scale));
-            }
+            largest_momentum = largest_momentum.max(fine.largest_momentum());
+            let fine = EndState::of(&fine).with_largest_momentum(largest_momentum);
+            let error = largest_error(&EndState::of(run), &fine);
             ratios.push(report.error * tolerance.powf(1.0 + 1.0 / order) / error);
             before = run.checkpoint();
             ControlFlow::Continue(())
@@ -115,7 +91,7 @@ fn the_explicit_scheme_is_as_accurate_as_it_is_asked_to_be() {
     for tolerance in [1e-2, 1e-3, 1e-4, 1e-6, 1e-8] {
         let mut run = controlled(Scheme::EemExplicit, tolerance);
         to(&mut run, 2.0);
-        let error = largest_difference(&run, &exact);
+        let error = largest_error(&EndState::of(&run), &exact);
         // The reference is known to 1e-12.
         assert!(error < tolerance.max(1e-11), "{error:e} at {tolerance:e}");
         assert!(run.step_statistics().unwrap().accepted < 150);

@@ -3,21 +3,15 @@
 use std::ops::ControlFlow;
 
 use eem::prelude::*;
-use eem::{EndState, StateQuantity, Tolerance};
+use eem::{EndState, Tolerance};
 
-use crate::support::{DoublePendulum, single_pendulum_scene};
+use crate::support::{DoublePendulum, largest_error, single_pendulum_scene};
 
 /// The longest step of what is exact, s; conduction of the case `romero` is stable below 0.05 s.
 const LONGEST: f64 = 0.02;
 
 /// What the errors of all steps may add up to, in tolerances.
 const SUMS: [f64; 2] = [0.1, 3.0];
-
-/// The largest error of a kind, in units of a tolerance.
-fn error([own, exact]: [&EndState; 2], tolerance: f64) -> f64 {
-    let errors = StateQuantity::ALL.map(|quantity| own.difference(exact, quantity));
-    errors.into_iter().flatten().fold(0.0, f64::max) / tolerance
-}
 
 /// The sum of the errors of all steps, and the error at the end, in tolerances. Steps are compared with shorter ones of
 /// order 8 from the same state, the end with a run at a tolerance of 1e-13.
@@ -43,7 +37,7 @@ fn errors<const D: usize>(
         fine.run_until(report.time).unwrap();
         momentum = momentum.max(fine.largest_momentum());
         let exact = EndState::of(&fine).with_largest_momentum(momentum);
-        sum += error([&EndState::of(run), &exact], relative);
+        sum += largest_error(&EndState::of(run), &exact) / relative;
         before = run.checkpoint();
         ControlFlow::Continue(())
     })
@@ -51,10 +45,8 @@ fn errors<const D: usize>(
     let mut exact = new(Scheme::EemExplicit);
     exact.control_steps(Tolerance::new(1e-13)).unwrap();
     exact.run_until(end).unwrap();
-    [
-        sum,
-        error([&EndState::of(&run), &EndState::of(&exact)], relative),
-    ]
+    let error = largest_error(&EndState::of(&run), &EndState::of(&exact));
+    [sum, error / relative]
 }
 
 #[test]

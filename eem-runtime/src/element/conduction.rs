@@ -113,18 +113,16 @@ impl<S: Real> Conduction<S> {
         (link as usize, is_second)
     }
 
-    /// Number of paths.
+    /// The slot at which each path begins, and its partner.
     #[cfg(feature = "gradients")]
-    pub(crate) const fn path_count(&self) -> usize {
-        self.paths.len()
-    }
-
-    /// The slot at which a link begins, and its partner.
-    #[cfg(feature = "gradients")]
-    pub(crate) fn ends_of(&self, link: usize) -> (usize, Partner) {
-        let mut slots = self.ranges.iter();
-        let slot = slots.position(|&[_, end]| link < end as usize);
-        (slot.unwrap_or(0), self.links[link].partner)
+    pub(crate) fn path_ends(&self) -> Vec<(usize, Partner)> {
+        let slots = self.ranges.iter().enumerate();
+        let of_links = slots.flat_map(|(slot, &[start, end])| (start..end).map(move |_| slot));
+        let of_links: Vec<usize> = of_links.collect();
+        let links = self.paths.iter().map(|&(link, _)| link as usize);
+        links
+            .map(|link| (of_links[link], self.links[link].partner))
+            .collect()
     }
 
     /// The first link of a slot.

@@ -315,7 +315,7 @@ impl<S: Real> Place<'_, S> {
         let Some(slot) = local.point.slots.thermal else {
             return;
         };
-        let entropy = local.point.dashpots;
+        let entropy = local.point.dashpots();
         for link in self.conduction.links(slot) {
             let Partner::Slot(other) = link.partner else {
                 continue;
@@ -414,11 +414,11 @@ impl<S: Real> Place<'_, S> {
                 }
             }
         }
-        for k in 0..point.dashpots {
+        for k in 0..point.dashpots() {
             old.viscous[point.slots.viscous + k] -= by_old[outer + k];
         }
         if let Some(slot) = point.slots.thermal {
-            old.temperatures[slot] -= by_old[outer + point.dashpots];
+            old.temperatures[slot] -= by_old[outer + point.dashpots()];
         }
     }
 }
@@ -426,7 +426,7 @@ impl<S: Real> Place<'_, S> {
 /// The derivatives by γ and θ of a point.
 fn inner_of<S: Real, const D: usize>(point: &PointStep<S, D>, costate: &Costate<S>) -> Vec<S> {
     let first = point.slots.viscous;
-    let mut inner = costate.viscous[first..first + point.dashpots].to_vec();
+    let mut inner = costate.viscous[first..first + point.dashpots()].to_vec();
     inner.extend(point.slots.thermal.map(|slot| costate.temperatures[slot]));
     inner
 }

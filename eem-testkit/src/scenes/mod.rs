@@ -7,7 +7,7 @@ pub mod solids;
 
 pub use eem::materials::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
 use eem::prelude::*;
-use eem::{Real, RefusedScene};
+use eem::{EndState, Real, RefusedScene, StateQuantity};
 
 /// The only thing for which a scene is refused.
 pub fn only_error<const D: usize>(refused: Result<Simulation<D>, RefusedScene<D>>) -> SceneError {
@@ -29,8 +29,9 @@ pub const EXACT: [Scheme; 7] = [
     Scheme::Auto,
 ];
 
-/// A scene with everything in it: two models, gravity, a pushed mass, a moved anchor, a thermostat.
-pub fn busy() -> Scene<2> {
+/// Springs of two models between an anchor and two masses, in contact and in air, under gravity: the scene, its nodes, and the
+/// springs with a temperature, of which the second is to be kept at one.
+pub fn in_air() -> (Scene<2>, [Node; 3], [Element; 2]) {
     let mut scene = Scene::<2>::new();
     let support = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
@@ -44,14 +45,26 @@ pub fn busy() -> Scene<2> {
     scene.spring(hencky, [support, tail]);
     scene.set_temperature(warm, 320.0);
     scene.set_temperature(kept, 310.0);
-    scene.prescribe_temperature(kept, |t| 310.0 + 5.0 * t.sin());
     scene.conduct(warm, kept, 3.0);
     let air = scene.reservoir(300.0);
     scene.conduct(warm, air, 10.0);
     scene.set_gravity([0.0, -9.81]);
+    (scene, [support, bob, tail], [warm, kept])
+}
+
+/// The same with a pushed mass, a moved anchor and a thermostat.
+pub fn busy() -> Scene<2> {
+    let (mut scene, [support, bob, _], [_, kept]) = in_air();
+    scene.prescribe_temperature(kept, |t| 310.0 + 5.0 * t.sin());
     scene.force(bob, |t| [(3.0 * t).sin(), 0.2]);
     scene.move_anchor(support, |t| [0.1 * (2.0 * t).sin(), 0.0]);
     scene
+}
+
+/// The largest error of a state in any kind of quantity, relative as in studies.
+pub fn largest_error(own: &EndState, exact: &EndState) -> f64 {
+    let errors = StateQuantity::ALL.map(|quantity| own.difference(exact, quantity));
+    errors.into_iter().flatten().fold(0.0, f64::max)
 }
 
 /// A run with the handles of what is in it.

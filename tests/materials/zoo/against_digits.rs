@@ -3,7 +3,7 @@
 
 use eem_symbolic::{Bounded, Programs};
 
-use crate::zoo::bounds::{self, Output, Worst, assert_none};
+use crate::zoo::bounds::{self, Output, Worst, assert_all};
 use crate::zoo::digits::{Law, exact};
 use crate::zoo::families;
 use crate::zoo::number::Value;
@@ -40,17 +40,7 @@ fn compare_points(specimen: &dyn Specimen, programs: &Programs, worst: &mut Wors
 
 #[test]
 fn functions_of_a_state_have_the_digits_of_the_exact_ones() {
-    let mut wrong = Vec::new();
-    for specimen in families::all() {
-        let (programs, mut worst) = (specimen.symbolic().programs(), Worst::default());
-        wrong.extend(compare_points(&*specimen, &programs, &mut worst));
-        let Worst { of_bound, ulps } = worst;
-        println!(
-            "{:22} {of_bound:.2} of the bound, {ulps:.1} ulp",
-            specimen.name()
-        );
-    }
-    assert_none(&wrong);
+    assert_all(compare_points);
 }
 
 /// Units of ε that a magnitude of ψ stands for.
@@ -109,17 +99,7 @@ fn compare_forms(specimen: &dyn Specimen, programs: &Programs, worst: &mut Worst
 
 #[test]
 fn discrete_derivatives_have_the_digits_of_the_exact_ones() {
-    let mut wrong = Vec::new();
-    for specimen in families::all() {
-        let (programs, mut worst) = (specimen.symbolic().programs(), Worst::default());
-        wrong.extend(compare_forms(&*specimen, &programs, &mut worst));
-        let Worst { of_bound, ulps } = worst;
-        println!(
-            "{:22} {of_bound:.2} of the bound, {ulps:.1} ulp",
-            specimen.name()
-        );
-    }
-    assert_none(&wrong);
+    assert_all(compare_forms);
 }
 
 /// Entry i of the result is `∂(response i)/∂x¹_j`.
@@ -166,15 +146,5 @@ fn compare_tangents(
 
 #[test]
 fn tangents_have_the_digits_of_the_exact_ones() {
-    let mut wrong = Vec::new();
-    for specimen in families::all() {
-        let (programs, mut worst) = (specimen.symbolic().programs(), Worst::default());
-        wrong.extend(compare_tangents(&*specimen, &programs, &mut worst));
-        let Worst { of_bound, ulps } = worst;
-        println!(
-            "{:22} {of_bound:.2} of the bound, {ulps:.1} ulp",
-            specimen.name()
-        );
-    }
-    assert_none(&wrong);
+    assert_all(compare_tangents);
 }

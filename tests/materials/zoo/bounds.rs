@@ -5,6 +5,7 @@
 
 use eem_symbolic::{Bounded, Program, Programs, RunningError};
 
+use crate::zoo::families;
 use crate::zoo::specimen::Specimen;
 use crate::zoo::states::Corner;
 
@@ -148,6 +149,23 @@ impl Worst {
             )
         })
     }
+}
+
+/// Compares every specimen with an oracle, prints how far off it was at most, and fails with everything that is wrong.
+pub(crate) fn assert_all(
+    mut compare: impl FnMut(&dyn Specimen, &Programs, &mut Worst) -> Vec<String>,
+) {
+    let mut wrong = Vec::new();
+    for specimen in families::all() {
+        let (programs, mut worst) = (specimen.symbolic().programs(), Worst::default());
+        wrong.extend(compare(&*specimen, &programs, &mut worst));
+        let Worst { of_bound, ulps } = worst;
+        println!(
+            "{:22} {of_bound:.2} of the bound, {ulps:.1} ulp",
+            specimen.name()
+        );
+    }
+    assert_none(&wrong);
 }
 
 /// Fails with everything that is wrong.

@@ -276,7 +276,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     fn by_parameters(
         &self,
         states: [&State<S>; 2],
-        weights: &mut dyn FnMut() -> PointWeights<S>,
+        weights: &mut dyn Iterator<Item = PointWeights<S>>,
         see: &mut SeeParameters<'_, S>,
     ) -> Result<(), StateError> {
         Self::by_parameters(self, states, weights, see)

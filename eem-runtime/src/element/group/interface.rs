@@ -164,7 +164,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     fn by_parameters(
         &self,
         _states: [&State<S>; 2],
-        _weights: &mut dyn FnMut() -> PointWeights<S>,
+        _weights: &mut dyn Iterator<Item = PointWeights<S>>,
         _see: &mut SeeParameters<'_, S>,
     ) -> Result<(), StateError> {
         Ok(())

@@ -8,10 +8,6 @@ use crate::element::layout::Slots;
 pub(crate) struct PointStep<S, const D: usize> {
     pub(crate) nodes: Vec<u32>,
     pub(crate) slots: Slots,
-    /// Numbers of measures, dashpots in series and dashpots in parallel.
-    pub(crate) measures: usize,
-    pub(crate) dashpots: usize,
-    pub(crate) drags: usize,
     /// θ*, K; zero without temperature.
     pub(crate) temperature: S,
     /// The derivatives of `(f*, g*, θ*, Δs)` by the variables of the old state and of the new one.
@@ -30,22 +26,21 @@ pub(crate) struct PointStep<S, const D: usize> {
     pub(crate) drag: [Vec<S>; 2],
 }
 
-/// The weights of a point in the derivatives by parameters: of its response, of the viscosities in series and in parallel.
+impl<S, const D: usize> PointStep<S, D> {
+    /// Number of dashpots in series.
+    pub(crate) const fn dashpots(&self) -> usize {
+        self.creep.len()
+    }
+}
+
+/// The weights of a point in the derivatives by parameters: of its response, of the viscosities in series and in parallel, with
+/// θ*, K, at which these are.
 #[derive(Clone, Debug)]
 pub(crate) struct PointWeights<S> {
+    pub(crate) temperature: S,
     pub(crate) response: Vec<S>,
     pub(crate) viscosities: Vec<S>,
     pub(crate) drag: Vec<S>,
-}
-
-impl<S> PointWeights<S> {
-    pub(crate) const fn none() -> Self {
-        Self {
-            response: Vec::new(),
-            viscosities: Vec::new(),
-            drag: Vec::new(),
-        }
-    }
 }
 
 /// What receives the derivatives by the parameters of each element.

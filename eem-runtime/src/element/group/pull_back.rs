@@ -44,16 +44,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     pub(super) fn by_parameters(
         &self,
         states: [&State<S>; 2],
-        weights: &mut dyn FnMut() -> PointWeights<S>,
+        weights: &mut dyn Iterator<Item = PointWeights<S>>,
         see: &mut SeeParameters<'_, S>,
     ) -> Result<(), StateError> {
-        for member in &self.members {
-            for point in member.points.as_ref() {
-                let [x0, x1] =
-                    states.map(|state| point.variables_in(&member.arms_in(state), state));
-                let by = point.by_parameters([&x0, &x1], &weights())?;
-                see(point.element, by.as_ref());
-            }
+        let members = self.members.iter();
+        let points =
+            members.flat_map(|member| member.points.as_ref().iter().map(move |p| (member, p)));
+        for ((member, point), weights) in points.zip(weights) {
+            let [x0, x1] = states.map(|state| point.variables_in(&member.arms_in(state), state));
+            let by = point.by_parameters([&x0, &x1], &weights)?;
+            see(point.element, by.as_ref());
         }
         Ok(())
     }
@@ -137,9 +137,6 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(PointStep {
             nodes: member.site.nodes.as_ref().to_vec(),
             slots: self.slots(),
-            measures: M::MEASURES,
-            dashpots: M::DASHPOTS,
-            drags: M::Drag::LEN,
             temperature: theta,
             slopes,
             gradients: [0, 1].map(|end| by_measure::<K, S, D>(&gradient(end))),
@@ -159,10 +156,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         x: [&M::Variables; 2],
         weights: &PointWeights<S>,
     ) -> Result<M::Parameters, StateError> {
-        let (start, memory) = self.start(x)?;
+        let (_, memory) = self.start(x)?;
         let response: M::Response = filled(&weights.response);
-        let theta = self.scheme.response(&self.model, &start, x[1], &memory);
-        let theta = temperature_in::<S, M>(&theta);
+        let theta = weights.temperature;
         let mut sum = self.scheme.form_adjoint(&self.model, x, &memory, &response);
         let viscosities = self
             .model

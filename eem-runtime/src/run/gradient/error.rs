@@ -11,11 +11,11 @@ use eem_material::number::readable::Readable;
 #[non_exhaustive]
 pub enum GradientError {
     /// The scheme has no adjoint.
-    #[error("{scheme} has no adjoint, and made a step to t = {} s; take eem-temperature or eem-entropy", Readable(*time))]
+    #[error("{scheme} has no adjoint, and is used at t = {} s; take eem-temperature or eem-entropy", Readable(*time))]
     NoAdjoint {
         /// The name of the scheme.
         scheme: &'static str,
-        /// The time at the end of the first such step, s.
+        /// The time at the end of the first such step, or now, s.
         time: f64,
     },
     /// Something in the scene has no adjoint.

@@ -41,12 +41,9 @@ pub(crate) struct KeptStep<S> {
 pub(crate) struct Kept<S> {
     pub(crate) first: State<S>,
     pub(crate) steps: Vec<KeptStep<S>>,
-    allowed: usize,
+    /// The bytes that all steps may take, and those of one.
+    pub(crate) allowed: usize,
     pub(crate) needed: usize,
-    /// Whether steps were lost for want of memory.
-    pub(crate) is_full: bool,
-    /// The time of the last state that follows from the first one, s.
-    pub(crate) broken: Option<S>,
 }
 
 impl<S: Real> Kept<S> {
@@ -67,14 +64,12 @@ impl<S: Real> Kept<S> {
             steps: Vec::new(),
             allowed: history.bytes,
             needed: size_of::<KeptStep<S>>() + energies + numbers * size_of::<S>(),
-            is_full: false,
-            broken: None,
         }
     }
 
-    /// The bytes that are allowed.
-    pub(crate) const fn allowed(&self) -> usize {
-        self.allowed
+    /// Whether there is no memory for another step.
+    pub(crate) fn is_full(&self) -> bool {
+        (self.steps.len() + 1).saturating_mul(self.needed) > self.allowed
     }
 
     /// The time of the last state, s.
@@ -87,22 +82,14 @@ impl<S: Real> Kept<S> {
     pub(crate) fn return_to(&mut self, time: S) {
         while !self.steps.is_empty() && time.less(self.time()).all() {
             self.steps.pop();
-            self.is_full = false;
         }
     }
 
-    /// Keeps a step of this size between two states.
+    /// Keeps a step of this size between two states. Nothing if the first one is not the last that was kept, as after a step that
+    /// did not fit in memory.
     pub(crate) fn keep(&mut self, step: S, scheme: Scheme, [old, state]: [&State<S>; 2]) {
         self.return_to(old.time.value);
-        if self.is_full || self.broken.is_some() {
-            return;
-        }
-        if !self.ends_in(old) {
-            self.broken = Some(self.time());
-            return;
-        }
-        if (self.steps.len() + 1).saturating_mul(self.needed) > self.allowed {
-            self.is_full = true;
+        if self.is_full() || !self.ends_in(old) {
             return;
         }
         self.steps.push(KeptStep {

@@ -8,7 +8,6 @@ use std::collections::BTreeSet;
 use super::Simulation;
 use super::stepper::{Parts, Stepper};
 use crate::element::conduction::Partner;
-use crate::element::group::PointWeights;
 use crate::element::layout::Layout;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
@@ -40,13 +39,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// materials, masses, gravity, conductances, temperatures of reservoirs, and the state at the start.
     ///
     /// They are those of the steps that were made, with their sizes kept, to rounding times the growth of errors along the
-    /// motion. All of them together cost about as much as the run.
+    /// motion. All of them together cost a few runs, however many inputs there are.
     ///
     /// # Errors
     ///
     /// [`GradientError`]: for steps of other schemes than [`Scheme::EemTemperature`] or [`Scheme::EemEntropy`]; for moved
-    /// anchors beside solids with consistent mass, rockets and ovens; without a history, or with one that does not end at the present state; for a
-    /// quantity without derivatives or a time at which no step ends. Nothing has changed then.
+    /// anchors beside solids with consistent mass, rockets and ovens; without a history, or with one that does not end at the
+    /// present state; for a quantity without derivatives or a time at which no step ends. Nothing has changed then.
     ///
     /// ```
     /// use eem::prelude::*;
@@ -101,6 +100,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 held[slot] = true;
             }
         }
+        let paths = self.conduction.path_ends();
         let ends = self.ends();
         let parts = Parts {
             scheme: self.in_use,
@@ -141,12 +141,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             if old.numbers().any(|number| !number.is_finite()) {
                 return Err(GradientError::NotFinite { time });
             }
-            self.add_step((step, kept.state(index)), &costate, &weights, &mut found);
-            Self::add_series((step, kept.state(index)), (&layout, &weights), &mut found);
+            self.add_step((step, states[0]), (&paths, &costate), &weights, &mut found);
+            Self::add_series((step, states[0]), (&layout, &weights), &mut found);
             let mut of_points = mem::take(&mut weights.points).into_iter();
-            let mut next = || of_points.next().unwrap_or_else(PointWeights::none);
             for group in &newton.groups {
-                group.by_parameters(states, &mut next, &mut |element, values| {
+                group.by_parameters(states, &mut of_points, &mut |element, values| {
                     add(
                         &mut found.elements[element.index()].values,
                         S::one(),
@@ -155,7 +154,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 })?;
             }
             costate = old;
-            largest = largest.max(self.effect(&costate, kept.state(index)));
+            largest = largest.max(self.effect(&costate, states[0]));
             self.add_seeds(
                 kept,
                 (index, &seeds),
@@ -190,25 +189,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 return Err(GradientError::NotDifferentiable { what });
             }
         }
-        if kept.is_full {
+        let steps = kept.steps.iter();
+        let schemes = steps.map(|step| (step.scheme, step.state.time.value));
+        for (scheme, time) in schemes.clone().chain([(self.in_use, self.time())]) {
+            if !matches!(scheme, Scheme::EemTemperature | Scheme::EemEntropy) {
+                let (scheme, time) = (scheme.name(), time.to_f64());
+                return Err(GradientError::NoAdjoint { scheme, time });
+            }
+        }
+        let is_whole = kept.ends_in(&self.state);
+        if !is_whole && kept.is_full() {
             return Err(GradientError::HistoryTooLarge {
                 steps: kept.steps.len(),
                 needed: kept.needed,
-                allowed: kept.allowed(),
+                allowed: kept.allowed,
             });
         }
-        for step in &kept.steps {
-            if !matches!(step.scheme, Scheme::EemTemperature | Scheme::EemEntropy) {
-                return Err(GradientError::NoAdjoint {
-                    scheme: step.scheme.name(),
-                    time: step.state.time.value.to_f64(),
-                });
-            }
-        }
-        let others = kept.steps.iter().find(|step| step.scheme != self.in_use);
-        let other = others.map(|step| step.state.time.value);
-        let broken = (!kept.ends_in(&self.state)).then(|| kept.time());
-        match kept.broken.or(other).or(broken) {
+        let mut others = schemes.filter(|&(scheme, _)| scheme != self.in_use);
+        let other = others.next().map(|(_, time)| time);
+        match other.or_else(|| (!is_whole).then(|| kept.time())) {
             Some(time) => Err(GradientError::HistoryBroken {
                 time: time.to_f64(),
             }),
@@ -250,7 +249,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             start: Costate::zero(coordinates, layout, self.conduction.reservoirs.len()),
             masses: vec![S::zero(); self.masses.len()],
             gravity: SVector::from_element(S::zero()),
-            conductances: vec![S::zero(); self.conduction.path_count()],
+            conductances: vec![S::zero(); self.conduction.path_ends().len()],
             reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
             elements,
             forces: empty(self.loads.forces.iter().map(|(node, _)| node.index)),
@@ -290,7 +289,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn add_step(
         &self,
         (step, old): (&KeptStep<S>, &State<S>),
-        costate: &Costate<S>,
+        (paths, costate): (&[(usize, Partner)], &Costate<S>),
         weights: &StepWeights<S>,
         found: &mut Gradient<D, S>,
     ) {
@@ -318,9 +317,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 }
             }
         }
-        for (path, sum) in found.conductances.iter_mut().enumerate() {
-            let (link, _) = self.conduction.path(path);
-            let (slot, partner) = self.conduction.ends_of(link);
+        for (sum, &(slot, partner)) in found.conductances.iter_mut().zip(paths) {
             *sum += match partner {
                 Partner::Slot(other) => {
                     h * (theta[other] - theta[slot]) * (per_theta(slot) - per_theta(other))

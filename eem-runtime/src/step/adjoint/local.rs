@@ -48,7 +48,7 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
 
     /// γ and θ.
     pub(super) fn inner(&self) -> usize {
-        self.point.dashpots + usize::from(self.is_thermal())
+        self.point.dashpots() + usize::from(self.is_thermal())
     }
 
     /// `D*π_a · w` of each measure.
@@ -63,7 +63,7 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
 
     /// The weight of its entropy balance, or of its temperature where that is held; zero for the other one.
     pub(super) fn heat_weights(&self, weights: &[S]) -> [S; 2] {
-        let at = self.outer() + self.point.dashpots;
+        let at = self.outer() + self.point.dashpots();
         let own = weights.get(at).copied().unwrap_or(S::zero());
         if self.is_held {
             [S::zero(), own]
@@ -97,8 +97,8 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
         let entropy = self.entropy_weight(weights);
         let two = S::from_f64(2.0);
         let mut response: Vec<S> = along.iter().map(|&along| h * along).collect();
-        let mut extension = vec![S::zero(); point.measures];
-        let mut creep = vec![S::zero(); point.dashpots];
+        let mut extension = vec![S::zero(); point.extension.len()];
+        let mut creep = vec![S::zero(); point.dashpots()];
         let theta = point.temperature;
         // Without a temperature there is no entropy balance.
         let per_theta = if self.is_thermal() {
@@ -116,7 +116,7 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
             by_theta += own * eta_slope[k] * rate;
             *creep = own * eta[k] / h - two * entropy * eta[k] * rate * per_theta;
         }
-        for a in 0..point.drags {
+        for a in 0..drag.len() {
             let rate = point.extension[a] / h;
             by_theta += drag_slope[a] * point.extension[a] * along[a];
             extension[a] = drag[a] * along[a] - two * entropy * drag[a] * rate * per_theta;
@@ -143,7 +143,8 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
     pub(super) fn pull(&self, end: usize, weights: &[S], reservoirs: S) -> Vec<S> {
         let (point, arms) = (self.point, self.arms());
         let by = self.response_weights(weights, reservoirs);
-        let variables = point.measures + self.inner();
+        let measures = point.extension.len();
+        let variables = measures + self.inner();
         let mut slopes = vec![S::zero(); variables];
         for (row, &weight) in point.slopes[end].iter().zip(&by.response) {
             for (slope, &entry) in slopes.iter_mut().zip(row) {
@@ -171,9 +172,9 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
             pulled[arms] = weights[arms] + self.per_heat() * self.heat.to_elements * entropy;
         }
         let outer = self.outer();
-        pulled[outer..].copy_from_slice(&slopes[point.measures..]);
+        pulled[outer..].copy_from_slice(&slopes[measures..]);
         if self.is_held && end == 1 {
-            pulled[outer + point.dashpots] += self.heat_weights(weights)[1];
+            pulled[outer + point.dashpots()] += self.heat_weights(weights)[1];
         }
         pulled
     }
@@ -200,8 +201,9 @@ impl<S: Real, const D: usize> LocalStep<'_, S, D> {
         let along = self.along(weights);
         let creep = point.creep.iter().enumerate();
         let viscosities = creep.map(|(k, &creep)| of(weights[self.outer() + k] / self.step, creep));
-        let drag = (0..point.drags).map(|a| of(along[a], point.extension[a]));
+        let drag = (0..point.drag[0].len()).map(|a| of(along[a], point.extension[a]));
         PointWeights {
+            temperature: point.temperature,
             response: by.response.iter().map(|&weight| -weight).collect(),
             viscosities: viscosities.map(|weight| -weight).collect(),
             drag: drag.map(|weight| -weight).collect(),

@@ -14,7 +14,7 @@ use crate::run::recorder::Quantity;
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
 use crate::step::adjoint::Costate;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real};
 use nalgebra::SVector;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -24,55 +24,29 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         kept: &Kept<S>,
         objective: &Objective<D, S>,
     ) -> Result<(f64, Vec<Vec<f64>>), GradientError> {
-        let states = kept.steps.len() + 1;
         let mut value = 0.0;
         let mut seeds = Vec::with_capacity(objective.terms.len());
         for term in &objective.terms {
-            let mut weights = vec![0.0; states];
-            let own = &mut weights;
-            value += term.factor
-                * match &term.when {
-                    When::End => self.count_in(kept, term, (states - 1, 1.0), own)?,
-                    When::At(time) => {
-                        self.count_in(kept, term, (end_of(kept, *time)?, 1.0), own)?
+            let mut weights = vec![0.0; kept.steps.len() + 1];
+            if let When::Misfit(records) = &term.when {
+                for &[time, datum, deviation] in records {
+                    let at = end_of(kept, time)?;
+                    let misfit = (self.value_at(kept, term, at)? - datum) / deviation;
+                    weights[at] += term.factor * misfit / deviation;
+                    value += 0.5 * term.factor * misfit * misfit;
+                }
+            } else {
+                share(kept, &term.when, &mut weights)?;
+                for (at, weight) in weights.iter_mut().enumerate() {
+                    if *weight != 0.0 {
+                        *weight *= term.factor;
+                        value += *weight * self.value_at(kept, term, at)?;
                     }
-                    When::Integral => {
-                        let mut sum = 0.0;
-                        for (index, step) in kept.steps.iter().enumerate() {
-                            let half = 0.5 * step.step.to_f64();
-                            sum += self.count_in(kept, term, (index, half), own)?;
-                            sum += self.count_in(kept, term, (index + 1, half), own)?;
-                        }
-                        sum
-                    }
-                    When::Misfit(records) => {
-                        let mut sum = 0.0;
-                        for &[time, datum, deviation] in records {
-                            let at = end_of(kept, time)?;
-                            let got = self.count_in(kept, term, (at, 0.0), own)?;
-                            let got = got + self.value_at(kept, term, at)?;
-                            let misfit = (got - datum) / deviation;
-                            own[at] += term.factor * misfit / deviation;
-                            sum += 0.5 * misfit * misfit;
-                        }
-                        sum
-                    }
-                };
+                }
+            }
             seeds.push(weights);
         }
         Ok((value, seeds))
-    }
-
-    /// A share of a quantity after so many steps, whose weight grows by the share.
-    fn count_in(
-        &mut self,
-        kept: &Kept<S>,
-        term: &Term<D, S>,
-        (steps, share): (usize, f64),
-        weights: &mut [f64],
-    ) -> Result<f64, GradientError> {
-        weights[steps] += term.factor * share;
-        Ok(share * self.value_at(kept, term, steps)?)
     }
 
     /// A quantity in a state of the history.
@@ -105,22 +79,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         objective: &Objective<D, S>,
         (layout, costate, found): (&Layout, &mut Costate<S>, &mut Gradient<D, S>),
     ) -> Result<(), GradientError> {
-        let anchors = costate.positions.clone();
+        let place = |costate: &Costate<S>, node: usize| {
+            SVector::<S, D>::from_fn(|axis, _| costate.positions[node * D + axis])
+        };
+        let motions = found.motions.iter();
+        let before: Vec<_> = motions.map(|&(node, _)| place(costate, node)).collect();
         for (term, weights) in objective.terms.iter().zip(seeds) {
             let weight = S::from_f64(weights[steps]);
-            self.add_seed(
-                kept,
-                (steps, weight),
-                term,
-                (layout, &mut *costate, &mut *found),
-            )?;
+            if !weight.equal(S::zero()).all() {
+                self.add_seed(
+                    kept,
+                    (steps, weight),
+                    term,
+                    (layout, &mut *costate, &mut *found),
+                )?;
+            }
         }
         let time = kept.state(steps).time.value;
-        for (node, series) in &mut found.motions {
-            let own = SVector::from_fn(|axis, _| {
-                let at = *node * D + axis;
-                costate.positions[at] - anchors[at]
-            });
+        for ((node, series), before) in found.motions.iter_mut().zip(before) {
+            let own = place(costate, *node) - before;
             match series.last_mut() {
                 Some((_, last)) => *last += own,
                 None => series.push((time, own)),
@@ -300,12 +277,35 @@ const ROUNDINGS: f64 = 4.0;
 /// The number of steps that end at a time.
 fn end_of<S: Real>(kept: &Kept<S>, time: f64) -> Result<usize, GradientError> {
     let of = |steps: usize| kept.state(steps).time.value.to_f64();
-    let all = 0..=kept.steps.len();
+    let steps = &kept.steps;
+    let before = steps.partition_point(|step| step.state.time.value.to_f64() < time);
+    let after = (before + 1).min(steps.len());
     let off = |&steps: &usize| (of(steps) - time).abs();
-    let nearest = all.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+    let nearest = if off(&before) <= off(&after) {
+        before
+    } else {
+        after
+    };
     if off(&nearest) <= ROUNDINGS * S::EPSILON.to_f64() * time.abs() {
         return Ok(nearest);
     }
     let nearest = of(nearest);
     Err(GradientError::NotAnEndOfStep { time, nearest })
+}
+
+/// The weights of a quantity in the states after each number of steps, where they do not depend on its values.
+fn share<S: Real>(kept: &Kept<S>, when: &When, weights: &mut [f64]) -> Result<(), GradientError> {
+    match when {
+        When::End => weights[kept.steps.len()] = 1.0,
+        When::At(time) => weights[end_of(kept, *time)?] = 1.0,
+        When::Integral => {
+            for (index, step) in kept.steps.iter().enumerate() {
+                let half = 0.5 * step.step.to_f64();
+                weights[index] += half;
+                weights[index + 1] += half;
+            }
+        }
+        When::Misfit(_) => {}
+    }
+    Ok(())
 }
