@@ -13,7 +13,7 @@ use eem_material::number::scalar::Scalar;
 
 use crate::error::LawError;
 use allocate::{Allocated, allocate};
-pub(crate) use fold::{Folded, fold};
+pub(crate) use fold::fold;
 use instruction::{Instruction, Register};
 pub(crate) use lower::Wanted;
 

@@ -230,7 +230,7 @@ fn three<A: eem::Material<f64>, B: eem::Material<f64>>(
 
 #[test]
 fn two_laws_of_one_shape_are_two_materials() {
-    let [a, b] = [ThermoViscoElastic::PENDULUM, ONE_DASHPOT];
+    let (a, b) = (ThermoViscoElastic::PENDULUM, ONE_DASHPOT);
     let derived = three(|| a.clone(), || b.clone());
     let typed = three(|| thermo_visco_elastic(&a), || one_dashpot(&b));
     assert_same_bits([&derived, &typed], 0.02);
