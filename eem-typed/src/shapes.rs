@@ -17,28 +17,33 @@ macro_rules! shapes {
         impl Law {
             /// Puts a spring of this law between two nodes of a scene, whatever its shape is.
             ///
-            /// The solver is compiled for each of the 16 shapes, as for 16 derived materials: some minutes, for every
-            /// dimension and type of numbers that a program calls this for. A program that knows the shapes of its laws
-            /// calls [`model`](Self::model) instead.
+            /// The solver is compiled for each of the 16 shapes, as for 16 derived materials, for every dimension and type of
+            /// numbers that a program calls this for. A program that knows the shapes of its laws calls
+            /// [`model`](Self::model) instead.
             ///
             /// # Errors
             ///
-            /// [`LawError::NotFinite`] if a value is not finite in the numbers of the scene, [`LawError::TooLarge`].
+            /// [`LawError::NotFinite`] if a value is not finite in the numbers of the scene, [`LawError::TooLarge`]. The scene
+            /// is not changed then.
             ///
-            /// ```no_run
+            /// ```
             /// use eem::prelude::*;
             /// use eem::typed::{Law, Source, compile};
             ///
-            /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-            /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
-            /// let law = Law::new(compile(&source)?, &[("k", 40.0)])?;
+            /// let elastic = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)");
+            /// let damped = elastic.clone().viscosity("lambda", "k / 20");
             /// let mut scene = Scene::<1>::new();
             /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0])];
-            /// let spring = law.add_spring(&mut scene, ends)?;
-            /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-            /// assert_eq!(run.force(spring)?, 20.0);
-            /// # Ok(())
-            /// # }
+            /// for source in [elastic, damped] {
+            ///     let law = Law::new(compile(&source.parameter("k", None))?, &[("k", 40.0)])?;
+            ///     law.add_spring(&mut scene, ends)?;
+            /// }
+            /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01)?;
+            /// run.run_until(5.0)?;
+            /// // ω² = 80/s², damping rate 1/s
+            /// let exact = 1.0 + 0.5 * (-5.0_f64).exp() * (79.0_f64.sqrt() * 5.0).cos();
+            /// assert!((run.position(ends[1])?[0] - exact).abs() < 1e-3);
+            /// # Ok::<(), Box<dyn std::error::Error>>(())
             /// ```
             pub fn add_spring<S: Real, const D: usize>(
                 &self,

@@ -68,11 +68,14 @@ impl<S: Scalar> Tape<S> {
     /// Evaluates the tape for inputs one after the other, into results one after the other.
     #[inline]
     pub(crate) fn run(&self, inputs: &[&[S]], results: &mut [&mut [S]]) {
-        match self.registers {
-            0..=SMALL => self.run_in::<SMALL>(inputs, results),
-            ..=MEDIUM => self.run_in::<MEDIUM>(inputs, results),
-            ..=LARGE => self.run_in::<LARGE>(inputs, results),
-            _ => self.run_in::<LARGEST>(inputs, results),
+        if self.registers <= SMALL {
+            self.run_in::<SMALL>(inputs, results);
+        } else if self.registers <= MEDIUM {
+            self.run_in::<MEDIUM>(inputs, results);
+        } else if self.registers <= LARGE {
+            self.run_in::<LARGE>(inputs, results);
+        } else {
+            self.run_in::<LARGEST>(inputs, results);
         }
     }
 

@@ -127,11 +127,10 @@ impl<const D: usize> Running<D> {
         }
     }
 
-    /// The certificate of a step, or why there is none.
-    fn step(&mut self) -> Result<String, String> {
-        let report = self.run.step();
-        let report = report.map(|report| format!("{report:?}"));
-        report.map_err(|error| error.to_string())
+    /// The certificate of a step with all digits, or why there is none.
+    fn step(&mut self) -> Result<String, StepError> {
+        let report = self.run.step()?;
+        Ok(format!("{report:?}"))
     }
 
     /// The bits of the state, and the ledger with all digits.
@@ -161,19 +160,20 @@ impl<const D: usize> Running<D> {
 fn assert_same_bits<const D: usize>([derived, typed]: [&Built<D>; 2], step: f64) {
     for scheme in Scheme::ALL.into_iter().chain([Scheme::Auto]) {
         let name = scheme.name();
+        // The explicit scheme is stable only in short steps.
+        let step = step
+            * if scheme == Scheme::EemExplicit {
+                0.1
+            } else {
+                1.0
+            };
         let mut derived = Running::new(derived, scheme, step);
         let mut typed = Running::new(typed, scheme, step);
-        let mut steps = 0;
-        while steps < STEPS {
-            let report = derived.step();
-            assert_eq!(report, typed.step(), "{name}, step {steps}");
-            assert_eq!(derived.state(), typed.state(), "{name}, step {steps}");
-            if report.is_err() {
-                break;
-            }
-            steps += 1;
+        for index in 0..STEPS {
+            let reports = [derived.step(), typed.step()].map(Result::unwrap);
+            assert_eq!(reports[0], reports[1], "{name}, step {index}");
+            assert_eq!(derived.state(), typed.state(), "{name}, step {index}");
         }
-        println!("{name}: {steps} steps");
     }
 }
 
@@ -193,7 +193,7 @@ fn single<M: eem::Material<f64>>(model: M) -> Built<2> {
 fn a_pendulum_of_texts_has_the_bits_of_the_derived_one() {
     let model = ThermoViscoElastic::PENDULUM;
     let typed = single(thermo_visco_elastic(&model));
-    assert_same_bits([&single(model), &typed], 0.05);
+    assert_same_bits([&single(model), &typed], 0.01);
 }
 
 #[test]

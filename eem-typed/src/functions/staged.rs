@@ -10,7 +10,7 @@ use crate::tape::{Tape, Wanted, fold};
 
 /// How many numbers of the old state a spring has room for. Where there are more, the old state itself is kept, and all is
 /// computed from it in every iteration.
-pub(crate) const KEPT: usize = 48;
+pub(crate) const KEPT: usize = 32;
 
 /// A function of what is old and what is new.
 #[derive(Debug)]

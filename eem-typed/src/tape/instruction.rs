@@ -87,7 +87,7 @@ impl<V: Copy> Action<V> {
 
 impl Instruction {
     /// Reads and writes registers, of which there are a power of two.
-    #[inline(always)]
+    #[inline]
     pub(crate) fn execute<S: Scalar, const P: usize>(&self, file: &mut [S; P]) {
         let place = |register: Register| usize::from(register) & (P - 1);
         let at = |register: Register| file[place(register)];
