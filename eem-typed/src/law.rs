@@ -145,12 +145,30 @@ impl Law {
     }
 
     /// The texts.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let source = Source::new("|lambda: Stretch| lambda.powi(2)");
+    /// assert_eq!(Law::new(compile(&source)?, &[])?.source(), &source);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn source(&self) -> &Source {
         self.compiled.source()
     }
 
-    /// The parameters that the formulas mention, and their values.
+    /// The parameters that the formulas mention, and their values, in the order of the source.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - l).powi(2)");
+    /// let compiled = compile(&source.parameter("l", None).parameter("k", None))?;
+    /// let law = Law::new(compiled, &[("k", 40.0), ("l", 2.0)])?;
+    /// assert_eq!(law.parameters().collect::<Vec<_>>(), [("l", 2.0), ("k", 40.0)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
         names(self.compiled.model()).zip(self.values.iter().copied())
     }
@@ -284,7 +302,7 @@ fn names(model: &Model) -> impl Iterator<Item = &str> {
 fn in_order(compiled: &Compiled, given: &[(&str, f64)]) -> Result<Vec<f64>, LawError> {
     let model = compiled.model();
     for (index, &(name, value)) in given.iter().enumerate() {
-        if !names(model).any(|known| known == name) && !is_declared(compiled, name) {
+        if !names(model).any(|known| known == name) && !is_spare(compiled, name) {
             let known: Vec<_> = names(model).map(|name| format!("`{name}`")).collect();
             let help = if known.is_empty() {
                 "there are none".to_owned()
@@ -318,21 +336,9 @@ fn in_order(compiled: &Compiled, given: &[(&str, f64)]) -> Result<Vec<f64>, LawE
     names(model).map(value).collect()
 }
 
-/// Whether this is an entry of an array that no formula mentions.
-fn is_declared(compiled: &Compiled, name: &str) -> bool {
-    let entry = |text: &'_ str| -> Option<(usize, usize)> {
-        let (array, index) = text.split_once('[')?;
-        let index = index.trim().strip_suffix(']')?;
-        Some((array.trim().len(), index.trim().parse().ok()?))
-    };
-    let Some((length, index)) = entry(name) else {
-        return false;
-    };
+/// Whether this is a parameter like `_k`, or an entry of one, which no formula has to mention.
+fn is_spare(compiled: &Compiled, name: &str) -> bool {
+    let base = |text: &'_ str| text.split('[').next().map(|base| base.trim().to_owned());
     let mut parameters = compiled.source().parameters();
-    parameters.any(|(text, _)| {
-        let array = entry(text);
-        array.is_some_and(|(other, count)| {
-            other == length && index < count && text.trim()[..other] == name.trim()[..length]
-        })
-    })
+    name.starts_with('_') && parameters.any(|(text, _)| base(text) == base(name))
 }
