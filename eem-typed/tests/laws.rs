@@ -1,6 +1,7 @@
 //! What is refused, and how: values, shapes and names of laws.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::float_cmp, reason = "the numbers are exact")]
 
 use eem::FreeEnergy;
 use eem::typed::{Compiled, Law, LawError, Source, Spring0, compile};

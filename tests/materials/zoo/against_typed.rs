@@ -35,104 +35,44 @@ fn bits<S: Real>(numbers: impl IntoIterator<Item = S>) -> Vec<u64> {
 }
 
 fn rows<S: Real, V: Array<S>, M: Array<V>>(first: &V, matrix: &M) -> Vec<u64> {
-    let rows = matrix.as_ref().iter().flat_map(|row| row.as_ref());
+    let rows = matrix.as_ref().iter().flat_map(AsRef::as_ref);
     bits(first.as_ref().iter().chain(rows).copied())
+}
+
+fn flat<S: Real, A: Array<S>>(arrays: &[A]) -> Vec<u64> {
+    bits(arrays.iter().flat_map(AsRef::as_ref).copied())
 }
 
 /// Everything that a free energy computes, at the new state and between both.
 pub(crate) fn everything<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
+    let mut all = of_state(model, at);
+    all.extend(of_step(model, at));
+    all
+}
+
+fn of_state<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
     let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<S, M::Variables>(x));
-    let corners: M::Corners = array(&at.corners);
     let last = M::Variables::LEN - 1;
     let (theta, none) = (x1[last], M::Variables::filled(S::zero()));
     let caloric = |c: eem::Caloric<S>| [c.entropy, c.heat_capacity, c.magnitude];
-    let pair = |(a, b): (M::Viscosities, M::Viscosities)| {
-        bits([a, b].iter().flat_map(|a| a.as_ref()).copied())
-    };
     let (gradient, hessian) = model.hessian(&x1);
     let rates = model.rates(&x1);
     let (rates_at, others) = model.rates_at(x0)(theta);
+    let (viscosities, viscosity_slopes) = model.viscosity(theta);
     let (drag, drag_slope) = model.drag(theta);
-    let old = model.entropy_form_old(&x0);
-    let (response, tangent) = model.entropy_form(&old, &x1, &corners);
-    let [excess, capacities] = if M::THERMAL {
-        model.mixed_states(&x0, &old, &x1, &corners)
-    } else {
-        [corners; 2]
-    };
-    let colder = model.temperature_form_old(&x0);
-    let (response_t, tangent_t) = model.temperature_form(&colder, &x1);
     let mut all = vec![
         ("free_energy", bits([model.free_energy(&x1)])),
         ("energy_magnitude", bits([model.energy_magnitude(&x1)])),
         ("internal_energy", bits([model.internal_energy(&x1)])),
-        (
-            "gradient",
-            bits(model.gradient(&x1).as_ref().iter().copied()),
-        ),
+        ("gradient", flat(&[model.gradient(&x1)])),
         ("hessian", rows(&gradient, &hessian)),
         ("caloric", bits(caloric(model.caloric(&x1)))),
-        (
-            "rates",
-            bits(
-                [rates.forces, rates.slopes]
-                    .iter()
-                    .flat_map(|x| x.as_ref())
-                    .copied(),
-            ),
-        ),
-        (
-            "rates_at",
-            bits(
-                [rates_at.forces, rates_at.slopes]
-                    .iter()
-                    .flat_map(|x| x.as_ref())
-                    .copied(),
-            ),
-        ),
+        ("rates", flat(&[rates.forces, rates.slopes])),
+        ("rates_at", flat(&[rates_at.forces, rates_at.slopes])),
         ("rates_at, s and psi", bits(others)),
         ("entropy_hessian", rows(&none, &model.entropy_hessian(&x1))),
-        ("viscosity", pair(model.viscosity(theta))),
-        (
-            "drag",
-            bits([drag, drag_slope].iter().flat_map(|a| a.as_ref()).copied()),
-        ),
-        ("entropy_form", bits(response.as_ref().iter().copied())),
-        ("entropy_form tangent", rows(&none, &tangent)),
-        (
-            "entropy_form_response",
-            bits(
-                model
-                    .entropy_form_response(&old, &x1, &corners)
-                    .as_ref()
-                    .iter()
-                    .copied(),
-            ),
-        ),
-        (
-            "mixed_states",
-            bits(
-                [excess, capacities]
-                    .iter()
-                    .flat_map(|a| a.as_ref())
-                    .copied(),
-            ),
-        ),
-        (
-            "temperature_form",
-            bits(response_t.as_ref().iter().copied()),
-        ),
-        ("temperature_form tangent", rows(&none, &tangent_t)),
-        (
-            "temperature_form_response",
-            bits(
-                model
-                    .temperature_form_response(&colder, &x1)
-                    .as_ref()
-                    .iter()
-                    .copied(),
-            ),
-        ),
+        ("viscosity", flat(&[viscosities, viscosity_slopes])),
+        ("drag", flat(&[drag, drag_slope])),
         (
             "has_constant_capacity",
             vec![u64::from(model.has_constant_capacity())],
@@ -141,12 +81,36 @@ pub(crate) fn everything<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Resul
     if M::THERMAL {
         for new in 0..=last {
             let (found, psi) = model.caloric_between(&x0, &x1, new)(theta);
-            all.push((
-                "caloric_between",
-                bits(caloric(found).into_iter().chain([psi])),
-            ));
+            let found = caloric(found).into_iter().chain([psi]);
+            all.push(("caloric_between", bits(found)));
         }
     }
+    all
+}
+
+fn of_step<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
+    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<S, M::Variables>(x));
+    let (corners, none): (M::Corners, _) = (array(&at.corners), M::Variables::filled(S::zero()));
+    let old = model.entropy_form_old(&x0);
+    let (response, tangent) = model.entropy_form(&old, &x1, &corners);
+    let alone = model.entropy_form_response(&old, &x1, &corners);
+    let mut all = vec![
+        ("entropy_form", flat(&[response])),
+        ("entropy_form, tangent", rows(&none, &tangent)),
+        ("entropy_form_response", flat(&[alone])),
+    ];
+    if M::THERMAL {
+        let mixed = model.mixed_states(&x0, &old, &x1, &corners);
+        all.push(("mixed_states", flat(&mixed)));
+    }
+    let old = model.temperature_form_old(&x0);
+    let (response, tangent) = model.temperature_form(&old, &x1);
+    let alone = model.temperature_form_response(&old, &x1);
+    all.extend([
+        ("temperature_form", flat(&[response])),
+        ("temperature_form, tangent", rows(&none, &tangent)),
+        ("temperature_form_response", flat(&[alone])),
+    ]);
     all
 }
 
