@@ -27,8 +27,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A spring of texts costs more than a derived one: its operations are read one by one. A law takes milliseconds to compile
-//! and make; do that once, and clone the spring.
+//! Operations are read one by one, so that a step of the pendulum with one dashpot costs 1.5 times that of the derived
+//! material (`EemTemperature`), or 1.9 times (`EemEntropy`). A law takes some 11 ms to compile and make: do that once, and
+//! clone the spring.
 //!
 //! # Where to change what
 //!
