@@ -27,8 +27,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Operations are read one by one, so that a step of the pendulum with one dashpot costs 1.5 times that of the derived
-//! material (`EemTemperature`), or 1.9 times (`EemEntropy`). A law takes some 11 ms to compile and make: do that once, and
+//! Operations are read one by one, so that a step of the pendulum with one dashpot costs 2.2 times that of the derived
+//! material (`EemTemperature`), or 2.7 times (`EemEntropy`). A law takes some 11 ms to compile and make: do that once, and
 //! clone the spring.
 //!
 //! # Where to change what
