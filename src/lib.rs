@@ -25,6 +25,9 @@ pub mod materials;
 /// Parameter sweeps in many processes; see also [`sweeps`].
 #[cfg(feature = "sweep")]
 pub use eem_sweep as sweep;
+/// Materials from texts in a running program.
+#[cfg(feature = "typed")]
+pub use eem_typed as typed;
 /// The linear algebra crate: vectors of positions and momenta, matrices of [`Generic`].
 pub use nalgebra;
 

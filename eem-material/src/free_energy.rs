@@ -173,6 +173,29 @@ pub trait FreeEnergy<S: Scalar> {
     where
         Self: Sized;
 
+    /// The name of the material in messages: [`MODEL`](Self::MODEL), unless it is known only when a program runs.
+    fn model(&self) -> &'static &'static str {
+        &Self::MODEL
+    }
+
+    /// What tells free energies of one type apart: a digest of the formulas, 0 where the type says everything. Springs of
+    /// two kinds are treated like springs of two types.
+    fn kind(&self) -> u64 {
+        0
+    }
+
+    /// The number of parameters: of [`PARAMETERS`](Self::PARAMETERS), unless it is known only when a program runs.
+    #[inline]
+    fn parameter_count(&self) -> usize {
+        Self::PARAMETERS.len()
+    }
+
+    /// [`HAS_CONSTANT_CAPACITY`](Self::HAS_CONSTANT_CAPACITY), unless it is known only when a program runs.
+    #[inline]
+    fn has_constant_capacity(&self) -> bool {
+        Self::HAS_CONSTANT_CAPACITY
+    }
+
     /// The value of parameter `index` of [`PARAMETERS`](Self::PARAMETERS).
     fn parameter(&self, index: usize) -> S;
 

@@ -139,16 +139,20 @@ impl<const D: usize, S: Real> Scene<D, S> {
         });
     }
 
-    /// The handle of the next element, of the model `M`.
-    fn next_element<M: FreeEnergy<S>>(&self) -> Element {
+    /// The handle of the next element, of this model.
+    fn next_element<M: FreeEnergy<S>>(&self, model: &M) -> Element {
         let index = self.elements.len();
-        Element::new(self.lineage.giver(Kind::Element, index), index, &M::MODEL)
+        Element::new(
+            self.lineage.giver(Kind::Element, index),
+            index,
+            model.model(),
+        )
     }
 
-    /// The set of elements of one type, created if necessary, and its group.
-    fn set_of<B: Loose<S, D>>(&mut self, new: impl FnOnce() -> B) -> (usize, &mut B) {
+    /// The set of elements of one type and kind, created if necessary, and its group.
+    fn set_of<B: Loose<S, D>>(&mut self, kind: u64, new: impl FnOnce() -> B) -> (usize, &mut B) {
         let mut groups = self.groups.iter();
-        let same = groups.position(|group| group.as_any().is::<B>());
+        let same = groups.position(|group| group.as_any().is::<B>() && group.kind() == kind);
         let group = same.unwrap_or_else(|| {
             self.groups.push(Box::new(new()));
             self.groups.len() - 1

@@ -25,5 +25,7 @@ mod several_dashpots;
 mod single_pendulum;
 mod solids;
 mod spoilt_force;
+#[cfg(feature = "typed")]
+mod typed;
 mod variational_4;
 mod viscous_strain;

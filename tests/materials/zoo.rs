@@ -8,6 +8,8 @@
 mod against_digits;
 mod against_duals;
 mod against_interpreter;
+#[cfg(feature = "typed")]
+mod against_typed;
 mod bounds;
 mod digits;
 mod dual;

@@ -34,6 +34,24 @@ fn thermoelastic_springs_have_the_bits_of_one_by_one() {
     }
 }
 
+#[cfg(feature = "typed")]
+#[test]
+fn springs_of_texts_have_the_bits_of_one_by_one() {
+    let source = eem::typed::Source::new(
+        "|lambda: Stretch, theta: Temperature| {
+            let strain = ln(lambda / 2);
+            0.5 * (1250 - 50 * ln(theta / 300)) * strain.powi(2) - 5 * (theta - 300) * strain
+                + c * (theta - 300 - theta * ln(theta / 300))
+        }",
+    );
+    let compiled = eem::typed::compile(&source.parameter("c", None)).unwrap();
+    let law = eem::typed::Law::new(compiled, &[("c", 1250.0)]).unwrap();
+    let inputs = inputs(|i| [0.2 + 0.3 * i, 290.0 + 10.0 * i, 0.0]);
+    for scheme in SCHEMES {
+        check(scenes::OfTexts(law.clone()), (scheme, 0.02, 50), &inputs);
+    }
+}
+
 #[test]
 fn parameters_of_a_material_may_differ() {
     let inputs = inputs(|i| [400.0 + 50.0 * i, i, 1.0 + 0.01 * i]);

@@ -31,7 +31,7 @@ struct Crate {
 }
 
 /// The crates that are held to this.
-const CRATES: [Crate; 8] = [
+const CRATES: [Crate; 9] = [
     Crate {
         name: "eem-study",
         allowed: &[],
@@ -54,6 +54,10 @@ const CRATES: [Crate; 8] = [
     },
     Crate {
         name: "eem-sweep",
+        allowed: &[],
+    },
+    Crate {
+        name: "eem-typed",
         allowed: &[],
     },
     Crate {

@@ -39,6 +39,12 @@ impl Digest {
         }
     }
 
+    /// The digest as a number.
+    #[must_use]
+    pub const fn bits(self) -> u64 {
+        self.0
+    }
+
     /// The digest of what `add` adds.
     pub fn of(add: impl FnOnce(&mut Self)) -> Self {
         let mut digest = Self::NOTHING;

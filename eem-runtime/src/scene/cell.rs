@@ -40,7 +40,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
         H: Shape<D>,
         M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let first = self.next_element::<M>();
+        let first = self.next_element(model);
         let points = H::PerPoint::from_fn(|point| first.after(point));
         let (group, place) =
             match self.expect_cell::<H, N>(nodes, (M::STRAINS, properties), points.as_ref()) {
@@ -51,7 +51,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
                         (energy, point)
                     });
                     let new = LooseElements::<S, _, SolidPoint<H, S, N, D>, D>::new;
-                    let (group, set) = self.set_of(new);
+                    let (group, set) = self.set_of(model.kind(), new);
                     let place = set.points();
                     set.elements.push((first, parts));
                     (group, place)

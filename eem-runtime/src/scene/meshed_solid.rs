@@ -62,7 +62,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         H: Shape<D>,
         M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let first = self.next_element::<M>();
+        let first = self.next_element(&model);
         let nodes = self.nodes_of_mesh(mesh, bulk, first);
         let mut properties = CellProperties {
             density: bulk.density,

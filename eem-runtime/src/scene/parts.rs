@@ -46,7 +46,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 "a spring has one measure, its stretch"
             );
         }
-        let element = self.next_element::<M>();
+        let element = self.next_element(&model);
         for node in nodes {
             self.expect_own(&node);
         }
@@ -54,7 +54,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let node = nodes[0];
             self.refuse(SceneError::SelfSpring { element, node });
         }
-        let (group, set) = self.set_of(LooseElements::<S, M, Stretch<D>, D>::new);
+        let (group, set) = self.set_of(model.kind(), LooseElements::<S, M, Stretch<D>, D>::new);
         let place = set.points();
         set.elements.push((element, [(model, Stretch)]));
         self.push_element(&nodes, [group, place]);

@@ -7,7 +7,7 @@ pub mod solids;
 
 pub use eem::materials::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
 use eem::prelude::*;
-use eem::{EndState, Real, RefusedScene, StateQuantity};
+use eem::{EndState, Material, Real, RefusedScene, StateQuantity};
 
 /// The only thing for which a scene is refused.
 pub fn only_error<const D: usize>(refused: Result<Simulation<D>, RefusedScene<D>>) -> SceneError {
@@ -193,6 +193,14 @@ impl DoublePendulum {
 
     /// Its scene, with its masses and springs.
     pub fn scene(&self) -> (Scene<3>, [Node; 2], [Element; 2]) {
+        self.scene_of(|model| model)
+    }
+
+    /// The same with springs of another material.
+    pub fn scene_of<M: Material<f64>>(
+        &self,
+        of: impl Fn(LogarithmicStiffness) -> M,
+    ) -> (Scene<3>, [Node; 2], [Element; 2]) {
         let mut scene = Scene::<3>::new();
         let pivot = scene.anchor([0.0; 3]);
         let masses = [0, 1].map(|i| {
@@ -209,7 +217,7 @@ impl DoublePendulum {
                 natural_length: [2.0, 1.0][i],
                 theta_ref: 300.0,
             };
-            let spring = scene.spring(model, ends[i]);
+            let spring = scene.spring(of(model), ends[i]);
             scene.set_temperature(spring, self.temperatures[i]);
             spring
         });

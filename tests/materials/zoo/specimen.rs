@@ -7,6 +7,8 @@ use eem_symbolic::{ExprId, Model};
 use eem_testkit::table::Table;
 use num_dual::HyperDual64;
 
+#[cfg(feature = "typed")]
+use crate::zoo::against_typed;
 use crate::zoo::expression::{self, Written};
 use crate::zoo::number::{Num, Value};
 use crate::zoo::precise::Precise;
@@ -31,6 +33,12 @@ pub(crate) trait Formula: FreeEnergy<f64> + Clone + Send + Sync + 'static {
     fn psi<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Num<V>;
     /// ψ without `diff`.
     fn psi_of_numbers<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Num<V>;
+    /// The formulas as texts.
+    #[cfg(feature = "typed")]
+    const TEXTS: (&'static str, &'static [(&'static str, &'static str)]);
+    /// All functions, in `f64` and in `f32`.
+    #[cfg(feature = "typed")]
+    fn all_functions(&self, at: &against_typed::At) -> [against_typed::Results; 2];
     /// `η_k`.
     fn viscosities<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Vec<Num<V>>;
 }
@@ -90,6 +98,21 @@ macro_rules! specimen {
                 Self::psi(x, fields)
             }
 
+            #[cfg(feature = "typed")]
+            const TEXTS: (&'static str, &'static [(&'static str, &'static str)]) = (
+                stringify!(|$($argument: $role),*| $body),
+                &[$((stringify!($dashpot), stringify!($viscosity))),*],
+            );
+
+            #[cfg(feature = "typed")]
+            fn all_functions(
+                &self,
+                at: &$crate::zoo::against_typed::At,
+            ) -> [$crate::zoo::against_typed::Results; 2] {
+                use $crate::zoo::against_typed::everything;
+                [everything::<f64, Self>(self, at), everything::<f32, Self>(self, at)]
+            }
+
             fn viscosities<V: $crate::zoo::number::Value>(
                 x: &[$crate::zoo::number::Num<V>],
                 fields: &[$crate::zoo::number::Num<V>],
@@ -103,6 +126,14 @@ macro_rules! specimen {
 }
 pub(crate) use specimen;
 
+/// A specimen as texts.
+#[cfg(feature = "typed")]
+pub(crate) struct Text {
+    pub(crate) free_energy: &'static str,
+    pub(crate) viscosities: &'static [(&'static str, &'static str)],
+    pub(crate) values: Vec<(&'static str, f64)>,
+}
+
 /// A [`Formula`] behind a table of functions, so that a test is written and compiled once.
 pub(crate) trait Specimen: Table {
     fn name(&self) -> &'static str;
@@ -113,6 +144,13 @@ pub(crate) trait Specimen: Table {
     fn is_solid(&self) -> bool;
     fn state(&self) -> &'static [f64];
     fn home(&self) -> &'static [[f64; 2]];
+
+    /// The formulas as texts, and the values of the parameters.
+    #[cfg(feature = "typed")]
+    fn text(&self) -> Text;
+    /// All functions, in `f64` and in `f32`.
+    #[cfg(feature = "typed")]
+    fn everything(&self, at: &against_typed::At) -> [against_typed::Results; 2];
 
     /// What the macro should have understood.
     fn symbolic(&self) -> Model;
@@ -156,6 +194,21 @@ impl<F: Formula> Specimen for F {
 
     fn home(&self) -> &'static [[f64; 2]] {
         F::HOME
+    }
+
+    #[cfg(feature = "typed")]
+    fn text(&self) -> Text {
+        let (free_energy, viscosities) = F::TEXTS;
+        Text {
+            free_energy,
+            viscosities,
+            values: F::FIELDS.iter().copied().zip(self.data()).collect(),
+        }
+    }
+
+    #[cfg(feature = "typed")]
+    fn everything(&self, at: &against_typed::At) -> [against_typed::Results; 2] {
+        self.all_functions(at)
     }
 
     fn symbolic(&self) -> Model {

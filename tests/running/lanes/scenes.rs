@@ -43,6 +43,24 @@ impl Case<2> for Thermoelastic {
     }
 }
 
+/// The same with a thermoelastic spring of texts.
+#[cfg(feature = "typed")]
+pub(crate) struct OfTexts(pub(crate) eem::typed::Law);
+
+#[cfg(feature = "typed")]
+impl Case<2> for OfTexts {
+    fn scene<S: Real>(&self, [speed, theta, _]: [S; 3]) -> (Scene<2, S>, Parts) {
+        let mut scene = Scene::default();
+        let pivot = scene.anchor(vector([0.0, 0.0]));
+        let bob = scene.mass(S::from_f64(10.0), vector([3.0, 0.0]), [S::zero(), speed]);
+        let model: eem::typed::ThermalSpring0<S> = self.0.model().unwrap();
+        let spring = scene.spring(model, [pivot, bob]);
+        scene.set_temperature(spring, theta);
+        let (nodes, elements) = (vec![bob], vec![spring]);
+        (scene, Parts { nodes, elements })
+    }
+}
+
 /// The single pendulum of García Orden & Romero (2012), §4.1, started at `input[0]` m/s and
 /// `input[1]` K, with `input[2]` W/K to the air.
 pub(crate) struct Pendulum;

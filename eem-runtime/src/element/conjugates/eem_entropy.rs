@@ -117,7 +117,7 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
 ) -> Result<(), Infeasible> {
     let root = S::EPSILON.sqrt();
     // S(ln θ) is linear where the capacity is constant, so that only the series of e^x is left.
-    let enough = if M::HAS_CONSTANT_CAPACITY {
+    let enough = if model.has_constant_capacity() {
         root.sqrt()
     } else {
         S::from_f64(LAST_CORRECTION) * root

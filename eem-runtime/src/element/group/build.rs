@@ -34,8 +34,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Loose<S,
         Self::POINTS
     }
 
+    fn kind(&self) -> u64 {
+        self.model().map_or(0, M::kind)
+    }
+
     fn name(&self) -> &'static &'static str {
-        &M::MODEL
+        self.model().map_or(&M::MODEL, M::model)
     }
 
     fn infinite_parameter(&self, place: usize) -> Option<(&'static str, S)> {

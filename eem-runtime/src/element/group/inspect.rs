@@ -152,9 +152,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             digest.bytes(name.as_bytes());
             digest.bytes(&[0]);
         }
+        // Elements of a group are of one kind.
+        let kind = self.points().next().map(|point| point.model.kind());
+        if let Some(kind) = kind.filter(|&kind| kind != 0) {
+            digest.bytes(&kind.to_le_bytes());
+        }
         for point in self.points() {
             digest.count(point.element.index());
-            for index in 0..M::PARAMETERS.len() {
+            for index in 0..point.model.parameter_count() {
                 digest.number(point.model.parameter(index));
             }
             point

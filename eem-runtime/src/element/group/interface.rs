@@ -223,6 +223,9 @@ pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
     )]
     fn points_per_element(&self) -> usize;
 
+    /// The kind of their model; see [`FreeEnergy::kind`](eem_material::FreeEnergy::kind).
+    fn kind(&self) -> u64;
+
     /// The name of their model.
     fn name(&self) -> &'static &'static str;
 

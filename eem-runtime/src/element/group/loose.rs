@@ -26,6 +26,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements
         }
     }
 
+    /// The model of the first point; those of all points have its kind and name.
+    pub(super) fn model(&self) -> Option<&M> {
+        let (_, points) = self.elements.first()?;
+        Some(&points.as_ref().first()?.0)
+    }
+
     /// Number of points.
     pub(crate) fn points(&self) -> usize {
         Self::POINTS * self.elements.len()

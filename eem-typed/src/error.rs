@@ -1,0 +1,94 @@
+//! What can be wrong with a law whose texts are right.
+
+use eem_language::text::Faults;
+
+/// Why there is no law, or no spring of it.
+///
+/// ```
+/// use eem::typed::{Law, LawError, Source, compile};
+///
+/// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - l).powi(2)");
+/// let source = source.parameter("k", Some("N/m")).parameter("l", Some("m"));
+/// let compiled = compile(&source).unwrap();
+/// let error = Law::new(compiled, &[("k", 40.0)]).unwrap_err();
+/// assert_eq!(error.to_string(), "parameter `l` has no value: give each parameter one");
+/// assert!(matches!(error, LawError::Missing { .. }));
+/// ```
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LawError {
+    /// A parameter without a value.
+    #[error("parameter `{name}` has no value: give each parameter one")]
+    Missing {
+        /// The parameter.
+        name: String,
+    },
+    /// A value for what is no parameter.
+    #[error("there is no parameter `{name}` for the value {value:?}: {help}")]
+    Unknown {
+        /// The name as it was given.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// The names that there are.
+        help: String,
+    },
+    /// Two values for one parameter.
+    #[error("parameter `{name}` has two values, {first:?} and {second:?}: give one")]
+    Repeated {
+        /// The parameter.
+        name: String,
+        /// The first value.
+        first: f64,
+        /// The second value.
+        second: f64,
+    },
+    /// A value that is infinite or NaN, or becomes so in the numbers of the scene.
+    #[error("parameter `{name}` is {value:?}, which is not finite{in_scene}: give a number")]
+    NotFinite {
+        /// The parameter.
+        name: String,
+        /// Its value as it was given.
+        value: f64,
+        /// Nothing, or that it is so in the numbers of the scene.
+        in_scene: &'static str,
+    },
+    /// A number in a derivative of ψ does not fit an `f64`.
+    #[error("{0}")]
+    Programs(Faults),
+    /// The free energy is a function of strains.
+    #[error("the free energy is per volume, that of a solid: a spring has a `Stretch`")]
+    Solid,
+    /// More dashpots in series than there are springs for.
+    #[error("the law has {dashpots} dashpots in series: a spring made of texts has at most {most}")]
+    Dashpots {
+        /// Their number.
+        dashpots: usize,
+        /// The largest number.
+        most: usize,
+    },
+    /// The type of the spring is that of another law.
+    #[error("the law has the shape {law}, and the type of the spring {spring}")]
+    Shape {
+        /// The shape that the law has.
+        law: String,
+        /// The shape that was asked for.
+        spring: String,
+    },
+    /// A formula needs more numbers at a time than there is room for.
+    #[error("the formulas need {numbers} numbers at a time, at most {most}: shorten them")]
+    TooLarge {
+        /// How many.
+        numbers: usize,
+        /// How many there may be.
+        most: usize,
+    },
+    /// A name that a law cannot have.
+    #[error("a law cannot have the name `{name}`: {why}")]
+    Name {
+        /// The name, or its beginning.
+        name: String,
+        /// What is wrong with it.
+        why: &'static str,
+    },
+}

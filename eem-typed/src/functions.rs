@@ -1,0 +1,114 @@
+//! All functions of a law as tapes, for one scalar.
+
+mod staged;
+
+use std::collections::BTreeMap;
+
+use eem_material::number::scalar::Scalar;
+use eem_symbolic::{Program, Programs, Value};
+
+use crate::error::LawError;
+use crate::tape::{Tape, Wanted, fold};
+pub(crate) use staged::{Form, KEPT, Staged};
+use staged::{kept, state_inputs};
+
+/// The functions of [`FreeEnergy`](eem_material::FreeEnergy).
+#[derive(Debug)]
+pub(crate) struct Functions<S> {
+    /// The name of the law, and what tells it apart from others.
+    pub(crate) name: &'static &'static str,
+    pub(crate) kind: u64,
+    pub(crate) parameters: Box<[S]>,
+    pub(crate) has_constant_capacity: bool,
+    pub(crate) free_energy: Tape<S>,
+    pub(crate) energy_magnitude: Tape<S>,
+    pub(crate) internal_energy: Tape<S>,
+    pub(crate) gradient: Tape<S>,
+    pub(crate) hessian: Tape<S>,
+    pub(crate) rates: Tape<S>,
+    pub(crate) caloric: Option<Tape<S>>,
+    pub(crate) entropy_hessian: Option<Tape<S>>,
+    pub(crate) viscosity: Option<Tape<S>>,
+    pub(crate) drag: Option<Tape<S>>,
+    pub(crate) caloric_at: Option<Staged<S>>,
+    /// None without a temperature.
+    pub(crate) rates_at: Option<Staged<S>>,
+    /// Forces and ψ without a temperature.
+    pub(crate) rates_of_state: Option<Tape<S>>,
+    pub(crate) entropy_form: Form<S>,
+    pub(crate) mixed_states: Option<Staged<S>>,
+    pub(crate) temperature_form: Option<Form<S>>,
+}
+
+impl<S: Scalar> Functions<S> {
+    /// The tapes of these programs, with so many variables and responses.
+    pub(crate) fn new(
+        (name, kind): (&'static &'static str, u64),
+        programs: &Programs,
+        parameters: Vec<S>,
+        [variables, responses]: [usize; 2],
+    ) -> Result<Self, LawError> {
+        let of_state = |program: &Program| whole(program, &parameters);
+        let sometimes = |program: &Option<Program>| program.as_ref().map(of_state).transpose();
+        let is_thermal = programs.caloric.is_some();
+        let at_temperature = |program: &Program| {
+            Staged::new(program, &parameters, variables - 1, |kept| {
+                kept.len() <= KEPT
+            })
+        };
+        let caloric_at = programs.caloric_at.as_ref().map(at_temperature);
+        let rates_at = is_thermal.then(|| at_temperature(&programs.rates_at));
+        let (entropy_form, mixed_states) = {
+            let form = &programs.entropy_form;
+            let mut count = kept(form, &parameters).len();
+            if let Some(mixed) = &programs.mixed_states {
+                count += kept(mixed, &parameters).len();
+            }
+            let fits = |_: &[Value]| count <= KEPT;
+            let mixed = programs.mixed_states.as_ref();
+            let mixed = mixed.map(|mixed| Staged::new(mixed, &parameters, variables, fits));
+            let form = Form::new(form, &parameters, [variables, responses], fits)?;
+            (form, mixed.transpose()?)
+        };
+        let temperature_form = programs.temperature_form.as_ref().map(|form| {
+            let fits = |kept: &[Value]| kept.len() <= KEPT;
+            Form::new(form, &parameters, [variables, responses], fits)
+        });
+        Ok(Self {
+            name,
+            kind,
+            has_constant_capacity: programs.has_constant_capacity,
+            free_energy: of_state(&programs.free_energy)?,
+            energy_magnitude: of_state(&programs.energy_magnitude)?,
+            internal_energy: of_state(&programs.internal_energy)?,
+            gradient: of_state(&programs.gradient)?,
+            hessian: of_state(&programs.hessian)?,
+            rates: of_state(&programs.rates)?,
+            caloric: sometimes(&programs.caloric)?,
+            entropy_hessian: sometimes(&programs.entropy_hessian)?,
+            viscosity: sometimes(&programs.viscosity)?,
+            drag: sometimes(&programs.drag)?,
+            caloric_at: caloric_at.transpose()?,
+            rates_at: rates_at.transpose()?,
+            rates_of_state: (!is_thermal)
+                .then(|| of_state(&programs.rates_at))
+                .transpose()?,
+            entropy_form,
+            mixed_states,
+            temperature_form: temperature_form.transpose()?,
+            parameters: parameters.into(),
+        })
+    }
+}
+
+/// The tape of a program whose inputs are the parameters and one state.
+fn whole<S: Scalar>(program: &Program, parameters: &[S]) -> Result<Tape<S>, LawError> {
+    let known: BTreeMap<Value, usize> = state_inputs(program, parameters.len()).collect();
+    Tape::new(&Wanted {
+        program,
+        folded: &fold(program, parameters),
+        known,
+        inputs: program.inputs.len() - parameters.len(),
+        outputs: &program.outputs,
+    })
+}

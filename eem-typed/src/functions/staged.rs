@@ -1,0 +1,153 @@
+//! Functions in two parts: what is known before an iteration, and the rest.
+
+use std::collections::BTreeMap;
+
+use eem_material::number::scalar::Scalar;
+use eem_symbolic::{Operation, Program, Value};
+
+use crate::error::LawError;
+use crate::tape::{Tape, Wanted, fold};
+
+/// How many numbers of the old state a spring has room for. Where there are more, the old state itself is kept, and all is
+/// computed from it in every iteration.
+pub(crate) const KEPT: usize = 32;
+
+/// A function of what is old and what is new.
+#[derive(Debug)]
+pub(crate) struct Staged<S> {
+    /// From the old inputs to what is kept.
+    pub(crate) old: Tape<S>,
+    /// From what is kept and the new inputs to the results.
+    pub(crate) new: Tape<S>,
+}
+
+/// A form: response and tangent, and the response alone.
+#[derive(Debug)]
+pub(crate) struct Form<S> {
+    pub(crate) staged: Staged<S>,
+    pub(crate) response: Tape<S>,
+}
+
+/// The inputs of a program that are not parameters, counted from the first of them.
+pub(super) fn state_inputs(
+    program: &Program,
+    parameters: usize,
+) -> impl Iterator<Item = (Value, usize)> {
+    let instructions = program.instructions.iter().enumerate();
+    instructions.filter_map(move |(value, instruction)| match instruction.operation {
+        Operation::Input(input) => Some((Value::new(value), input.checked_sub(parameters)?)),
+        _ => None,
+    })
+}
+
+/// The values of the old stage that the new one reads, without those that depend on parameters alone.
+pub(super) fn kept<S: Scalar>(program: &Program, parameters: &[S]) -> Vec<Value> {
+    let folded = fold(program, parameters);
+    let mut kept = program.hoisted();
+    kept.retain(|value| folded[value.index()].number().is_none());
+    kept
+}
+
+impl<S: Scalar> Staged<S> {
+    /// The first `old` inputs after the parameters are old. What is kept is `fits`, or else they are.
+    pub(super) fn new(
+        program: &Program,
+        parameters: &[S],
+        old: usize,
+        fits: impl Fn(&[Value]) -> bool,
+    ) -> Result<Self, LawError> {
+        let (staged, _) = Self::with_places(program, parameters, old, fits)?;
+        Ok(staged)
+    }
+
+    /// The same, and where the inputs of the new part are.
+    fn with_places(
+        program: &Program,
+        parameters: &[S],
+        old: usize,
+        fits: impl Fn(&[Value]) -> bool,
+    ) -> Result<(Self, Places), LawError> {
+        let folded = fold(program, parameters);
+        let inputs: Vec<_> = state_inputs(program, parameters.len()).collect();
+        let old_inputs = || inputs.iter().copied().filter(|&(_, input)| input < old);
+        let mut values = kept(program, parameters);
+        if !fits(&values) {
+            values = old_inputs().map(|(value, _)| value).collect();
+        }
+        let wanted = Wanted {
+            program,
+            folded: &folded,
+            known: old_inputs().collect(),
+            inputs: old,
+            outputs: &values,
+        };
+        let of_old = Tape::new(&wanted)?;
+        let all = program.inputs.len() - parameters.len();
+        let places = Places {
+            kept: values.iter().copied().zip(0..).collect(),
+            old,
+            inputs: values.len() + all - old,
+        };
+        let wanted = Wanted {
+            known: places.of(program, parameters.len(), Some),
+            inputs: places.inputs,
+            outputs: &program.outputs,
+            ..wanted
+        };
+        let new = Tape::new(&wanted)?;
+        Ok((Self { old: of_old, new }, places))
+    }
+
+    /// What is kept of the old inputs, at the beginning of `kept`.
+    pub(crate) fn keep(&self, inputs: &[S], kept: &mut [S]) {
+        self.old
+            .run(&[inputs], &mut [&mut kept[..self.old.results()]]);
+    }
+}
+
+impl<S: Scalar> Form<S> {
+    /// The form of a program of x⁰, x¹ and corners.
+    pub(super) fn new(
+        program: &Program,
+        parameters: &[S],
+        [variables, responses]: [usize; 2],
+        fits: impl Fn(&[Value]) -> bool,
+    ) -> Result<Self, LawError> {
+        let (staged, places) = Staged::with_places(program, parameters, variables, fits)?;
+        let part = program.restricted_to(responses);
+        let origin = |value: Value| part.origins[value.index()];
+        let response = Tape::new(&Wanted {
+            program: &part.program,
+            folded: &fold(&part.program, parameters),
+            known: places.of(&part.program, parameters.len(), origin),
+            inputs: places.inputs,
+            outputs: &part.program.outputs,
+        })?;
+        Ok(Self { staged, response })
+    }
+}
+
+/// Where the new part of a function has its inputs.
+struct Places {
+    /// Values of the whole program.
+    kept: BTreeMap<Value, usize>,
+    old: usize,
+    inputs: usize,
+}
+
+impl Places {
+    /// The inputs of a program whose values are values of the whole one.
+    fn of(
+        &self,
+        program: &Program,
+        parameters: usize,
+        origin: impl Fn(Value) -> Option<Value>,
+    ) -> BTreeMap<Value, usize> {
+        let new = state_inputs(program, parameters).filter_map(|(value, input)| {
+            Some((value, self.kept.len() + input.checked_sub(self.old)?))
+        });
+        let values = (0..program.instructions.len()).map(Value::new);
+        let kept = values.filter_map(|value| Some((value, *self.kept.get(&origin(value)?)?)));
+        kept.chain(new).collect()
+    }
+}

@@ -1,0 +1,344 @@
+//! A law: compiled texts with values for their parameters.
+
+use core::any::Any;
+use core::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use eem_language::text::{Compiled, Source};
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Real;
+use eem_symbolic::Model;
+
+use crate::error::LawError;
+use crate::functions::Functions;
+use crate::names::{NAMELESS, name};
+use crate::typed::Typed;
+
+/// The largest number of dashpots in series.
+pub(crate) const MOST_DASHPOTS: usize = 3;
+
+/// A material of texts and values, from which springs are made.
+///
+/// The formulas are evaluated by the operations that a derived material consists of, in the same order: forces, entropies,
+/// steps and certificates have the same bits. A copy shares everything.
+///
+/// ```
+/// use eem::prelude::*;
+/// use eem::typed::{Law, Source, ThermalSpring1, compile};
+///
+/// let source = Source::new("|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+///     let strain = ln(lambda / l);
+///     0.5 * k * strain.powi(2) + 0.5 * k1 * (strain - gamma / l).powi(2)
+///         - beta * (theta - t0) * strain + c * (theta - t0 - theta * ln(theta / t0))
+/// }")
+/// .viscosity("gamma", "eta * exp(a / theta)")
+/// .parameter("l", Some("m"))
+/// .parameter("k", Some("J"))
+/// .parameter("k1", Some("J"))
+/// .parameter("beta", Some("J/K"))
+/// .parameter("c", Some("J/K"))
+/// .parameter("t0", Some("K"))
+/// .parameter("eta", Some("N s/m"))
+/// .parameter("a", Some("K"));
+/// let values = [
+///     ("l", 1.0), ("k", 100.0), ("k1", 20.0), ("beta", 4.0), ("c", 1.0), ("t0", 300.0), ("eta", 5.0), ("a", 10.0),
+/// ];
+/// let law = Law::new(compile(&source)?, &values)?.named("rubber")?;
+///
+/// let mut scene = Scene::<2>::new();
+/// let pivot = scene.anchor([0.0, 0.0]);
+/// let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
+/// let rubber: ThermalSpring1 = law.model()?;
+/// let spring = scene.spring(rubber, [pivot, bob]);
+/// scene.set_temperature(spring, 380.0);
+/// assert_eq!(spring.to_string(), "element 0 (rubber)");
+///
+/// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.05)?;
+/// let before = run.ledger().energy;
+/// run.run_until(1.0)?;
+/// assert!((run.ledger().energy - before).abs() < 1e-12 * before.abs());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct Law {
+    compiled: Arc<Compiled>,
+    /// In the order of the parameters of the model.
+    values: Arc<[f64]>,
+    name: &'static &'static str,
+    /// One `Arc<Functions<S>>` for every S that was asked for.
+    made: Arc<Mutex<Vec<Box<dyn Any + Send + Sync>>>>,
+}
+
+impl Law {
+    /// Values for the parameters of compiled texts, those of an array one by one: `("k[0]", 1.0)`.
+    ///
+    /// # Errors
+    ///
+    /// A parameter without a value or with two, a value of what is no parameter, a value that is not finite; a free energy
+    /// that is not that of a spring, or has more than three dashpots in series; a number of a derivative that does not fit
+    /// an `f64`.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let source = Source::new("|lambda: Stretch| 0.5 * k[0] * lambda.powi(2) + k[1] * lambda.powi(4)");
+    /// let compiled = compile(&source.parameter("k[2]", None))?;
+    /// let law = Law::new(compiled.clone(), &[("k[0]", 2.0), ("k[1]", 0.5)])?;
+    /// assert_eq!(law.parameters().last(), Some(("k[1]", 0.5)));
+    ///
+    /// let error = Law::new(compiled, &[("k[0]", 2.0), ("k", 0.5)]).unwrap_err();
+    /// let text = "there is no parameter `k` for the value 0.5: there are `k[0]`, `k[1]`";
+    /// assert_eq!(error.to_string(), text);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn new(compiled: Compiled, values: &[(&str, f64)]) -> Result<Self, LawError> {
+        let model = compiled.model();
+        if !model.strains.is_empty() || model.measures.len() != 1 {
+            return Err(LawError::Solid);
+        }
+        let dashpots = model.dashpots.len();
+        if dashpots > MOST_DASHPOTS {
+            let most = MOST_DASHPOTS;
+            return Err(LawError::Dashpots { dashpots, most });
+        }
+        compiled.programs().map_err(LawError::Programs)?;
+        let values = in_order(&compiled, values)?;
+        Ok(Self {
+            compiled: Arc::new(compiled),
+            values: values.into(),
+            name: NAMELESS,
+            made: Arc::default(),
+        })
+    }
+
+    /// The same law with a name, which messages and handles of its springs show. The springs of two laws with different
+    /// names are treated like those of two types.
+    ///
+    /// A name is kept until the program ends, so that it has at most 64 bytes, and a program may use 1024 of them.
+    ///
+    /// # Errors
+    ///
+    /// [`LawError::Name`] if there are more, or it is empty or longer.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let compiled = compile(&Source::new("|lambda: Stretch| lambda.powi(2)"))?;
+    /// let law = Law::new(compiled, &[])?;
+    /// assert_eq!(law.name(), "Law");
+    /// assert_eq!(law.clone().named("string")?.name(), "string");
+    /// assert!(law.named("").is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn named(self, text: &str) -> Result<Self, LawError> {
+        Ok(Self {
+            name: name(text)?,
+            made: Arc::default(),
+            ..self
+        })
+    }
+
+    /// Its name, `Law` if it has not been given one.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The texts.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let source = Source::new("|lambda: Stretch| lambda.powi(2)");
+    /// assert_eq!(Law::new(compile(&source)?, &[])?.source(), &source);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn source(&self) -> &Source {
+        self.compiled.source()
+    }
+
+    /// The parameters that the formulas mention, and their values, in the order of the source.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - l).powi(2)");
+    /// let compiled = compile(&source.parameter("l", None).parameter("k", None))?;
+    /// let law = Law::new(compiled, &[("k", 40.0), ("l", 2.0)])?;
+    /// assert_eq!(law.parameters().collect::<Vec<_>>(), [("l", 2.0), ("k", 40.0)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn parameters(&self) -> impl Iterator<Item = (&str, f64)> {
+        names(self.compiled.model()).zip(self.values.iter().copied())
+    }
+
+    /// The law as a material: for [`Scene::spring`](eem_runtime::Scene::spring) and whatever else takes a
+    /// [`FreeEnergy`](eem_material::FreeEnergy).
+    ///
+    /// The type says which shape is expected, how many dashpots and whether there is a temperature; see [`Typed`].
+    /// It is made once for every type of numbers and shared then. For another spring clone it.
+    ///
+    /// # Errors
+    ///
+    /// [`LawError::Shape`] if the law has another one, [`LawError::NotFinite`] if a value is not finite as `S`,
+    /// [`LawError::TooLarge`] if the formulas are.
+    ///
+    /// ```
+    /// use eem::FreeEnergy;
+    /// use eem::typed::{Law, Source, Spring0, Spring1, compile};
+    ///
+    /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
+    /// let law = Law::new(compile(&source)?, &[("k", 1e300)])?;
+    /// let spring: Spring0 = law.model()?;
+    /// assert_eq!(spring.gradient(&[2.0]), [1e300]);
+    ///
+    /// let error = law.model::<f32, 1, 0, 0, 0, 1>().unwrap_err();
+    /// let text = "parameter `k` is 1e300, which is not finite in the numbers of the scene: give a number";
+    /// assert_eq!(error.to_string(), text);
+    /// let spring: Result<Spring1, _> = law.model();
+    /// let text = "the law has the shape [N, K, D, C, R] = [1, 0, 0, 0, 1], and the type of the spring [2, 1, 0, 0, 2]";
+    /// assert_eq!(spring.unwrap_err().to_string(), text);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn model<
+        S: Real,
+        const N: usize,
+        const K: usize,
+        const D: usize,
+        const C: usize,
+        const R: usize,
+    >(
+        &self,
+    ) -> Result<Typed<S, N, K, D, C, R>, LawError> {
+        let [law, spring] = [self.shape(), [N, K, D, C, R]];
+        if law != spring {
+            return Err(LawError::Shape {
+                law: format!("[N, K, D, C, R] = {law:?}"),
+                spring: format!("{spring:?}"),
+            });
+        }
+        self.functions().map(Typed::new)
+    }
+
+    /// `[N, K, D, C, R]`; see [`Typed`].
+    pub(crate) fn shape(&self) -> [usize; 5] {
+        let model = self.compiled.model();
+        let dashpots = model.dashpots.len();
+        let thermal = usize::from(model.temperature.is_some());
+        let variables = 1 + dashpots + thermal;
+        let drag = usize::from(model.drag.is_some());
+        let corners = 2 * (variables - 1) * thermal;
+        [variables, dashpots, drag, corners, variables + thermal]
+    }
+
+    /// The tapes for numbers of one type.
+    fn functions<S: Real>(&self) -> Result<Arc<Functions<S>>, LawError> {
+        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        let of_type = made.iter().find_map(|one| one.downcast_ref());
+        if let Some(functions) = of_type {
+            return Ok(Arc::clone(functions));
+        }
+        let mut parameters = Vec::with_capacity(self.values.len());
+        for (name, value) in self.parameters() {
+            let number = S::from_f64(value);
+            if !number.is_finite() {
+                return Err(LawError::NotFinite {
+                    name: name.to_owned(),
+                    value,
+                    in_scene: " in the numbers of the scene",
+                });
+            }
+            parameters.push(number);
+        }
+        let programs = self.compiled.programs().map_err(LawError::Programs)?;
+        let [variables, _, _, _, responses] = self.shape();
+        let identity = (self.name, self.kind());
+        let functions = Functions::new(identity, programs, parameters, [variables, responses])?;
+        let functions = Arc::new(functions);
+        made.push(Box::new(Arc::clone(&functions)));
+        Ok(functions)
+    }
+
+    /// A digest of its name and texts, without values; never 0.
+    fn kind(&self) -> u64 {
+        let source = self.source();
+        let digest = Digest::of(|digest| {
+            let mut add = |text: &str| {
+                digest.count(text.len());
+                digest.bytes(text.as_bytes());
+            };
+            add(self.name);
+            add(source.free_energy());
+            for (dashpot, law) in source.viscosities() {
+                add(dashpot);
+                add(law);
+            }
+            for name in names(self.compiled.model()) {
+                add(name);
+            }
+        });
+        digest.bits().max(1)
+    }
+}
+
+impl fmt::Debug for Law {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut all = f.debug_struct(self.name);
+        for (name, value) in self.parameters() {
+            all.field(name, &value);
+        }
+        all.finish_non_exhaustive()
+    }
+}
+
+/// The names of the parameters.
+fn names(model: &Model) -> impl Iterator<Item = &str> {
+    let parameters = model.parameters.iter();
+    parameters.map(|&parameter| model.graph.name(parameter))
+}
+
+/// The values in the order of the parameters.
+fn in_order(compiled: &Compiled, given: &[(&str, f64)]) -> Result<Vec<f64>, LawError> {
+    let model = compiled.model();
+    for (index, &(name, value)) in given.iter().enumerate() {
+        if !names(model).any(|known| known == name) && !is_spare(compiled, name) {
+            let known: Vec<_> = names(model).map(|name| format!("`{name}`")).collect();
+            let help = if known.is_empty() {
+                "there are none".to_owned()
+            } else {
+                format!("there are {}", known.join(", "))
+            };
+            let name = name.to_owned();
+            return Err(LawError::Unknown { name, value, help });
+        }
+        if let Some(&(_, first)) = given[..index].iter().find(|(other, _)| *other == name) {
+            return Err(LawError::Repeated {
+                name: name.to_owned(),
+                first,
+                second: value,
+            });
+        }
+        if !value.is_finite() {
+            return Err(LawError::NotFinite {
+                name: name.to_owned(),
+                value,
+                in_scene: "",
+            });
+        }
+    }
+    let value = |name: &str| {
+        let given = given.iter().find(|(other, _)| *other == name);
+        given.map(|&(_, value)| value).ok_or(LawError::Missing {
+            name: name.to_owned(),
+        })
+    };
+    names(model).map(value).collect()
+}
+
+/// Whether this is a parameter like `_k`, or an entry of one, which no formula has to mention.
+fn is_spare(compiled: &Compiled, name: &str) -> bool {
+    let base = |text: &'_ str| text.split('[').next().map(|base| base.trim().to_owned());
+    let mut parameters = compiled.source().parameters();
+    name.starts_with('_') && parameters.any(|(text, _)| base(text) == base(name))
+}

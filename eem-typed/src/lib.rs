@@ -1,0 +1,55 @@
+//! Materials from texts in a running program: the language of `#[derive(FreeEnergy)]`, with the bits of the derive.
+//!
+//! ```text
+//! texts ── compile ─▶ Compiled ── values ─▶ Law ── model ─▶ Typed: FreeEnergy ── Scene::spring ─▶ element
+//! ```
+//!
+//! [`compile`] reads a [`Source`] and draws every mistake at its place; [`Law::new`] gives the parameters their values;
+//! [`Law::model`] makes a spring of a shape that the program knows when it is compiled, and [`Law::add_spring`] of any
+//! shape. Springs have a stretch, a temperature or none, at most three dashpots in series and one beside; solids are not
+//! made of texts yet.
+//!
+//! ```
+//! use eem::prelude::*;
+//! use eem::typed::{Law, Source, Spring0, compile};
+//!
+//! let source = Source::new("|lambda: Stretch| 0.5 * k * ln(lambda / l).powi(2)")
+//!     .parameter("k", Some("J"))
+//!     .parameter("l", Some("m"));
+//! let law = Law::new(compile(&source)?, &[("k", 30.0), ("l", 1.5)])?;
+//! let spring: Spring0 = law.model()?;
+//!
+//! let mut scene = Scene::<1>::new();
+//! let ends = [scene.anchor([0.0]), scene.mass(1.0, [3.0], [0.0])];
+//! let typed = scene.spring(spring, ends);
+//! let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+//! assert_eq!(run.force(typed)?, 30.0 * 2.0_f64.ln() / 3.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Operations are read one by one, so that a step of the pendulum with one dashpot costs 2.2 times that of the derived
+//! material (`EemTemperature`), or 2.7 times (`EemEntropy`). A law takes some 11 ms to compile and make: do that once, and
+//! clone the spring.
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | add an operation or an elementary function | `tape/instruction.rs`, `tape/fold.rs`, `tape/lower.rs`: the compiler lists them |
+//! | change which operations are joined, or how registers are given | `tape/lower.rs`, `tape/allocate.rs` |
+//! | change what is kept of the old state | `functions/staged.rs` |
+//! | add a shape | the table of `shapes.rs` |
+
+mod error;
+mod functions;
+mod law;
+mod names;
+mod shapes;
+mod tape;
+mod typed;
+
+pub use eem_language::text::{Compiled, Fault, Faults, Level, Part, Source, compile};
+pub use error::LawError;
+pub use law::Law;
+pub use shapes::*;
+pub use typed::Typed;

@@ -1,0 +1,167 @@
+//! Registers of a tape: a result takes the first that is free, and gives it back after its last reader.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use eem_material::number::scalar::Scalar;
+use eem_symbolic::{DifferencePart, Operation, Value};
+
+use super::fold::Folded;
+use super::instruction::{Action, Instruction, Register};
+use super::lower::{Line, Wanted};
+
+/// A tape with registers.
+pub(super) struct Allocated<S> {
+    pub(super) constants: Box<[S]>,
+    pub(super) instructions: Box<[Instruction]>,
+    pub(super) outputs: Box<[Register]>,
+    /// How many.
+    pub(super) registers: usize,
+}
+
+/// The tape of these lines. Beyond 2¹⁶ registers they are counted and not right; such a tape is refused.
+pub(super) fn allocate<S: Scalar>(wanted: &Wanted<'_, S>, lines: &[Line]) -> Allocated<S> {
+    let mut constants = Constants::new(wanted);
+    for line in lines {
+        line.action.operands(|operand| constants.see(operand));
+    }
+    for &output in wanted.outputs {
+        constants.see(output);
+    }
+    let mut file = File::new(wanted, &constants, lines);
+    let mut instructions = Vec::with_capacity(lines.len());
+    for (index, line) in lines.iter().enumerate() {
+        let action = line.action.map(|operand| file.register(operand));
+        file.release(index);
+        let count = match line.action {
+            Action::Joint(..) => 3,
+            _ => 1,
+        };
+        let to = file.take(line.value, count);
+        instructions.push(Instruction { action, to });
+    }
+    let outputs = wanted.outputs.iter();
+    Allocated {
+        outputs: outputs.map(|&output| file.register(output)).collect(),
+        registers: file.used,
+        constants: constants.numbers.into(),
+        instructions: instructions.into(),
+    }
+}
+
+/// The folded values that are read.
+struct Constants<'w, S> {
+    folded: &'w [Folded<S>],
+    places: BTreeMap<Value, usize>,
+    numbers: Vec<S>,
+}
+
+impl<'w, S: Scalar> Constants<'w, S> {
+    fn new(wanted: &'w Wanted<'_, S>) -> Self {
+        Self {
+            folded: wanted.folded,
+            places: BTreeMap::new(),
+            numbers: Vec::new(),
+        }
+    }
+
+    fn see(&mut self, value: Value) {
+        if let Some(number) = self.folded[value.index()].number()
+            && !self.places.contains_key(&value)
+        {
+            self.places.insert(value, self.numbers.len());
+            self.numbers.push(number);
+        }
+    }
+}
+
+/// Which register each value is in.
+struct File<'w> {
+    operations: &'w [eem_symbolic::Instruction],
+    places: BTreeMap<Value, usize>,
+    /// The values whose last reader is a line, by lines.
+    last: BTreeMap<usize, Vec<Value>>,
+    free: BTreeSet<usize>,
+    used: usize,
+}
+
+impl<'w> File<'w> {
+    fn new<S>(wanted: &Wanted<'w, S>, constants: &Constants<'_, S>, lines: &[Line]) -> Self {
+        let first = constants.numbers.len();
+        let inputs = wanted.known.iter();
+        let mut places = constants.places.clone();
+        places.extend(inputs.map(|(&value, &place)| (value, first + place)));
+        let mut file = Self {
+            operations: &wanted.program.instructions,
+            places,
+            last: BTreeMap::new(),
+            free: BTreeSet::new(),
+            used: first + wanted.inputs,
+        };
+        let mut readers = BTreeMap::new();
+        for (index, line) in lines.iter().enumerate() {
+            line.action.operands(|operand| {
+                readers.insert(file.origin(operand).0, index);
+            });
+        }
+        for &output in wanted.outputs {
+            readers.insert(file.origin(output).0, usize::MAX);
+        }
+        for line in lines {
+            if let Some(&reader) = readers.get(&line.value) {
+                file.last.entry(reader).or_default().push(line.value);
+            }
+        }
+        file
+    }
+
+    /// The value that a line computes, and which part of it is meant.
+    fn origin(&self, value: Value) -> (Value, usize) {
+        if self.places.contains_key(&value) {
+            return (value, 0);
+        }
+        match self.operations[value.index()].operation {
+            Operation::Part(call, DifferencePart::First) => (call, 0),
+            Operation::Part(call, DifferencePart::SecondA) => (call, 1),
+            Operation::Part(call, DifferencePart::SecondB) => (call, 2),
+            _ => (value, 0),
+        }
+    }
+
+    fn register(&self, value: Value) -> Register {
+        let (origin, part) = self.origin(value);
+        let Some(place) = self.places.get(&origin) else {
+            unreachable!("operands are computed first")
+        };
+        Register::try_from(place + part).unwrap_or(Register::MAX)
+    }
+
+    /// Frees what this line has read for the last time.
+    fn release(&mut self, line: usize) {
+        for value in self.last.remove(&line).unwrap_or_default() {
+            let Some(&place) = self.places.get(&value) else {
+                continue;
+            };
+            self.free.extend(place..place + self.width(value));
+        }
+    }
+
+    fn width(&self, value: Value) -> usize {
+        match self.operations[value.index()].operation {
+            Operation::JointDifferences(..) => 3,
+            _ => 1,
+        }
+    }
+
+    /// The first of so many registers one after the other.
+    fn take(&mut self, value: Value, count: usize) -> Register {
+        let mut free = self.free.iter().copied();
+        let fits = |first: &usize| (1..count).all(|next| self.free.contains(&(first + next)));
+        let place = free.find(fits).unwrap_or(self.used);
+        for register in place..place + count {
+            self.free.remove(&register);
+        }
+        self.used = self.used.max(place + count);
+        self.places.insert(value, place);
+        Register::try_from(place).unwrap_or(Register::MAX)
+    }
+}

@@ -1,0 +1,228 @@
+//! One instruction of a tape, and what it does.
+
+use eem_material::kernel::{self, Differences};
+use eem_material::number::scalar::Scalar;
+use eem_symbolic::{Function, ProgramKernel};
+
+/// The number of a register.
+pub(crate) type Register = u16;
+
+/// What is computed, from values that are named by `V`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Action<V> {
+    Add(V, V),
+    Sub(V, V),
+    Mul(V, V),
+    Div(V, V),
+    Neg(V),
+    Powi(V, i32),
+    Sqrt(V),
+    Power(V, V),
+    Apply(Function, V),
+    /// `a b + c`; the product is rounded, here and below.
+    MulAdd(V, V, V),
+    /// `a b − c`.
+    MulSub(V, V, V),
+    /// `c − a b`.
+    SubMul(V, V, V),
+    /// `(a b) c`.
+    MulMul(V, V, V),
+    /// `f[a, b]`.
+    First(ProgramKernel<V>, V, V),
+    /// `f[a, b, b]`.
+    Second(ProgramKernel<V>, V, V),
+    /// `f[a, b]`, `f[a, a, b]`, `f[a, b, b]` in three registers one after the other.
+    Joint(ProgramKernel<V>, V, V),
+}
+
+/// An action and the register of its (first) result.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Instruction {
+    pub(crate) action: Action<Register>,
+    pub(crate) to: Register,
+}
+
+impl<V: Copy> Action<V> {
+    /// Calls `see` for everything that is read.
+    pub(crate) fn operands(&self, mut see: impl FnMut(V)) {
+        match *self {
+            Self::Neg(a) | Self::Powi(a, _) | Self::Sqrt(a) | Self::Apply(_, a) => see(a),
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Power(a, b) => [a, b].into_iter().for_each(see),
+            Self::MulAdd(a, b, c)
+            | Self::MulSub(a, b, c)
+            | Self::SubMul(a, b, c)
+            | Self::MulMul(a, b, c) => [a, b, c].into_iter().for_each(see),
+            Self::First(f, a, b) | Self::Second(f, a, b) | Self::Joint(f, a, b) => {
+                f.operands().into_iter().chain([a, b]).for_each(see);
+            }
+        }
+    }
+
+    /// The same action of other values.
+    pub(crate) fn map<W>(&self, of: impl Fn(V) -> W) -> Action<W> {
+        match *self {
+            Self::Add(a, b) => Action::Add(of(a), of(b)),
+            Self::Sub(a, b) => Action::Sub(of(a), of(b)),
+            Self::Mul(a, b) => Action::Mul(of(a), of(b)),
+            Self::Div(a, b) => Action::Div(of(a), of(b)),
+            Self::Neg(a) => Action::Neg(of(a)),
+            Self::Powi(a, n) => Action::Powi(of(a), n),
+            Self::Sqrt(a) => Action::Sqrt(of(a)),
+            Self::Power(a, b) => Action::Power(of(a), of(b)),
+            Self::Apply(function, a) => Action::Apply(function, of(a)),
+            Self::MulAdd(a, b, c) => Action::MulAdd(of(a), of(b), of(c)),
+            Self::MulSub(a, b, c) => Action::MulSub(of(a), of(b), of(c)),
+            Self::SubMul(a, b, c) => Action::SubMul(of(a), of(b), of(c)),
+            Self::MulMul(a, b, c) => Action::MulMul(of(a), of(b), of(c)),
+            Self::First(f, a, b) => Action::First(f.map(&of), of(a), of(b)),
+            Self::Second(f, a, b) => Action::Second(f.map(&of), of(a), of(b)),
+            Self::Joint(f, a, b) => Action::Joint(f.map(&of), of(a), of(b)),
+        }
+    }
+}
+
+impl Instruction {
+    /// Reads and writes registers, of which there are a power of two.
+    #[inline]
+    pub(crate) fn execute<S: Scalar, const P: usize>(&self, file: &mut [S; P]) {
+        let place = |register: Register| usize::from(register) & (P - 1);
+        let at = |register: Register| file[place(register)];
+        let result = match self.action {
+            Action::Add(a, b) => at(a) + at(b),
+            Action::Sub(a, b) => at(a) - at(b),
+            Action::Mul(a, b) => at(a) * at(b),
+            Action::Div(a, b) => at(a) / at(b),
+            Action::Neg(a) => -at(a),
+            Action::Powi(a, n) => at(a).powi(n),
+            Action::Sqrt(a) => at(a).sqrt(),
+            Action::Power(a, b) => at(a).powf(at(b)),
+            Action::Apply(function, a) => apply(function, at(a)),
+            Action::MulAdd(a, b, c) => at(a) * at(b) + at(c),
+            Action::MulSub(a, b, c) => at(a) * at(b) - at(c),
+            Action::SubMul(a, b, c) => at(c) - at(a) * at(b),
+            Action::MulMul(a, b, c) => at(a) * at(b) * at(c),
+            Action::First(f, a, b) => first(f.map(at), at(a), at(b)),
+            Action::Second(f, a, b) => second(f.map(at), at(a), at(b)),
+            Action::Joint(f, a, b) => {
+                let all = joint(f.map(at), at(a), at(b));
+                file[place(self.to + 1)] = all.second_a;
+                file[place(self.to + 2)] = all.second_b;
+                all.first
+            }
+        };
+        file[place(self.to)] = result;
+    }
+}
+
+/// `f(a)`.
+#[inline(never)]
+pub(super) fn apply<S: Scalar>(function: Function, a: S) -> S {
+    match function {
+        Function::Exp => a.exp(),
+        Function::ExpM1 => a.exp_m1(),
+        Function::Ln => a.ln(),
+        Function::Ln1p => a.ln_1p(),
+        Function::Log2 => a.log2(),
+        Function::Log10 => a.log10(),
+        Function::Sin => a.sin(),
+        Function::Cos => a.cos(),
+        Function::Tan => a.tan(),
+        Function::Sinh => a.sinh(),
+        Function::Cosh => a.cosh(),
+        Function::Tanh => a.tanh(),
+        Function::Asinh => a.asinh(),
+        Function::Atan => a.atan(),
+        Function::Atanh => a.atanh(),
+        Function::Cbrt => a.cbrt(),
+        Function::Abs => a.abs(),
+    }
+}
+
+/// `f[a, b]`.
+#[inline(never)]
+pub(super) fn first<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> S {
+    match f {
+        ProgramKernel::Function(function) => match function {
+            Function::Exp => kernel::exp_dd(a, b),
+            Function::ExpM1 => kernel::exp_m1_dd(a, b),
+            Function::Ln => kernel::ln_dd(a, b),
+            Function::Ln1p => kernel::ln_1p_dd(a, b),
+            Function::Log2 => kernel::log2_dd(a, b),
+            Function::Log10 => kernel::log10_dd(a, b),
+            Function::Sin => kernel::sin_dd(a, b),
+            Function::Cos => kernel::cos_dd(a, b),
+            Function::Tan => kernel::tan_dd(a, b),
+            Function::Sinh => kernel::sinh_dd(a, b),
+            Function::Cosh => kernel::cosh_dd(a, b),
+            Function::Tanh => kernel::tanh_dd(a, b),
+            Function::Asinh => kernel::asinh_dd(a, b),
+            Function::Atan => kernel::atan_dd(a, b),
+            Function::Atanh => kernel::atanh_dd(a, b),
+            Function::Cbrt => kernel::cbrt_dd(a, b),
+            Function::Abs => no_kernel(),
+        },
+        ProgramKernel::Powi(-1) => kernel::recip_dd(a, b),
+        ProgramKernel::Powi(n) => kernel::powi_dd(a, b, n),
+        ProgramKernel::Sqrt => kernel::sqrt_dd(a, b),
+        ProgramKernel::Powf(exponent) => kernel::powf_dd(a, b, exponent),
+        ProgramKernel::Power(value_a, value_b) => kernel::power_dd(value_a, value_b, a, b),
+    }
+}
+
+/// `f[a, b, b]`.
+#[inline(never)]
+pub(super) fn second<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> S {
+    match f {
+        ProgramKernel::Function(function) => match function {
+            Function::Exp => kernel::exp_dd2(a, b),
+            Function::ExpM1 => kernel::exp_m1_dd2(a, b),
+            Function::Ln => kernel::ln_dd2(a, b),
+            Function::Ln1p => kernel::ln_1p_dd2(a, b),
+            Function::Log2 => kernel::log2_dd2(a, b),
+            Function::Log10 => kernel::log10_dd2(a, b),
+            Function::Sin => kernel::sin_dd2(a, b),
+            Function::Cos => kernel::cos_dd2(a, b),
+            Function::Tan => kernel::tan_dd2(a, b),
+            Function::Sinh => kernel::sinh_dd2(a, b),
+            Function::Cosh => kernel::cosh_dd2(a, b),
+            Function::Tanh => kernel::tanh_dd2(a, b),
+            Function::Asinh => kernel::asinh_dd2(a, b),
+            Function::Atan => kernel::atan_dd2(a, b),
+            Function::Atanh => kernel::atanh_dd2(a, b),
+            Function::Cbrt => kernel::cbrt_dd2(a, b),
+            Function::Abs => no_kernel(),
+        },
+        ProgramKernel::Powi(-1) => kernel::recip_dd2(a, b),
+        ProgramKernel::Powi(n) => kernel::powi_dd2(a, b, n),
+        ProgramKernel::Sqrt => kernel::sqrt_dd2(a, b),
+        ProgramKernel::Powf(exponent) => kernel::powf_dd2(a, b, exponent),
+        ProgramKernel::Power(value_a, value_b) => kernel::power_dd2(value_a, value_b, a, b),
+    }
+}
+
+/// All three; those without a kernel of their own one by one, with the same bits.
+#[inline(never)]
+pub(super) fn joint<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> Differences<S> {
+    match f {
+        ProgramKernel::Function(Function::Ln) => kernel::ln_dds(a, b),
+        ProgramKernel::Function(Function::Ln1p) => kernel::ln_1p_dds(a, b),
+        ProgramKernel::Power(value_a, value_b) => kernel::power_dds(value_a, value_b, a, b),
+        ProgramKernel::Function(_)
+        | ProgramKernel::Powi(_)
+        | ProgramKernel::Sqrt
+        | ProgramKernel::Powf(_) => Differences {
+            first: first(f, a, b),
+            second_a: second(f.mirrored(), b, a),
+            second_b: second(f, a, b),
+        },
+    }
+}
+
+/// `|x|` has none: programs write its differences with quotients.
+fn no_kernel<S: Scalar>() -> S {
+    S::from_f64(f64::NAN)
+}

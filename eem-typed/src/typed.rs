@@ -1,0 +1,309 @@
+//! A law as a material: the free energy of a spring, evaluated by tapes.
+
+use std::sync::Arc;
+
+use eem_material::free_energy::{Caloric, FreeEnergy, Rates};
+use eem_material::number::scalar::Scalar;
+
+use crate::functions::{Functions, KEPT};
+use crate::names::NAMELESS;
+use crate::tape::Tape;
+
+/// A spring of a law, for scenes with the numbers `S`; made by [`Law::model`](crate::Law::model).
+///
+/// | | number of |
+/// |---|---|
+/// | N | variables: stretch, dashpots, temperature |
+/// | K | dashpots in series |
+/// | D | dashpots beside the spring, 0 or 1 |
+/// | C | corners: 2 (N − 1) with a temperature, else 0 |
+/// | R | responses: N + 1 with a temperature, else N |
+///
+/// Use the names of the shapes, such as [`ThermalSpring1`](crate::ThermalSpring1). A copy shares the tapes.
+///
+/// ```
+/// use eem::FreeEnergy;
+/// use eem::typed::{Law, Source, Spring0, compile};
+///
+/// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
+/// let law = Law::new(compile(&source)?, &[("k", 40.0)])?;
+/// let spring: Spring0 = law.model()?;
+/// assert_eq!(spring.free_energy(&[1.5]), 5.0);
+/// assert_eq!(spring.gradient(&[1.5]), [20.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Typed<S, const N: usize, const K: usize, const D: usize, const C: usize, const R: usize>
+{
+    functions: Arc<Functions<S>>,
+}
+
+impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, const R: usize>
+    Typed<S, N, K, D, C, R>
+{
+    /// Of functions that have this shape.
+    pub(crate) fn new(functions: Arc<Functions<S>>) -> Self {
+        const {
+            assert!(R == N || R == N + 1, "there is one temperature or none");
+            assert!(N == 1 + K + (R - N), "N = 1 + K + T");
+            assert!(C == 2 * (N - 1) * (R - N), "C = 2 (N − 1) T");
+            assert!(D <= 1, "one dashpot stands beside a spring");
+            assert!(2 * N <= KEPT, "the old state can be kept");
+        }
+        Self { functions }
+    }
+
+    fn number(tape: &Tape<S>, x: &[S; N]) -> S {
+        let mut number = [S::zero()];
+        tape.run(&[x], &mut [&mut number]);
+        number[0]
+    }
+
+    /// Forces, heat capacity and slopes, and then other results.
+    fn rates_of(tape: &Tape<S>, inputs: &[&[S]], others: &mut [S]) -> Rates<[S; N]> {
+        let (mut forces, mut slopes) = ([S::zero(); N], [S::zero(); N]);
+        let count = if Self::THERMAL { N - 1 } else { 0 };
+        tape.run(inputs, &mut [&mut forces, &mut slopes[..count], others]);
+        Rates { forces, slopes }
+    }
+}
+
+impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, const R: usize>
+    FreeEnergy<S> for Typed<S, N, K, D, C, R>
+{
+    const MEASURES: usize = 1;
+    const DASHPOTS: usize = K;
+    const THERMAL: bool = R > N;
+    const MODEL: &'static str = NAMELESS;
+    /// Names are those of the law.
+    const PARAMETERS: &'static [&'static str] = &[];
+
+    type Parameters = [S; 0];
+    type Variables = [S; N];
+    type Hessian = [[S; N]; N];
+    type Viscosities = [S; K];
+    type Drag = [S; D];
+    type Corners = [S; C];
+    type Response = [S; R];
+    type Tangent = [[S; N]; R];
+    type EntropyFormOld = [S; KEPT];
+    type TemperatureFormOld = [S; KEPT];
+
+    fn duplicate(&self) -> Self {
+        self.clone()
+    }
+
+    fn model(&self) -> &'static &'static str {
+        self.functions.name
+    }
+
+    fn kind(&self) -> u64 {
+        self.functions.kind
+    }
+
+    fn parameter_count(&self) -> usize {
+        self.functions.parameters.len()
+    }
+
+    fn has_constant_capacity(&self) -> bool {
+        self.functions.has_constant_capacity
+    }
+
+    fn parameter(&self, index: usize) -> S {
+        self.functions.parameters[index]
+    }
+
+    fn free_energy(&self, x: &[S; N]) -> S {
+        Self::number(&self.functions.free_energy, x)
+    }
+
+    fn energy_magnitude(&self, x: &[S; N]) -> S {
+        Self::number(&self.functions.energy_magnitude, x)
+    }
+
+    fn internal_energy(&self, x: &[S; N]) -> S {
+        Self::number(&self.functions.internal_energy, x)
+    }
+
+    fn gradient(&self, x: &[S; N]) -> [S; N] {
+        let mut gradient = [S::zero(); N];
+        self.functions.gradient.run(&[x], &mut [&mut gradient]);
+        gradient
+    }
+
+    fn hessian(&self, x: &[S; N]) -> ([S; N], [[S; N]; N]) {
+        let (mut gradient, mut hessian) = ([S::zero(); N], [[S::zero(); N]; N]);
+        let results = &mut [&mut gradient, hessian.as_flattened_mut()];
+        self.functions.hessian.run(&[x], results);
+        (gradient, hessian)
+    }
+
+    fn caloric(&self, x: &[S; N]) -> Caloric<S> {
+        let mut found = [S::zero(); 3];
+        if let Some(tape) = &self.functions.caloric {
+            tape.run(&[x], &mut [&mut found]);
+        }
+        caloric(found)
+    }
+
+    fn caloric_at(&self, x: [S; N]) -> impl Fn(S) -> (Caloric<S>, S) {
+        let mut kept = [S::zero(); KEPT];
+        let staged = self.functions.caloric_at.as_ref();
+        let mut count = 0;
+        if let Some(staged) = staged {
+            staged.keep(&x[..N - 1], &mut kept);
+            count = staged.old.results();
+        }
+        move |theta| {
+            let (mut found, mut free_energy) = ([S::zero(); 3], [S::zero()]);
+            match staged {
+                Some(staged) => {
+                    let results = &mut [&mut found[..], &mut free_energy];
+                    staged.new.run(&[&kept[..count], &[theta]], results);
+                }
+                None => free_energy = [self.free_energy(&x)],
+            }
+            (caloric(found), free_energy[0])
+        }
+    }
+
+    fn rates(&self, x: &[S; N]) -> Rates<[S; N]> {
+        Self::rates_of(&self.functions.rates, &[x], &mut [])
+    }
+
+    fn rates_at(&self, x: [S; N]) -> impl Fn(S) -> (Rates<[S; N]>, [S; 2]) {
+        let mut kept = [S::zero(); KEPT];
+        let staged = self.functions.rates_at.as_ref();
+        let mut count = 0;
+        if let Some(staged) = staged {
+            staged.keep(&x[..N - 1], &mut kept);
+            count = staged.old.results();
+        }
+        move |theta| {
+            let mut others = [S::zero(); 2];
+            let rates = match (staged, &self.functions.rates_of_state) {
+                (Some(staged), _) => {
+                    let inputs = [&kept[..count], &[theta]];
+                    Self::rates_of(&staged.new, &inputs, &mut others)
+                }
+                (None, Some(tape)) => Self::rates_of(tape, &[&x], &mut others[1..]),
+                (None, None) => unreachable!("one of them is there"),
+            };
+            (rates, others)
+        }
+    }
+
+    fn entropy_hessian(&self, x: &[S; N]) -> [[S; N]; N] {
+        let mut hessian = [[S::zero(); N]; N];
+        if let Some(tape) = &self.functions.entropy_hessian {
+            tape.run(&[x], &mut [hessian.as_flattened_mut()]);
+        }
+        hessian
+    }
+
+    fn viscosity(&self, theta: S) -> ([S; K], [S; K]) {
+        let (mut eta, mut slope) = ([S::zero(); K], [S::zero(); K]);
+        if let Some(tape) = &self.functions.viscosity {
+            let theta = if Self::THERMAL { &[theta][..] } else { &[] };
+            tape.run(&[theta], &mut [&mut eta, &mut slope]);
+        }
+        (eta, slope)
+    }
+
+    fn drag(&self, theta: S) -> ([S; D], [S; D]) {
+        let (mut eta, mut slope) = ([S::zero(); D], [S::zero(); D]);
+        if let Some(tape) = &self.functions.drag {
+            let theta = if Self::THERMAL { &[theta][..] } else { &[] };
+            tape.run(&[theta], &mut [&mut eta, &mut slope]);
+        }
+        (eta, slope)
+    }
+
+    fn entropy_form_old(&self, x0: &[S; N]) -> [S; KEPT] {
+        let mut kept = [S::zero(); KEPT];
+        let form = &self.functions.entropy_form.staged;
+        form.keep(x0, &mut kept);
+        if let Some(mixed) = &self.functions.mixed_states {
+            mixed.keep(x0, &mut kept[form.old.results()..]);
+        }
+        kept
+    }
+
+    fn entropy_form(
+        &self,
+        old: &[S; KEPT],
+        x1: &[S; N],
+        corners: &[S; C],
+    ) -> ([S; R], [[S; N]; R]) {
+        let (mut response, mut tangent) = ([S::zero(); R], [[S::zero(); N]; R]);
+        let form = &self.functions.entropy_form.staged;
+        let results = &mut [&mut response, tangent.as_flattened_mut()];
+        let old = &old[..form.old.results()];
+        form.new.run(&[old, x1, corners], results);
+        (response, tangent)
+    }
+
+    fn entropy_form_response(&self, old: &[S; KEPT], x1: &[S; N], corners: &[S; C]) -> [S; R] {
+        let mut response = [S::zero(); R];
+        let form = &self.functions.entropy_form;
+        let old = &old[..form.staged.old.results()];
+        form.response.run(&[old, x1, corners], &mut [&mut response]);
+        response
+    }
+
+    fn mixed_states(
+        &self,
+        _: &[S; N],
+        old: &[S; KEPT],
+        x1: &[S; N],
+        corners: &[S; C],
+    ) -> [[S; C]; 2] {
+        let mut found = [[S::zero(); C]; 2];
+        if let Some(mixed) = &self.functions.mixed_states {
+            let first = self.functions.entropy_form.staged.old.results();
+            let old = &old[first..first + mixed.old.results()];
+            mixed
+                .new
+                .run(&[old, x1, corners], &mut [found.as_flattened_mut()]);
+        }
+        found
+    }
+
+    fn temperature_form_old(&self, x0: &[S; N]) -> [S; KEPT] {
+        let Some(form) = &self.functions.temperature_form else {
+            return self.entropy_form_old(x0);
+        };
+        let mut kept = [S::zero(); KEPT];
+        form.staged.keep(x0, &mut kept);
+        kept
+    }
+
+    fn temperature_form(&self, old: &[S; KEPT], x1: &[S; N]) -> ([S; R], [[S; N]; R]) {
+        let Some(form) = &self.functions.temperature_form else {
+            return self.entropy_form(old, x1, &[S::zero(); C]);
+        };
+        let (mut response, mut tangent) = ([S::zero(); R], [[S::zero(); N]; R]);
+        let results = &mut [&mut response, tangent.as_flattened_mut()];
+        let old = &old[..form.staged.old.results()];
+        form.staged.new.run(&[old, x1], results);
+        (response, tangent)
+    }
+
+    fn temperature_form_response(&self, old: &[S; KEPT], x1: &[S; N]) -> [S; R] {
+        let Some(form) = &self.functions.temperature_form else {
+            return self.entropy_form_response(old, x1, &[S::zero(); C]);
+        };
+        let mut response = [S::zero(); R];
+        let old = &old[..form.staged.old.results()];
+        form.response.run(&[old, x1], &mut [&mut response]);
+        response
+    }
+}
+
+fn caloric<S>([entropy, heat_capacity, magnitude]: [S; 3]) -> Caloric<S> {
+    Caloric {
+        entropy,
+        heat_capacity,
+        magnitude,
+    }
+}
