@@ -171,14 +171,14 @@ impl<S: Real> Conduction<S> {
 
     /// The heat flow into a slot, `Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ)`.
     ///
-    /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
+    /// Flows between elements are computed from interface temperatures Θ at both ends, so that one end
     /// receives exactly what the other gives, whatever rounding does to a large κ; flows
     /// from reservoirs from the temperature θ of the slot.
-    pub(crate) fn heat_flow(&self, slot: usize, theta: S, seen: &[S]) -> HeatFlow<S> {
+    pub(crate) fn heat_flow(&self, slot: usize, theta: S, interface: &[S]) -> HeatFlow<S> {
         let mut flow = self.reservoir_flow(slot, theta);
         for link in self.links(slot) {
             if let Partner::Slot(partner) = link.partner {
-                flow.heat += link.conductance * (seen[partner] - seen[slot]);
+                flow.heat += link.conductance * (interface[partner] - interface[slot]);
             }
         }
         flow
@@ -249,9 +249,9 @@ impl<S: Real> Exchange<S> {
 /// Each is a compensated sum: where conduction is stiff, the heat `hκ(Θ_b − Θ_a)` needs more digits of
 /// the difference than the temperatures have.
 #[derive(Clone, Debug)]
-pub(crate) struct SeenTemperatures<S>(Compensated<S>);
+pub(crate) struct InterfaceTemperatures<S>(Compensated<S>);
 
-impl<S: Real> SeenTemperatures<S> {
+impl<S: Real> InterfaceTemperatures<S> {
     /// Memory for this many slots.
     pub(crate) fn new(slots: usize) -> Self {
         Self(Compensated::new(vec![S::zero(); slots]))

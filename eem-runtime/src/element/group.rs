@@ -9,7 +9,7 @@
 //!            local unknowns eliminated                              (local, eliminate)
 //!            contributions written to their places                  (share, site)
 //! correct    local unknowns from the global solution                (correct, point)
-//! close      impulses, what is booked, and the new state            (closing, settle, certify)
+//! close      impulses, what is booked, and the new state            (closing, recovery, certify)
 //! ```
 
 mod arms;
@@ -37,8 +37,8 @@ mod pose;
 #[cfg(feature = "gradients")]
 mod pull_back;
 mod recounting;
+mod recovery;
 mod respond;
-mod settle;
 mod share;
 mod site;
 mod stages;

@@ -112,7 +112,7 @@ impl<S: Real> Tally<S> {
 /// If the terms of a free energy cancel, its values have more rounding than its differences. Then `Δe` by discrete
 /// derivatives between the stored states, evaluated again, decides.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Recount<S> {
+pub(crate) struct Reevaluation<S> {
     /// `Σ (Δe by differences − Δe by values)`, J.
     pub(crate) correction: S,
     /// The magnitude of the terms of all free energies at both ends, J.
@@ -121,7 +121,7 @@ pub(crate) struct Recount<S> {
     worst: Option<(Element, S)>,
 }
 
-impl<S: Real> Recount<S> {
+impl<S: Real> Reevaluation<S> {
     /// Of no elements.
     pub(crate) fn new() -> Self {
         Self {

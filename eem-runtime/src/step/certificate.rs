@@ -47,7 +47,7 @@ mod motion;
 use crate::element::group::Group;
 use crate::element::handle::Element;
 use crate::element::state::State;
-use crate::element::tally::{ROUNDINGS, Recount, Tally};
+use crate::element::tally::{ROUNDINGS, Reevaluation, Tally};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use eem_material::number::scalar::{Mask, Real};
@@ -209,13 +209,13 @@ impl<S: Real> Certificate<S> {
 
     /// With energies evaluated again: they decide if values are less accurate than the bound and their roundings explain the
     /// difference.
-    pub(crate) fn recounted(mut self, recount: &Recount<S>) -> Self {
+    pub(crate) fn reevaluated(mut self, reevaluation: &Reevaluation<S>) -> Self {
         let [defect, bound] = self.judged;
-        let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * recount.magnitude;
+        let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
         let is_explained = bound.less(rounding) & defect.abs().at_most(bound + rounding);
-        let recounted = defect + recount.correction;
-        self.judged[0] = S::select(is_explained, recounted, defect);
-        self.bound += S::from_f64(REPORTED_VALUE_ROUNDINGS) * S::EPSILON * recount.magnitude;
+        let reevaluated = defect + reevaluation.correction;
+        self.judged[0] = S::select(is_explained, reevaluated, defect);
+        self.bound += S::from_f64(REPORTED_VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
         self
     }
 

@@ -36,7 +36,7 @@ pub(crate) use effort::Effort;
 use kept_factors::KeptFactors;
 use past::Past;
 pub(crate) use past::SavedPast;
-use places::{Seen, moving, seen};
+use places::{Interface, moving};
 use rockets::Rockets;
 use stages::Stages;
 
@@ -52,7 +52,7 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     coupling: Coupling<S, D>,
     rockets: Rockets<S, D>,
     /// The coupled interface temperatures, set after set.
-    seen: Vec<Seen>,
+    interfaces: Vec<Interface>,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
     factors: KeptFactors,
@@ -115,23 +115,23 @@ impl<S: Real, const D: usize> Solver<S, D> {
             sets: [0; 2],
         };
         let nodes_with = |needed: bool| if needed { masses.len() } else { 0 };
-        let (mut nodes, mut all_seen) = (Vec::new(), Vec::new());
+        let (mut nodes, mut interfaces) = (Vec::new(), Vec::new());
         for set in 0..sets.len() {
             let sites = sites.of_sets([set, set]);
             nodes.extend(moving(masses, &sites).into_iter().map(Balance::new));
-            all_seen.extend(seen(&sites));
+            interfaces.extend(places::interfaces(&sites));
         }
         let coupling = Coupling::new(masses, &loads.moved, (&sites, sets.len()));
         let rockets = Rockets::new(scheme.tableau(), loads, masses.len(), &sites);
-        // Without conduction between elements no temperature is seen.
-        let slots = layout.thermal * usize::from(!all_seen.is_empty());
+        // Without conduction between elements there are no interface temperatures.
+        let slots = layout.thermal * usize::from(!interfaces.is_empty());
         Self {
             scheme,
             past: Past::none(masses.len(), predicted(scheme, layout)),
             nodes,
             coupling,
             rockets,
-            seen: all_seen,
+            interfaces,
             factors: KeptFactors::new(&tangent),
             tangent,
             trial: Trial::new(sets.len(), masses.len(), slots),

@@ -45,7 +45,7 @@ pub(super) fn change_in<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
     trial: &Trial<S, D>,
 ) -> Arms<K, S, D> {
-    change_of::<K, S, D>(nodes, [&trial.displacements, &trial.rests])
+    change_of::<K, S, D>(nodes, [&trial.displacements, &trial.carries])
 }
 
 /// The same at the stage of a set of unknowns.
@@ -58,16 +58,16 @@ pub(super) fn change_in_set<K: Kinematics<S, D>, S: Real, const D: usize>(
     let first = trial.first_of_set(set);
     change_of::<K, S, D>(
         nodes,
-        [&trial.displacements[first..], &trial.rests[first..]],
+        [&trial.displacements[first..], &trial.carries[first..]],
     )
 }
 
 #[inline]
 fn change_of<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
-    [displacements, rests]: [&[[S; D]]; 2],
+    [displacements, carries]: [&[[S; D]]; 2],
 ) -> Arms<K, S, D> {
-    let of = |node: u32| (&displacements[node as usize], &rests[node as usize]);
+    let of = |node: u32| (&displacements[node as usize], &carries[node as usize]);
     let (first, first_rest) = of(nodes[0]);
     let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
     for (arm, &node) in change.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {

@@ -3,7 +3,7 @@
 use core::any::Any;
 
 use super::element_group::ElementGroup;
-use super::explicit::FreeGroup;
+use super::explicit::ExplicitElements;
 use super::interface::{ExplicitGroup, Group, Loose};
 use super::loose::LooseElements;
 use super::stages::{Projections, Source, StageGroup, Values};
@@ -65,7 +65,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Loose<S,
     }
 
     fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<S, D>> {
-        Box::new(FreeGroup::new(*self, placed))
+        Box::new(ExplicitElements::new(*self, placed))
     }
 }
 

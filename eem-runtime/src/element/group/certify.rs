@@ -232,7 +232,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             && let Some(slot) = self.slots().thermal
         {
             let terms = self.known_to(Self::TEMPERATURE, r1, tally.care);
-            tally.balance(trial.seen.values()[slot] - theta, terms);
+            tally.balance(trial.interface.values()[slot] - theta, terms);
         }
     }
 }

@@ -201,7 +201,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         if let Some(contact) = contact {
             for partner in &contact.partners {
                 let other = partner.slot as usize;
-                let path = (trial.seen).exchange(share * partner.conductance, slot, other);
+                let path = (trial.interface).exchange(share * partner.conductance, slot, other);
                 let path = (partner.link, &path);
                 balances.conduct([slot, other], path, &mut received);
             }

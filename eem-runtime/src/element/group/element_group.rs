@@ -18,7 +18,7 @@ use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Kinematics, Points, QuadraticStrain};
 use crate::element::state::State;
-use crate::element::tally::{Recount, Tally};
+use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
@@ -154,10 +154,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         for member in &mut self.members {
             let motion = member.site.motion_in(solution);
             for point in member.points.as_mut() {
-                let found = point.found_by(settled);
+                let found = point.values_to_restore(settled);
                 let contact = point.contact_in(&self.contacts);
                 let update = point.correct(&motion, contact, solution);
-                point.return_to(found, settled);
+                point.restore(found, settled);
                 largest = largest.maximum(update);
             }
         }
@@ -224,7 +224,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
                 let contact = point.contact_in(&self.contacts);
                 let received = point.book(view, (contact, trial), next, tally);
                 let near = point.x[M::Variables::LEN - 1];
-                if let Some(entropy) = point.settle(&r1, view, near, next)? {
+                if let Some(entropy) = point.recover_temperature(&r1, view, near, next)? {
                     point.book_thermostat(view, [entropy, received.entropy], next);
                 }
                 if C::EXACT {
@@ -241,12 +241,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         Ok(())
     }
 
-    fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
+    fn reevaluate(&self, ends: [&State<S>; 2], reevaluation: &mut Reevaluation<S>) {
         for member in &self.members {
             for point in member.points.as_ref() {
                 let own = point.balance_between(&member.site.nodes, ends);
                 let found = Point::<S, M, K, C, D>::change_of(&point.response, &own.increments);
-                recount.element(point.element, own.by_values, own.by_differences, found);
+                reevaluation.element(point.element, own.by_values, own.by_differences, found);
             }
         }
     }

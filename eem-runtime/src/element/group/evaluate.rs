@@ -111,9 +111,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
         self.points.as_mut().iter_mut().try_for_each(|point| {
-            let found = point.found_by(trial.settled);
+            let found = point.values_to_restore(trial.settled);
             point.respond_alone(view, trial, &arms)?;
-            point.return_to(found, trial.settled);
+            point.restore(found, trial.settled);
             Ok(())
         })
     }
@@ -134,8 +134,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let arms = self.trial_arms(view, trial);
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
-            let found = point.found_by(trial.settled);
-            let measures = point.locate_trial(&arms.seen, trial)?;
+            let found = point.values_to_restore(trial.settled);
+            let measures = point.locate_trial(&arms.placed, trial)?;
             let pose = point.pose(&arms, &measures);
             point.sensitivity = pose.sensitivity;
             let by_rate = point.extend(&pose, &arms.motion);
@@ -147,7 +147,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             point.accept(view.per_step, &form)?;
             let elastic = point.add_drag(view.per_step, &mut form);
             let contact = point.contact_in(contacts);
-            point.condense(view, &trial.seen, &form, contact)?;
+            point.condense(view, &trial.interface, &form, contact)?;
             if let Some(by_rate) = &by_rate {
                 point.warm_by_rates(view, by_rate);
             }
@@ -158,7 +158,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             }
             point.keep(&form);
             point.drop_drag(&elastic);
-            point.return_to(found, trial.settled);
+            point.restore(found, trial.settled);
         }
         Ok(())
     }

@@ -17,7 +17,7 @@ mod stiffness;
 mod temperature;
 pub(super) mod view;
 
-pub(crate) use group::FreeGroup;
+pub(crate) use group::ExplicitElements;
 pub(crate) use stage::{Past, Place, Stage};
 pub(crate) use temperature::is_met;
 pub(crate) use view::{ClosingView, ComponentEnergy, UnkeptEntropy};

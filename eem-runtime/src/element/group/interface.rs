@@ -18,7 +18,7 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::SolidState;
 use crate::element::layout::{Shape, Slots};
 use crate::element::state::State;
-use crate::element::tally::{Recount, Tally};
+use crate::element::tally::{Reevaluation, Tally};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
@@ -142,7 +142,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     ) -> Result<(), StateError>;
 
     /// The energy balances of the elements in the last step, from the old state to a closed one.
-    fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>);
+    fn reevaluate(&self, ends: [&State<S>; 2], reevaluation: &mut Reevaluation<S>);
 
     /// The contributions of the elements to the discrete GENERIC form of the last step, between two states.
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;

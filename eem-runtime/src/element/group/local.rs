@@ -15,7 +15,7 @@ use super::eliminate::{LocalSystem, eliminate};
 use super::point::Point;
 use super::site::Contact;
 use crate::algebra::lu::Singular;
-use crate::element::conduction::{HeatFlow, SeenTemperatures};
+use crate::element::conduction::{HeatFlow, InterfaceTemperatures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
 use crate::element::group::point::temperature_in;
@@ -38,7 +38,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     pub(super) fn condense(
         &mut self,
         view: &StepView<'_, S>,
-        seen: &SeenTemperatures<S>,
+        interface: &InterfaceTemperatures<S>,
         form: &Form<S, M>,
         contact: Option<&Contact<K, S, D>>,
     ) -> Result<(), StateError> {
@@ -47,7 +47,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
         // Called first: the call would spill the registers used below.
         let theta = temperature_in::<S, M>(&form.0);
-        let flow = self.heat_flow(view, contact, seen, theta);
+        let flow = self.heat_flow(view, contact, interface, theta);
         let zeros = M::Variables::filled(S::zero());
         let mut system = LocalSystem::<S, M> {
             constant: zeros,
@@ -130,7 +130,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         &self,
         view: &StepView<'_, S>,
         contact: Option<&Contact<K, S, D>>,
-        seen: &SeenTemperatures<S>,
+        interface: &InterfaceTemperatures<S>,
         theta: S,
     ) -> HeatFlow<S> {
         let mut flow = HeatFlow::none();
@@ -142,7 +142,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
         if let Some(contact) = contact {
             for partner in &contact.partners {
-                flow.heat += partner.conductance * seen.drop(slot, partner.slot as usize);
+                flow.heat += partner.conductance * interface.drop(slot, partner.slot as usize);
             }
         }
         flow

@@ -2,7 +2,7 @@
 
 use super::arms::{add_scaled, arms_in, change_in};
 use super::point::Point;
-use super::pose::seen_arms;
+use super::pose::placed_arms;
 use super::respond::TrialArms;
 use super::site::Site;
 use crate::element::conjugates::ElementScheme;
@@ -93,7 +93,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     ) -> TrialArms<K, S, D> {
         TrialArms {
             old: self.r0,
-            seen: seen_arms::<K, S, D>(self.scheme().placement(), &self.r0, self.new_arms(trial)),
+            placed: placed_arms::<K, S, D>(
+                self.scheme().placement(),
+                &self.r0,
+                self.new_arms(trial),
+            ),
             motion: self.motion(view, trial),
         }
     }

@@ -19,7 +19,7 @@ pub(super) struct Pose<K: Kinematics<S, D>, S: Real, const D: usize> {
 
 /// The arms in the configuration that a scheme uses, the new one or the mean.
 #[inline]
-pub(super) fn seen_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn placed_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
     at: Placement,
     r0: &Arms<K, S, D>,
     r1: Arms<K, S, D>,
@@ -73,7 +73,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
         [r0, r1]: [&Arms<K, S, D>; 2],
         measures0: Measures<K, S, D>,
     ) -> Self {
-        let r1 = seen_arms::<K, S, D>(at, r0, *r1);
+        let r1 = placed_arms::<K, S, D>(at, r0, *r1);
         let measures = [measures0, kinematics.measure(&r1)];
         Self::new(kinematics, at, Ends::new(kinematics, [*r0, r1], measures))
     }

@@ -15,7 +15,7 @@ use eem_material::number::scalar::{Mask, Real, is_positive};
 pub(super) struct TrialArms<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) old: Arms<K, S, D>,
     /// The new arms, or the mean ones for a scheme at the midpoint.
-    pub(super) seen: Arms<K, S, D>,
+    pub(super) placed: Arms<K, S, D>,
     /// `r¹ − r⁰ − (1 − w) h ṙ⁰`, for a scheme in temperature.
     pub(super) motion: Arms<K, S, D>,
 }
@@ -64,7 +64,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         measures: &Measures<K, S, D>,
     ) -> Pose<K, S, D> {
         let measures = [measures_in::<K, S, D>(&self.start.x0), *measures];
-        let ends = Ends::new(&self.kinematics, [arms.old, arms.seen], measures);
+        let ends = Ends::new(&self.kinematics, [arms.old, arms.placed], measures);
         Pose::new(&self.kinematics, self.scheme.placement(), ends)
     }
 
@@ -96,7 +96,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         arms: &TrialArms<K, S, D>,
     ) -> Result<(), StateError> {
         let per_step = view.per_step;
-        let measures = self.locate_trial(&arms.seen, trial)?;
+        let measures = self.locate_trial(&arms.placed, trial)?;
         if Self::DRAGS > 0 {
             let pose = self.pose(arms, &measures);
             self.extend(&pose, &arms.motion);
@@ -185,7 +185,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     /// The present values, to be restored in the lanes that have converged. `None` if there are none, or with a single
     /// lane.
     #[inline]
-    pub(super) fn found_by(&self, settled: S::Mask) -> Option<Found<S, M>> {
+    pub(super) fn values_to_restore(&self, settled: S::Mask) -> Option<Found<S, M>> {
         if S::LANES == 1 || !settled.any() {
             return None;
         }
@@ -200,7 +200,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// Restores the values in lanes that have converged.
     #[inline]
-    pub(super) fn return_to(&mut self, found: Option<Found<S, M>>, settled: S::Mask) {
+    pub(super) fn restore(&mut self, found: Option<Found<S, M>>, settled: S::Mask) {
         let Some(found) = found else {
             return;
         };

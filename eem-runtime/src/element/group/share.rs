@@ -158,9 +158,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn heat(&self, trial: &Trial<S, D>, form: &Form<S, M>) -> Heat<K, S, D> {
         let row = self.condensed_row(Self::TEMPERATURE, form, true);
-        let seen = trial.seen.values()[self.slots().thermal.unwrap_or_default()];
+        let interface = trial.interface.values()[self.slots().thermal.unwrap_or_default()];
         Heat {
-            residual: row.value - seen,
+            residual: row.value - interface,
             by_arm: self.by_arm(&row, S::one()),
             slope: row.by_heat * self.condensed.heat_factor,
             pull: Arms::<K, S, D>::filled([S::zero(); D]),

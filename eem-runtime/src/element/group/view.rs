@@ -3,7 +3,7 @@
 use core::array;
 
 use crate::algebra::system::LinearSystem;
-use crate::element::conduction::{Conduction, SeenTemperatures};
+use crate::element::conduction::{Conduction, InterfaceTemperatures};
 use crate::element::conjugates::Placement;
 use crate::element::ends::Ends;
 use crate::element::layout::Layout;
@@ -88,9 +88,9 @@ pub(crate) struct Trial<S: Real, const D: usize> {
     /// `q − q⁰` of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
     /// Their compensations of rounding, m.
-    pub(crate) rests: Vec<[S; D]>,
+    pub(crate) carries: Vec<[S; D]>,
     /// The interface temperatures Θ = θ*; unknowns where the slot is coupled.
-    pub(crate) seen: SeenTemperatures<S>,
+    pub(crate) interface: InterfaceTemperatures<S>,
     /// Elements use the [starting form](crate::element::conjugates::ElementScheme::starting_form) of their scheme, if
     /// it has one.
     pub(crate) is_start: bool,
@@ -100,13 +100,13 @@ pub(crate) struct Trial<S: Real, const D: usize> {
 
 impl<S: Real, const D: usize> Trial<S, D> {
     /// At rest, for these numbers of sets of unknowns, nodes and interface temperatures.
-    pub(crate) fn new(sets: usize, nodes: usize, seen: usize) -> Self {
+    pub(crate) fn new(sets: usize, nodes: usize, interface: usize) -> Self {
         let points = vec![[S::zero(); D]; sets * nodes];
         Self {
             sets,
             displacements: points.clone(),
-            rests: points,
-            seen: SeenTemperatures::new(sets * seen),
+            carries: points,
+            interface: InterfaceTemperatures::new(sets * interface),
             is_start: false,
             settled: S::Mask::none(),
         }
@@ -123,8 +123,8 @@ impl<S: Real, const D: usize> Trial<S, D> {
     }
 
     /// The index of the interface temperature of a thermal slot in a set.
-    pub(crate) fn seen_of_set(&self, set: usize, slot: usize) -> usize {
-        set * (self.seen.values().len() / self.sets) + slot
+    pub(crate) fn interface_of_set(&self, set: usize, slot: usize) -> usize {
+        set * (self.interface.values().len() / self.sets) + slot
     }
 }
 

@@ -32,7 +32,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for (path, kept) in self.components.paths.iter().zip(&mut scratch.paths) {
             let [a, b] = path.ends.map(|end| end as usize);
             let progress = &mut scratch.progress[path.component as usize];
-            let rates = PathRates::new(path.conductance, [&path.seen[0], &path.seen[1]]);
+            let rates = PathRates::new(
+                path.conductance,
+                [&path.temperatures[0], &path.temperatures[1]],
+            );
             let [flow, production] = rates.guarded(h);
             *kept = production;
             progress.production.add(production);
@@ -118,7 +121,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 None => next.meters.produce_between([a, b], scale * production),
             }
             if !progress.is_rigid {
-                let heat = h * path.conductance * mean_drop([&path.seen[0], &path.seen[1]]);
+                let heat = h
+                    * path.conductance
+                    * mean_drop([&path.temperatures[0], &path.temperatures[1]]);
                 next.meters.conduct(path.link as usize, heat);
             }
         }

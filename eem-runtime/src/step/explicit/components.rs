@@ -61,7 +61,7 @@ pub(super) struct Path<S> {
     /// κ, W/K.
     pub(super) conductance: S,
     /// The temperatures of both ends at the stages with weights, K.
-    pub(super) seen: [PerWeight<S>; 2],
+    pub(super) temperatures: [PerWeight<S>; 2],
 }
 
 /// The entropy that a reservoir receives from a component.
@@ -290,7 +290,7 @@ impl<S: Real> Components<S> {
                 ends: [slot, compact(far)],
                 share,
                 conductance: link.conductance,
-                seen: [[S::one(); _]; 2],
+                temperatures: [[S::one(); _]; 2],
             });
         }
     }

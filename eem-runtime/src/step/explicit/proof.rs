@@ -32,8 +32,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let [old, mut terms] = known.unwrap_or_else(|| self.terms_at_start(start));
         let (mut residue, mut counted, mut own) = (S::zero(), S::zero(), S::zero());
         for index in 0..self.components.all.len() {
-            let seen = self.scratch.progress[index].seen;
-            let [defect, magnitude] = seen.unwrap_or_else(|| self.defect_of(index));
+            let present = self.scratch.progress[index].present;
+            let [defect, magnitude] = present.unwrap_or_else(|| self.defect_of(index));
             let granularity = self.scratch.progress[index].granularity;
             let magnitude = magnitude + S::from_f64(FROZEN / ROUNDINGS) * granularity;
             expect(Law::Energy, [-defect, rounding * magnitude], time)?;

@@ -18,7 +18,7 @@ pub(super) struct Progress<S: Real> {
     /// The defect of the energy, J.
     pub(super) defect: S,
     /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
-    pub(super) seen: Option<[S; 2]>,
+    pub(super) present: Option<[S; 2]>,
     /// The magnitude of the terms of the energy where the closing began; zero before, J.
     pub(super) scale: S,
     /// The first defect over the scale.
@@ -100,7 +100,7 @@ impl<S: Real> Progress<S> {
             iterations: 0,
             has_heated: S::Mask::none(),
             defect: S::zero(),
-            seen: None,
+            present: None,
             scale: S::zero(),
             correction: S::zero(),
             lost: S::zero(),

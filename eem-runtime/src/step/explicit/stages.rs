@@ -161,7 +161,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 rates[b] -= flow;
             }
             if let Some(at) = weight {
-                (path.seen[0][at], path.seen[1][at]) = (near, far);
+                (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
             }
         }
         for group in &self.groups {

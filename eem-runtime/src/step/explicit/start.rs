@@ -38,8 +38,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             self.begin_heats();
         }
         for path in &mut self.components.paths {
-            for (seen, end) in path.seen.iter_mut().zip(path.ends) {
-                seen[0] = self.stage.theta(end as usize);
+            for (temperatures, end) in path.temperatures.iter_mut().zip(path.ends) {
+                temperatures[0] = self.stage.theta(end as usize);
             }
         }
         if self.is_driven {

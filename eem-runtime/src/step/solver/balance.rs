@@ -67,7 +67,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
     /// `Δq − h v⁰` at a trial, m.
     pub(super) fn change(&self, trial: &Trial<S, D>) -> [S; D] {
         let at = self.place.in_trial();
-        self.beyond_flight([&trial.displacements[at], &trial.rests[at]])
+        self.beyond_flight([&trial.displacements[at], &trial.carries[at]])
     }
 
     #[inline]

@@ -114,10 +114,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let is_coupled = !self.coupling.is_none();
         let momenta = points::<S, D>(view.state.momenta.values());
         let (values, right, solution) = self.tangent.renew();
-        for seen in &self.seen {
-            let theta = view.state.temperatures[seen.slot];
-            self.trial.seen.set(seen.in_trial, theta);
-            (right[seen.row], solution[seen.row]) = ([S::zero()], [S::zero()]);
+        for interface in &self.interfaces {
+            let theta = view.state.temperatures[interface.slot];
+            self.trial.interface.set(interface.in_trial, theta);
+            (right[interface.row], solution[interface.row]) = ([S::zero()], [S::zero()]);
         }
         let is_predicted =
             start != Start::Rest && view.phase.moves() && self.scheme.predicts_its_start();
@@ -142,7 +142,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             // The displacement from the old state is the first correction.
             *node.place.rows_mut(solution) = displacement;
             self.trial.displacements[trial] = displacement;
-            self.trial.rests[trial] = [S::zero(); D];
+            self.trial.carries[trial] = [S::zero(); D];
             node.balance([&displacement, &[S::zero(); D]], values, right);
         }
         self.couple(view);

@@ -11,7 +11,7 @@ use super::Solver;
 use super::begin::old_force;
 use crate::element::group::{Along, Group, StepView, points};
 use crate::element::state::State;
-use crate::element::tally::{Care, Recount, Tally};
+use crate::element::tally::{Care, Reevaluation, Tally};
 use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Reach, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Closing;
@@ -51,12 +51,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         if certificate.has_enough_energy().all() {
             return Ok(certificate);
         }
-        let mut recount = Recount::new();
+        let mut reevaluation = Reevaluation::new();
         for group in groups.iter() {
-            group.recount([view.state, next], &mut recount);
+            group.reevaluate([view.state, next], &mut reevaluation);
         }
-        self.worst = recount.worst();
-        Ok(certificate.recounted(&recount))
+        self.worst = reevaluation.worst();
+        Ok(certificate.reevaluated(&reevaluation))
     }
 
     fn close_with(
@@ -204,7 +204,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut impulses = self.past.impulses();
         for node in &self.nodes {
             let at = node.place.node();
-            self.trial.rests[at] = [S::zero(); D];
+            self.trial.carries[at] = [S::zero(); D];
             let mobility = view.step * node.place.per_mass;
             let impulse = impulses.of(at);
             let displacement =

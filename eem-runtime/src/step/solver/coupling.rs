@@ -266,7 +266,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
             return *found;
         }
         let at = node.place.in_trial();
-        node.impulse([&trial.displacements[at], &trial.rests[at]])
+        node.impulse([&trial.displacements[at], &trial.carries[at]])
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Solver;
 use super::begin::Start;
-use super::places::Seen;
+use super::places::Interface;
 use crate::element::group::{Group, StepView};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
@@ -15,12 +15,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts the system of an iteration at the trial state.
     pub(super) fn balance(&mut self, view: &StepView<'_, S>) {
         let (values, right, _) = self.tangent.renew();
-        for seen in &self.seen {
-            right[seen.row] = [S::zero()];
+        for interface in &self.interfaces {
+            right[interface.row] = [S::zero()];
         }
         for node in &self.nodes {
             let at = node.place.in_trial();
-            let displacement = [&self.trial.displacements[at], &self.trial.rests[at]];
+            let displacement = [&self.trial.displacements[at], &self.trial.carries[at]];
             node.balance(displacement, values, right);
         }
         self.couple(view);
@@ -53,7 +53,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for node in &self.nodes {
             let at = node.place.in_trial();
             let change = node.place.rows(solution);
-            let (mut displacement, mut rest) = (trial.displacements[at], trial.rests[at]);
+            let (mut displacement, mut rest) = (trial.displacements[at], trial.carries[at]);
             // One by one, as the solution has been stored: a wider load would stall.
             for axis in 0..D {
                 let change = change[axis];
@@ -61,14 +61,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 correct(&mut displacement[axis], &mut rest[axis], applied);
                 largest.see(change * node.per_length);
             }
-            (trial.displacements[at], trial.rests[at]) = (displacement, rest);
+            (trial.displacements[at], trial.carries[at]) = (displacement, rest);
             node.balance([&displacement, &rest], values, right);
         }
-        for &Seen { in_trial, row, .. } in &self.seen {
+        for &Interface { in_trial, row, .. } in &self.interfaces {
             let change = solution[row][0];
             right[row] = [S::zero()];
-            largest.see(change / trial.seen.values()[in_trial]);
-            trial.seen.add(in_trial, unless(settled, S::zero(), change));
+            largest.see(change / trial.interface.values()[in_trial]);
+            trial
+                .interface
+                .add(in_trial, unless(settled, S::zero(), change));
         }
         self.couple(view);
         for group in groups.iter_mut() {
@@ -85,11 +87,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let at = node.place.in_trial();
             for (axis, &change) in node.place.rows(solution).iter().enumerate() {
                 let displacement = &mut trial.displacements[at][axis];
-                correct(displacement, &mut trial.rests[at][axis], -share * change);
+                correct(displacement, &mut trial.carries[at][axis], -share * change);
             }
         }
-        for &Seen { in_trial, row, .. } in &self.seen {
-            trial.seen.add(in_trial, -share * solution[row][0]);
+        for &Interface { in_trial, row, .. } in &self.interfaces {
+            trial.interface.add(in_trial, -share * solution[row][0]);
         }
         self.balance(view);
     }
@@ -109,11 +111,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
             for (axis, change) in node.place.rows_mut(solution).iter_mut().enumerate() {
                 let displacement = &mut self.trial.displacements[at][axis];
                 *change = growth * *displacement;
-                correct(displacement, &mut self.trial.rests[at][axis], *change);
+                correct(displacement, &mut self.trial.carries[at][axis], *change);
             }
         }
-        for seen in &self.seen {
-            solution[seen.row] = [S::zero()];
+        for interface in &self.interfaces {
+            solution[interface.row] = [S::zero()];
         }
         for group in groups {
             group.hold();
@@ -132,11 +134,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.begin(groups, view, Start::Predicted)?;
         let given = unknowns.as_chunks::<1>().0;
         for node in &self.nodes {
-            self.trial.rests[node.place.in_trial()] = [S::zero(); D];
+            self.trial.carries[node.place.in_trial()] = [S::zero(); D];
             self.trial.displacements[node.place.in_trial()] = *node.place.rows(given);
         }
-        for seen in &self.seen {
-            self.trial.seen.set(seen.in_trial, unknowns[seen.row]);
+        for interface in &self.interfaces {
+            self.trial
+                .interface
+                .set(interface.in_trial, unknowns[interface.row]);
         }
         // Whatever fails, the global unknowns stay.
         self.tangent.solution_mut().fill([S::zero()]);

@@ -83,7 +83,7 @@ fn no_such_row() -> ! {
 
 /// A coupled interface temperature.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Seen {
+pub(super) struct Interface {
     /// The thermal slot, and where it is in the trial.
     pub(super) slot: usize,
     pub(super) in_trial: usize,
@@ -118,14 +118,14 @@ pub(super) fn moving<S: Real, const D: usize>(
 }
 
 /// The coupled interface temperatures.
-pub(super) fn seen<S: Real, const D: usize>(sites: &Sites<'_, S, D>) -> Vec<Seen> {
+pub(super) fn interfaces<S: Real, const D: usize>(sites: &Sites<'_, S, D>) -> Vec<Interface> {
     let first = sites.sets[0] * sites.layout.thermal;
     let coupled = sites.layout.coupled.iter().enumerate();
-    let seen = coupled.filter(|(_, unknown)| unknown.is_some());
-    let seen = seen.map(|(slot, unknown)| Seen {
+    let interface = coupled.filter(|(_, unknown)| unknown.is_some());
+    let interface = interface.map(|(slot, unknown)| Interface {
         slot,
         in_trial: first + slot,
         row: sites.row(*unknown),
     });
-    seen.collect()
+    interface.collect()
 }

@@ -138,11 +138,11 @@ impl<'a, const D: usize> AtRest<'a, D> {
 
     /// Writes the state that was found.
     pub(crate) fn close(&mut self, next: &mut State<f64>) -> Result<(), StepFailure> {
-        let (moved, rests) = self.place();
-        for (node, (moved, rests)) in moved.iter().zip(&rests).enumerate() {
+        let (moved, carries) = self.place();
+        for (node, (moved, carries)) in moved.iter().zip(&carries).enumerate() {
             for axis in 0..D {
                 let (at, old) = (node * D + axis, &self.view.state.positions);
-                next.positions.advance(at, old, moved[axis] + rests[axis]);
+                next.positions.advance(at, old, moved[axis] + carries[axis]);
             }
         }
         let mut tally = Tally::new(Care::Quick);
@@ -233,16 +233,16 @@ impl<'a, const D: usize> AtRest<'a, D> {
     /// Starts at a place, or at the initial state, with the initial internal variables.
     fn start(&mut self, place: Option<&Place<D>>) -> Result<(), StepFailure> {
         self.solver.begin(self.groups, self.view, Start::Rest)?;
-        if let Some((moved, rests)) = place {
+        if let Some((moved, carries)) = place {
             self.solver.trial.displacements.copy_from_slice(moved);
-            self.solver.trial.rests.copy_from_slice(rests);
+            self.solver.trial.carries.copy_from_slice(carries);
         }
         self.renew()
     }
 
     fn place(&self) -> Place<D> {
         let trial = &self.solver.trial;
-        (trial.displacements.clone(), trial.rests.clone())
+        (trial.displacements.clone(), trial.carries.clone())
     }
 
     /// The largest force out of balance, N, and its node if any moves.

@@ -5,7 +5,7 @@ use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::arms::add_scaled;
 use crate::element::group::explicit::closed::Closed;
-use crate::element::group::explicit::group::FreeGroup;
+use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::explicit::temperature::Settled;
@@ -16,7 +16,7 @@ use crate::element::state::Energy;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::{Real, unless};
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
     /// See [`ExplicitGroup::close`](super::ExplicitGroup::close).
     pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError> {
         let members = self.elements.members.iter().zip(&self.places);

@@ -16,7 +16,7 @@ use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
 /// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
-pub(crate) struct FreeGroup<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> {
+pub(crate) struct ExplicitElements<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> {
     /// The elements in a state.
     pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
     /// Per element: its component, and the indices of its nodes among the places of a stage.
@@ -25,7 +25,7 @@ pub(crate) struct FreeGroup<S: Real, M: Material<S>, K: Kinematics<S, D>, const 
     pub(super) closed: Vec<Closed<S, M, K, D>>,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
     pub(crate) fn new(elements: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
         let elements = ElementGroup::new(PointRule::Variational, elements, placed);
         let count = elements.members.len();
@@ -47,7 +47,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, 
 }
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ExplicitGroup<S, D>
-    for FreeGroup<S, M, K, D>
+    for ExplicitElements<S, M, K, D>
 {
     fn elements(&self) -> &dyn Elements<S, D> {
         &self.elements

@@ -8,14 +8,14 @@ use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, scale};
 use crate::element::group::explicit::closed::Found;
-use crate::element::group::explicit::group::FreeGroup;
+use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use eem_material::free_energy::{Array, Material, Rates};
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
     pub(super) fn rates_of_all(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
         for (point, nodes) in self.placed() {

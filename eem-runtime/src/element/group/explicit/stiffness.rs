@@ -1,7 +1,7 @@
 //! How fast elements are: what limits an explicit step.
 
 use crate::element::conjugates::PointRule;
-use crate::element::group::explicit::group::FreeGroup;
+use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::view::NodeStiffness;
 use crate::element::group::point::Point;
 use crate::element::kinematics::Kinematics;
@@ -9,7 +9,7 @@ use crate::element::state::State;
 use eem_material::free_energy::Material;
 use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
     /// See [`ExplicitGroup::stiffness`](super::ExplicitGroup::stiffness).
     #[cold]
     pub(super) fn stiffness_of_all(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>)) {

@@ -140,8 +140,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
             let by_arms = source.by_arms(bases, self.local);
             let by_heat = &self.local.row[1 + rule.sets() * C::FORCES..];
             let own = &contacts[set];
-            let seen = trial.seen.values()[trial.seen_of_set(set, slot)];
-            self.right[own.unknown as usize][0] += theta - seen;
+            let interface = trial.interface.values()[trial.interface_of_set(set, slot)];
+            self.right[own.unknown as usize][0] += theta - interface;
             self.values[own.diagonal as usize] += S::one();
             for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
                 let site = &self.site.sets[set][column];

@@ -197,8 +197,8 @@ pub(super) fn heat_received<S: Real, const D: usize>(
         };
         let mut drop = excess(rule, stage, partner, view) - excess(rule, stage, slot, view);
         for (set, &share) in rule.temperatures[stage].iter().enumerate() {
-            let [near, far] = [slot, partner].map(|slot| trial.seen_of_set(set, slot));
-            drop += S::from_f64(share) * trial.seen.drop(near, far);
+            let [near, far] = [slot, partner].map(|slot| trial.interface_of_set(set, slot));
+            drop += S::from_f64(share) * trial.interface.drop(near, far);
         }
         heat += link.conductance * drop;
     }

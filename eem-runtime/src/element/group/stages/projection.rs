@@ -32,7 +32,7 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Blocks, PerStrain, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES};
-use crate::element::tally::{Recount, Tally};
+use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::Real;
 use vector::{Matrix, Vector, derivatives, steepness};
@@ -354,7 +354,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
     ) -> Result<(), StateError> {
         let booked = self.book(in_state, (view, trial), next, tally);
         let near = self.temperatures[MOST_POINTS];
-        if let Some(entropy) = in_state.settle(r1, view, near, next)? {
+        if let Some(entropy) = in_state.recover_temperature(r1, view, near, next)? {
             self.book_thermostat(&booked, entropy, next);
         }
         let energy = &mut next.energies[in_state.element.index()];
@@ -364,12 +364,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         Ok(())
     }
 
-    fn recount(
+    fn reevaluate(
         &self,
         in_state: &StatePoint<S, M, K, D>,
         nodes: &K::PerNode<u32>,
         ends: [&State<S>; 2],
-        recount: &mut Recount<S>,
+        reevaluation: &mut Reevaluation<S>,
     ) {
         let own = in_state.balance_between(nodes, ends);
         let mut found = S::zero();
@@ -379,7 +379,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
             let work = work.fold(S::zero(), |sum, (a, rate)| sum + a * rate);
             found += S::from_f64(weight) * (work - self.viscous_heat[stage]);
         }
-        recount.element(in_state.element, own.by_values, own.by_differences, found);
+        reevaluation.element(in_state.element, own.by_values, own.by_differences, found);
     }
 }
 

@@ -6,7 +6,7 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Blocks, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::element::tally::{Recount, Tally};
+use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
@@ -139,12 +139,12 @@ where
     ) -> Result<(), StateError>;
 
     /// The energy balance of the point in the last step, given its nodes; only where steps are certified.
-    fn recount(
+    fn reevaluate(
         &self,
         _: &StatePoint<S, M, K, D>,
         _: &K::PerNode<u32>,
         _: [&State<S>; 2],
-        _: &mut Recount<S>,
+        _: &mut Reevaluation<S>,
     ) {
     }
 }

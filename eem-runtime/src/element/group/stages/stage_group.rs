@@ -22,7 +22,7 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Arms, Kinematics, QuadraticStrain, add_blocks};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::element::tally::{Recount, Tally};
+use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
@@ -286,10 +286,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         Ok(())
     }
 
-    fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
+    fn reevaluate(&self, ends: [&State<S>; 2], reevaluation: &mut Reevaluation<S>) {
         for (member, stages) in self.elements.members.iter().zip(&self.members) {
             for (source, in_state) in stages.points.iter().zip(member.points.as_ref()) {
-                source.recount(in_state, &member.site.nodes, ends, recount);
+                source.reevaluate(in_state, &member.site.nodes, ends, reevaluation);
             }
         }
     }

@@ -262,7 +262,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
     ) -> Result<(), StateError> {
         let received = self.book(in_state.slots(), view, next);
         let near = self.theta(self.point.rule.stages() - 1);
-        if let Some(entropy) = in_state.settle(r1, view, near, next)? {
+        if let Some(entropy) = in_state.recover_temperature(r1, view, near, next)? {
             self.book_thermostat(view.step, [entropy, received], next);
         }
         Ok(())

@@ -114,10 +114,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Finds the defect of a component; returns whether it is finite.
     fn look(&mut self, index: usize) -> bool {
-        let seen = self.defect_of(index);
+        let present = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
-        progress.seen = Some(seen);
-        let [defect, magnitude] = seen;
+        progress.present = Some(present);
+        let [defect, magnitude] = present;
         progress.defect = defect;
         let begins = progress.scale.equal(S::zero());
         if begins.any() {
@@ -172,7 +172,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             self.books.targets[index].lost.add(change);
         }
         scratch.progress[index].factor *= S::one() + part;
-        scratch.progress[index].seen = None;
+        scratch.progress[index].present = None;
         let mut is_small = !S::Mask::none();
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;

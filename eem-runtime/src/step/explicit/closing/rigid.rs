@@ -64,7 +64,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let progress = &mut self.scratch.progress[index];
         progress.is_rigid = true;
-        progress.seen = None;
+        progress.present = None;
         progress.production = Total::default();
         progress.factor = S::zero();
         self.scratch.inactive[index] = S::Mask::none();

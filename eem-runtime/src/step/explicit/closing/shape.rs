@@ -44,7 +44,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         view: &ExplicitView<'_, S, D>,
         next: &mut State<S>,
     ) -> Result<Status, Discord> {
-        self.scratch.progress[index].seen = None;
+        self.scratch.progress[index].present = None;
         let progress = self.scratch.progress[index];
         let (defect, iterations) = (progress.defect, progress.iterations);
         if !defect.is_finite() {

@@ -37,7 +37,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         for (moving, node) in self.nodes.iter().enumerate() {
             let at = node.place.node();
-            let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
+            let (displacement, rest) = (&self.trial.displacements[at], &self.trial.carries[at]);
             if takes_increments {
                 let [impulse, terms] = (self.coupling).impulse((moving, node), &self.trial);
                 let found = remembering.impulse_mut(at);

@@ -158,7 +158,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Sets the displacement of a node in a set.
     fn place(&mut self, in_trial: usize, displacement: [S; D]) {
         self.trial.displacements[in_trial] = displacement;
-        self.trial.rests[in_trial] = [S::zero(); D];
+        self.trial.carries[in_trial] = [S::zero(); D];
     }
 
     fn move_to_end(

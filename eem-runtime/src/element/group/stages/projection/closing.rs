@@ -113,8 +113,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         };
         for partner in &contacts[stage][stage].partners {
             let other = partner.slot as usize;
-            let [own, far] = [slot, other].map(|slot| trial.seen_of_set(stage, slot));
-            let path = trial.seen.exchange(share * partner.conductance, own, far);
+            let [own, far] = [slot, other].map(|slot| trial.interface_of_set(stage, slot));
+            let path = trial
+                .interface
+                .exchange(share * partner.conductance, own, far);
             let path = (partner.link, &path);
             balances.conduct([slot, other], path, received);
         }
@@ -208,9 +210,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             if self.point.contacts.is_some()
                 && let Some(slot) = in_state.slots().thermal
             {
-                let seen = trial.seen.values()[trial.seen_of_set(stage, slot)];
+                let interface = trial.interface.values()[trial.interface_of_set(stage, slot)];
                 let terms = self.size_of_conjugate([stage, last], tally.care);
-                tally.balance(seen - theta, terms);
+                tally.balance(interface - theta, terms);
             }
         }
     }

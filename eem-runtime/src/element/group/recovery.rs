@@ -30,7 +30,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     ///
     /// Returns the new entropy if a thermostat prescribes the temperature.
     #[inline]
-    pub(super) fn settle(
+    pub(super) fn recover_temperature(
         &mut self,
         r: &Arms<K, S, D>,
         view: &StepView<'_, S>,
