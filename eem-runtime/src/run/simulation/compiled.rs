@@ -4,6 +4,7 @@
 //! CPU seconds, and takes 7 without those of `Simulation`. So the work of a simulation starts in a table of functions:
 //! that of this crate or, for other scalars and dimensions, one that is compiled where it is used.
 
+#[cfg(not(test))]
 use core::any::Any;
 
 use super::event::Event;
@@ -111,8 +112,12 @@ pub(super) struct Functions<const D: usize, S: Real> {
     pub(super) ledger: fn(&Simulation<D, S>) -> Ledger<D, S>,
 }
 
+/// Not for the unit tests of this crate, which run no simulation: everything behind a `static` is compiled, in 50 s.
+#[cfg(not(test))]
 static LINE: Functions<1, f64> = Functions::HERE;
+#[cfg(not(test))]
 static PLANE: Functions<2, f64> = Functions::HERE;
+#[cfg(not(test))]
 static SPACE: Functions<3, f64> = Functions::HERE;
 
 impl<const D: usize, S: Real> Functions<D, S> {
@@ -131,19 +136,20 @@ impl<const D: usize, S: Real> Functions<D, S> {
     /// The table of this crate if it has one. A branch that a constant rules out is not compiled.
     #[inline]
     pub(super) fn get() -> &'static Self {
+        #[cfg(not(test))]
         if const { S::IS_DOUBLE && D == 1 } {
-            cast(&LINE)
+            return cast(&LINE);
         } else if const { S::IS_DOUBLE && D == 2 } {
-            cast(&PLANE)
+            return cast(&PLANE);
         } else if const { S::IS_DOUBLE && D == 3 } {
-            cast(&SPACE)
-        } else {
-            const { &Self::HERE }
+            return cast(&SPACE);
         }
+        const { &Self::HERE }
     }
 }
 
 /// The same table by its own type.
+#[cfg(not(test))]
 #[inline]
 fn cast<const D: usize, S: Real>(functions: &'static dyn Any) -> &'static Functions<D, S> {
     functions
