@@ -252,7 +252,7 @@ mod tests {
     use super::*;
 
     /// Steps of each row in the gate.
-    const SAMPLE: u64 = 640;
+    const SAMPLE: u64 = 240;
 
     fn sample(scheme: Scheme, steps: &[Steps]) {
         let mut wrong = Vec::new();
