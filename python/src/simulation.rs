@@ -1,0 +1,577 @@
+//! Runs: `eem.Simulation` and the report of a step.
+
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::time::{Duration, Instant};
+
+use eem::{Checkpoint, RunEnd, SceneError, Scheme, StepReport, Tolerance};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyType};
+
+use crate::function::take_raised;
+use crate::handle::{Element, Kind, Node};
+use crate::record::{Rows, Wanted, ledger, record};
+use crate::run::{AnyRun, Stop};
+use crate::scene::PyScene;
+use crate::world::{Parts, World};
+use crate::{error, input};
+
+/// How long a run may go on before it looks for signals.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// The certificate of one step.
+#[pyclass(frozen, get_all, name = "StepReport", module = "eem")]
+pub(crate) struct Report {
+    time: f64,
+    step: f64,
+    iterations: usize,
+    update: f64,
+    residual: f64,
+    defect: f64,
+    bound: f64,
+    is_bound_wide: bool,
+    production: f64,
+    least_production: f64,
+    error: f64,
+    correction: f64,
+}
+
+impl From<&StepReport<f64>> for Report {
+    fn from(report: &StepReport<f64>) -> Self {
+        Self {
+            time: report.time,
+            step: report.step,
+            iterations: report.iterations,
+            update: report.update,
+            residual: report.residual,
+            defect: report.defect,
+            bound: report.bound,
+            is_bound_wide: report.is_bound_wide,
+            production: report.production,
+            least_production: report.least_production,
+            error: report.error,
+            correction: report.correction,
+        }
+    }
+}
+
+#[pymethods]
+impl Report {
+    fn __repr__(&self) -> String {
+        let Self {
+            time,
+            step,
+            iterations,
+            defect,
+            bound,
+            ..
+        } = self;
+        format!(
+            "StepReport(time={time:?}, step={step:?}, iterations={iterations}, defect={defect:.3e}, bound={bound:.3e})"
+        )
+    }
+}
+
+/// The scheme of this name.
+pub(crate) fn scheme(name: &str) -> PyResult<Scheme> {
+    Scheme::from_name(name).ok_or_else(|| {
+        let names = Scheme::ALL.iter().map(|scheme| scheme.name());
+        let names: Vec<_> = std::iter::once("auto").chain(names).collect();
+        PyValueError::new_err(format!(
+            "there is no scheme {name:?}: take one of {}",
+            names.join(", ")
+        ))
+    })
+}
+
+/// How accurate steps are to be.
+pub(crate) fn tolerance(
+    relative: f64,
+    [position, momentum, temperature]: [f64; 3],
+    over: Option<f64>,
+) -> Tolerance<f64> {
+    let tolerance = Tolerance::new(relative)
+        .with_position(position)
+        .with_momentum(momentum)
+        .with_temperature(temperature);
+    match over {
+        Some(time) => tolerance.over(time),
+        None => tolerance,
+    }
+}
+
+/// A run of a scene.
+#[pyclass(frozen, module = "eem")]
+pub(crate) struct Simulation {
+    /// Empty only while the scheme is changed.
+    run: Mutex<Option<Box<dyn AnyRun>>>,
+    /// The scene as it was at the start.
+    world: World,
+    parts: Arc<Parts>,
+    /// The step at the start, s.
+    step: f64,
+}
+
+/// A run that nobody else steps.
+struct Locked<'a>(MutexGuard<'a, Option<Box<dyn AnyRun>>>);
+
+impl Locked<'_> {
+    fn run(&mut self) -> PyResult<&mut Box<dyn AnyRun>> {
+        self.0.as_mut().ok_or_else(interrupted)
+    }
+}
+
+fn interrupted() -> PyErr {
+    PyRuntimeError::new_err("a panic has interrupted this simulation: start it again")
+}
+
+impl Simulation {
+    pub(crate) fn new(world: World, scheme: Scheme, step: f64) -> PyResult<Self> {
+        let run = world.start(scheme, step)?;
+        Ok(Self {
+            run: Mutex::new(Some(run)),
+            parts: Arc::new(world.scene.parts().clone()),
+            world,
+            step,
+        })
+    }
+
+    /// Controls the steps.
+    pub(crate) fn control(&self, tolerance: Tolerance<f64>) -> PyResult<()> {
+        self.ask(|run| run.control_steps(tolerance))
+    }
+
+    /// An error while another thread steps it.
+    fn lock(&self) -> PyResult<Locked<'_>> {
+        match self.run.try_lock() {
+            Ok(guard) => Ok(Locked(guard)),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "the simulation is running, in another thread or in this call",
+            )),
+            Err(TryLockError::Poisoned(_)) => Err(interrupted()),
+        }
+    }
+
+    /// Asks the run for something.
+    fn ask<T>(
+        &self,
+        question: impl FnOnce(&mut dyn AnyRun) -> Result<T, SceneError>,
+    ) -> PyResult<T> {
+        question(&mut **self.lock()?.run()?).map_err(error::of_scene)
+    }
+
+    fn ask_element(
+        &self,
+        element: &Element,
+        question: impl FnOnce(&dyn AnyRun, eem::Element) -> Result<f64, SceneError>,
+    ) -> PyResult<f64> {
+        let element = self.element(element)?;
+        self.ask(|run| question(run, element))
+    }
+
+    fn element(&self, element: &Element) -> PyResult<eem::Element> {
+        let index = self.world.lineage.index(Kind::Element, element.id())?;
+        Ok(self.parts.elements[index])
+    }
+
+    fn node(&self, node: &Node) -> PyResult<eem::Node> {
+        let index = self.world.lineage.index(Kind::Node, node.id())?;
+        Ok(self.parts.nodes[index])
+    }
+
+    fn vector<'py>(
+        &self,
+        py: Python<'py>,
+        node: &Node,
+        add: impl FnOnce(&dyn AnyRun, eem::Node, &mut Vec<f64>) -> Result<(), SceneError>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let node = self.node(node)?;
+        let mut vector = Vec::with_capacity(self.world.dim);
+        self.ask(|run| add(run, node, &mut vector))?;
+        Ok(PyArray1::from_vec(py, vector))
+    }
+
+    fn vectors<'py>(
+        &self,
+        py: Python<'py>,
+        add: impl Fn(&dyn AnyRun, eem::Node, &mut Vec<f64>) -> Result<(), SceneError>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (dim, nodes) = (self.world.dim, &self.parts.nodes);
+        let mut vectors = Vec::with_capacity(dim * nodes.len());
+        self.ask(|run| {
+            nodes
+                .iter()
+                .try_for_each(|&node| add(run, node, &mut vectors))
+        })?;
+        PyArray1::from_vec(py, vectors).reshape([nodes.len(), dim])
+    }
+
+    /// Runs without the interpreter, and says how it ended and what a signal raised.
+    fn advance(&self, until: f64, wanted: Wanted, rows: &mut Rows) -> PyResult<Ended> {
+        let mut guard = self.lock()?;
+        let run = guard.run()?;
+        _ = take_raised();
+        let parts = &*self.parts;
+        rows.add(&**run, parts, wanted.forces)
+            .map_err(error::of_scene)?;
+        let mut watch = Watch::new();
+        let mut steps = 0_usize;
+        let mut is_recorded = true;
+        let ended = run.run_until(until, &mut |run, report| {
+            steps += 1;
+            if let Some(every) = wanted.every {
+                rows.add_report(report);
+                is_recorded = steps.is_multiple_of(every);
+                if is_recorded {
+                    rows.add(run, parts, wanted.forces)?;
+                }
+            } else {
+                is_recorded = false;
+            }
+            Ok(watch.look())
+        });
+        if !is_recorded {
+            rows.add(&**run, parts, wanted.forces)
+                .map_err(error::of_scene)?;
+        }
+        if let Some(signal) = watch.signal {
+            return Ok(Ended::Signal(signal));
+        }
+        Ok(match ended {
+            Ok(RunEnd::Reached) => Ended::Reached,
+            Ok(RunEnd::Stopped | RunEnd::Event(_)) => return Err(interrupted()),
+            Err(Stop::Scene(error)) => return Err(error::of_scene(error)),
+            Err(Stop::Step(error)) => match take_raised() {
+                Some(raised) => return Err(raised),
+                None => Ended::Failed(Box::new(error)),
+            },
+        })
+    }
+}
+
+/// How a run ended.
+enum Ended {
+    Reached,
+    /// With what the handler of a signal raised.
+    Signal(PyErr),
+    Failed(Box<eem::StepError>),
+}
+
+/// Looks for signals now and then: the clock is not read in every step of a small scene.
+struct Watch {
+    last: Instant,
+    /// Steps until the next look at the clock.
+    left: usize,
+    stride: usize,
+    signal: Option<PyErr>,
+}
+
+impl Watch {
+    fn new() -> Self {
+        Self {
+            last: Instant::now(),
+            left: 1,
+            stride: 1,
+            signal: None,
+        }
+    }
+
+    fn look(&mut self) -> ControlFlow<()> {
+        self.left -= 1;
+        if self.left > 0 {
+            return ControlFlow::Continue(());
+        }
+        let passed = self.last.elapsed();
+        if passed < PATIENCE / 2 {
+            self.stride = (2 * self.stride).min(1 << 16);
+        } else if passed > PATIENCE {
+            self.stride = (self.stride / 2).max(1);
+        }
+        self.left = self.stride;
+        if passed < PATIENCE / 4 {
+            return ControlFlow::Continue(());
+        }
+        self.last = Instant::now();
+        match Python::attach(|py| py.check_signals()) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(signal) => {
+                self.signal = Some(signal);
+                ControlFlow::Break(())
+            }
+        }
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    /// The time, s.
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        self.ask(|run| Ok(run.time()))
+    }
+
+    /// The name of the scheme.
+    #[getter]
+    fn scheme(&self) -> PyResult<&'static str> {
+        self.ask(|run| Ok(run.scheme().name()))
+    }
+
+    /// The name of the scheme of the present steps, if the scheme is `auto`.
+    #[getter]
+    fn scheme_in_use(&self) -> PyResult<&'static str> {
+        self.ask(|run| Ok(run.scheme_in_use().name()))
+    }
+
+    /// The size of the next step, s.
+    #[getter]
+    fn step_size(&self) -> PyResult<f64> {
+        self.ask(|run| Ok(run.step_size()))
+    }
+
+    #[setter]
+    fn set_step_size(&self, step: f64) -> PyResult<()> {
+        self.ask(|run| run.set_step_size(step))
+    }
+
+    /// Positions of all nodes, m.
+    #[getter]
+    fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.vectors(py, |run, node, to| run.add_position(node, to))
+    }
+
+    /// Momenta of all nodes, kg m/s.
+    #[getter]
+    fn p<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.vectors(py, |run, node, to| run.add_momentum(node, to))
+    }
+
+    fn position<'py>(
+        &self,
+        py: Python<'py>,
+        node: &Bound<'py, Node>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.vector(py, node.get(), |run, node, to| run.add_position(node, to))
+    }
+
+    fn momentum<'py>(
+        &self,
+        py: Python<'py>,
+        node: &Bound<'py, Node>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.vector(py, node.get(), |run, node, to| run.add_momentum(node, to))
+    }
+
+    fn temperature(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
+        self.ask_element(spring.get(), |run, element| run.temperature(element))
+    }
+
+    fn entropy(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
+        self.ask_element(spring.get(), |run, element| run.entropy(element))
+    }
+
+    fn internal_energy(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
+        self.ask_element(spring.get(), |run, element| run.internal_energy(element))
+    }
+
+    fn stretch(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
+        self.ask_element(spring.get(), |run, element| run.stretch(element))
+    }
+
+    fn force(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
+        self.ask_element(spring.get(), |run, element| run.force(element))
+    }
+
+    #[pyo3(signature = (spring, dashpot=0))]
+    fn viscous_stretch(&self, spring: &Bound<'_, Element>, dashpot: usize) -> PyResult<f64> {
+        self.ask_element(spring.get(), |run, element| {
+            run.viscous_stretch(element, dashpot)
+        })
+    }
+
+    fn ledger(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        ledger(py, &**self.lock()?.run()?)
+    }
+
+    /// The step with the largest defect relative to its bound.
+    #[getter]
+    fn worst_step(&self) -> PyResult<Option<Report>> {
+        self.ask(|run| Ok(run.worst_step().map(Report::from)))
+    }
+
+    fn step(&self) -> PyResult<Report> {
+        let mut guard = self.lock()?;
+        let run = guard.run()?;
+        _ = take_raised();
+        match run.step() {
+            Ok(report) => Ok(Report::from(&report)),
+            Err(error) => Err(take_raised().unwrap_or_else(|| error::step(&error, None))),
+        }
+    }
+
+    #[pyo3(signature = (until, *, every=Some(1), forces=false))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        until: f64,
+        every: Option<usize>,
+        forces: bool,
+    ) -> PyResult<Py<PyAny>> {
+        if every == Some(0) {
+            let message = "every is 0, it must be a positive number of steps, or None";
+            return Err(PyValueError::new_err(message));
+        }
+        let mut rows = Rows::default();
+        let wanted = Wanted { every, forces };
+        let ended = py.detach(|| self.advance(until, wanted, &mut rows))?;
+        let end = match ended {
+            Ended::Reached => "reached",
+            Ended::Signal(_) => "interrupted",
+            Ended::Failed(_) => "failed",
+        };
+        let scene = (self.world.dim, &self.parts, &self.world.lineage);
+        let record = record(py, rows, scene, end, self.scheme()?)?;
+        match ended {
+            Ended::Failed(error) => Err(error::step(&error, Some(record))),
+            Ended::Signal(signal) if !signal.is_instance_of::<PyKeyboardInterrupt>(py) => {
+                Err(signal)
+            }
+            _ => Ok(record),
+        }
+    }
+
+    #[pyo3(signature = (tolerance, *, position=0.0, momentum=0.0, temperature=0.0, over=None))]
+    fn control_steps(
+        &self,
+        tolerance: f64,
+        position: f64,
+        momentum: f64,
+        temperature: f64,
+        over: Option<f64>,
+    ) -> PyResult<()> {
+        self.control(self::tolerance(
+            tolerance,
+            [position, momentum, temperature],
+            over,
+        ))
+    }
+
+    fn fix_steps(&self) -> PyResult<()> {
+        self.ask(|run| {
+            run.fix_steps();
+            Ok(())
+        })
+    }
+
+    fn limit_steps(&self, smallest: f64, largest: f64) -> PyResult<()> {
+        self.ask(|run| run.limit_steps([smallest, largest]))
+    }
+
+    /// Accepted and rejected steps by cause; None without step control.
+    #[getter]
+    fn step_statistics<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(statistics) = self.ask(|run| Ok(run.step_statistics()))? else {
+            return Ok(None);
+        };
+        let counts = PyDict::new(py);
+        counts.set_item("accepted", statistics.accepted)?;
+        counts.set_item("rejected_by_error", statistics.rejected_by_error)?;
+        counts.set_item("rejected_by_newton", statistics.rejected_by_newton)?;
+        counts.set_item("rejected_by_domain", statistics.rejected_by_domain)?;
+        counts.set_item("rejected_by_law", statistics.rejected_by_law)?;
+        counts.set_item("changes_of_scheme", statistics.changes_of_scheme)?;
+        Ok(Some(counts))
+    }
+
+    fn set_force(&self, node: &Bound<'_, Node>, force: &Bound<'_, PyAny>) -> PyResult<()> {
+        let force = input::vector(force, self.world.dim, "the force")?;
+        let node = self.node(node.get())?;
+        self.ask(|run| run.set_force(node, &force))
+    }
+
+    fn set_motion(&self, anchor: &Bound<'_, Node>, velocity: &Bound<'_, PyAny>) -> PyResult<()> {
+        let velocity = input::vector(velocity, self.world.dim, "the velocity")?;
+        let anchor = self.node(anchor.get())?;
+        self.ask(|run| run.set_motion(anchor, &velocity))
+    }
+
+    fn set_temperature(&self, spring: &Bound<'_, Element>, temperature: f64) -> PyResult<()> {
+        let element = self.element(spring.get())?;
+        self.ask(|run| run.set_temperature(element, temperature))
+    }
+
+    fn change_scheme(&self, scheme: &str) -> PyResult<()> {
+        let scheme = self::scheme(scheme)?;
+        let mut guard = self.lock()?;
+        let run = guard.0.take().ok_or_else(interrupted)?;
+        let (run, result) = match run.with_scheme(scheme) {
+            Ok(run) => (run, Ok(())),
+            Err((run, error)) => (run, Err(error::of_scene(error))),
+        };
+        *guard.0 = Some(run);
+        result
+    }
+
+    fn checkpoint(&self) -> PyResult<String> {
+        let checkpoint = self.ask(|run| Ok(run.checkpoint()))?;
+        let text = serde_json::to_string(&checkpoint);
+        text.map_err(|error| error::checkpoint(error.to_string()))
+    }
+
+    fn restore(&self, checkpoint: &str) -> PyResult<()> {
+        let checkpoint: Checkpoint = serde_json::from_str(checkpoint)
+            .map_err(|error| error::checkpoint(format!("this is no checkpoint: {error}")))?;
+        let mut guard = self.lock()?;
+        let restored = guard.run()?.restore(&checkpoint);
+        restored.map_err(|error| error::checkpoint(error.to_string()))
+    }
+
+    #[classmethod]
+    fn _restored(
+        class: &Bound<'_, PyType>,
+        scene: &Bound<'_, PyScene>,
+        scheme: &str,
+        step: f64,
+        checkpoint: &str,
+    ) -> PyResult<Self> {
+        let world = scene.get().copied(class.py())?;
+        let restored = Self::new(world, self::scheme(scheme)?, step)?;
+        restored.restore(checkpoint)?;
+        Ok(restored)
+    }
+
+    fn __reduce__(
+        slf: &Bound<'_, Self>,
+    ) -> PyResult<(Py<PyAny>, (PyScene, &'static str, f64, String))> {
+        let own = slf.get();
+        let py = slf.py();
+        let scene = PyScene::of(own.world.copy(own.world.lineage.copy(py)?));
+        let make = slf.get_type().getattr("_restored")?.unbind();
+        Ok((make, (scene, own.scheme()?, own.step, own.checkpoint()?)))
+    }
+
+    fn __copy__(slf: &Bound<'_, Self>) -> PyResult<Self> {
+        let own = slf.get();
+        let world = own.world.copy(own.world.lineage.copy(slf.py())?);
+        let copy = Self::new(world, scheme(own.scheme()?)?, own.step)?;
+        copy.restore(&own.checkpoint()?)?;
+        Ok(copy)
+    }
+
+    fn __deepcopy__(slf: &Bound<'_, Self>, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::__copy__(slf)
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let [nodes, springs, ..] = self.parts.counts();
+        self.ask(|run| {
+            Ok(format!(
+                "Simulation({:?}, time={:?}, step_size={:?}, nodes={nodes}, springs={springs})",
+                run.scheme().name(),
+                run.time(),
+                run.step_size(),
+            ))
+        })
+    }
+}
