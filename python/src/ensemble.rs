@@ -4,7 +4,6 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
-use std::time::Duration;
 
 use eem::typed::Law;
 use eem::{Ensemble, MemberFailure, RunEnd, Scene, Scheme, Tolerance};
@@ -15,19 +14,17 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::act::Act;
+use crate::built::{Built, Context, Parts, Refusal};
 use crate::error::Raised;
 use crate::function::take_raised;
 use crate::material::Material;
 use crate::record::LEDGER;
 pub(crate) use crate::record::Rows;
-use crate::world::{Built, Context, Parts, Refusal, World};
+use crate::world::World;
 use crate::{error, input};
 
-/// How long the ensemble may go on before it looks for signals.
-const PATIENCE: Duration = Duration::from_millis(50);
-
 /// What each member does.
-pub(crate) struct Plan<'a> {
+struct Plan<'a> {
     acts: &'a [Act],
     context: &'a Context,
     /// The laws of each member by their index in the context.
@@ -41,7 +38,15 @@ pub(crate) struct Plan<'a> {
 }
 
 impl Plan<'_> {
-    pub(crate) fn run<const D: usize>(&self) -> Vec<Result<Rows, MemberFailure>>
+    fn run_in(&self, dim: usize) -> Vec<Result<Rows, MemberFailure>> {
+        match dim {
+            1 => self.run::<1>(),
+            2 => self.run::<2>(),
+            _ => self.run::<3>(),
+        }
+    }
+
+    fn run<const D: usize>(&self) -> Vec<Result<Rows, MemberFailure>>
     where
         Scene<D>: Springs,
     {
@@ -188,11 +193,11 @@ impl<'a> Request<'a> {
             threads,
             stop: &stop,
         };
-        let scene = &self.world.scene;
+        let dim = self.world.dim;
         let (results, signal) = py.detach(|| {
             thread::scope(|scope| {
                 let (done, wait) = channel();
-                scope.spawn(move || _ = done.send(scene.run_members(&plan)));
+                scope.spawn(move || _ = done.send(plan.run_in(dim)));
                 let mut signal = None;
                 loop {
                     match wait.recv_timeout(PATIENCE) {

@@ -2,7 +2,7 @@
 //!
 //! | to | look in |
 //! |---|---|
-//! | add a call to scenes | `act.rs` for what it keeps, `world.rs` for what it does, `scene.rs` for its arguments |
+//! | add a call to scenes | `act.rs` for what it keeps, `built.rs` for what it does, `scene.rs` for its arguments |
 //! | add a quantity of runs | `run.rs`, `simulation.rs`; `record.rs` and `python/eem/_record.py` to record it |
 //! | change how arrays are taken | `input.rs` |
 //! | change handles | `handle.rs` |
@@ -10,6 +10,8 @@
 //! | compile springs differently | `springs` |
 
 mod act;
+mod arguments;
+mod built;
 mod ensemble;
 mod error;
 mod function;
@@ -17,9 +19,12 @@ mod handle;
 mod input;
 mod material;
 mod record;
+mod report;
 mod run;
 mod scene;
+mod setting;
 mod simulation;
+mod watch;
 mod world;
 
 /// The module.
@@ -33,9 +38,11 @@ mod _eem {
     #[pymodule_export]
     use crate::material::Material;
     #[pymodule_export]
+    use crate::report::Report;
+    #[pymodule_export]
     use crate::scene::PyScene;
     #[pymodule_export]
-    use crate::simulation::{Report, Simulation};
+    use crate::simulation::Simulation;
 
     /// The version of the library.
     #[pymodule_export]

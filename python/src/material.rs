@@ -8,7 +8,19 @@ use pyo3::types::{PyDict, PyList, PyString, PyTuple, PyType};
 
 use crate::{error, input};
 
-/// A material of texts and values.
+/// A material: its Helmholtz free energy ψ as text, viscosities, and values of its parameters, with units or without.
+///
+/// The arguments of ψ have roles: `Stretch` is the length of the spring in m, `Viscous` the extension of a dashpot in
+/// series, `Temperature` in K. A viscosity is given for each dashpot in series by its name, or for the stretch, which is
+/// a dashpot beside the spring. A parameter is a number, a list of numbers (`k[0]` in the text), or a pair of these and a
+/// unit; if one has a unit, all have one, and the units of the formulas are checked.
+///
+/// >>> import eem
+/// >>> spring = eem.Material("|x: Stretch| 0.5 * k * (x - l).powi(2)", k=(4.0, "N/m"), l=(1.0, "m"))
+/// >>> spring.psi([[1.5], [2.0]])
+/// array([0.5, 2. ])
+/// >>> spring.formulas["f"].equation
+/// 'f = ∂ψ/∂x = k*(x - l)'
 #[pyclass(frozen, module = "eem")]
 pub(crate) struct Material {
     pub(crate) law: Law,
@@ -237,6 +249,7 @@ impl Material {
         slf
     }
 
+    /// The same with other values of some parameters; the texts are not read again.
     #[pyo3(signature = (**values))]
     fn replace(&self, values: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let law = match values {
@@ -317,6 +330,7 @@ impl Material {
         error::list(py, self.law.compiled().warnings())
     }
 
+    /// ψ of states of the shape (..., variables), in the order of `arguments`, J: an array of the shape (...), or a number.
     fn psi<'py>(&self, py: Python<'py>, x: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let (states, mut shape) = self.states(x)?;
         let found = py
@@ -328,6 +342,8 @@ impl Material {
         array.get_item(PyTuple::empty(py))
     }
 
+    /// The derivatives of ψ by the variables at states of the shape (..., variables): force, less the forces of the dashpots,
+    /// less the entropy.
     fn gradient<'py>(
         &self,
         py: Python<'py>,

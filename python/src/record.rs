@@ -7,9 +7,9 @@ use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::built::Parts;
 use crate::handle::Lineage;
 use crate::run::AnyRun;
-use crate::world::Parts;
 
 /// The scalar entries of a ledger; linear and angular momentum follow.
 pub(crate) const LEDGER: [&str; 14] = [

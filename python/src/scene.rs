@@ -5,25 +5,28 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyType};
 
-use crate::act::{Act, Course, Partner, Rest, Speed};
+use crate::act::{Act, Course, Partner, Rest};
 use crate::ensemble::Request;
 use crate::handle::{
     Element, ElementArray, HeatPath, HeatPathArray, Kind, Lineage, Node, NodeArray, Reservoir,
     ReservoirArray, indices, one,
 };
 use crate::material::Material;
-use crate::simulation::{Simulation, scheme, tolerance};
-use crate::world::{World, dashpots};
+use crate::setting::{scheme, tolerance};
+use crate::simulation::Simulation;
+use crate::world::{State, World};
 use crate::{error, input};
 
-/// A scene in one, two or three dimensions.
+/// A scene in one, two or three dimensions: anchors, masses, springs, reservoirs and loads.
+///
+/// >>> import eem
+/// >>> scene = eem.Scene(dim=2)
+/// >>> scene.anchor([0, 0]), scene.mass(1.0, [3, 0], momentum=[0, 1])
+/// (Node(0), Node(1))
 #[pyclass(frozen, name = "Scene", module = "eem")]
 pub(crate) struct PyScene {
     world: Mutex<World>,
 }
-
-/// What a pickle contains.
-type State = (usize, String, Vec<Py<Material>>, Vec<Py<PyAny>>, Lineage);
 
 impl PyScene {
     pub(crate) fn of(world: World) -> Self {
@@ -41,75 +44,6 @@ impl PyScene {
     pub(crate) fn copied(&self, py: Python<'_>) -> PyResult<World> {
         let world = self.world();
         Ok(world.copy(world.lineage.copy(py)?))
-    }
-}
-
-impl World {
-    fn masses(
-        &mut self,
-        (masses, positions): (Vec<f64>, Vec<f64>),
-        [velocity, momentum]: [Option<Vec<f64>>; 2],
-    ) -> PyResult<usize> {
-        let first = self.lineage.counts[Kind::Node as usize];
-        let speed = match (velocity, momentum) {
-            (None, None) => Speed::Zero,
-            (Some(velocities), None) => Speed::Velocities(velocities),
-            (None, Some(momenta)) => Speed::Momenta(momenta),
-            (Some(_), Some(_)) => {
-                return Err(error::scene(
-                    "velocity and momentum are given: give one of them",
-                ));
-            }
-        };
-        self.act(Act::Masses {
-            masses,
-            positions,
-            speed,
-        })?;
-        Ok(first)
-    }
-
-    fn springs(
-        &mut self,
-        material: &Bound<'_, Material>,
-        pairs: Vec<[usize; 2]>,
-        temperature: Option<&Bound<'_, PyAny>>,
-        viscous_stretch: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<usize> {
-        let count = pairs.len();
-        let first = self.lineage.counts[Kind::Element as usize];
-        let temperatures = match temperature {
-            Some(given) => input::numbers(given, count, "the temperature")?,
-            None => Vec::new(),
-        };
-        let dashpots = dashpots(&material.get().law);
-        let viscous_stretches = match viscous_stretch {
-            Some(given) => input::vectors(given, [count, dashpots], "the viscous stretch")?,
-            None => Vec::new(),
-        };
-        let material = self.material(material);
-        self.act(Act::Springs {
-            material,
-            pairs,
-            temperatures,
-            viscous_stretches,
-        })?;
-        Ok(first)
-    }
-
-    /// A quantity that is a number or a function of time.
-    fn course(&mut self, given: &Bound<'_, PyAny>, what: &str) -> PyResult<Course> {
-        if given.is_callable() {
-            return Ok(Course::Function(self.function(given)));
-        }
-        Ok(Course::Constant(vec![input::number(given, what)?]))
-    }
-
-    fn pair(&self, given: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
-        let (nodes, _) = indices::<Node>(given, &self.lineage)?;
-        let count = nodes.len();
-        <[usize; 2]>::try_from(nodes)
-            .map_err(|_| error::scene(format!("a spring has two nodes, not {count}")))
     }
 }
 
@@ -147,6 +81,7 @@ impl PyScene {
         PyList::new(py, self.world().materials.iter().map(|one| one.bind(py)))
     }
 
+    /// A node that does not move, at a position of `dim` numbers, m.
     fn anchor(&self, position: &Bound<'_, PyAny>) -> PyResult<Node> {
         let mut world = self.world();
         let positions = input::vector(position, world.dim, "the position")?;
@@ -155,6 +90,7 @@ impl PyScene {
         Ok(Node::of(world.lineage.own, index))
     }
 
+    /// Many anchors, at positions of the shape (n, dim).
     fn anchors(&self, positions: &Bound<'_, PyAny>) -> PyResult<NodeArray> {
         let mut world = self.world();
         let positions = input::rows(positions, world.dim, "positions")?;
@@ -164,6 +100,7 @@ impl PyScene {
         Ok(NodeArray::of(own, first..counts[Kind::Node as usize]))
     }
 
+    /// A mass, kg, at a position, m, with a velocity, m/s, or a momentum, kg m/s; at rest without both.
     #[pyo3(signature = (mass, position, velocity=None, *, momentum=None))]
     fn mass(
         &self,
@@ -182,6 +119,7 @@ impl PyScene {
         Ok(Node::of(world.lineage.own, index))
     }
 
+    /// Many masses at positions of the shape (n, dim); one mass for all, or n. Velocities or momenta likewise.
     #[pyo3(signature = (masses, positions, velocities=None, *, momenta=None))]
     fn masses(
         &self,
@@ -208,6 +146,17 @@ impl PyScene {
         Ok(NodeArray::of(world.lineage.own, first..first + count))
     }
 
+    /// A spring of a material between two nodes.
+    ///
+    /// A material with a temperature needs one at the start, K. The viscous stretches of its dashpots in series are zero
+    /// unless they are given, m.
+    ///
+    /// >>> import eem
+    /// >>> scene = eem.Scene(dim=1)
+    /// >>> ends = scene.anchor([0.0]), scene.mass(1.0, [1.5])
+    /// >>> spring = scene.spring(eem.Material("|x: Stretch| 2 * (x - 1).powi(2)"), ends)
+    /// >>> scene.simulate("eem-entropy", step=0.1).force(spring)
+    /// 2.0
     #[pyo3(signature = (material, nodes, *, temperature=None, viscous_stretch=None))]
     fn spring(
         &self,
@@ -222,6 +171,9 @@ impl PyScene {
         Ok(Element::of(world.lineage.own, index))
     }
 
+    /// Many springs of one material between pairs of nodes: handles, or an array of numbers of nodes of the shape (n, 2).
+    ///
+    /// Temperatures are one for all, or n; viscous stretches are of the shape (dashpots,) or (n, dashpots).
     #[pyo3(signature = (material, pairs, *, temperature=None, viscous_stretch=None))]
     fn springs(
         &self,
@@ -238,6 +190,7 @@ impl PyScene {
         Ok(ElementArray::of(world.lineage.own, first..first + count))
     }
 
+    /// The temperatures of springs at the start, K.
     fn set_temperature(
         &self,
         springs: &Bound<'_, PyAny>,
@@ -249,6 +202,7 @@ impl PyScene {
         world.act(Act::Temperatures { elements, values })
     }
 
+    /// A reservoir of heat with a temperature, K: a number, or a function of the time in s.
     fn reservoir(&self, temperature: &Bound<'_, PyAny>) -> PyResult<Reservoir> {
         let mut world = self.world();
         let index = world.lineage.counts[Kind::Reservoir as usize];
@@ -260,6 +214,7 @@ impl PyScene {
         Ok(Reservoir::of(world.lineage.own, index))
     }
 
+    /// Many reservoirs with constant temperatures, K.
     fn reservoirs(&self, temperatures: &Bound<'_, PyAny>) -> PyResult<ReservoirArray> {
         let mut world = self.world();
         let array = input::array(temperatures, "temperatures")?;
@@ -278,6 +233,8 @@ impl PyScene {
         ))
     }
 
+    /// A path of heat from a spring to a reservoir or to another spring, with a conductance in W/K. Of many springs: to one
+    /// partner, or to as many.
     fn conduct<'py>(
         &self,
         py: Python<'py>,
@@ -327,12 +284,17 @@ impl PyScene {
         })
     }
 
+    /// The acceleration of all masses, m/s².
     fn set_gravity(&self, gravity: &Bound<'_, PyAny>) -> PyResult<()> {
         let mut world = self.world();
         let gravity = input::vector(gravity, world.dim, "gravity")?;
         world.act(Act::Gravity { gravity })
     }
 
+    /// A force on masses, N: constant, or a function of the time in s.
+    ///
+    /// What such a function raises comes out of the step that calls it. It is called once or a few times in a step, which
+    /// takes some microseconds; it must depend on the time only.
     fn force(&self, nodes: &Bound<'_, PyAny>, force: &Bound<'_, PyAny>) -> PyResult<()> {
         let mut world = self.world();
         let (nodes, _) = indices::<Node>(nodes, &world.lineage)?;
@@ -344,6 +306,7 @@ impl PyScene {
         world.act(Act::Force { nodes, force })
     }
 
+    /// A thrust on a node in the direction from the node `tail` to `head`, N: constant, or a function of the time in s.
     fn rocket(
         &self,
         node: &Bound<'_, PyAny>,
@@ -361,6 +324,7 @@ impl PyScene {
         world.act(Act::Rocket { nodes, thrust })
     }
 
+    /// Moves an anchor: its position, m, as a function of the time in s, which begins where it was put.
     fn move_anchor(&self, anchor: &Bound<'_, PyAny>, position: &Bound<'_, PyAny>) -> PyResult<()> {
         let mut world = self.world();
         let anchor = one::<Node>(anchor, &world.lineage)?;
@@ -368,6 +332,7 @@ impl PyScene {
         world.act(Act::Motion { anchor, function })
     }
 
+    /// A thermostat: the temperature of a spring, K, constant from the start on, or a function of the time in s.
     fn hold_temperature(
         &self,
         spring: &Bound<'_, PyAny>,
@@ -382,10 +347,14 @@ impl PyScene {
         })
     }
 
+    /// The time at which runs begin, s.
     fn start_at(&self, time: f64) -> PyResult<()> {
         self.world().act(Act::Start { time })
     }
 
+    /// Moves the scene into a stable state at rest under its loads at the start: dashpots relaxed, or held as they are;
+    /// temperatures as they are, or in thermal balance. Returns how it was found: `residual` in N, `heat` in W, and the
+    /// effort. On an error the scene is as it was.
     #[pyo3(signature = (*, held=false, thermal_balance=false, load_steps=4))]
     fn equilibrium<'py>(
         &self,
@@ -409,6 +378,9 @@ impl PyScene {
         Ok(report)
     }
 
+    /// Starts a run with a scheme and a step, s; with a relative tolerance the step is the first one to try.
+    ///
+    /// The scene stays as it is, and can be changed and started again. Everything that is wrong with it is told at once.
     #[pyo3(signature = (scheme="auto", *, step, tolerance=None))]
     fn simulate(&self, scheme: &str, step: f64, tolerance: Option<f64>) -> PyResult<Simulation> {
         let scheme = self::scheme(scheme)?;
@@ -424,6 +396,18 @@ impl PyScene {
         Ok(run)
     }
 
+    /// Runs this scene once for each value of parameters, on all cores, or on so many threads.
+    ///
+    /// `vary` has a dictionary for each material: the names of parameters, with a list of values as long as the ensemble.
+    /// States are recorded at the end `until`, or at `times`, without changing the steps.
+    ///
+    /// >>> import eem
+    /// >>> scene, hooke = eem.Scene(dim=1), eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=1.0)
+    /// >>> ends = scene.anchor([0.0]), scene.mass(1.0, [1.1])
+    /// >>> spring = scene.spring(hooke, ends)
+    /// >>> found = scene.ensemble({hooke: {"k": [1.0, 4.0, 9.0]}}, "eem-entropy-6", step=0.05, until=1.0)
+    /// >>> found.position(ends[1])[:, 0, 0].round(5).tolist()
+    /// [1.05403, 0.95839, 0.901]
     #[pyo3(signature = (vary, scheme="auto", *, step, until=None, times=None, tolerance=None, threads=0))]
     #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
     fn ensemble(
@@ -445,42 +429,13 @@ impl PyScene {
     }
 
     #[classmethod]
-    fn _restored(
-        class: &Bound<'_, PyType>,
-        dim: usize,
-        acts: &str,
-        materials: Vec<Bound<'_, Material>>,
-        functions: Vec<Bound<'_, PyAny>>,
-        lineage: &Bound<'_, Lineage>,
-    ) -> PyResult<Self> {
-        let acts: Vec<Act> = serde_json::from_str(acts)
-            .map_err(|error| error::checkpoint(format!("this is no pickled scene: {error}")))?;
-        let mut world = World::new(dim, lineage.get().copy(class.py())?)?;
-        for material in &materials {
-            world.material(material);
-        }
-        for function in &functions {
-            world.function(function);
-        }
-        world.acts = acts.into();
-        world.rebuild()?;
-        Ok(Self::of(world))
+    fn _restored(class: &Bound<'_, PyType>, state: State) -> PyResult<Self> {
+        Ok(Self::of(World::restored(class.py(), state)?))
     }
 
-    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, State)> {
-        let py = slf.py();
-        let world = slf.get().world();
-        let acts = serde_json::to_string(&*world.acts);
-        let acts = acts.map_err(|error| error::checkpoint(error.to_string()))?;
-        let materials = world
-            .materials
-            .iter()
-            .map(|one| one.clone_ref(py))
-            .collect();
-        let functions = world.context.functions.iter();
-        let functions = functions.map(|function| function.0.clone_ref(py)).collect();
-        let state = (world.dim, acts, materials, functions, world.lineage.clone());
-        Ok((slf.get_type().getattr("_restored")?.unbind(), state))
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, (State,))> {
+        let state = slf.get().world().state(slf.py())?;
+        Ok((slf.get_type().getattr("_restored")?.unbind(), (state,)))
     }
 
     fn __copy__(slf: &Bound<'_, Self>) -> PyResult<Self> {

@@ -1,108 +1,25 @@
-//! Runs: `eem.Simulation` and the report of a step.
+//! Runs: `eem.Simulation`.
 
-use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
-use std::time::{Duration, Instant};
 
-use eem::{Checkpoint, RunEnd, SceneError, Scheme, StepReport, Tolerance};
+use eem::{Checkpoint, RunEnd, SceneError, Scheme, Tolerance};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
+use crate::built::Parts;
 use crate::function::take_raised;
 use crate::handle::{Element, Kind, Node};
 use crate::record::{Rows, Wanted, ledger, record};
+use crate::report::Report;
 use crate::run::{AnyRun, Stop};
-use crate::scene::PyScene;
-use crate::world::{Parts, World};
-use crate::{error, input};
+use crate::setting::scheme;
+use crate::watch::Watch;
+use crate::world::{State, World};
+use crate::{error, input, setting};
 
-/// How long a run may go on before it looks for signals.
-const PATIENCE: Duration = Duration::from_millis(50);
-
-/// The certificate of one step.
-#[pyclass(frozen, get_all, name = "StepReport", module = "eem")]
-pub(crate) struct Report {
-    time: f64,
-    step: f64,
-    iterations: usize,
-    update: f64,
-    residual: f64,
-    defect: f64,
-    bound: f64,
-    is_bound_wide: bool,
-    production: f64,
-    least_production: f64,
-    error: f64,
-    correction: f64,
-}
-
-impl From<&StepReport<f64>> for Report {
-    fn from(report: &StepReport<f64>) -> Self {
-        Self {
-            time: report.time,
-            step: report.step,
-            iterations: report.iterations,
-            update: report.update,
-            residual: report.residual,
-            defect: report.defect,
-            bound: report.bound,
-            is_bound_wide: report.is_bound_wide,
-            production: report.production,
-            least_production: report.least_production,
-            error: report.error,
-            correction: report.correction,
-        }
-    }
-}
-
-#[pymethods]
-impl Report {
-    fn __repr__(&self) -> String {
-        let Self {
-            time,
-            step,
-            iterations,
-            defect,
-            bound,
-            ..
-        } = self;
-        format!(
-            "StepReport(time={time:?}, step={step:?}, iterations={iterations}, defect={defect:.3e}, bound={bound:.3e})"
-        )
-    }
-}
-
-/// The scheme of this name.
-pub(crate) fn scheme(name: &str) -> PyResult<Scheme> {
-    Scheme::from_name(name).ok_or_else(|| {
-        let names = Scheme::ALL.iter().map(|scheme| scheme.name());
-        let names: Vec<_> = std::iter::once("auto").chain(names).collect();
-        PyValueError::new_err(format!(
-            "there is no scheme {name:?}: take one of {}",
-            names.join(", ")
-        ))
-    })
-}
-
-/// How accurate steps are to be.
-pub(crate) fn tolerance(
-    relative: f64,
-    [position, momentum, temperature]: [f64; 3],
-    over: Option<f64>,
-) -> Tolerance<f64> {
-    let tolerance = Tolerance::new(relative)
-        .with_position(position)
-        .with_momentum(momentum)
-        .with_temperature(temperature);
-    match over {
-        Some(time) => tolerance.over(time),
-        None => tolerance,
-    }
-}
-
-/// A run of a scene.
+/// A run of a scene, made by `Scene.simulate`. It is pickled and copied with all bits.
 #[pyclass(frozen, module = "eem")]
 pub(crate) struct Simulation {
     /// Empty only while the scheme is changed.
@@ -259,51 +176,6 @@ enum Ended {
     Failed(Box<eem::StepError>),
 }
 
-/// Looks for signals now and then: the clock is not read in every step of a small scene.
-struct Watch {
-    last: Instant,
-    /// Steps until the next look at the clock.
-    left: usize,
-    stride: usize,
-    signal: Option<PyErr>,
-}
-
-impl Watch {
-    fn new() -> Self {
-        Self {
-            last: Instant::now(),
-            left: 1,
-            stride: 1,
-            signal: None,
-        }
-    }
-
-    fn look(&mut self) -> ControlFlow<()> {
-        self.left -= 1;
-        if self.left > 0 {
-            return ControlFlow::Continue(());
-        }
-        let passed = self.last.elapsed();
-        if passed < PATIENCE / 2 {
-            self.stride = (2 * self.stride).min(1 << 16);
-        } else if passed > PATIENCE {
-            self.stride = (self.stride / 2).max(1);
-        }
-        self.left = self.stride;
-        if passed < PATIENCE / 4 {
-            return ControlFlow::Continue(());
-        }
-        self.last = Instant::now();
-        match Python::attach(|py| py.check_signals()) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(signal) => {
-                self.signal = Some(signal);
-                ControlFlow::Break(())
-            }
-        }
-    }
-}
-
 #[pymethods]
 impl Simulation {
     /// The time, s.
@@ -347,6 +219,7 @@ impl Simulation {
         self.vectors(py, |run, node, to| run.add_momentum(node, to))
     }
 
+    /// Where a node is, m.
     fn position<'py>(
         &self,
         py: Python<'py>,
@@ -355,6 +228,7 @@ impl Simulation {
         self.vector(py, node.get(), |run, node, to| run.add_position(node, to))
     }
 
+    /// The momentum of a node, kg m/s.
     fn momentum<'py>(
         &self,
         py: Python<'py>,
@@ -363,26 +237,32 @@ impl Simulation {
         self.vector(py, node.get(), |run, node, to| run.add_momentum(node, to))
     }
 
+    /// The temperature of a spring, K.
     fn temperature(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
         self.ask_element(spring.get(), |run, element| run.temperature(element))
     }
 
+    /// The entropy of a spring, J/K.
     fn entropy(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
         self.ask_element(spring.get(), |run, element| run.entropy(element))
     }
 
+    /// The internal energy of a spring, J.
     fn internal_energy(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
         self.ask_element(spring.get(), |run, element| run.internal_energy(element))
     }
 
+    /// The length of a spring, m.
     fn stretch(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
         self.ask_element(spring.get(), |run, element| run.stretch(element))
     }
 
+    /// The force of a spring, N, positive in tension.
     fn force(&self, spring: &Bound<'_, Element>) -> PyResult<f64> {
         self.ask_element(spring.get(), |run, element| run.force(element))
     }
 
+    /// The viscous stretch of a dashpot in series of a spring, m.
     #[pyo3(signature = (spring, dashpot=0))]
     fn viscous_stretch(&self, spring: &Bound<'_, Element>, dashpot: usize) -> PyResult<f64> {
         self.ask_element(spring.get(), |run, element| {
@@ -390,6 +270,7 @@ impl Simulation {
         })
     }
 
+    /// Energies, entropies and momenta of the present state, by name.
     fn ledger(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         ledger(py, &**self.lock()?.run()?)
     }
@@ -400,6 +281,7 @@ impl Simulation {
         self.ask(|run| Ok(run.worst_step().map(Report::from)))
     }
 
+    /// Makes one step and returns what it proves. After an error the simulation is as it was.
     fn step(&self) -> PyResult<Report> {
         let mut guard = self.lock()?;
         let run = guard.run()?;
@@ -410,6 +292,11 @@ impl Simulation {
         }
     }
 
+    /// Steps until a time, s, which is met exactly, and returns a record with the present state and that of every k-th step,
+    /// or only of the last one with `every=None`; with the lengths and forces of springs if `forces` is set.
+    ///
+    /// Other threads of Python go on meanwhile. Ctrl-C ends it after a step and returns the record so far, whose `end` is
+    /// then `"interrupted"`. A `StepError` has the record so far.
     #[pyo3(signature = (until, *, every=Some(1), forces=false))]
     fn run(
         &self,
@@ -441,6 +328,8 @@ impl Simulation {
         }
     }
 
+    /// Adapts the steps to a relative tolerance, and absolute ones in m, kg m/s and K; with `over` for the errors of all steps
+    /// in so many seconds, instead of those in a period of the vibration.
     #[pyo3(signature = (tolerance, *, position=0.0, momentum=0.0, temperature=0.0, over=None))]
     fn control_steps(
         &self,
@@ -457,6 +346,7 @@ impl Simulation {
         ))
     }
 
+    /// Returns to constant steps.
     fn fix_steps(&self) -> PyResult<()> {
         self.ask(|run| {
             run.fix_steps();
@@ -464,6 +354,7 @@ impl Simulation {
         })
     }
 
+    /// Limits the size of controlled steps, s.
     fn limit_steps(&self, smallest: f64, largest: f64) -> PyResult<()> {
         self.ask(|run| run.limit_steps([smallest, largest]))
     }
@@ -484,23 +375,27 @@ impl Simulation {
         Ok(Some(counts))
     }
 
+    /// The force on a mass, N, from now on.
     fn set_force(&self, node: &Bound<'_, Node>, force: &Bound<'_, PyAny>) -> PyResult<()> {
         let force = input::vector(force, self.world.dim, "the force")?;
         let node = self.node(node.get())?;
         self.ask(|run| run.set_force(node, &force))
     }
 
+    /// The velocity of an anchor, m/s, from now on.
     fn set_motion(&self, anchor: &Bound<'_, Node>, velocity: &Bound<'_, PyAny>) -> PyResult<()> {
         let velocity = input::vector(velocity, self.world.dim, "the velocity")?;
         let anchor = self.node(anchor.get())?;
         self.ask(|run| run.set_motion(anchor, &velocity))
     }
 
+    /// The temperature of a thermostat at the end of the next step, K.
     fn set_temperature(&self, spring: &Bound<'_, Element>, temperature: f64) -> PyResult<()> {
         let element = self.element(spring.get())?;
         self.ask(|run| run.set_temperature(element, temperature))
     }
 
+    /// Goes on with another scheme: time, state and balances stay.
     fn change_scheme(&self, scheme: &str) -> PyResult<()> {
         let scheme = self::scheme(scheme)?;
         let mut guard = self.lock()?;
@@ -513,12 +408,14 @@ impl Simulation {
         result
     }
 
+    /// Everything that further steps depend on, as text. A restored run has the same bits.
     fn checkpoint(&self) -> PyResult<String> {
         let checkpoint = self.ask(|run| Ok(run.checkpoint()))?;
         let text = serde_json::to_string(&checkpoint);
         text.map_err(|error| error::checkpoint(error.to_string()))
     }
 
+    /// Goes back, or on, to a checkpoint of a run of the same scene with the same scheme.
     fn restore(&self, checkpoint: &str) -> PyResult<()> {
         let checkpoint: Checkpoint = serde_json::from_str(checkpoint)
             .map_err(|error| error::checkpoint(format!("this is no checkpoint: {error}")))?;
@@ -530,12 +427,12 @@ impl Simulation {
     #[classmethod]
     fn _restored(
         class: &Bound<'_, PyType>,
-        scene: &Bound<'_, PyScene>,
+        state: State,
         scheme: &str,
         step: f64,
         checkpoint: &str,
     ) -> PyResult<Self> {
-        let world = scene.get().copied(class.py())?;
+        let world = World::restored(class.py(), state)?;
         let restored = Self::new(world, self::scheme(scheme)?, step)?;
         restored.restore(checkpoint)?;
         Ok(restored)
@@ -543,12 +440,11 @@ impl Simulation {
 
     fn __reduce__(
         slf: &Bound<'_, Self>,
-    ) -> PyResult<(Py<PyAny>, (PyScene, &'static str, f64, String))> {
+    ) -> PyResult<(Py<PyAny>, (State, &'static str, f64, String))> {
         let own = slf.get();
-        let py = slf.py();
-        let scene = PyScene::of(own.world.copy(own.world.lineage.copy(py)?));
+        let state = own.world.state(slf.py())?;
         let make = slf.get_type().getattr("_restored")?.unbind();
-        Ok((make, (scene, own.scheme()?, own.step, own.checkpoint()?)))
+        Ok((make, (state, own.scheme()?, own.step, own.checkpoint()?)))
     }
 
     fn __copy__(slf: &Bound<'_, Self>) -> PyResult<Self> {

@@ -288,14 +288,7 @@ class Scene:
     def __deepcopy__(self, _memo: Any) -> Scene: ...
     def __reduce__(self) -> Any: ...
     @classmethod
-    def _restored(
-        cls,
-        dim: int,
-        acts: str,
-        materials: Sequence[Material],
-        functions: Sequence[Callable[[float], Any]],
-        lineage: Lineage,
-    ) -> Scene: ...
+    def _restored(cls, state: Any) -> Scene: ...
 
 @final
 class Simulation:
@@ -350,7 +343,7 @@ class Simulation:
     def __reduce__(self) -> Any: ...
     @classmethod
     def _restored(
-        cls, scene: Scene, scheme: str, step: float, checkpoint: str
+        cls, state: Any, scheme: str, step: float, checkpoint: str
     ) -> Simulation: ...
 
 @final
