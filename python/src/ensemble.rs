@@ -20,6 +20,7 @@ use crate::function::take_raised;
 use crate::material::Material;
 use crate::record::LEDGER;
 pub(crate) use crate::record::Rows;
+use crate::watch::PATIENCE;
 use crate::world::World;
 use crate::{error, input};
 

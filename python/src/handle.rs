@@ -35,7 +35,7 @@ pub(crate) type Counts = [usize; 4];
 /// Whose handles a scene knows: its own, and those of the scenes it is a copy of, as far as they were copied.
 ///
 /// Scenes are told apart by random numbers, so that handles can be pickled with them.
-#[pyclass(frozen, eq, module = "eem._eem")]
+#[pyclass(frozen, eq, from_py_object, module = "eem._eem")]
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Lineage {
     pub(crate) own: u64,

@@ -1,7 +1,8 @@
 //! `eem.Scene`: nodes, springs, reservoirs and loads.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, TryLockError};
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyType};
 
@@ -35,14 +36,21 @@ impl PyScene {
         }
     }
 
-    /// A panic while it was changed leaves acts and scene as they were before or after.
-    fn world(&self) -> MutexGuard<'_, World> {
-        self.world.lock().unwrap_or_else(PoisonError::into_inner)
+    /// An error while it is changed elsewhere: by another thread, or by a call that has called a function of its own.
+    fn world(&self) -> PyResult<MutexGuard<'_, World>> {
+        match self.world.try_lock() {
+            Ok(world) => Ok(world),
+            // A panic while it was changed has left its acts as they were.
+            Err(TryLockError::Poisoned(world)) => Ok(world.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "the scene is in use, in another thread or in this call",
+            )),
+        }
     }
 
     /// A copy of what is in it.
     pub(crate) fn copied(&self, py: Python<'_>) -> PyResult<World> {
-        let world = self.world();
+        let world = self.world()?;
         Ok(world.copy(world.lineage.copy(py)?))
     }
 }
@@ -57,33 +65,33 @@ impl PyScene {
 
     /// The number of dimensions.
     #[getter]
-    fn dim(&self) -> usize {
-        self.world().dim
+    fn dim(&self) -> PyResult<usize> {
+        Ok(self.world()?.dim)
     }
 
     /// All anchors and masses.
     #[getter]
-    fn nodes(&self) -> NodeArray {
-        let Lineage { own, counts, .. } = self.world().lineage;
-        NodeArray::of(own, 0..counts[Kind::Node as usize])
+    fn nodes(&self) -> PyResult<NodeArray> {
+        let Lineage { own, counts, .. } = self.world()?.lineage;
+        Ok(NodeArray::of(own, 0..counts[Kind::Node as usize]))
     }
 
     /// All springs.
     #[getter]
-    fn elements(&self) -> ElementArray {
-        let Lineage { own, counts, .. } = self.world().lineage;
-        ElementArray::of(own, 0..counts[Kind::Element as usize])
+    fn elements(&self) -> PyResult<ElementArray> {
+        let Lineage { own, counts, .. } = self.world()?.lineage;
+        Ok(ElementArray::of(own, 0..counts[Kind::Element as usize]))
     }
 
     /// The materials of its springs.
     #[getter]
     fn materials<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        PyList::new(py, self.world().materials.iter().map(|one| one.bind(py)))
+        PyList::new(py, self.world()?.materials.iter().map(|one| one.bind(py)))
     }
 
     /// A node that does not move, at a position of `dim` numbers, m.
     fn anchor(&self, position: &Bound<'_, PyAny>) -> PyResult<Node> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let positions = input::vector(position, world.dim, "the position")?;
         let index = world.lineage.counts[Kind::Node as usize];
         world.act(Act::Anchors { positions })?;
@@ -92,7 +100,7 @@ impl PyScene {
 
     /// Many anchors, at positions of the shape (n, dim).
     fn anchors(&self, positions: &Bound<'_, PyAny>) -> PyResult<NodeArray> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let positions = input::rows(positions, world.dim, "positions")?;
         let first = world.lineage.counts[Kind::Node as usize];
         world.act(Act::Anchors { positions })?;
@@ -109,7 +117,7 @@ impl PyScene {
         velocity: Option<&Bound<'_, PyAny>>,
         momentum: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Node> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let dim = world.dim;
         let place = vec![input::number(mass, "the mass")?];
         let place = (place, input::vector(position, dim, "the position")?);
@@ -128,7 +136,7 @@ impl PyScene {
         velocities: Option<&Bound<'_, PyAny>>,
         momenta: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<NodeArray> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let dim = world.dim;
         let positions = input::rows(positions, dim, "positions")?;
         let count = positions.len() / dim;
@@ -165,7 +173,7 @@ impl PyScene {
         temperature: Option<&Bound<'_, PyAny>>,
         viscous_stretch: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Element> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let pair = world.pair(nodes)?;
         let index = world.springs(material, vec![pair], temperature, viscous_stretch)?;
         Ok(Element::of(world.lineage.own, index))
@@ -182,7 +190,7 @@ impl PyScene {
         temperature: Option<&Bound<'_, PyAny>>,
         viscous_stretch: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<ElementArray> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let pairs = pairs.try_iter()?.map(|pair| world.pair(&pair?));
         let pairs: Vec<_> = pairs.collect::<PyResult<_>>()?;
         let count = pairs.len();
@@ -196,7 +204,7 @@ impl PyScene {
         springs: &Bound<'_, PyAny>,
         temperature: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let (elements, _) = indices::<Element>(springs, &world.lineage)?;
         let values = input::numbers(temperature, elements.len(), "the temperature")?;
         world.act(Act::Temperatures { elements, values })
@@ -204,7 +212,7 @@ impl PyScene {
 
     /// A reservoir of heat with a temperature, K: a number, or a function of the time in s.
     fn reservoir(&self, temperature: &Bound<'_, PyAny>) -> PyResult<Reservoir> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let index = world.lineage.counts[Kind::Reservoir as usize];
         let act = match world.course(temperature, "the temperature")? {
             Course::Function(function) => Act::Oven { function },
@@ -216,7 +224,7 @@ impl PyScene {
 
     /// Many reservoirs with constant temperatures, K.
     fn reservoirs(&self, temperatures: &Bound<'_, PyAny>) -> PyResult<ReservoirArray> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let array = input::array(temperatures, "temperatures")?;
         if array.shape.len() != 1 {
             return Err(error::scene(
@@ -242,7 +250,7 @@ impl PyScene {
         partners: &Bound<'py, PyAny>,
         conductance: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let (elements, is_one) = indices::<Element>(springs, &world.lineage)?;
         let count = elements.len();
         let is_reservoir =
@@ -286,7 +294,7 @@ impl PyScene {
 
     /// The acceleration of all masses, m/s².
     fn set_gravity(&self, gravity: &Bound<'_, PyAny>) -> PyResult<()> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let gravity = input::vector(gravity, world.dim, "gravity")?;
         world.act(Act::Gravity { gravity })
     }
@@ -296,7 +304,7 @@ impl PyScene {
     /// What such a function raises comes out of the step that calls it. It is called once or a few times in a step, which
     /// takes some microseconds; it must depend on the time only.
     fn force(&self, nodes: &Bound<'_, PyAny>, force: &Bound<'_, PyAny>) -> PyResult<()> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let (nodes, _) = indices::<Node>(nodes, &world.lineage)?;
         let force = if force.is_callable() {
             Course::Function(world.function(force))
@@ -314,7 +322,7 @@ impl PyScene {
         head: &Bound<'_, PyAny>,
         thrust: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let nodes = [
             one::<Node>(node, &world.lineage)?,
             one::<Node>(tail, &world.lineage)?,
@@ -326,7 +334,7 @@ impl PyScene {
 
     /// Moves an anchor: its position, m, as a function of the time in s, which begins where it was put.
     fn move_anchor(&self, anchor: &Bound<'_, PyAny>, position: &Bound<'_, PyAny>) -> PyResult<()> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let anchor = one::<Node>(anchor, &world.lineage)?;
         let function = world.function(position);
         world.act(Act::Motion { anchor, function })
@@ -338,7 +346,7 @@ impl PyScene {
         spring: &Bound<'_, PyAny>,
         temperature: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let mut world = self.world();
+        let mut world = self.world()?;
         let element = one::<Element>(spring, &world.lineage)?;
         let temperature = world.course(temperature, "the temperature")?;
         world.act(Act::Thermostat {
@@ -349,7 +357,7 @@ impl PyScene {
 
     /// The time at which runs begin, s.
     fn start_at(&self, time: f64) -> PyResult<()> {
-        self.world().act(Act::Start { time })
+        self.world()?.act(Act::Start { time })
     }
 
     /// Moves the scene into a stable state at rest under its loads at the start: dashpots relaxed, or held as they are;
@@ -363,7 +371,7 @@ impl PyScene {
         thermal_balance: bool,
         load_steps: u32,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let found = self.world().find_rest(Rest {
+        let found = self.world()?.find_rest(Rest {
             held,
             thermal_balance,
             load_steps,
@@ -385,7 +393,7 @@ impl PyScene {
     fn simulate(&self, scheme: &str, step: f64, tolerance: Option<f64>) -> PyResult<Simulation> {
         let scheme = self::scheme(scheme)?;
         let world = {
-            let world = self.world();
+            let world = self.world()?;
             // With the same lineage: it knows all handles so far, and none that come later.
             world.copy(world.lineage.clone())
         };
@@ -434,7 +442,7 @@ impl PyScene {
     }
 
     fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, (State,))> {
-        let state = slf.get().world().state(slf.py())?;
+        let state = slf.get().world()?.state(slf.py())?;
         Ok((slf.get_type().getattr("_restored")?.unbind(), (state,)))
     }
 
@@ -446,12 +454,12 @@ impl PyScene {
         Self::__copy__(slf)
     }
 
-    fn __repr__(&self) -> String {
-        let world = self.world();
+    fn __repr__(&self) -> PyResult<String> {
+        let world = self.world()?;
         let [nodes, springs, reservoirs, paths] = world.lineage.counts;
         let dim = world.dim;
-        format!(
+        Ok(format!(
             "Scene(dim={dim}, nodes={nodes}, springs={springs}, reservoirs={reservoirs}, paths={paths})"
-        )
+        ))
     }
 }

@@ -126,14 +126,18 @@ impl Simulation {
     }
 
     /// Runs without the interpreter, and says how it ended and what a signal raised.
-    fn advance(&self, until: f64, wanted: Wanted, rows: &mut Rows) -> PyResult<Ended> {
+    fn advance(
+        &self,
+        until: f64,
+        wanted: Wanted,
+        (rows, mut watch): (&mut Rows, Watch),
+    ) -> PyResult<Ended> {
         let mut guard = self.lock()?;
         let run = guard.run()?;
         _ = take_raised();
         let parts = &*self.parts;
         rows.add(&**run, parts, wanted.forces)
             .map_err(error::of_scene)?;
-        let mut watch = Watch::new();
         let mut steps = 0_usize;
         let mut is_recorded = true;
         let ended = run.run_until(until, &mut |run, report| {
@@ -311,7 +315,8 @@ impl Simulation {
         }
         let mut rows = Rows::default();
         let wanted = Wanted { every, forces };
-        let ended = py.detach(|| self.advance(until, wanted, &mut rows))?;
+        let watch = Watch::new(py)?;
+        let ended = py.detach(|| self.advance(until, wanted, (&mut rows, watch)))?;
         let end = match ended {
             Ended::Reached => "reached",
             Ended::Signal(_) => "interrupted",
@@ -339,7 +344,7 @@ impl Simulation {
         temperature: f64,
         over: Option<f64>,
     ) -> PyResult<()> {
-        self.control(self::tolerance(
+        self.control(setting::tolerance(
             tolerance,
             [position, momentum, temperature],
             over,

@@ -8,8 +8,13 @@ use pyo3::prelude::*;
 /// How long a run may go on before it looks for signals.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
+/// The most steps between two looks at the clock.
+const LONGEST: usize = 1 << 12;
+
 /// Looks for signals now and then: the clock is not read in every step of a small scene.
 pub(crate) struct Watch {
+    /// Python handles signals on its main thread only.
+    is_on_main: bool,
     last: Instant,
     /// Steps until the next look at the clock.
     left: usize,
@@ -19,30 +24,38 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    pub(crate) fn new() -> Self {
-        Self {
+    pub(crate) fn new(py: Python<'_>) -> PyResult<Self> {
+        let threading = py.import("threading")?;
+        let main = threading.call_method0("main_thread")?.getattr("ident")?;
+        Ok(Self {
+            is_on_main: threading.call_method0("get_ident")?.eq(main)?,
             last: Instant::now(),
             left: 1,
             stride: 1,
             signal: None,
-        }
+        })
     }
 
+    /// To be called after each step.
     pub(crate) fn look(&mut self) -> ControlFlow<()> {
         self.left -= 1;
         if self.left > 0 {
             return ControlFlow::Continue(());
         }
-        let passed = self.last.elapsed();
-        if passed < PATIENCE / 2 {
-            self.stride = (2 * self.stride).min(1 << 16);
-        } else if passed > PATIENCE {
-            self.stride = (self.stride / 2).max(1);
-        }
-        self.left = self.stride;
-        if passed < PATIENCE / 4 {
+        if !self.is_on_main {
+            self.left = LONGEST;
             return ControlFlow::Continue(());
         }
+        let passed = self.last.elapsed();
+        if passed < PATIENCE {
+            if passed < PATIENCE / 4 {
+                self.stride = (2 * self.stride).min(LONGEST);
+            }
+            self.left = self.stride;
+            return ControlFlow::Continue(());
+        }
+        self.stride = (self.stride / 2).max(1);
+        self.left = self.stride;
         self.last = Instant::now();
         match Python::attach(|py| py.check_signals()) {
             Ok(()) => ControlFlow::Continue(()),

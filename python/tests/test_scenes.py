@@ -180,3 +180,18 @@ def test_viscous_stretches_at_the_start(rubber):
     assert run.viscous_stretch(spring) == 0.1 and run.viscous_stretch(spring, 0) == 0.1
     with pytest.raises(eem.SceneError):
         run.viscous_stretch(spring, 1)
+
+
+def test_a_function_cannot_change_the_scene_that_calls_it(hooke):
+    scene = eem.Scene(dim=1)
+    mass = scene.mass(1.0, [1.0])
+    scene.spring(hooke, [scene.anchor([0.0]), mass])
+
+    def force(t):
+        scene.mass(1.0, [2.0])
+        return [1.0]
+
+    scene.force(mass, force)
+    with pytest.raises(RuntimeError, match="the scene is in use"):
+        scene.equilibrium()
+    assert len(scene.nodes) == 2
