@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 
-use eem::typed::Law;
+use eem::typed::LawError;
 use eem::{Ensemble, MemberFailure, RunEnd, Scene, Scheme, Tolerance};
 use eem_springs::Springs;
 use numpy::{PyArray1, PyArrayMethods};
@@ -24,12 +24,15 @@ use crate::watch::PATIENCE;
 use crate::world::World;
 use crate::{error, input};
 
+/// The values of a parameter of the law with this index, one for each member.
+type Column = (usize, String, Vec<f64>);
+
 /// What each member does.
 struct Plan<'a> {
     acts: &'a [Act],
     context: &'a Context,
-    /// The laws of each member by their index in the context.
-    laws: &'a [Vec<(usize, Law)>],
+    columns: &'a [Column],
+    members: &'a [usize],
     times: &'a [f64],
     scheme: Scheme,
     step: f64,
@@ -57,14 +60,12 @@ impl Plan<'_> {
             false => ControlFlow::Continue(()),
         });
         let results = ensemble.run::<D, _, _, _>(
-            self.laws,
-            |laws| {
+            self.members,
+            |&member| {
                 _ = take_raised();
-                let mut context = self.context.clone();
-                for (index, law) in laws {
-                    context.laws[*index] = law.clone();
-                }
-                match Built::of(self.acts, &context) {
+                let built = member_context(self.context, self.columns, member);
+                let built = built.map_err(Refusal::Law);
+                match built.and_then(|context| Built::of(self.acts, &context)) {
                     Ok(Built { scene, parts }) => (scene, Ok(parts)),
                     Err(refusal) => (Scene::new(), Err(refusal)),
                 }
@@ -110,7 +111,8 @@ impl Plan<'_> {
 /// What was asked for.
 pub(crate) struct Request<'a> {
     world: &'a World,
-    laws: Vec<Vec<(usize, Law)>>,
+    columns: Vec<Column>,
+    members: Vec<usize>,
     times: Vec<f64>,
 }
 
@@ -169,9 +171,16 @@ impl<'a> Request<'a> {
                 "parameter `{first}` has {count} values, `{name}` {other}"
             )));
         }
-        let laws = (0..count).map(|member| member_laws(world, &columns, member));
-        let laws = laws.collect::<Result<_, _>>().map_err(error::law)?;
-        Ok(Self { world, laws, times })
+        // Names are wrong for all members or for none.
+        if count > 0 {
+            member_context(&world.context, &columns, 0).map_err(error::law)?;
+        }
+        Ok(Self {
+            world,
+            columns,
+            members: (0..count).collect(),
+            times,
+        })
     }
 
     /// Runs all members without the interpreter and returns an `eem.EnsembleRecord`.
@@ -186,7 +195,8 @@ impl<'a> Request<'a> {
         let plan = Plan {
             acts: &self.world.acts,
             context: &self.world.context,
-            laws: &self.laws,
+            columns: &self.columns,
+            members: &self.members,
             times: &self.times,
             scheme,
             step,
@@ -282,21 +292,21 @@ impl<'a> Request<'a> {
     }
 }
 
-/// The laws of a member that differ from those of the scene.
-fn member_laws(
-    world: &World,
-    columns: &[(usize, String, Vec<f64>)],
+/// What acts refer to, with the laws of a member.
+fn member_context(
+    context: &Context,
+    columns: &[Column],
     member: usize,
-) -> Result<Vec<(usize, Law)>, eem::typed::LawError> {
-    let mut laws = Vec::new();
+) -> Result<Context, LawError> {
+    let mut own = context.clone();
     let mut indices: Vec<usize> = columns.iter().map(|(index, ..)| *index).collect();
     indices.dedup();
     for index in indices {
-        let own = columns.iter().filter(|(other, ..)| *other == index);
-        let values: Vec<_> = own
+        let varied = columns.iter().filter(|(other, ..)| *other == index);
+        let values: Vec<_> = varied
             .map(|(_, name, values)| (name.as_str(), values[member]))
             .collect();
-        laws.push((index, world.context.laws[index].with_values(&values)?));
+        own.laws[index] = context.laws[index].with_values(&values)?;
     }
-    Ok(laws)
+    Ok(own)
 }

@@ -117,14 +117,12 @@ pub(crate) fn faults(faults: &Faults) -> PyErr {
 }
 
 /// Faults as a list of `eem.Fault`.
-pub(crate) fn list<'py>(py: Python<'py>, faults: &[Fault]) -> PyResult<Bound<'py, PyList>> {
+fn list<'py>(py: Python<'py>, faults: &[Fault]) -> PyResult<Bound<'py, PyList>> {
     let class = py.import("eem._errors")?.getattr("Fault")?;
     let all = faults.iter().map(|fault| {
-        let level = fault.level.to_string();
         let place = (fault.line, fault.column, fault.width);
         let calls = fault.calls.clone();
         class.call1((
-            level,
             fault.part.to_string(),
             place.0,
             place.1,

@@ -130,11 +130,6 @@ impl Material {
                 None => Ok(law),
             }
         })?;
-        for warning in law.compiled().warnings() {
-            let class = py.import("eem._errors")?.getattr("MaterialWarning")?;
-            let warn = py.import("warnings")?.getattr("warn")?;
-            warn.call1((warning.to_string(), class, 2))?;
-        }
         Ok(Self { law })
     }
 
@@ -322,12 +317,6 @@ impl Material {
             formulas.set_item(&one.symbol, formula)?;
         }
         Ok(formulas)
-    }
-
-    /// What loses digits.
-    #[getter]
-    fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        error::list(py, self.law.compiled().warnings())
     }
 
     /// ψ of states of the shape (..., variables), in the order of `arguments`, J: an array of the shape (...), or a number.

@@ -360,8 +360,8 @@ def test_ensembles_vary_parameters_of_their_own_materials(pendulum, rubber, hook
 def test_ctrl_c_ends_an_ensemble(pendulum, rubber):
     timer = threading.Timer(0.5, lambda: signal.raise_signal(signal.SIGINT))
     timer.start()
-    k = np.linspace(80.0, 120.0, 10_000)
-    found = pendulum.scene.ensemble({rubber: {"k": k}}, "eem-temperature", step=1e-3, until=100.0)
+    k = np.linspace(80.0, 120.0, 50_000)
+    found = pendulum.scene.ensemble({rubber: {"k": k}}, "eem-temperature", step=0.01, until=10.0)
     timer.join()
     assert not found.ok.all() and "stopped" in str(found.errors[-1])
 
@@ -372,5 +372,4 @@ def test_every_class_of_errors_is_an_eem_error():
         assert issubclass(error, eem.EemError)
         again = pickle.loads(pickle.dumps(error("text")))
         assert type(again) is error and str(again) == "text"
-    assert issubclass(eem.MaterialWarning, UserWarning)
     assert eem.__version__.count(".") == 2

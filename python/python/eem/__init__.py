@@ -36,7 +36,6 @@ from eem._errors import (
     EquilibriumError,
     Fault,
     MaterialError,
-    MaterialWarning,
     SceneError,
     StepError,
 )
@@ -57,7 +56,6 @@ __all__ = [
     "HeatPathArray",
     "Material",
     "MaterialError",
-    "MaterialWarning",
     "Node",
     "NodeArray",
     "Record",

@@ -9,10 +9,8 @@ if TYPE_CHECKING:
 
 
 class Fault(NamedTuple):
-    """A mistake in a text of a material, or a warning, with its place."""
+    """A mistake in a text of a material, with its place."""
 
-    #: ``"error"`` or ``"warning"``
-    level: str
     #: the text in which it is: ``"psi"``, ``"viscosity of `gamma`"``, ``"unit of `k`"``
     part: str
     #: counted from 1
@@ -42,10 +40,6 @@ class MaterialError(EemError, ValueError):
     def __init__(self, message: str = "", *, faults: list[Fault] | None = None) -> None:
         super().__init__(message)
         self.faults = faults or []
-
-
-class MaterialWarning(UserWarning):
-    """A formula that loses digits."""
 
 
 class SceneError(EemError, ValueError):
