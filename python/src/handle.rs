@@ -5,7 +5,7 @@ use pyo3::PyClass;
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::pyclass::boolean_struct::True;
-use pyo3::types::PySlice;
+use pyo3::types::{PyIterator, PyList, PySlice};
 
 use crate::error;
 
@@ -246,6 +246,13 @@ macro_rules! handle {
                 }
                 let index = at_place(at, &self.indices)?;
                 Ok(Py::new(py, $name { scene, index })?.into_any())
+            }
+
+            fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
+                let scene = self.scene;
+                let all = self.indices.iter().map(|&index| $name { scene, index });
+                let all = all.map(|handle| Bound::new(py, handle));
+                PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)?.try_iter()
             }
 
             fn __repr__(&self) -> String {

@@ -301,7 +301,7 @@ impl Simulation {
     ///
     /// Other threads of Python go on meanwhile. Ctrl-C ends it after a step and returns the record so far, whose `end` is
     /// then `"interrupted"`. A `StepError` has the record so far.
-    #[pyo3(signature = (until, *, every=Some(1), forces=false))]
+    #[pyo3(signature = (until, *, every=Some(1), forces=false), text_signature = "($self, until, *, every=1, forces=False)")]
     fn run(
         &self,
         py: Python<'_>,
@@ -468,7 +468,7 @@ impl Simulation {
         let [nodes, springs, ..] = self.parts.counts();
         self.ask(|run| {
             Ok(format!(
-                "Simulation({:?}, time={:?}, step_size={:?}, nodes={nodes}, springs={springs})",
+                "Simulation('{}', time={:?}, step_size={:?}, nodes={nodes}, springs={springs})",
                 run.scheme().name(),
                 run.time(),
                 run.step_size(),

@@ -81,7 +81,7 @@ def _node(node: ast.expr) -> tuple[str, int]:
         case ast.Name(id=name):
             return _name(name[2:]), _ATOM
         case ast.Subscript(value=ast.Name(id=name), slice=ast.Constant(value=index)):
-            return f"{{{_name(name[2:])}}}_{{{index}}}", _ATOM
+            return f"{{{_name(name[2:])}}}_{{{index!r}}}", _ATOM
         case ast.UnaryOp(op=ast.USub(), operand=operand):
             return "-" + _wrapped(_node(operand), _HIGHER), _LOWER
         case ast.BinOp(left=left, op=ast.Add(), right=right):

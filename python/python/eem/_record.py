@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from eem._eem import Element, Lineage, Node
 
-    Floats = NDArray[np.float64]
+    _Floats = NDArray[np.float64]
 
 _LEDGER = (
     "kinetic_energy",
@@ -46,7 +46,7 @@ _CERTIFICATE = (
 )
 
 
-def as_ledger(rows: Floats) -> np.recarray[Any, Any]:
+def as_ledger(rows: _Floats) -> np.recarray[Any, Any]:
     """Rows of numbers as balances with names."""
     dim = rows.shape[-1] - len(_LEDGER) - 3
     fields: list[Any] = [(name, np.float64) for name in _LEDGER]
@@ -66,15 +66,15 @@ class _Arrays:
     """States at some times. The axis of time is the first one, or the second after that of the members."""
 
     #: the times, s
-    time: Floats
+    time: _Floats
     #: positions of all nodes, m: ``(..., nodes, dim)``
-    q: Floats
+    q: _Floats
     #: momenta of all nodes, kg m/s: ``(..., nodes, dim)``
-    p: Floats
+    p: _Floats
     #: temperatures of all springs, K, NaN of those that have none: ``(..., springs)``
-    theta: Floats
+    theta: _Floats
     #: viscous stretches of all dashpots in series, spring by spring, m: ``(..., dashpots)``
-    gamma: Floats
+    gamma: _Floats
     #: energies, entropies and momenta, by name
     ledger: np.recarray[Any, Any]
     #: the scheme
@@ -93,15 +93,15 @@ class _Arrays:
         self._lineage = lineage
         self._dashpots = dashpots
 
-    def position(self, node: Node) -> Floats:
+    def position(self, node: Node) -> _Floats:
         """Where a node was, m: ``(..., dim)``."""
         return self.q[..., self._lineage.node(node), :].copy()
 
-    def momentum(self, node: Node) -> Floats:
+    def momentum(self, node: Node) -> _Floats:
         """The momentum of a node, kg m/s: ``(..., dim)``."""
         return self.p[..., self._lineage.node(node), :].copy()
 
-    def temperature(self, spring: Element) -> Floats:
+    def temperature(self, spring: Element) -> _Floats:
         """The temperature of a spring, K."""
         values = self.theta[..., self._lineage.element(spring)]
         if values.size and np.isnan(values).all() and not self._has_failed():
@@ -110,7 +110,7 @@ class _Arrays:
             raise SceneError(f"{spring} has no temperature: its free energy has no `Temperature`")
         return values.copy()
 
-    def viscous_stretch(self, spring: Element, dashpot: int = 0) -> Floats:
+    def viscous_stretch(self, spring: Element, dashpot: int = 0) -> _Floats:
         """The viscous stretch of a dashpot in series, m, counted from 0."""
         index = self._lineage.element(spring)
         count = int(self._dashpots[index])
@@ -143,18 +143,18 @@ class Record(_Arrays):
         super().__init__(arrays, lineage, dashpots, scheme)
         self.certificate = _as_certificate(arrays["certificate"])
         self.end = end
-        self._stretches: Floats | None = arrays.get("stretches")
-        self._forces: Floats | None = arrays.get("forces")
+        self._stretches: _Floats | None = arrays.get("stretches")
+        self._forces: _Floats | None = arrays.get("forces")
 
-    def stretch(self, spring: Element) -> Floats:
+    def stretch(self, spring: Element) -> _Floats:
         """The length of a spring, m, if the run recorded forces."""
         return self._recorded(self._stretches, spring)
 
-    def force(self, spring: Element) -> Floats:
+    def force(self, spring: Element) -> _Floats:
         """The force of a spring, N, positive in tension, if the run recorded forces."""
         return self._recorded(self._forces, spring)
 
-    def _recorded(self, values: Floats | None, spring: Element) -> Floats:
+    def _recorded(self, values: _Floats | None, spring: Element) -> _Floats:
         if values is None:
             from eem._errors import SceneError
 
