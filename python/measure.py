@@ -1,6 +1,6 @@
 """What Python costs: times of runs against those of `springs/src/bin/reference.rs`, which does the same without Python.
 
-    cargo build --release -p eem-springs --bin reference
+    cargo build --release -p eem-python -p eem-springs --bin reference
     python measure.py target/release/reference
 
 Both are run in turn; the fastest of each counts.

@@ -5,16 +5,19 @@ import sys
 import eem
 import numpy as np
 
-spring = eem.Material(
-    "|lambda: Stretch, theta: Temperature| {"
+rubber = eem.Material(
+    "|lambda: Stretch, gamma: Viscous, theta: Temperature| {"
     "  let e = ln(lambda / l);"
-    "  0.5 * k * e.powi(2) - beta * (theta - t0) * e + c * (theta - t0 - theta * ln(theta / t0)) }",
-    l=(1.0, "m"), k=(100.0, "J"), beta=(4.0, "J/K"), c=(1.0, "J/K"), t0=(300.0, "K"),
+    "  0.5 * k * e.powi(2) + 0.5 * k1 * (e - gamma / l).powi(2) - beta * (theta - t0) * e"
+    "  + c * (theta - t0 - theta * ln(theta / t0)) }",
+    viscosity={"gamma": "eta * exp(a / theta)"},
+    l=(1.0, "m"), k=(100.0, "J"), k1=(20.0, "J"), beta=(4.0, "J/K"),
+    c=(1.0, "J/K"), t0=(300.0, "K"), eta=(5.0, "N s/m"), a=(10.0, "K"),
 )  # fmt: skip
 
 scene = eem.Scene(dim=2)
 ends = scene.anchor([0, 0]), scene.mass(1.0, [3, 0], [0, 1])
-hot = scene.spring(spring, ends, temperature=380.0)
+hot = scene.spring(rubber, ends, temperature=380.0)
 scene.conduct(hot, scene.reservoir(300.0), 10.0)
 
 drift = {}

@@ -20,7 +20,7 @@ use crate::function::take_raised;
 use crate::material::Material;
 use crate::record::LEDGER;
 pub(crate) use crate::record::Rows;
-use crate::watch::PATIENCE;
+use crate::watch::{PATIENCE, check_signals};
 use crate::world::World;
 use crate::{error, input};
 
@@ -55,9 +55,11 @@ impl Plan<'_> {
         Scene<D>: Springs,
     {
         let ensemble = Ensemble::new(self.scheme, self.step).threads(self.threads);
-        let ensemble = ensemble.watch(|_, _| match self.stop.load(Ordering::Relaxed) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
+        let ensemble = ensemble.watch(|_, _| {
+            if self.stop.load(Ordering::Relaxed) {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
         });
         let results = ensemble.run::<D, _, _, _>(
             self.members,
@@ -215,7 +217,7 @@ impl<'a> Request<'a> {
                         Ok(results) => return (results, signal),
                         Err(RecvTimeoutError::Disconnected) => return (Vec::new(), signal),
                         Err(RecvTimeoutError::Timeout) => {
-                            if let Err(raised) = Python::attach(|py| py.check_signals()) {
+                            if let Err(raised) = Python::attach(check_signals) {
                                 stop.store(true, Ordering::Relaxed);
                                 signal = Some(raised);
                             }

@@ -19,7 +19,7 @@ use crate::{error, input};
 /// >>> spring = eem.Material("|x: Stretch| 0.5 * k * (x - l).powi(2)", k=(4.0, "N/m"), l=(1.0, "m"))
 /// >>> spring.psi([[1.5], [2.0]])
 /// array([0.5, 2. ])
-/// >>> spring.formulas["f"].equation
+/// >>> spring.formulas.get('f').equation
 /// 'f = ∂ψ/∂x = k*(x - l)'
 #[pyclass(frozen, module = "eem")]
 pub(crate) struct Material {
@@ -151,7 +151,8 @@ impl Material {
         let array = input::array(x, "the state")?;
         let columns = arguments.len();
         let fits = array.shape.last() == Some(&columns);
-        if !fits && !(columns == 1 && array.shape.is_empty()) {
+        let is_number = columns == 1 && array.shape.is_empty();
+        if !(fits || is_number) {
             let names: Vec<_> = arguments.iter().map(|argument| &*argument.name).collect();
             return Err(error::scene(format!(
                 "the state has the shape {:?}, a last axis of {columns} is expected: {}",

@@ -125,10 +125,13 @@ impl Rows {
     }
 }
 
+/// An entry of a report.
+type Entry = fn(&StepReport<f64>) -> f64;
+
 /// Its columns, each an array.
 fn certificate<'py>(py: Python<'py>, reports: &[StepReport<f64>]) -> PyResult<Bound<'py, PyDict>> {
     let columns = PyDict::new(py);
-    let numbers: [(&str, fn(&StepReport<f64>) -> f64); 10] = [
+    let numbers: [(&str, Entry); 10] = [
         ("time", |report| report.time),
         ("step", |report| report.step),
         ("update", |report| report.update),

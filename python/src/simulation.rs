@@ -172,6 +172,9 @@ impl Simulation {
     }
 }
 
+/// What a pickle contains: the scene, the scheme, the step and a checkpoint.
+type Resumed = (State, &'static str, f64, String);
+
 /// How a run ended.
 enum Ended {
     Reached,
@@ -443,9 +446,7 @@ impl Simulation {
         Ok(restored)
     }
 
-    fn __reduce__(
-        slf: &Bound<'_, Self>,
-    ) -> PyResult<(Py<PyAny>, (State, &'static str, f64, String))> {
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, Resumed)> {
         let own = slf.get();
         let state = own.world.state(slf.py())?;
         let make = slf.get_type().getattr("_restored")?.unbind();

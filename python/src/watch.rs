@@ -8,6 +8,11 @@ use pyo3::prelude::*;
 /// How long a run may go on before it looks for signals.
 pub(crate) const PATIENCE: Duration = Duration::from_millis(50);
 
+/// Runs the handlers of signals that have come. A method of a token is none of all tokens, which `attach` asks for.
+pub(crate) fn check_signals(py: Python<'_>) -> PyResult<()> {
+    py.check_signals()
+}
+
 /// The most steps between two looks at the clock.
 const LONGEST: usize = 1 << 12;
 
@@ -57,7 +62,7 @@ impl Watch {
         self.stride = (self.stride / 2).max(1);
         self.left = self.stride;
         self.last = Instant::now();
-        match Python::attach(|py| py.check_signals()) {
+        match Python::attach(check_signals) {
             Ok(()) => ControlFlow::Continue(()),
             Err(signal) => {
                 self.signal = Some(signal);

@@ -125,8 +125,8 @@ impl World {
             let message = match &all[..] {
                 [only] => only.clone(),
                 all => {
-                    let list: String = all.iter().map(|error| format!("\n- {error}")).collect();
-                    format!("{} things are wrong with the scene:{list}", all.len())
+                    let list = all.join("\n- ");
+                    format!("{} things are wrong with the scene:\n- {list}", all.len())
                 }
             };
             take_raised().unwrap_or_else(|| error::scenes(message, all))
