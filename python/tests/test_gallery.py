@@ -1,10 +1,12 @@
 """Every example runs, keeps the claims that it checks itself, and draws its picture."""
 
+import doctest
 import os
 import subprocess
 import sys
 from pathlib import Path
 
+import eem
 import pytest
 
 EXAMPLES = sorted((Path(__file__).parent.parent / "examples").glob("*.py"))
@@ -18,13 +20,12 @@ def test_example(example, tmp_path):
     assert picture.stat().st_size > 1000
 
 
-def test_the_doc_string_of_the_package():
-    import doctest
-
-    import eem
-
-    assert doctest.testmod(eem).attempted > 5
-    assert doctest.testmod(eem).failed == 0
+@pytest.mark.parametrize("item", [eem, eem.Material, eem.Scene, eem.Simulation], ids=lambda item: item.__name__)
+def test_examples_of_doc_strings(item):
+    runner = doctest.DocTestRunner()
+    for test in doctest.DocTestFinder().find(item, item.__name__, globs={}):
+        runner.run(test)
+    assert runner.summarize().failed == 0
 
 
 def test_the_programs_of_the_readme():
