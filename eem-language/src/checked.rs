@@ -7,7 +7,7 @@
 use eem_symbolic::{Function, Number};
 use proc_macro2::{Ident, TokenStream};
 
-use crate::ast::{Joint, Operator, Role, Strain};
+use crate::ast::{self, Joint, Operator, Role, Strain};
 
 /// A checked model.
 pub(crate) struct Checked<'a> {
@@ -34,6 +34,12 @@ pub(crate) struct Checked<'a> {
 }
 
 impl Checked<'_> {
+    /// Names and roles of the variables.
+    pub(crate) fn arguments(&self) -> Vec<(String, Role)> {
+        let variables = self.variables.iter();
+        variables.map(|v| (ast::name(v.ident), v.role)).collect()
+    }
+
     /// The measures of strain in the order of the state; none in a spring.
     pub(crate) fn strains(&self) -> impl Iterator<Item = Strain> {
         self.variables.iter().filter_map(|v| v.role.strain())

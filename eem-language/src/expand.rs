@@ -8,7 +8,7 @@ pub(crate) mod constants;
 pub(crate) mod description;
 mod docs;
 mod duplicate;
-mod equation;
+pub(crate) mod equation;
 mod forms;
 mod header;
 mod inputs;
@@ -26,7 +26,7 @@ use quote::quote;
 use syn::Path;
 
 use crate::checked::Checked;
-use crate::units::Units;
+use crate::units::{Quantities, Units};
 pub(crate) use header::Header;
 use inputs::Inputs;
 
@@ -44,7 +44,8 @@ pub(crate) fn expand(
     let points = points::points(programs, &inputs);
     let forms = forms::forms(programs, &inputs);
     let parameters = derivatives.map(|programs| parameters::parameters(programs, &inputs));
-    let equations = equation::equations(checked, &model.formulas());
+    let quantities = Quantities::of(checked.per_volume());
+    let equations = equation::equations(&checked.arguments(), quantities, &model.formulas());
     let formulas = docs::formulas(checked, &equations, units);
     let costs = description::costs(programs, derivatives);
     let description = description::description(checked, model, &costs, &equations, units);

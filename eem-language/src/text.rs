@@ -37,8 +37,9 @@ mod stack;
 use crate::attr::Attributes;
 use crate::ctxt::Ctxt;
 use crate::dialect::Dialect;
+use crate::units::Quantities;
 use crate::{check, derive, message, parse};
-pub use compiled::Compiled;
+pub use compiled::{Argument, Compiled, Formula};
 pub use fault::{Fault, Faults, Level};
 pub use part::Part;
 use reader::Reader;
@@ -109,5 +110,11 @@ pub(crate) fn compile_in(source: &Source, dialect: Dialect) -> Result<Compiled, 
         reader.report(Level::Warning, span, &message, Vec::new());
     }
     let warnings = reader.take_faults();
-    Ok(Compiled::new(source, model, too_large, warnings))
+    let arguments = (checked.arguments(), Quantities::of(checked.per_volume()));
+    Ok(Compiled::new(
+        source,
+        model,
+        arguments,
+        [too_large, warnings],
+    ))
 }

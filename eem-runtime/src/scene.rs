@@ -97,6 +97,23 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
 }
 
 impl<const D: usize, S: Real> Scene<D, S> {
+    /// What is wrong with the calls so far: handles of other scenes, loads on anchors, cells of solids that cannot be.
+    /// [`Simulation::new`](crate::Simulation::new) reports these, too, and checks all numbers.
+    ///
+    /// ```
+    /// use eem::{Scene, SceneError};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let wall = scene.anchor([0.0]);
+    /// assert!(scene.errors().is_empty());
+    /// scene.dead_load(wall, [1.0]);
+    /// assert!(matches!(scene.errors(), [SceneError::WrongKind { .. }]));
+    /// ```
+    #[must_use]
+    pub fn errors(&self) -> &[SceneError] {
+        &self.errors
+    }
+
     /// The numbering of its unknowns and state variables, and its paths of heat.
     pub(crate) fn numbering(&self) -> (Layout, Conduction<S>) {
         let is_mass = self.nodes.iter().map(|node| node.mass.is_some());

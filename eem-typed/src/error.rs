@@ -83,6 +83,14 @@ pub enum LawError {
         /// How many there may be.
         most: usize,
     },
+    /// Numbers that do not make whole states.
+    #[error("{numbers} numbers do not make whole states of {variables}")]
+    States {
+        /// How many numbers.
+        numbers: usize,
+        /// How many a state has.
+        variables: usize,
+    },
     /// A name that a law cannot have.
     #[error("a law cannot have the name `{name}`: {why}")]
     Name {

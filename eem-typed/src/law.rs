@@ -12,6 +12,7 @@ use eem_symbolic::Model;
 use crate::error::LawError;
 use crate::functions::Functions;
 use crate::names::{NAMELESS, name};
+use crate::tape::Tape;
 use crate::typed::Typed;
 
 /// The largest number of dashpots in series.
@@ -142,6 +143,100 @@ impl Law {
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.name
+    }
+
+    /// The same law with other values for some parameters; the texts are not compiled again.
+    ///
+    /// # Errors
+    ///
+    /// A value of what is no parameter, two values for one, a value that is not finite.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - l).powi(2)");
+    /// let compiled = compile(&source.parameter("k", None).parameter("l", None))?;
+    /// let law = Law::new(compiled, &[("k", 40.0), ("l", 2.0)])?.with_values(&[("k", 10.0)])?;
+    /// assert_eq!(law.parameters().collect::<Vec<_>>(), [("k", 10.0), ("l", 2.0)]);
+    /// assert!(law.with_values(&[("m", 1.0)]).is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_values(&self, values: &[(&str, f64)]) -> Result<Self, LawError> {
+        let kept = self.parameters();
+        let kept = kept.filter(|(name, _)| values.iter().all(|(other, _)| other != name));
+        let all: Vec<_> = kept.chain(values.iter().copied()).collect();
+        Ok(Self {
+            values: in_order(&self.compiled, &all)?.into(),
+            made: Arc::default(),
+            ..self.clone()
+        })
+    }
+
+    /// What the texts were compiled to: arguments, formulas, warnings.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let compiled = compile(&Source::new("|lambda: Stretch| 3 * lambda.powi(2)"))?;
+    /// let law = Law::new(compiled, &[])?;
+    /// assert_eq!(law.compiled().formulas()[1].equation, "f = ∂ψ/∂lambda = 6*lambda");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn compiled(&self) -> &Compiled {
+        &self.compiled
+    }
+
+    /// ψ of many states, one after the other in the order of [`Compiled::arguments`], J. For drawing; in a scene it is
+    /// evaluated by [`model`](Self::model), with the same bits.
+    ///
+    /// # Errors
+    ///
+    /// [`LawError::States`] if the numbers do not make whole states; see [`model`](Self::model) for others.
+    ///
+    /// ```
+    /// use eem::typed::{Law, Source, compile};
+    ///
+    /// let compiled = compile(&Source::new("|lambda: Stretch| 3 * lambda.powi(2)"))?;
+    /// let law = Law::new(compiled, &[])?;
+    /// assert_eq!(law.free_energies(&[1.0, 2.0])?, [3.0, 12.0]);
+    /// assert_eq!(law.gradients(&[1.0, 2.0])?, [6.0, 12.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn free_energies(&self, states: &[f64]) -> Result<Vec<f64>, LawError> {
+        self.tabulate(states, 1, |functions| &functions.free_energy)
+    }
+
+    /// `∂ψ/∂x` of many states, as long as these: force, less the forces of dashpots, less the entropy.
+    ///
+    /// # Errors
+    ///
+    /// As [`free_energies`](Self::free_energies).
+    pub fn gradients(&self, states: &[f64]) -> Result<Vec<f64>, LawError> {
+        let [variables, ..] = self.shape();
+        self.tabulate(states, variables, |functions| &functions.gradient)
+    }
+
+    fn tabulate(
+        &self,
+        states: &[f64],
+        results: usize,
+        function: impl Fn(&Functions<f64>) -> &Tape<f64>,
+    ) -> Result<Vec<f64>, LawError> {
+        let [variables, ..] = self.shape();
+        if !states.len().is_multiple_of(variables) {
+            return Err(LawError::States {
+                numbers: states.len(),
+                variables,
+            });
+        }
+        let functions = self.functions()?;
+        let tape = function(&functions);
+        let mut found = vec![0.0; states.len() / variables * results];
+        for (x, found) in states.chunks(variables).zip(found.chunks_mut(results)) {
+            tape.run(&[x], &mut [found]);
+        }
+        Ok(found)
     }
 
     /// The texts.

@@ -48,7 +48,9 @@ mod shapes;
 mod tape;
 mod typed;
 
-pub use eem_language::text::{Compiled, Fault, Faults, Level, Part, Source, compile};
+pub use eem_language::text::{
+    Argument, Compiled, Fault, Faults, Formula, Level, Part, Source, compile,
+};
 pub use error::LawError;
 pub use law::Law;
 pub use shapes::*;

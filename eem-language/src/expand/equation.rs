@@ -10,12 +10,15 @@ use crate::checked::Checked;
 use crate::units::Quantities;
 
 /// A formula, its left side and its unit.
-pub(super) struct Equation {
-    symbol: String,
+pub(crate) struct Equation {
+    pub(crate) symbol: String,
     /// Both sides, broken into lines.
-    pub(super) lines: Vec<String>,
-    unit: String,
+    pub(crate) lines: Vec<String>,
+    pub(crate) unit: String,
 }
+
+/// The arguments of a free energy in the order of the state, by name.
+pub(crate) type Arguments = [(String, Role)];
 
 impl Equation {
     /// `meaning` follows the symbol: `s = −∂ψ/∂theta = …`.
@@ -35,13 +38,15 @@ impl Equation {
 }
 
 /// All formulas of a model: potentials, forces, heat capacity, viscosities.
-pub(super) fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<Equation> {
+pub(crate) fn equations(
+    arguments: &Arguments,
+    units: &Quantities,
+    formulas: &Formulas,
+) -> Vec<Equation> {
     let names = |wanted: fn(Role) -> bool| {
-        let variables = checked.variables.iter();
-        let variables = variables.filter(move |v| wanted(v.role));
-        variables.map(|v| ast::name(v.ident))
+        let wanted = arguments.iter().filter(move |(_, role)| wanted(*role));
+        wanted.map(|(name, _)| name.as_str())
     };
-    let units = Quantities::of(checked.per_volume());
     let theta = names(|role| role == Role::Temperature).next();
     let theta = theta.unwrap_or_default();
     let mut equations = vec![Equation::new("ψ", "", &formulas.free_energy, units.energy)];

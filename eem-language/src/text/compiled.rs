@@ -7,6 +7,31 @@ use eem_symbolic::{Model, Programs};
 use super::fault::{Fault, Faults};
 use super::source::Source;
 use super::stack::on_deep_stack;
+use crate::ast::Role;
+use crate::expand::equation::{Equation, equations};
+use crate::units::Quantities;
+
+/// An argument of the free energy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Argument {
+    /// Its name in the formulas.
+    pub name: String,
+    /// `Stretch`, `Viscous`, `Temperature`, or a role of solids.
+    pub role: &'static str,
+    /// Its unit.
+    pub unit: String,
+}
+
+/// A formula that follows from the free energy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Formula {
+    /// What it defines: `ψ`, `f`, `g_2`.
+    pub symbol: String,
+    /// Both sides; a long one is broken into lines.
+    pub equation: String,
+    /// The unit of both sides.
+    pub unit: String,
+}
 
 /// A model whose texts are right.
 ///
@@ -24,6 +49,9 @@ use super::stack::on_deep_stack;
 pub struct Compiled {
     source: Source,
     model: Model,
+    /// In the order of the state.
+    arguments: Vec<(String, Role)>,
+    units: &'static Quantities,
     /// Nothing if a number in them does not fit.
     programs: OnceLock<Option<Programs>>,
     /// What is said in that case.
@@ -32,10 +60,17 @@ pub struct Compiled {
 }
 
 impl Compiled {
-    pub(super) fn new(source: &Source, model: Model, too_large: Faults, warnings: Faults) -> Self {
+    pub(super) fn new(
+        source: &Source,
+        model: Model,
+        (arguments, units): (Vec<(String, Role)>, &'static Quantities),
+        [too_large, warnings]: [Faults; 2],
+    ) -> Self {
         Self {
             source: source.clone(),
             model,
+            arguments,
+            units,
             programs: OnceLock::new(),
             too_large,
             warnings: warnings.0,
@@ -71,6 +106,50 @@ impl Compiled {
     #[must_use]
     pub fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// The arguments of the free energy in the order of the state: length or strains, viscous variables, temperature.
+    ///
+    /// ```
+    /// use eem_language::text::{Source, compile};
+    ///
+    /// let source = Source::new("|theta: Temperature, x: Stretch| k * x - c * theta * ln(theta / 300)");
+    /// let source = source.parameter("k", None).parameter("c", None);
+    /// let arguments = compile(&source).unwrap().arguments();
+    /// let arguments: Vec<_> = arguments.iter().map(|a| (&*a.name, a.role, &*a.unit)).collect();
+    /// assert_eq!(arguments, [("x", "Stretch", "m"), ("theta", "Temperature", "K")]);
+    /// ```
+    #[must_use]
+    pub fn arguments(&self) -> Vec<Argument> {
+        let argument = |(name, role): &(String, Role)| Argument {
+            name: name.clone(),
+            role: role.name(),
+            unit: self.units.of_role(*role).to_string(),
+        };
+        self.arguments.iter().map(argument).collect()
+    }
+
+    /// ψ, s, e, forces, dashpot forces, heat capacity and viscosities as text: those of `Describe` of a derived material.
+    ///
+    /// ```
+    /// use eem_language::text::{Source, compile};
+    ///
+    /// let source = Source::new("|x: Stretch| 0.5 * k * (x - l).powi(2)");
+    /// let source = source.parameter("k", Some("N/m")).parameter("l", Some("m"));
+    /// let formulas = compile(&source).unwrap().formulas();
+    /// assert_eq!(formulas[0].equation, "ψ = 0.5*k*(x - l)^2");
+    /// assert_eq!((&*formulas[1].symbol, &*formulas[1].unit), ("f", "N"));
+    /// ```
+    #[must_use]
+    pub fn formulas(&self) -> Vec<Formula> {
+        let formulas = on_deep_stack(|| self.model.formulas());
+        let equations = equations(&self.arguments, self.units, &formulas);
+        let formula = |equation: Equation| Formula {
+            equation: equation.lines.join("\n"),
+            symbol: equation.symbol,
+            unit: equation.unit,
+        };
+        equations.into_iter().map(formula).collect()
     }
 
     /// The programs of the model, which are made at the first call: the same that the derive prints.

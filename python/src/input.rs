@@ -1,0 +1,117 @@
+//! Numbers from Python: anything that `numpy.asarray` takes, refused if it has another shape or is not finite.
+
+use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::IntoPyDict;
+
+use crate::error;
+
+/// An array of any shape.
+pub(crate) struct Array {
+    pub(crate) shape: Vec<usize>,
+    pub(crate) values: Vec<f64>,
+}
+
+/// Finite numbers, whatever their shape is.
+pub(crate) fn array(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Array> {
+    let py = given.py();
+    let options = [("dtype", "float64"), ("order", "C")].into_py_dict(py)?;
+    let array = py
+        .import("numpy")?
+        .call_method("asarray", (given,), Some(&options))?;
+    let array: PyReadonlyArrayDyn<'_, f64> = array.extract()?;
+    let values = array.as_slice()?.to_vec();
+    let shape = array.shape().to_vec();
+    if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+        let (value, at) = (values[place], placed(place, &shape));
+        return Err(error::scene(format!(
+            "{what}{at} is {value}, it must be finite"
+        )));
+    }
+    Ok(Array { shape, values })
+}
+
+/// `[2, 0]` of a place in an array, nothing of a number.
+fn placed(mut place: usize, shape: &[usize]) -> String {
+    if shape.is_empty() {
+        return String::new();
+    }
+    let mut indices = Vec::new();
+    for length in shape.iter().rev() {
+        indices.insert(0, place % length);
+        place /= length;
+    }
+    format!("{indices:?}")
+}
+
+fn refuse<T>(what: &str, shape: &[usize], expected: &str) -> PyResult<T> {
+    let shape = match shape {
+        [] => "a number".to_owned(),
+        [one] => format!("({one},)"),
+        all => format!(
+            "({})",
+            all.iter()
+                .map(usize::to_string)
+                .collect::<Vec<_>>()
+                .join(", ")
+        ),
+    };
+    Err(error::scene(format!(
+        "{what} has the shape {shape}, {expected} is expected"
+    )))
+}
+
+/// A vector of this length.
+pub(crate) fn vector(given: &Bound<'_, PyAny>, length: usize, what: &str) -> PyResult<Vec<f64>> {
+    let array = array(given, what)?;
+    if array.shape == [length] {
+        return Ok(array.values);
+    }
+    refuse(what, &array.shape, &format!("({length},)"))
+}
+
+/// A number.
+pub(crate) fn number(given: &Bound<'_, PyAny>, what: &str) -> PyResult<f64> {
+    let array = array(given, what)?;
+    match array.shape[..] {
+        [] => Ok(array.values[0]),
+        _ => refuse(what, &array.shape, "a number"),
+    }
+}
+
+/// As many vectors as there are, `(n, length)`.
+pub(crate) fn rows(given: &Bound<'_, PyAny>, length: usize, what: &str) -> PyResult<Vec<f64>> {
+    let array = array(given, what)?;
+    match array.shape[..] {
+        [_, columns] if columns == length => Ok(array.values),
+        _ => refuse(what, &array.shape, &format!("(n, {length})")),
+    }
+}
+
+/// One number for each of `count`, or one for all.
+pub(crate) fn numbers(given: &Bound<'_, PyAny>, count: usize, what: &str) -> PyResult<Vec<f64>> {
+    let array = array(given, what)?;
+    match array.shape[..] {
+        [] => Ok(vec![array.values[0]; count]),
+        [own] if own == count => Ok(array.values),
+        _ => refuse(what, &array.shape, &format!("({count},) or a number")),
+    }
+}
+
+/// A vector for each of `count`, or one for all.
+pub(crate) fn vectors(
+    given: &Bound<'_, PyAny>,
+    [count, length]: [usize; 2],
+    what: &str,
+) -> PyResult<Vec<f64>> {
+    let array = array(given, what)?;
+    match array.shape[..] {
+        [own] if own == length => Ok(array.values.repeat(count)),
+        [own, columns] if own == count && columns == length => Ok(array.values),
+        _ => refuse(
+            what,
+            &array.shape,
+            &format!("({count}, {length}) or ({length},)"),
+        ),
+    }
+}

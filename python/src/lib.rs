@@ -1,0 +1,50 @@
+//! The extension module `eem._eem`: scenes, materials from texts and runs for Python.
+//!
+//! | to | look in |
+//! |---|---|
+//! | add a call to scenes | `act.rs` for what it keeps, `built.rs` for what it does, `scene.rs` for its arguments |
+//! | add a quantity of runs | `run.rs`, `simulation.rs`; `record.rs` and `python/eem/_record.py` to record it |
+//! | change how arrays are taken | `input.rs` |
+//! | change handles | `handle.rs` |
+//! | change exceptions | `error.rs`, `python/eem/_errors.py` |
+//! | compile springs differently | `springs` |
+
+mod act;
+mod arguments;
+mod built;
+mod ensemble;
+mod error;
+mod function;
+mod handle;
+mod input;
+mod material;
+mod record;
+mod report;
+mod run;
+mod scene;
+mod setting;
+mod simulation;
+mod watch;
+mod world;
+
+/// The module.
+#[pyo3::pymodule]
+mod _eem {
+    #[pymodule_export]
+    use crate::handle::{
+        Element, ElementArray, HeatPath, HeatPathArray, Lineage, Node, NodeArray, Reservoir,
+        ReservoirArray,
+    };
+    #[pymodule_export]
+    use crate::material::Material;
+    #[pymodule_export]
+    use crate::report::Report;
+    #[pymodule_export]
+    use crate::scene::PyScene;
+    #[pymodule_export]
+    use crate::simulation::Simulation;
+
+    /// The version of the library.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

@@ -1,0 +1,205 @@
+//! A run whose dimension is known when the program runs.
+
+use std::ops::ControlFlow;
+
+use eem::{
+    Checkpoint, Element, Node, RestoreError, RunEnd, SceneError, Scheme, Simulation, StepError,
+    StepReport, StepStatistics, Tolerance,
+};
+
+/// Sees a run after each step.
+pub(crate) type Observer<'a> =
+    &'a mut dyn FnMut(&dyn AnyRun, &StepReport<f64>) -> Result<ControlFlow<()>, SceneError>;
+
+/// Why a run has ended early.
+pub(crate) enum Stop {
+    Step(StepError),
+    /// A quantity that was to be recorded does not exist.
+    Scene(SceneError),
+}
+
+/// A run that is given back, and why.
+pub(crate) type Unchanged = (Box<dyn AnyRun>, SceneError);
+
+/// A simulation of any dimension.
+pub(crate) trait AnyRun: Send {
+    fn time(&self) -> f64;
+    fn scheme(&self) -> Scheme;
+    fn scheme_in_use(&self) -> Scheme;
+    fn step_size(&self) -> f64;
+    fn set_step_size(&mut self, step: f64) -> Result<(), SceneError>;
+    fn step(&mut self) -> Result<StepReport<f64>, StepError>;
+    fn run_until(&mut self, end: f64, observer: Observer<'_>) -> Result<RunEnd, Stop>;
+    fn add_position(&self, node: Node, to: &mut Vec<f64>) -> Result<(), SceneError>;
+    fn add_momentum(&self, node: Node, to: &mut Vec<f64>) -> Result<(), SceneError>;
+    fn temperature(&self, element: Element) -> Result<f64, SceneError>;
+    fn entropy(&self, element: Element) -> Result<f64, SceneError>;
+    fn internal_energy(&self, element: Element) -> Result<f64, SceneError>;
+    fn stretch(&self, element: Element) -> Result<f64, SceneError>;
+    fn force(&self, element: Element) -> Result<f64, SceneError>;
+    fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<f64, SceneError>;
+    /// The entries of the ledger in the order of [`LEDGER`](crate::record::LEDGER), and both momenta.
+    fn add_ledger(&self, to: &mut Vec<f64>);
+    fn worst_step(&self) -> Option<&StepReport<f64>>;
+    fn set_force(&mut self, node: Node, force: &[f64]) -> Result<(), SceneError>;
+    fn set_motion(&mut self, anchor: Node, velocity: &[f64]) -> Result<(), SceneError>;
+    fn set_temperature(&mut self, element: Element, temperature: f64) -> Result<(), SceneError>;
+    fn control_steps(&mut self, tolerance: Tolerance<f64>) -> Result<(), SceneError>;
+    fn fix_steps(&mut self);
+    fn limit_steps(&mut self, limits: [f64; 2]) -> Result<(), SceneError>;
+    fn step_statistics(&self) -> Option<StepStatistics>;
+    fn checkpoint(&self) -> Checkpoint;
+    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError>;
+    fn with_scheme(self: Box<Self>, scheme: Scheme) -> Result<Box<dyn AnyRun>, Unchanged>;
+}
+
+impl<const D: usize> AnyRun for Simulation<D> {
+    fn time(&self) -> f64 {
+        self.time()
+    }
+
+    fn scheme(&self) -> Scheme {
+        self.scheme()
+    }
+
+    fn scheme_in_use(&self) -> Scheme {
+        self.scheme_in_use()
+    }
+
+    fn step_size(&self) -> f64 {
+        self.step_size()
+    }
+
+    fn set_step_size(&mut self, step: f64) -> Result<(), SceneError> {
+        self.set_step_size(step)
+    }
+
+    fn step(&mut self) -> Result<StepReport<f64>, StepError> {
+        self.step()
+    }
+
+    fn run_until(&mut self, end: f64, observer: Observer<'_>) -> Result<RunEnd, Stop> {
+        let mut wrong = None;
+        let ended = self.run_until_with(end, |run, report| {
+            observer(run, report).unwrap_or_else(|error| {
+                wrong = Some(error);
+                ControlFlow::Break(())
+            })
+        });
+        match wrong {
+            Some(error) => Err(Stop::Scene(error)),
+            None => ended.map_err(Stop::Step),
+        }
+    }
+
+    fn add_position(&self, node: Node, to: &mut Vec<f64>) -> Result<(), SceneError> {
+        to.extend_from_slice(self.position(node)?.as_slice());
+        Ok(())
+    }
+
+    fn add_momentum(&self, node: Node, to: &mut Vec<f64>) -> Result<(), SceneError> {
+        to.extend_from_slice(self.momentum(node)?.as_slice());
+        Ok(())
+    }
+
+    fn temperature(&self, element: Element) -> Result<f64, SceneError> {
+        self.temperature(element)
+    }
+
+    fn entropy(&self, element: Element) -> Result<f64, SceneError> {
+        self.entropy(element)
+    }
+
+    fn internal_energy(&self, element: Element) -> Result<f64, SceneError> {
+        self.internal_energy(element)
+    }
+
+    fn stretch(&self, element: Element) -> Result<f64, SceneError> {
+        self.stretch(element)
+    }
+
+    fn force(&self, element: Element) -> Result<f64, SceneError> {
+        self.force(element)
+    }
+
+    fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<f64, SceneError> {
+        self.viscous_stretch(element, dashpot)
+    }
+
+    fn add_ledger(&self, to: &mut Vec<f64>) {
+        let ledger = self.ledger();
+        to.extend([
+            ledger.kinetic_energy,
+            ledger.potential_energy,
+            ledger.internal_energy,
+            ledger.reservoir_heat,
+            ledger.lost_heat,
+            ledger.energy,
+            ledger.work,
+            ledger.heat,
+            ledger.balance,
+            ledger.element_entropy,
+            ledger.element_entropy_of_state,
+            ledger.reservoir_entropy,
+            ledger.thermostat_entropy,
+            ledger.entropy,
+        ]);
+        to.extend_from_slice(ledger.linear_momentum.as_slice());
+        to.extend_from_slice(ledger.angular_momentum.as_slice());
+    }
+
+    fn worst_step(&self) -> Option<&StepReport<f64>> {
+        self.worst_step()
+    }
+
+    fn set_force(&mut self, node: Node, force: &[f64]) -> Result<(), SceneError> {
+        self.set_force(node, fixed(force))
+    }
+
+    fn set_motion(&mut self, anchor: Node, velocity: &[f64]) -> Result<(), SceneError> {
+        self.set_motion(anchor, fixed(velocity))
+    }
+
+    fn set_temperature(&mut self, element: Element, temperature: f64) -> Result<(), SceneError> {
+        self.set_temperature_of(element, temperature)
+    }
+
+    fn control_steps(&mut self, tolerance: Tolerance<f64>) -> Result<(), SceneError> {
+        self.control_steps(tolerance)
+    }
+
+    fn fix_steps(&mut self) {
+        self.fix_steps();
+    }
+
+    fn limit_steps(&mut self, limits: [f64; 2]) -> Result<(), SceneError> {
+        self.limit_steps(limits)
+    }
+
+    fn step_statistics(&self) -> Option<StepStatistics> {
+        self.step_statistics()
+    }
+
+    fn checkpoint(&self) -> Checkpoint {
+        self.checkpoint()
+    }
+
+    fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
+        self.restore(checkpoint)
+    }
+
+    fn with_scheme(self: Box<Self>, scheme: Scheme) -> Result<Box<dyn AnyRun>, Unchanged> {
+        match (*self).with_scheme(scheme) {
+            Ok(run) => Ok(Box::new(run)),
+            Err(refused) => {
+                let error = refused.error().clone();
+                Err((Box::new(refused.into_run()), error))
+            }
+        }
+    }
+}
+
+/// A vector whose length was checked.
+fn fixed<const D: usize>(values: &[f64]) -> [f64; D] {
+    values.try_into().unwrap_or([f64::NAN; D])
+}

@@ -1,0 +1,465 @@
+//! `eem.Scene`: nodes, springs, reservoirs and loads.
+
+use std::sync::{Mutex, MutexGuard, TryLockError};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList, PyType};
+
+use crate::act::{Act, Course, Partner, Rest};
+use crate::ensemble::Request;
+use crate::handle::{
+    Element, ElementArray, HeatPath, HeatPathArray, Kind, Lineage, Node, NodeArray, Reservoir,
+    ReservoirArray, indices, one,
+};
+use crate::material::Material;
+use crate::setting::{scheme, tolerance};
+use crate::simulation::Simulation;
+use crate::world::{State, World};
+use crate::{error, input};
+
+/// A scene in one, two or three dimensions: anchors, masses, springs, reservoirs and loads.
+///
+/// >>> import eem
+/// >>> scene = eem.Scene(dim=2)
+/// >>> scene.anchor([0, 0]), scene.mass(1.0, [3, 0], momentum=[0, 1])
+/// (Node(0), Node(1))
+#[pyclass(frozen, name = "Scene", module = "eem")]
+pub(crate) struct PyScene {
+    world: Mutex<World>,
+}
+
+impl PyScene {
+    pub(crate) fn of(world: World) -> Self {
+        Self {
+            world: Mutex::new(world),
+        }
+    }
+
+    /// An error while it is changed elsewhere: by another thread, or by a call that has called a function of its own.
+    fn world(&self) -> PyResult<MutexGuard<'_, World>> {
+        match self.world.try_lock() {
+            Ok(world) => Ok(world),
+            // A panic while it was changed has left its acts as they were.
+            Err(TryLockError::Poisoned(world)) => Ok(world.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "the scene is in use, in another thread or in this call",
+            )),
+        }
+    }
+
+    /// A copy of what is in it.
+    pub(crate) fn copied(&self, py: Python<'_>) -> PyResult<World> {
+        let world = self.world()?;
+        Ok(world.copy(world.lineage.copy(py)?))
+    }
+}
+
+#[pymethods]
+impl PyScene {
+    #[new]
+    #[pyo3(signature = (dim=3))]
+    fn new(py: Python<'_>, dim: usize) -> PyResult<Self> {
+        Ok(Self::of(World::new(dim, Lineage::new(py)?)?))
+    }
+
+    /// The number of dimensions.
+    #[getter]
+    fn dim(&self) -> PyResult<usize> {
+        Ok(self.world()?.dim)
+    }
+
+    /// All anchors and masses.
+    #[getter]
+    fn nodes(&self) -> PyResult<NodeArray> {
+        let Lineage { own, counts, .. } = self.world()?.lineage;
+        Ok(NodeArray::of(own, 0..counts[Kind::Node as usize]))
+    }
+
+    /// All springs.
+    #[getter]
+    fn elements(&self) -> PyResult<ElementArray> {
+        let Lineage { own, counts, .. } = self.world()?.lineage;
+        Ok(ElementArray::of(own, 0..counts[Kind::Element as usize]))
+    }
+
+    /// The materials of its springs.
+    #[getter]
+    fn materials<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        PyList::new(py, self.world()?.materials.iter().map(|one| one.bind(py)))
+    }
+
+    /// A node that does not move, at a position of `dim` numbers, m.
+    fn anchor(&self, position: &Bound<'_, PyAny>) -> PyResult<Node> {
+        let mut world = self.world()?;
+        let positions = input::vector(position, world.dim, "the position")?;
+        let index = world.lineage.counts[Kind::Node as usize];
+        world.act(Act::Anchors { positions })?;
+        Ok(Node::of(world.lineage.own, index))
+    }
+
+    /// Many anchors, at positions of the shape (n, dim).
+    fn anchors(&self, positions: &Bound<'_, PyAny>) -> PyResult<NodeArray> {
+        let mut world = self.world()?;
+        let positions = input::rows(positions, world.dim, "positions")?;
+        let first = world.lineage.counts[Kind::Node as usize];
+        world.act(Act::Anchors { positions })?;
+        let Lineage { own, counts, .. } = world.lineage;
+        Ok(NodeArray::of(own, first..counts[Kind::Node as usize]))
+    }
+
+    /// A mass, kg, at a position, m, with a velocity, m/s, or a momentum, kg m/s; at rest without both.
+    #[pyo3(signature = (mass, position, velocity=None, *, momentum=None))]
+    fn mass(
+        &self,
+        mass: &Bound<'_, PyAny>,
+        position: &Bound<'_, PyAny>,
+        velocity: Option<&Bound<'_, PyAny>>,
+        momentum: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Node> {
+        let mut world = self.world()?;
+        let dim = world.dim;
+        let place = vec![input::number(mass, "the mass")?];
+        let place = (place, input::vector(position, dim, "the position")?);
+        let velocity = velocity.map(|given| input::vector(given, dim, "the velocity"));
+        let momentum = momentum.map(|given| input::vector(given, dim, "the momentum"));
+        let index = world.masses(place, [velocity.transpose()?, momentum.transpose()?])?;
+        Ok(Node::of(world.lineage.own, index))
+    }
+
+    /// Many masses at positions of the shape (n, dim); one mass for all, or n. Velocities or momenta likewise.
+    #[pyo3(signature = (masses, positions, velocities=None, *, momenta=None))]
+    fn masses(
+        &self,
+        masses: &Bound<'_, PyAny>,
+        positions: &Bound<'_, PyAny>,
+        velocities: Option<&Bound<'_, PyAny>>,
+        momenta: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<NodeArray> {
+        let mut world = self.world()?;
+        let dim = world.dim;
+        let positions = input::rows(positions, dim, "positions")?;
+        let count = positions.len() / dim;
+        let masses = input::numbers(masses, count, "masses")?;
+        let speeds = |given: Option<&Bound<'_, PyAny>>, what: &str| {
+            given
+                .map(|given| input::vectors(given, [count, dim], what))
+                .transpose()
+        };
+        let speeds = [
+            speeds(velocities, "velocities")?,
+            speeds(momenta, "momenta")?,
+        ];
+        let first = world.masses((masses, positions), speeds)?;
+        Ok(NodeArray::of(world.lineage.own, first..first + count))
+    }
+
+    /// A spring of a material between two nodes.
+    ///
+    /// A material with a temperature needs one at the start, K. The viscous stretches of its dashpots in series are zero
+    /// unless they are given, m.
+    ///
+    /// >>> import eem
+    /// >>> scene = eem.Scene(dim=1)
+    /// >>> ends = scene.anchor([0.0]), scene.mass(1.0, [1.5])
+    /// >>> spring = scene.spring(eem.Material("|x: Stretch| 2 * (x - 1).powi(2)"), ends)
+    /// >>> scene.simulate("eem-entropy", step=0.1).force(spring)
+    /// 2.0
+    #[pyo3(signature = (material, nodes, *, temperature=None, viscous_stretch=None))]
+    fn spring(
+        &self,
+        material: &Bound<'_, Material>,
+        nodes: &Bound<'_, PyAny>,
+        temperature: Option<&Bound<'_, PyAny>>,
+        viscous_stretch: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Element> {
+        let mut world = self.world()?;
+        let pair = world.pair(nodes)?;
+        let index = world.springs(material, vec![pair], temperature, viscous_stretch)?;
+        Ok(Element::of(world.lineage.own, index))
+    }
+
+    /// Many springs of one material between pairs of nodes: handles, or an array of numbers of nodes of the shape (n, 2).
+    ///
+    /// Temperatures are one for all, or n; viscous stretches are of the shape (dashpots,) or (n, dashpots).
+    #[pyo3(signature = (material, pairs, *, temperature=None, viscous_stretch=None))]
+    fn springs(
+        &self,
+        material: &Bound<'_, Material>,
+        pairs: &Bound<'_, PyAny>,
+        temperature: Option<&Bound<'_, PyAny>>,
+        viscous_stretch: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<ElementArray> {
+        let mut world = self.world()?;
+        let pairs = pairs.try_iter()?.map(|pair| world.pair(&pair?));
+        let pairs: Vec<_> = pairs.collect::<PyResult<_>>()?;
+        let count = pairs.len();
+        let first = world.springs(material, pairs, temperature, viscous_stretch)?;
+        Ok(ElementArray::of(world.lineage.own, first..first + count))
+    }
+
+    /// The temperatures of springs at the start, K.
+    fn set_temperature(
+        &self,
+        springs: &Bound<'_, PyAny>,
+        temperature: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let mut world = self.world()?;
+        let (elements, _) = indices::<Element>(springs, &world.lineage)?;
+        let values = input::numbers(temperature, elements.len(), "the temperature")?;
+        world.act(Act::Temperatures { elements, values })
+    }
+
+    /// A reservoir of heat with a temperature, K: a number, or a function of the time in s.
+    fn reservoir(&self, temperature: &Bound<'_, PyAny>) -> PyResult<Reservoir> {
+        let mut world = self.world()?;
+        let index = world.lineage.counts[Kind::Reservoir as usize];
+        let act = match world.course(temperature, "the temperature")? {
+            Course::Function(function) => Act::Oven { function },
+            Course::Constant(temperatures) => Act::Reservoirs { temperatures },
+        };
+        world.act(act)?;
+        Ok(Reservoir::of(world.lineage.own, index))
+    }
+
+    /// Many reservoirs with constant temperatures, K.
+    fn reservoirs(&self, temperatures: &Bound<'_, PyAny>) -> PyResult<ReservoirArray> {
+        let mut world = self.world()?;
+        let array = input::array(temperatures, "temperatures")?;
+        if array.shape.len() != 1 {
+            return Err(error::scene(
+                "temperatures are a list with one for each reservoir",
+            ));
+        }
+        let first = world.lineage.counts[Kind::Reservoir as usize];
+        let temperatures = array.values;
+        world.act(Act::Reservoirs { temperatures })?;
+        let Lineage { own, counts, .. } = world.lineage;
+        Ok(ReservoirArray::of(
+            own,
+            first..counts[Kind::Reservoir as usize],
+        ))
+    }
+
+    /// A path of heat from a spring to a reservoir or to another spring, with a conductance in W/K. Of many springs: to one
+    /// partner, or to as many.
+    fn conduct<'py>(
+        &self,
+        py: Python<'py>,
+        springs: &Bound<'py, PyAny>,
+        partners: &Bound<'py, PyAny>,
+        conductance: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let mut world = self.world()?;
+        let (elements, is_one) = indices::<Element>(springs, &world.lineage)?;
+        let count = elements.len();
+        let is_reservoir =
+            partners.is_instance_of::<Reservoir>() || partners.is_instance_of::<ReservoirArray>();
+        let (partners, is_common) = if is_reservoir {
+            let (all, is_common) = indices::<Reservoir>(partners, &world.lineage)?;
+            (all.into_iter().map(Partner::Reservoir).collect(), is_common)
+        } else {
+            let (all, is_common) = indices::<Element>(partners, &world.lineage)?;
+            (
+                all.into_iter().map(Partner::Element).collect::<Vec<_>>(),
+                is_common,
+            )
+        };
+        let partners = if is_common {
+            vec![partners[0]; count]
+        } else {
+            partners
+        };
+        if partners.len() != count {
+            let other = partners.len();
+            return Err(error::scene(format!(
+                "{count} springs have {other} partners: give one, or one for each"
+            )));
+        }
+        let conductances = input::numbers(conductance, count, "the conductance")?;
+        let first = world.lineage.counts[Kind::HeatPath as usize];
+        world.act(Act::Paths {
+            elements,
+            partners,
+            conductances,
+        })?;
+        let own = world.lineage.own;
+        let all = HeatPathArray::of(own, first..first + count);
+        Ok(if is_one {
+            Bound::new(py, HeatPath::of(own, first))?.into_any()
+        } else {
+            Bound::new(py, all)?.into_any()
+        })
+    }
+
+    /// The acceleration of all masses, m/s².
+    fn set_gravity(&self, gravity: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mut world = self.world()?;
+        let gravity = input::vector(gravity, world.dim, "gravity")?;
+        world.act(Act::Gravity { gravity })
+    }
+
+    /// A force on masses, N: constant, or a function of the time in s.
+    ///
+    /// What such a function raises comes out of the step that calls it. It is called once or a few times in a step, which
+    /// takes some microseconds; it must depend on the time only.
+    fn force(&self, nodes: &Bound<'_, PyAny>, force: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mut world = self.world()?;
+        let (nodes, _) = indices::<Node>(nodes, &world.lineage)?;
+        let force = if force.is_callable() {
+            Course::Function(world.function(force))
+        } else {
+            Course::Constant(input::vector(force, world.dim, "the force")?)
+        };
+        world.act(Act::Force { nodes, force })
+    }
+
+    /// A thrust on a node in the direction from the node `tail` to `head`, N: constant, or a function of the time in s.
+    fn rocket(
+        &self,
+        node: &Bound<'_, PyAny>,
+        tail: &Bound<'_, PyAny>,
+        head: &Bound<'_, PyAny>,
+        thrust: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let mut world = self.world()?;
+        let nodes = [
+            one::<Node>(node, &world.lineage)?,
+            one::<Node>(tail, &world.lineage)?,
+            one::<Node>(head, &world.lineage)?,
+        ];
+        let thrust = world.course(thrust, "the thrust")?;
+        world.act(Act::Rocket { nodes, thrust })
+    }
+
+    /// Moves an anchor: its position, m, as a function of the time in s, which begins where it was put.
+    fn move_anchor(&self, anchor: &Bound<'_, PyAny>, position: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mut world = self.world()?;
+        let anchor = one::<Node>(anchor, &world.lineage)?;
+        let function = world.function(position);
+        world.act(Act::Motion { anchor, function })
+    }
+
+    /// A thermostat: the temperature of a spring, K, constant from the start on, or a function of the time in s.
+    fn hold_temperature(
+        &self,
+        spring: &Bound<'_, PyAny>,
+        temperature: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let mut world = self.world()?;
+        let element = one::<Element>(spring, &world.lineage)?;
+        let temperature = world.course(temperature, "the temperature")?;
+        world.act(Act::Thermostat {
+            element,
+            temperature,
+        })
+    }
+
+    /// The time at which runs begin, s.
+    fn start_at(&self, time: f64) -> PyResult<()> {
+        self.world()?.act(Act::Start { time })
+    }
+
+    /// Moves the scene into a stable state at rest under its loads at the start: dashpots relaxed, or held as they are;
+    /// temperatures as they are, or in thermal balance. Returns how it was found: `residual` in N, `heat` in W, and the
+    /// effort. On an error the scene is as it was.
+    #[pyo3(signature = (*, held=false, thermal_balance=false, load_steps=4))]
+    fn equilibrium<'py>(
+        &self,
+        py: Python<'py>,
+        held: bool,
+        thermal_balance: bool,
+        load_steps: u32,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let found = self.world()?.find_rest(Rest {
+            held,
+            thermal_balance,
+            load_steps,
+        })?;
+        let report = PyDict::new(py);
+        report.set_item("residual", found.residual)?;
+        report.set_item("heat", found.heat)?;
+        report.set_item("followed", found.followed)?;
+        report.set_item("load_steps", found.load_steps)?;
+        report.set_item("iterations", found.iterations)?;
+        report.set_item("friction_steps", found.friction_steps)?;
+        Ok(report)
+    }
+
+    /// Starts a run with a scheme and a step, s; with a relative tolerance the step is the first one to try.
+    ///
+    /// The scene stays as it is, and can be changed and started again. Everything that is wrong with it is told at once.
+    #[pyo3(signature = (scheme="auto", *, step, tolerance=None))]
+    fn simulate(&self, scheme: &str, step: f64, tolerance: Option<f64>) -> PyResult<Simulation> {
+        let scheme = self::scheme(scheme)?;
+        let world = {
+            let world = self.world()?;
+            // With the same lineage: it knows all handles so far, and none that come later.
+            world.copy(world.lineage.clone())
+        };
+        let run = Simulation::new(world, scheme, step)?;
+        if let Some(relative) = tolerance {
+            run.control(self::tolerance(relative, [0.0; 3], None))?;
+        }
+        Ok(run)
+    }
+
+    /// Runs this scene once for each value of parameters, on all cores, or on so many threads.
+    ///
+    /// `vary` has a dictionary for each material: the names of parameters, with a list of values as long as the ensemble.
+    /// States are recorded at the end `until`, or at `times`, without changing the steps.
+    ///
+    /// >>> import eem
+    /// >>> scene, hooke = eem.Scene(dim=1), eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=1.0)
+    /// >>> ends = scene.anchor([0.0]), scene.mass(1.0, [1.1])
+    /// >>> spring = scene.spring(hooke, ends)
+    /// >>> found = scene.ensemble({hooke: {"k": [1.0, 4.0, 9.0]}}, "eem-entropy-6", step=0.05, until=1.0)
+    /// >>> found.position(ends[1])[:, 0, 0].round(5).tolist()
+    /// [1.05403, 0.95839, 0.901]
+    #[pyo3(signature = (vary, scheme="auto", *, step, until=None, times=None, tolerance=None, threads=0))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+    fn ensemble(
+        &self,
+        py: Python<'_>,
+        vary: &Bound<'_, PyDict>,
+        scheme: &str,
+        step: f64,
+        until: Option<f64>,
+        times: Option<&Bound<'_, PyAny>>,
+        tolerance: Option<f64>,
+        threads: usize,
+    ) -> PyResult<Py<PyAny>> {
+        let world = self.copied(py)?;
+        let tolerance = tolerance.map(|relative| self::tolerance(relative, [0.0; 3], None));
+        let scheme = self::scheme(scheme)?;
+        let request = Request::new(&world, vary, until, times)?;
+        request.run(py, (scheme, step), tolerance, threads)
+    }
+
+    #[classmethod]
+    fn _restored(class: &Bound<'_, PyType>, state: State) -> PyResult<Self> {
+        Ok(Self::of(World::restored(class.py(), state)?))
+    }
+
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, (State,))> {
+        let state = slf.get().world()?.state(slf.py())?;
+        Ok((slf.get_type().getattr("_restored")?.unbind(), (state,)))
+    }
+
+    fn __copy__(slf: &Bound<'_, Self>) -> PyResult<Self> {
+        Ok(Self::of(slf.get().copied(slf.py())?))
+    }
+
+    fn __deepcopy__(slf: &Bound<'_, Self>, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        Self::__copy__(slf)
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let world = self.world()?;
+        let [nodes, springs, reservoirs, paths] = world.lineage.counts;
+        let dim = world.dim;
+        Ok(format!(
+            "Scene(dim={dim}, nodes={nodes}, springs={springs}, reservoirs={reservoirs}, paths={paths})"
+        ))
+    }
+}
