@@ -29,6 +29,8 @@ done <<CASES | tee ${1:+"$1"}
 explicit-single 100 2
 explicit-krueger 100 2
 explicit-log 100 2
+explicit-elastic 100 2
+explicit-chain 100 2
 temperature-single 100 2
 temperature-log 100 2
 entropy-single 100 2

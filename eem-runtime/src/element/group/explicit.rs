@@ -18,6 +18,6 @@ mod temperature;
 pub(super) mod view;
 
 pub(crate) use group::ExplicitElements;
-pub(crate) use stage::{Past, Place, Stage};
+pub(crate) use stage::{Apart, Past, Place, Stage};
 pub(crate) use temperature::is_met;
 pub(crate) use view::{ClosingView, ComponentEnergy, UnkeptEntropy};

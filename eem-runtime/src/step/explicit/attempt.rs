@@ -97,7 +97,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Writes the closed state.
     fn store(&mut self, old: &State<S>, next: &mut State<S>) {
-        for (place, &node) in self.stage.places.iter().zip(&self.components.nodes) {
+        let masses = &self.stage.places[..self.components.masses];
+        for (place, &node) in masses.iter().zip(&self.components.nodes) {
             next.positions.set_point(node as usize, place.q());
             next.momenta.set_point(node as usize, place.p());
         }

@@ -6,7 +6,7 @@ use super::tableau::{
 };
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::Past;
+use crate::element::group::{Apart, Past};
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::Real;
 
@@ -111,9 +111,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             if last == 0 {
                 past.start = [*now];
             }
-            past.rates[ROWS[last]] = [*rates];
+            past.rates[ROWS[last]] = [rates.map(|rate| rate.0)];
             [*now] = past.after(h, rows, a);
-            *rates = [S::zero(); 2];
+            *rates = [Apart(S::zero()); 2];
         }
     }
 
@@ -155,10 +155,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let [a, b] = path.ends.map(|end| first + end as usize);
             let [near, far] = [inner[a], inner[b]];
             let flow = path.conductance * (far - near);
-            rates[a] += flow;
+            rates[a].0 += flow;
             // A reservoir keeps its temperature.
             if path.share.is_none() {
-                rates[b] -= flow;
+                rates[b].0 -= flow;
             }
             if let Some(at) = weight {
                 (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
@@ -182,7 +182,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for place in &mut self.stage.places[..self.components.masses] {
             place.begin_rates();
         }
-        self.stage.inner_rates.fill(S::zero());
+        self.stage.inner_rates.fill(Apart(S::zero()));
         if self.loads.has_total_force() {
             self.apply_loads();
         }

@@ -7,7 +7,7 @@ use super::stages::From;
 use super::tableau::WEIGHTS;
 use super::vector::Origin;
 use super::{Explicit, ExplicitView};
-use crate::element::group::{ComponentEnergy, Place, points};
+use crate::element::group::{Apart, ComponentEnergy, Place, points};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Sum;
@@ -82,7 +82,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for (own, &value) in stage.inner.iter_mut().zip(inner) {
             *own = value;
         }
-        stage.inner_rates.fill(S::zero());
+        stage.inner_rates.fill(Apart(S::zero()));
     }
 
     /// Finds rates and targets.

@@ -125,13 +125,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             drift += slopes[a] * speed;
         }
         for (index, arm) in pull.as_ref().iter().enumerate() {
-            for (axis, &pull) in arm.iter().enumerate() {
-                stage.places[nodes[index + 1] as usize].rates[1][axis] -= pull;
-                stage.places[nodes[0] as usize].rates[1][axis] += pull;
-            }
+            stage.places[nodes[index + 1] as usize].pull(&arm.map(S::neg));
+            stage.places[nodes[0] as usize].pull(arm);
         }
         let viscous = self.slots().viscous;
-        let (mut heat, mut is_sound) = (S::zero(), true);
+        let flow = match self.slots().thermal {
+            Some(slot) => stage.inner_rates[stage.temperatures + slot].0,
+            None => S::zero(),
+        };
+        let (mut heat, mut is_sound) = (flow, true);
         let per_theta = if M::THERMAL && M::DASHPOTS > 0 {
             found.theta.recip()
         } else {
@@ -140,7 +142,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         for k in 0..M::DASHPOTS {
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
-            stage.inner_rates[viscous + k] = creep;
+            stage.inner_rates[viscous + k].0 = creep;
             let power = g * creep;
             stage.productions[viscous + k].add(stage.weight, power * per_theta);
             if stage.has_heats {
@@ -156,15 +158,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             return is_sound && power.is_finite();
         };
         let capacity = forces[Self::TEMPERATURE];
-        let rate = &mut stage.inner_rates[stage.temperatures + slot];
-        let flow = *rate;
-        let heating = (flow + heat - found.theta * drift) / capacity;
-        *rate = heating;
+        let heating = (heat - found.theta * drift) / capacity;
+        stage.inner_rates[stage.temperatures + slot].0 = heating;
         if stage.has_thermostats {
-            stage.supply[slot].add(stage.weight, power + flow);
-            if stage.held[slot] {
-                *rate = S::zero();
-            }
+            stage.supply_heat(slot, power + flow);
         }
         is_sound &= heating.is_finite();
         let is_stable = S::zero().less(capacity) & S::zero().less(found.theta);

@@ -99,6 +99,16 @@ impl<S: Real, const D: usize> Place<S, D> {
         self.rates = [self.now[1].map(|p| p * self.per_mass), [S::zero(); D]];
     }
 
+    /// Adds a force, N.
+    #[inline]
+    pub(crate) fn pull(&mut self, by: &[S; D]) {
+        let mut force = self.rates[1];
+        for (force, &by) in force.iter_mut().zip(by) {
+            *force += by;
+        }
+        self.rates[1] = force;
+    }
+
     #[inline]
     pub(crate) const fn q(&self) -> &[S; D] {
         &self.now[0]
@@ -144,6 +154,11 @@ impl<S: Real> Integral<S> {
     }
 }
 
+/// A number in a vector of its own: a load of two neighbours, each of which has just been stored, would wait for both.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
+pub(crate) struct Apart<S>(pub(crate) S);
+
 /// All variables at a stage. Internal ones are the viscous stretches, m, then the temperatures of thermal slots and of
 /// reservoirs, K.
 #[derive(Clone, Debug)]
@@ -152,7 +167,7 @@ pub(crate) struct Stage<S: Real, const D: usize> {
     pub(crate) places: Vec<Place<S, D>>,
     pub(crate) inner: Vec<S>,
     /// `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into each thermal slot, W.
-    pub(crate) inner_rates: Vec<S>,
+    pub(crate) inner_rates: Vec<Apart<S>>,
     /// Starts and earlier rates of the internal variables, two per entry.
     pub(crate) inner_past: Vec<Past<S, 2, 1>>,
     /// The index of the first temperature among the internal variables.
@@ -184,7 +199,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
         Self {
             places: masses.map(Place::new).collect(),
             inner: vec![S::one(); (size + reservoirs).max(2 * pairs)],
-            inner_rates: vec![S::zero(); 2 * pairs],
+            inner_rates: vec![Apart(S::zero()); 2 * pairs],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
             productions: vec![Integral::none(); layout.viscous],
@@ -201,6 +216,16 @@ impl<S: Real, const D: usize> Stage<S, D> {
     #[cold]
     pub(crate) fn add_heat(&mut self, dashpot: usize, power: S) {
         self.heats[dashpot] += self.weight * power;
+    }
+
+    /// Adds `f λ̇` and the heat that flows into a thermal slot at this stage, W; a thermostat sets the rate of its
+    /// temperature.
+    #[cold]
+    pub(crate) fn supply_heat(&mut self, slot: usize, power: S) {
+        self.supply[slot].add(self.weight, power);
+        if self.held[slot] {
+            self.inner_rates[self.temperatures + slot].0 = S::zero();
+        }
     }
 
     /// An internal variable at the start of the step.
@@ -226,7 +251,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
             starts.zip(of.rates.as_flattened())
         });
         let inner = self.inner_past.iter().flat_map(|of| &of.rates[0][0]);
-        let inner = inner.zip(&self.inner_rates);
+        let inner = inner.zip(self.inner_rates.iter().map(|rate| &rate.0));
         let integrals = self.productions.iter().chain(&self.supply);
         let integrals = integrals.map(|of| (&of.start, &of.rate));
         let all = places.chain(inner).chain(integrals);
@@ -241,7 +266,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
         });
         let inner = self.inner_past.iter_mut();
         let inner = inner.flat_map(|of| &mut of.rates[0][0]);
-        let inner = inner.zip(&mut self.inner_rates);
+        let inner = inner.zip(self.inner_rates.iter_mut().map(|rate| &mut rate.0));
         let integrals = self.productions.iter_mut().chain(&mut self.supply);
         let integrals = integrals.map(|of| (&mut of.start, &mut of.rate));
         let all = places.chain(inner).chain(integrals);
