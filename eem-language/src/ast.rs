@@ -73,7 +73,7 @@ pub(crate) enum Role {
 
 /// An invariant of the Green–Lagrange strain E.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Strain {
+pub enum Strain {
     /// `tr E`
     Trace,
     /// `E:E`
@@ -99,9 +99,9 @@ impl Strain {
     }
 }
 
-/// An invariant of the viscous strain Γ.
+/// An invariant of the viscous strain Γ, or of it and E.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Joint {
+pub enum Joint {
     /// `tr Γ`
     Trace,
     /// `Γ:Γ`

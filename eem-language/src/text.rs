@@ -34,6 +34,7 @@ pub(crate) mod reader;
 mod source;
 mod stack;
 
+pub use crate::ast::{Joint, Strain};
 use crate::attr::Attributes;
 use crate::ctxt::Ctxt;
 use crate::dialect::Dialect;
@@ -110,11 +111,13 @@ pub(crate) fn compile_in(source: &Source, dialect: Dialect) -> Result<Compiled, 
         reader.report(Level::Warning, span, &message, Vec::new());
     }
     let warnings = reader.take_faults();
+    let measures = (checked.strains().collect(), checked.joints().collect());
     let arguments = (checked.arguments(), Quantities::of(checked.per_volume()));
     Ok(Compiled::new(
         source,
         model,
         arguments,
+        measures,
         [too_large, warnings],
     ))
 }

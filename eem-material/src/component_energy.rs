@@ -101,49 +101,69 @@ impl<
         Self::new(self.material.duplicate())
     }
 
+    fn model(&self) -> &'static &'static str {
+        self.material.model()
+    }
+
+    fn kind(&self) -> u64 {
+        self.material.kind()
+    }
+
+    #[inline]
+    fn parameter_count(&self) -> usize {
+        self.material.parameter_count()
+    }
+
+    #[inline]
+    fn has_constant_capacity(&self) -> bool {
+        self.material.has_constant_capacity()
+    }
+
     fn parameter(&self, index: usize) -> S {
         self.material.parameter(index)
     }
 
     fn free_energy(&self, x: &[S; N]) -> S {
-        self.material.free_energy(&M::variables(x))
+        self.material.free_energy(&self.material.variables(x))
     }
 
     // Rounding of the invariants counts as well.
     fn energy_magnitude(&self, x: &[S; N]) -> S {
-        let (tensors, variables) = (M::tensors(x), M::variables(x));
+        let (tensors, variables) = (M::tensors(x), self.material.variables(x));
         let gradient = self.material.gradient(&variables);
         let own = self.material.energy_magnitude(&variables);
-        M::invariants().fold(own, |sum, (index, joint)| {
+        self.material.invariants().fold(own, |sum, (index, joint)| {
             sum + gradient[index].abs() * tensors.size(joint)
         })
     }
 
     fn internal_energy(&self, x: &[S; N]) -> S {
-        self.material.internal_energy(&M::variables(x))
+        self.material.internal_energy(&self.material.variables(x))
     }
 
     fn gradient(&self, x: &[S; N]) -> [S; N] {
-        let gradient = self.material.gradient(&M::variables(x));
-        M::conjugates(&M::tensors(x), gradient.as_ref(), S::one())
+        let gradient = self.material.gradient(&self.material.variables(x));
+        self.material
+            .conjugates(&M::tensors(x), gradient.as_ref(), S::one())
     }
 
     fn hessian(&self, x: &[S; N]) -> ([S; N], [[S; N]; N]) {
         let tensors = M::tensors(x);
-        let (gradient, hessian) = self.material.hessian(&M::variables(x));
+        let (gradient, hessian) = self.material.hessian(&self.material.variables(x));
         let gradient = gradient.as_ref();
         (
-            M::conjugates(&tensors, gradient, S::one()),
-            M::slopes([&tensors; 2], (gradient, hessian.as_ref()), [S::one(); 2]),
+            self.material.conjugates(&tensors, gradient, S::one()),
+            self.material
+                .slopes([&tensors; 2], (gradient, hessian.as_ref()), [S::one(); 2]),
         )
     }
 
     fn caloric(&self, x: &[S; N]) -> Caloric<S> {
-        self.material.caloric(&M::variables(x))
+        self.material.caloric(&self.material.variables(x))
     }
 
     fn caloric_at(&self, x: [S; N]) -> impl Fn(S) -> (Caloric<S>, S) {
-        self.material.caloric_at(M::variables(&x))
+        self.material.caloric_at(self.material.variables(&x))
     }
 
     // The states between two are mixed of strains and invariants.
@@ -153,17 +173,18 @@ impl<
         x1: &[S; N],
         new: usize,
     ) -> impl Fn(S) -> (Caloric<S>, S) {
-        let [x0, x1] = [x0, x1].map(M::variables);
+        let [x0, x1] = [x0, x1].map(|x| self.material.variables(x));
         self.material.caloric_at(x0.beginning_as(&x1, new))
     }
 
     fn entropy_hessian(&self, x: &[S; N]) -> [[S; N]; N] {
-        let (tensors, variables) = (M::tensors(x), M::variables(x));
+        let (tensors, variables) = (M::tensors(x), self.material.variables(x));
         let hessian = self.material.entropy_hessian(&variables);
         // ∂s/∂x = −∂²ψ/∂θ∂x
         let slopes = self.material.rates(&variables).slopes;
         let of_material = (slopes.as_ref(), hessian.as_ref());
-        M::slopes([&tensors; 2], of_material, [S::one(); 2])
+        self.material
+            .slopes([&tensors; 2], of_material, [S::one(); 2])
     }
 
     fn viscosity(&self, theta: S) -> ([S; K], [S; K]) {
@@ -176,7 +197,7 @@ impl<
     }
 
     fn entropy_form_old(&self, x0: &[S; N]) -> [S; A] {
-        let own = self.material.entropy_form_old(&M::variables(x0));
+        let own = self.material.entropy_form_old(&self.material.variables(x0));
         M::joined(own.as_ref(), x0)
     }
 
@@ -187,16 +208,16 @@ impl<
         corners: &M::Corners,
     ) -> ([S; R], [[S; N]; R]) {
         let (own, tensors) = M::split(old);
-        let variables = M::variables(x1);
+        let variables = self.material.variables(x1);
         let form = self.material.entropy_form(&own, &variables, corners);
-        M::form(&tensors, x1, form)
+        self.material.form(&tensors, x1, form)
     }
 
     fn entropy_form_response(&self, old: &[S; A], x1: &[S; N], corners: &M::Corners) -> [S; R] {
         let (own, tensors) = M::split(old);
-        let (material, variables) = (&self.material, M::variables(x1));
+        let (material, variables) = (&self.material, self.material.variables(x1));
         let response = material.entropy_form_response(&own, &variables, corners);
-        M::response(&tensors, x1, &response)
+        self.material.response(&tensors, x1, &response)
     }
 
     fn mixed_states(
@@ -207,26 +228,30 @@ impl<
         corners: &M::Corners,
     ) -> [M::Corners; 2] {
         let (own, _) = M::split(old);
-        let [x0, x1] = [x0, x1].map(M::variables);
+        let [x0, x1] = [x0, x1].map(|x| self.material.variables(x));
         self.material.mixed_states(&x0, &own, &x1, corners)
     }
 
     fn temperature_form_old(&self, x0: &[S; N]) -> [S; B] {
-        let own = self.material.temperature_form_old(&M::variables(x0));
+        let own = self
+            .material
+            .temperature_form_old(&self.material.variables(x0));
         M::joined(own.as_ref(), x0)
     }
 
     fn temperature_form(&self, old: &[S; B], x1: &[S; N]) -> ([S; R], [[S; N]; R]) {
         let (own, tensors) = M::split(old);
-        let form = self.material.temperature_form(&own, &M::variables(x1));
-        M::form(&tensors, x1, form)
+        let form = self
+            .material
+            .temperature_form(&own, &self.material.variables(x1));
+        self.material.form(&tensors, x1, form)
     }
 
     fn temperature_form_response(&self, old: &[S; B], x1: &[S; N]) -> [S; R] {
         let (own, tensors) = M::split(old);
-        let variables = M::variables(x1);
+        let variables = self.material.variables(x1);
         let response = self.material.temperature_form_response(&own, &variables);
-        M::response(&tensors, x1, &response)
+        self.material.response(&tensors, x1, &response)
     }
 
     fn temperature_form_adjoint(
@@ -235,8 +260,8 @@ impl<
         x1: &[S; N],
         weights: &[S; R],
     ) -> M::Parameters {
-        let weights = M::response_weights([x0, x1], weights);
-        let [x0, x1] = [x0, x1].map(M::variables);
+        let weights = self.material.response_weights([x0, x1], weights);
+        let [x0, x1] = [x0, x1].map(|x| self.material.variables(x));
         self.material.temperature_form_adjoint(&x0, &x1, &weights)
     }
 
@@ -246,10 +271,10 @@ impl<
         x1: &[S; N],
         direction: &M::Parameters,
     ) -> [S; R] {
-        let [old, new] = [x0, x1].map(M::variables);
+        let [old, new] = [x0, x1].map(|x| self.material.variables(x));
         let (material, tensors) = (&self.material, M::tensors(x0));
         let tangent = material.temperature_form_tangent(&old, &new, direction);
-        M::response(&tensors, x1, &tangent)
+        self.material.response(&tensors, x1, &tangent)
     }
 
     fn entropy_form_adjoint(
@@ -259,8 +284,8 @@ impl<
         corners: &M::Corners,
         weights: &[S; R],
     ) -> M::Parameters {
-        let weights = M::response_weights([x0, x1], weights);
-        let [x0, x1] = [x0, x1].map(M::variables);
+        let weights = self.material.response_weights([x0, x1], weights);
+        let [x0, x1] = [x0, x1].map(|x| self.material.variables(x));
         let material = &self.material;
         material.entropy_form_adjoint(&x0, &x1, corners, &weights)
     }
@@ -272,19 +297,21 @@ impl<
         corners: &M::Corners,
         direction: &M::Parameters,
     ) -> [S; R] {
-        let [old, new] = [x0, x1].map(M::variables);
+        let [old, new] = [x0, x1].map(|x| self.material.variables(x));
         let (material, tensors) = (&self.material, M::tensors(x0));
         let tangent = material.entropy_form_tangent(&old, &new, corners, direction);
-        M::response(&tensors, x1, &tangent)
+        self.material.response(&tensors, x1, &tangent)
     }
 
     fn gradient_adjoint(&self, x: &[S; N], weights: &[S; N]) -> M::Parameters {
-        let weights = M::weights(&M::tensors(x), weights, S::one());
-        self.material.gradient_adjoint(&M::variables(x), &weights)
+        let weights = self.material.weights(&M::tensors(x), weights, S::one());
+        self.material
+            .gradient_adjoint(&self.material.variables(x), &weights)
     }
 
     fn energy_by_parameters(&self, x: &[S; N]) -> M::Parameters {
-        self.material.energy_by_parameters(&M::variables(x))
+        self.material
+            .energy_by_parameters(&self.material.variables(x))
     }
 
     fn viscosity_adjoint(&self, theta: S, weights: &[S; K]) -> M::Parameters {

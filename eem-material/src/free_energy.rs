@@ -1,60 +1,7 @@
 //! The interface between free energies and schemes: the trait that the derive implements.
 
-use core::fmt::Debug;
-use core::ops::{Index, IndexMut};
-
+pub use crate::array::{Array, Entry};
 use crate::number::scalar::Scalar;
-
-/// A fixed-size array, named only by its element type.
-///
-/// Implemented for `[T; N]`. The lengths of the arrays of a model depend on its variables, so the trait
-/// [`FreeEnergy`] leaves them to associated types.
-///
-/// ```
-/// use eem::Array;
-///
-/// let row = <[f64; 3]>::filled(2.0);
-/// assert_eq!(<[f64; 3] as Array<f64>>::LEN, 3);
-/// assert_eq!(row.as_ref().iter().sum::<f64>(), 6.0);
-/// ```
-pub trait Array<T>:
-    Entry + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize>
-{
-    /// The number of elements.
-    const LEN: usize;
-
-    /// The array with `value` everywhere.
-    fn filled(value: T) -> Self;
-
-    /// The array with the first `count` elements of another one, and its own beyond.
-    #[must_use]
-    #[inline]
-    fn beginning_as(mut self, other: &Self, count: usize) -> Self
-    where
-        T: Copy,
-    {
-        for index in 0..Self::LEN {
-            if index < count {
-                self[index] = other[index];
-            }
-        }
-        self
-    }
-}
-
-/// Elements of an array. Implemented for every type that qualifies.
-pub trait Entry: Copy + Debug + Send + Sync + 'static {}
-
-impl<T: Copy + Debug + Send + Sync + 'static> Entry for T {}
-
-impl<T: Entry, const N: usize> Array<T> for [T; N] {
-    const LEN: usize = N;
-
-    #[inline]
-    fn filled(value: T) -> Self {
-        [value; N]
-    }
-}
 
 /// Entropy and heat capacity of an element at one temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,6 +88,8 @@ pub trait FreeEnergy<S: Scalar> {
     /// }
     /// ```
     const HAS_PARAMETER_DERIVATIVES: bool = false;
+    /// Functions of several elements in one call, where they take less time than one by one.
+    const ROWS: Option<Rows<S, Self>> = None;
     /// The name of the struct.
     const MODEL: &'static str;
     /// The names of the parameters that the model uses.
@@ -446,6 +395,46 @@ pub trait FreeEnergy<S: Scalar> {
 /// Derivatives that nobody has generated.
 fn absent<S: Scalar, A: Array<S>>() -> A {
     A::filled(S::from_f64(f64::NAN))
+}
+
+/// A response and its derivative by the variables.
+pub type Form<S, M> = (
+    <M as FreeEnergy<S>>::Response,
+    <M as FreeEnergy<S>>::Tangent,
+);
+
+/// What a function is given of each element, by its index.
+pub type Each<'e, T> = dyn Fn(usize) -> T + 'e;
+
+/// A function of elements with their models and one argument each.
+pub type OfEach<M, A, T> = for<'a> fn(&Each<'_, (&'a M, &'a A)>, &mut [T]);
+
+/// A function of elements with their models and two arguments each.
+pub type OfEachPair<M, A, B, T> = for<'a> fn(&Each<'_, (&'a M, &'a A, &'a B)>, &mut [T]);
+
+/// The functions that are evaluated most often, of elements with models of one type and [kind](FreeEnergy::kind): the
+/// results have the bits of the functions of one element. There are as many as there is room for.
+#[derive(Debug)]
+pub struct Rows<S: Scalar, M: FreeEnergy<S> + ?Sized> {
+    /// The most elements that it pays to give to one call.
+    pub most: usize,
+    /// [`FreeEnergy::temperature_form`] and what belongs to it.
+    pub temperature_form: FormRows<S, M, M::TemperatureFormOld>,
+    /// [`FreeEnergy::viscosity`]; temperatures mean nothing without one.
+    pub viscosity: OfEach<M, S, (M::Viscosities, M::Viscosities)>,
+    /// [`FreeEnergy::caloric_at`], at the temperature of the variables.
+    pub caloric_at: OfEach<M, M::Variables, (Caloric<S>, S)>,
+}
+
+/// A form with its tangent, the response alone, and what both keep of the old state.
+#[derive(Debug)]
+pub struct FormRows<S: Scalar, M: FreeEnergy<S> + ?Sized, Old> {
+    /// From the old variables.
+    pub old: OfEach<M, M::Variables, Old>,
+    /// From what is kept and the new variables.
+    pub form: OfEachPair<M, Old, M::Variables, Form<S, M>>,
+    /// The same without the tangent.
+    pub response: OfEachPair<M, Old, M::Variables, M::Response>,
 }
 
 /// A free energy that a scene can use. Implemented for every type that qualifies.

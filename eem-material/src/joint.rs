@@ -48,8 +48,15 @@ pub enum Joint {
 /// assert_eq!(<Fluid as FreeEnergy<f64>>::MEASURES, 3);
 /// ```
 pub trait JointEnergy {
-    /// The invariants, in the order of the arguments.
+    /// The invariants, in the order of the arguments. Their number, and whether the trace is among them, are those of the
+    /// type; which they are may be known only when a program runs, see [`joints`](Self::joints).
     const JOINT: &'static [Joint];
+
+    /// [`JOINT`](Self::JOINT), unless it is known only when a program runs.
+    #[inline]
+    fn joints(&self) -> &[Joint] {
+        Self::JOINT
+    }
 }
 
 /// `1/√3`.

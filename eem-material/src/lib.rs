@@ -3,6 +3,7 @@
 //!
 //! `eem` re-exports what users need. The rest is for its runtime and may change with it.
 
+mod array;
 pub mod component_energy;
 pub mod describe;
 pub mod domain;

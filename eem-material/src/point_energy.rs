@@ -108,6 +108,24 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         }
     }
 
+    fn model(&self) -> &'static &'static str {
+        self.density.model()
+    }
+
+    fn kind(&self) -> u64 {
+        self.density.kind()
+    }
+
+    #[inline]
+    fn parameter_count(&self) -> usize {
+        self.density.parameter_count()
+    }
+
+    #[inline]
+    fn has_constant_capacity(&self) -> bool {
+        self.density.has_constant_capacity()
+    }
+
     fn parameter(&self, index: usize) -> S {
         self.density.parameter(index)
     }

@@ -57,7 +57,9 @@ pub enum LawError {
     #[error("{0}")]
     Programs(Faults),
     /// The free energy is a function of strains.
-    #[error("the free energy is per volume, that of a solid: a spring has a `Stretch`")]
+    #[error(
+        "the free energy is per volume, that of a solid: a spring has a `Stretch`; call `model`"
+    )]
     Solid,
     /// More dashpots in series than there are springs for.
     #[error("the law has {dashpots} dashpots in series: a spring made of texts has at most {most}")]
@@ -67,13 +69,13 @@ pub enum LawError {
         /// The largest number.
         most: usize,
     },
-    /// The type of the spring is that of another law.
-    #[error("the law has the shape {law}, and the type of the spring {spring}")]
+    /// The type of the material is that of another law.
+    #[error("the law has {law}; the type of the material has {material}")]
     Shape {
-        /// The shape that the law has.
+        /// What the law is a function of.
         law: String,
-        /// The shape that was asked for.
-        spring: String,
+        /// What a law of the type is a function of.
+        material: String,
     },
     /// A formula needs more numbers at a time than there is room for.
     #[error("the formulas need {numbers} numbers at a time, at most {most}: shorten them")]

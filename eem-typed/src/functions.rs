@@ -4,7 +4,9 @@ mod staged;
 
 use std::collections::BTreeMap;
 
+use eem_material::Joint;
 use eem_material::number::scalar::Scalar;
+use eem_runtime::Strain;
 use eem_symbolic::{Program, Programs, Value};
 
 use crate::error::LawError;
@@ -18,6 +20,9 @@ pub(crate) struct Functions<S> {
     /// The name of the law, and what tells it apart from others.
     pub(crate) name: &'static &'static str,
     pub(crate) kind: u64,
+    /// Those of a point of a solid.
+    pub(crate) strains: Box<[Strain]>,
+    pub(crate) joints: Box<[Joint]>,
     pub(crate) parameters: Box<[S]>,
     pub(crate) has_constant_capacity: bool,
     pub(crate) free_energy: Tape<S>,
@@ -44,6 +49,7 @@ impl<S: Scalar> Functions<S> {
     /// The tapes of these programs, with so many variables and responses.
     pub(crate) fn new(
         (name, kind): (&'static &'static str, u64),
+        (strains, joints): (Box<[Strain]>, Box<[Joint]>),
         programs: &Programs,
         parameters: Vec<S>,
         [variables, responses]: [usize; 2],
@@ -77,6 +83,8 @@ impl<S: Scalar> Functions<S> {
         Ok(Self {
             name,
             kind,
+            strains,
+            joints,
             has_constant_capacity: programs.has_constant_capacity,
             free_energy: of_state(&programs.free_energy)?,
             energy_magnitude: of_state(&programs.energy_magnitude)?,

@@ -4,21 +4,21 @@ use core::any::Any;
 use core::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use eem_language::text::{Compiled, Source};
+use eem_language::text::{self, Compiled, Source};
+use eem_material::Joint;
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
+use eem_runtime::Strain;
 use eem_symbolic::Model;
 
 use crate::error::LawError;
 use crate::functions::Functions;
 use crate::names::{NAMELESS, name};
+use crate::shape::{Measures, Shape};
 use crate::tape::Tape;
 use crate::typed::Typed;
 
-/// The largest number of dashpots in series.
-pub(crate) const MOST_DASHPOTS: usize = 3;
-
-/// A material of texts and values, from which springs are made.
+/// A material of texts and values, from which springs and solids are made.
 ///
 /// The formulas are evaluated by the operations that a derived material consists of, in the same order: forces, entropies,
 /// steps and certificates have the same bits. A copy shares everything.
@@ -75,9 +75,8 @@ impl Law {
     ///
     /// # Errors
     ///
-    /// A parameter without a value or with two, a value of what is no parameter, a value that is not finite; a free energy
-    /// that is not that of a spring, or has more than three dashpots in series; a number of a derivative that does not fit
-    /// an `f64`.
+    /// A parameter without a value or with two, a value of what is no parameter, a value that is not finite; a number of a
+    /// derivative that does not fit an `f64`.
     ///
     /// ```
     /// use eem::typed::{Law, Source, compile};
@@ -93,15 +92,6 @@ impl Law {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(compiled: Compiled, values: &[(&str, f64)]) -> Result<Self, LawError> {
-        let model = compiled.model();
-        if !model.strains.is_empty() || model.measures.len() != 1 {
-            return Err(LawError::Solid);
-        }
-        let dashpots = model.dashpots.len();
-        if dashpots > MOST_DASHPOTS {
-            let most = MOST_DASHPOTS;
-            return Err(LawError::Dashpots { dashpots, most });
-        }
         compiled.programs().map_err(LawError::Programs)?;
         let values = in_order(&compiled, values)?;
         Ok(Self {
@@ -112,7 +102,7 @@ impl Law {
         })
     }
 
-    /// The same law with a name, which messages and handles of its springs show. The springs of two laws with different
+    /// The same law with a name, which messages and handles of its elements show. The elements of two laws with different
     /// names are treated like those of two types.
     ///
     /// A name is kept until the program ends, so that it has at most 64 bytes, and a program may use 1024 of them.
@@ -213,7 +203,7 @@ impl Law {
     ///
     /// As [`free_energies`](Self::free_energies).
     pub fn gradients(&self, states: &[f64]) -> Result<Vec<f64>, LawError> {
-        let [variables, ..] = self.shape();
+        let variables = self.shape().variables();
         self.tabulate(states, variables, |functions| &functions.gradient)
     }
 
@@ -223,7 +213,7 @@ impl Law {
         results: usize,
         function: impl Fn(&Functions<f64>) -> &Tape<f64>,
     ) -> Result<Vec<f64>, LawError> {
-        let [variables, ..] = self.shape();
+        let variables = self.shape().variables();
         if !states.len().is_multiple_of(variables) {
             return Err(LawError::States {
                 numbers: states.len(),
@@ -234,7 +224,7 @@ impl Law {
         let tape = function(&functions);
         let mut found = vec![0.0; states.len() / variables * results];
         for (x, found) in states.chunks(variables).zip(found.chunks_mut(results)) {
-            tape.run(&[x], &mut [found]);
+            tape.run([x], [found]);
         }
         Ok(found)
     }
@@ -268,63 +258,59 @@ impl Law {
         names(self.compiled.model()).zip(self.values.iter().copied())
     }
 
-    /// The law as a material: for [`Scene::spring`](eem_runtime::Scene::spring) and whatever else takes a
-    /// [`FreeEnergy`](eem_material::FreeEnergy).
+    /// The law as a material: for [`Scene::spring`](eem_runtime::Scene::spring), [`Scene::solid`](eem_runtime::Scene::solid)
+    /// and whatever else takes a [`FreeEnergy`](eem_material::FreeEnergy).
     ///
-    /// The type says which shape is expected, how many dashpots and whether there is a temperature; see [`Typed`].
-    /// It is made once for every type of numbers and shared then. For another spring clone it.
+    /// The type says of what the law is a function: [`ThermalSpring1`](crate::ThermalSpring1) and others of springs,
+    /// [`solid!`](crate::solid) of a solid. It is made once for every type of numbers and shared then. For another element
+    /// clone it.
     ///
     /// # Errors
     ///
-    /// [`LawError::Shape`] if the law has another one, [`LawError::NotFinite`] if a value is not finite as `S`,
+    /// [`LawError::Shape`] if the law is not one of that type, [`LawError::NotFinite`] if a value is not finite as `S`,
     /// [`LawError::TooLarge`] if the formulas are.
     ///
     /// ```
     /// use eem::FreeEnergy;
-    /// use eem::typed::{Law, Source, Spring0, Spring1, compile};
+    /// use eem::typed::{Law, LawError, Source, Spring0, Spring1, compile};
     ///
     /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
     /// let law = Law::new(compile(&source)?, &[("k", 1e300)])?;
     /// let spring: Spring0 = law.model()?;
     /// assert_eq!(spring.gradient(&[2.0]), [1e300]);
     ///
-    /// let error = law.model::<f32, 1, 0, 0, 0, 1>().unwrap_err();
+    /// let spring: Result<Spring0<f32>, LawError> = law.model();
     /// let text = "parameter `k` is 1e300, which is not finite in the numbers of the scene: give a number";
-    /// assert_eq!(error.to_string(), text);
-    /// let spring: Result<Spring1, _> = law.model();
-    /// let text = "the law has the shape [N, K, D, C, R] = [1, 0, 0, 0, 1], and the type of the spring [2, 1, 0, 0, 2]";
+    /// assert_eq!(spring.unwrap_err().to_string(), text);
+    /// let spring: Result<Spring1, LawError> = law.model();
+    /// let text = "the law has 1 stretch; the type of the material has 1 stretch, 1 dashpot in series";
     /// assert_eq!(spring.unwrap_err().to_string(), text);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn model<
         S: Real,
+        H: Measures,
         const N: usize,
         const K: usize,
+        const V: usize,
         const D: usize,
         const C: usize,
         const R: usize,
     >(
         &self,
-    ) -> Result<Typed<S, N, K, D, C, R>, LawError> {
-        let [law, spring] = [self.shape(), [N, K, D, C, R]];
-        if law != spring {
+    ) -> Result<Typed<S, H, N, K, V, D, C, R>, LawError> {
+        let [law, material] = [self.shape(), Typed::<S, H, N, K, V, D, C, R>::SHAPE];
+        if law != material {
             return Err(LawError::Shape {
-                law: format!("[N, K, D, C, R] = {law:?}"),
-                spring: format!("{spring:?}"),
+                law: law.to_string(),
+                material: material.to_string(),
             });
         }
         self.functions().map(Typed::new)
     }
 
-    /// `[N, K, D, C, R]`; see [`Typed`].
-    pub(crate) fn shape(&self) -> [usize; 5] {
-        let model = self.compiled.model();
-        let dashpots = model.dashpots.len();
-        let thermal = usize::from(model.temperature.is_some());
-        let variables = 1 + dashpots + thermal;
-        let drag = usize::from(model.drag.is_some());
-        let corners = 2 * (variables - 1) * thermal;
-        [variables, dashpots, drag, corners, variables + thermal]
+    pub(crate) fn shape(&self) -> Shape {
+        Shape::of(&self.compiled)
     }
 
     /// The tapes for numbers of one type.
@@ -347,12 +333,38 @@ impl Law {
             parameters.push(number);
         }
         let programs = self.compiled.programs().map_err(LawError::Programs)?;
-        let [variables, _, _, _, responses] = self.shape();
+        let shape = self.shape();
+        let variables = shape.variables();
+        let sizes = [variables, variables + usize::from(shape.thermal)];
         let identity = (self.name, self.kind());
-        let functions = Functions::new(identity, programs, parameters, [variables, responses])?;
+        let measures = (self.strains(), self.joints());
+        let functions = Functions::new(identity, measures, programs, parameters, sizes)?;
         let functions = Arc::new(functions);
         made.push(Box::new(Arc::clone(&functions)));
         Ok(functions)
+    }
+
+    /// The strains of a solid, as the runtime names them.
+    fn strains(&self) -> Box<[Strain]> {
+        let strains = self.compiled.strains().iter();
+        let strains = strains.map(|strain| match strain {
+            text::Strain::Trace => Strain::Trace,
+            text::Strain::Square => Strain::Square,
+            text::Strain::Dilatation => Strain::Dilatation,
+            text::Strain::Fibre => Strain::Fibre,
+        });
+        let components = (0..self.shape().components()).map(Strain::Component);
+        strains.chain(components).collect()
+    }
+
+    fn joints(&self) -> Box<[Joint]> {
+        let joints = self.compiled.joints().iter();
+        let joints = joints.map(|joint| match joint {
+            text::Joint::Trace => Joint::Trace,
+            text::Joint::Square => Joint::Square,
+            text::Joint::Strain => Joint::Strain,
+        });
+        joints.collect()
     }
 
     /// A digest of its name and texts, without values; never 0.

@@ -1,13 +1,13 @@
 //! Materials from texts in a running program: the language of `#[derive(FreeEnergy)]`, with the bits of the derive.
 //!
 //! ```text
-//! texts ── compile ─▶ Compiled ── values ─▶ Law ── model ─▶ Typed: FreeEnergy ── Scene::spring ─▶ element
+//! texts ── compile ─▶ Compiled ── values ─▶ Law ── model ─▶ Typed: FreeEnergy ── Scene::spring, Scene::solid ─▶ elements
 //! ```
 //!
 //! [`compile`] reads a [`Source`] and draws every mistake at its place; [`Law::new`] gives the parameters their values;
-//! [`Law::model`] makes a spring of a shape that the program knows when it is compiled, and [`Law::add_spring`] of any
-//! shape. Springs have a stretch, a temperature or none, at most three dashpots in series and one beside; solids are not
-//! made of texts yet.
+//! [`Law::model`] makes a material of a type that the program knows when it is compiled, a spring such as
+//! [`ThermalSpring1`] or a [`solid!`], and [`Law::add_spring`] a spring of any shape: with a temperature or none, at most
+//! three dashpots in series and one beside.
 //!
 //! ```
 //! use eem::prelude::*;
@@ -38,12 +38,14 @@
 //! | add an operation or an elementary function | `tape/instruction.rs`, `tape/fold.rs`, `tape/lower.rs`: the compiler lists them |
 //! | change which operations are joined, or how registers are given | `tape/lower.rs`, `tape/allocate.rs` |
 //! | change what is kept of the old state | `functions/staged.rs` |
-//! | add a shape | the table of `shapes.rs` |
+//! | evaluate several springs at a time | `run_rows` in `tape.rs`, `typed/rows.rs`; the caller is `element/group/by_rows.rs` in `eem-runtime` |
+//! | add a shape | the table of springs, and `solid!`, in `shapes.rs`; what a type says of its law: `shape.rs` |
 
 mod error;
 mod functions;
 mod law;
 mod names;
+mod shape;
 mod shapes;
 mod tape;
 mod typed;
@@ -53,5 +55,6 @@ pub use eem_language::text::{
 };
 pub use error::LawError;
 pub use law::Law;
+pub use shape::{Flow, Measures, Strains, Stretch};
 pub use shapes::*;
 pub use typed::Typed;

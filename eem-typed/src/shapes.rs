@@ -4,14 +4,18 @@ use eem_material::number::scalar::Real;
 use eem_runtime::{Element, Node, Scene};
 
 use crate::error::LawError;
-use crate::law::{Law, MOST_DASHPOTS};
+use crate::law::Law;
+use crate::shape::Stretch;
 use crate::typed::Typed;
+
+/// The largest number of dashpots in series.
+const MOST_DASHPOTS: usize = 3;
 
 macro_rules! shapes {
     ($($(#[$docs:meta])* $name:ident: $n:literal, $k:literal, $d:literal, $c:literal, $r:literal;)*) => {
         $(
             $(#[$docs])*
-            pub type $name<S = f64> = Typed<S, $n, $k, $d, $c, $r>;
+            pub type $name<S = f64> = Typed<S, Stretch, $n, $k, $k, $d, $c, $r>;
         )*
 
         impl Law {
@@ -23,12 +27,12 @@ macro_rules! shapes {
             ///
             /// # Errors
             ///
-            /// [`LawError::NotFinite`] if a value is not finite in the numbers of the scene, [`LawError::TooLarge`]. The scene
-            /// is not changed then.
+            /// [`LawError::Solid`], [`LawError::Dashpots`], [`LawError::TooLarge`], and [`LawError::NotFinite`] if a value is
+            /// not finite in the numbers of the scene, which is not changed then.
             ///
             /// ```
             /// use eem::prelude::*;
-            /// use eem::typed::{Law, Source, compile};
+            /// use eem::typed::{Law, LawError, Source, compile};
             ///
             /// let elastic = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)");
             /// let damped = elastic.clone().viscosity("lambda", "k / 20");
@@ -38,6 +42,9 @@ macro_rules! shapes {
             ///     let law = Law::new(compile(&source.parameter("k", None))?, &[("k", 40.0)])?;
             ///     law.add_spring(&mut scene, ends)?;
             /// }
+            /// let solid = Law::new(compile(&Source::new("|e2: StrainSquare| e2"))?, &[])?;
+            /// assert_eq!(solid.add_spring(&mut scene, ends), Err(LawError::Solid));
+            ///
             /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01)?;
             /// run.run_until(5.0)?;
             /// // ω² = 80/s², damping rate 1/s
@@ -50,10 +57,17 @@ macro_rules! shapes {
                 scene: &mut Scene<D, S>,
                 nodes: [Node; 2],
             ) -> Result<Element, LawError> {
-                match self.shape() {
-                    $([$n, $k, $d, $c, $r] => Ok(scene.spring(self.model::<S, $n, $k, $d, $c, $r>()?, nodes)),)*
-                    [_, dashpots, ..] => Err(LawError::Dashpots { dashpots, most: MOST_DASHPOTS }),
+                let shape = self.shape();
+                if shape.strains > 0 {
+                    return Err(LawError::Solid);
                 }
+                $(
+                    if shape == $name::<S>::SHAPE {
+                        let model: $name<S> = self.model()?;
+                        return Ok(scene.spring(model, nodes));
+                    }
+                )*
+                Err(LawError::Dashpots { dashpots: shape.dashpots, most: MOST_DASHPOTS })
             }
         }
     };
@@ -92,4 +106,77 @@ shapes! {
     DampedThermalSpring2: 4, 2, 1, 6, 5;
     /// A spring with a temperature, a dashpot beside it and three in series.
     DampedThermalSpring3: 5, 3, 1, 8, 6;
+}
+
+/// The type of a solid of a law: a [`Typed`](crate::Typed).
+///
+/// ```text
+/// solid!(strains: 2)
+/// solid!(strains: 3, invariants: 3, volume_flow: 1, dashpots: 1, temperature: 1, numbers: f32)
+/// ```
+///
+/// It counts the strains that ψ is a function of, the invariants of a viscous strain, dashpots in series and temperatures, in
+/// this order; what is not there is left out, and numbers are `f64`. Volume flows if one of the invariants is the trace.
+///
+/// ```
+/// use eem::kinematics::Hex8;
+/// use eem::prelude::*;
+/// use eem::typed::{Law, Source, compile, solid};
+///
+/// let source = Source::new("|e1: StrainTrace, e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare| {
+///     0.5 * lame * e1.powi(2) + branch * (e2 - 2 * m3 + m2)
+/// }")
+/// .viscosity("m3", "eta")
+/// .parameter("lame", Some("Pa"))
+/// .parameter("branch", Some("Pa"))
+/// .parameter("eta", Some("Pa s"));
+/// let law = Law::new(compile(&source)?, &[("lame", 2000.0), ("branch", 800.0), ("eta", 40.0)])?;
+/// let putty: solid!(strains: 2, invariants: 2) = law.model()?;
+///
+/// let mut scene = Scene::<3>::new();
+/// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+/// let block = scene.solid(putty, &mesh, &Bulk::new(10.0));
+/// for (&node, [x, ..]) in block.nodes().iter().zip(mesh.nodes()) {
+///     scene.set_velocity(node, [*x, 0.0, 0.0]);
+/// }
+/// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.05)?;
+/// let before = run.ledger();
+/// run.step()?;
+/// assert!((run.ledger().balance - before.balance).abs() < 1e-14 * before.energy);
+/// assert!(run.viscous_strain(block.points()[0])?.norm() > 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[macro_export]
+macro_rules! solid {
+    (@number) => { f64 };
+    (@number $number:ty) => { $number };
+    (@of $measures:ty, $n:expr, $k:expr, $v:expr, $t:expr $(, $number:ty)?) => {
+        $crate::Typed<
+            $crate::solid!(@number $($number)?),
+            $measures,
+            { $n }, { $k }, { $v }, 0, { 2 * ($n - 1) * $t }, { $n + $t }
+        >
+    };
+    (
+        strains: $m:literal $(, dashpots: $k:literal)? $(, temperature: $t:literal)? $(, numbers: $number:ty)?
+    ) => {
+        $crate::solid!(
+            @of $crate::Strains<$m>,
+            $m $(+ $k)? $(+ $t)?, 0 $(+ $k)?, 0 $(+ $k)?, (0 $(+ $t)?) $(, $number)?
+        )
+    };
+    (
+        strains: $m:literal, invariants: $j:literal $(, volume_flow: $f:literal)?
+        $(, dashpots: $k:literal)? $(, temperature: $t:literal)? $(, numbers: $number:ty)?
+    ) => {
+        $crate::solid!(
+            @of $crate::Flow<
+                { $m + 5 $(+ $f)? },
+                { $m + 2 * (5 $(+ $f)?) $(+ $k)? $(+ $t)? },
+                { 5 $(+ $f)? $(+ $k)? },
+                { $m + 2 * (5 $(+ $f)?) $(+ $k)? $(+ 2 * $t)? }
+            >,
+            $m + $j $(+ $k)? $(+ $t)?, 0 $(+ $k)?, 1 $(+ $f)? $(+ $k)?, (0 $(+ $t)?) $(, $number)?
+        )
+    };
 }

@@ -23,6 +23,15 @@ const MEDIUM: usize = 128;
 const LARGE: usize = 512;
 const LARGEST: usize = 4096;
 
+/// Numbers of a register that are computed at a time, where there is one for each of several elements: more do not fit the
+/// processor's registers, fewer do not hide how long an operation takes.
+const BLOCK: usize = 4;
+const BLOCKS: usize = 8;
+
+/// The elements of a row of registers, and how many of them pay it: a row takes as long as some five elements one by one.
+pub(crate) const ROW: usize = BLOCK * BLOCKS;
+const WORTH_A_ROW: usize = 6;
+
 /// Instructions for some values of a program.
 ///
 /// Registers hold first the constants, then the inputs, then results.
@@ -67,38 +76,95 @@ impl<S: Scalar> Tape<S> {
 
     /// Evaluates the tape for inputs one after the other, into results one after the other.
     #[inline]
-    pub(crate) fn run(&self, inputs: &[&[S]], results: &mut [&mut [S]]) {
+    pub(crate) fn run<const I: usize, const O: usize>(
+        &self,
+        inputs: [&[S]; I],
+        results: [&mut [S]; O],
+    ) {
+        let read = |_| inputs;
+        let one = &mut [results];
         if self.registers <= SMALL {
-            self.run_in::<SMALL>(inputs, results);
+            self.run_in::<SMALL, 1, 1, _, I, O>(read, one, each_of);
         } else if self.registers <= MEDIUM {
-            self.run_in::<MEDIUM>(inputs, results);
+            self.run_in::<MEDIUM, 1, 1, _, I, O>(read, one, each_of);
         } else if self.registers <= LARGE {
-            self.run_in::<LARGE>(inputs, results);
+            self.run_in::<LARGE, 1, 1, _, I, O>(read, one, each_of);
         } else {
-            self.run_in::<LARGEST>(inputs, results);
+            self.run_in::<LARGEST, 1, 1, _, I, O>(read, one, each_of);
         }
     }
 
-    /// The same with so many registers.
-    fn run_in<const P: usize>(&self, inputs: &[&[S]], results: &mut [&mut [S]]) {
-        const { assert!(P.is_power_of_two()) };
-        let mut file = [S::zero(); P];
-        let first = self.constants.len();
-        file[..first].copy_from_slice(&self.constants);
-        let mut next = first;
-        for &input in inputs {
-            file[next..next + input.len()].copy_from_slice(input);
-            next += input.len();
-        }
-        debug_assert_eq!(next, first + self.inputs, "an input is missing");
-        for instruction in &self.instructions {
-            instruction.execute(&mut file);
-        }
-        let mut outputs = self.outputs.iter();
-        for result in results.iter_mut().flat_map(|part| part.iter_mut()) {
-            if let Some(&output) = outputs.next() {
-                *result = file[usize::from(output) & (P - 1)];
+    /// The same for some elements, by their indices, each instruction for all of them: with the same bits.
+    pub(crate) fn run_rows<'a, R, const I: usize, const O: usize>(
+        &self,
+        inputs: impl Fn(usize) -> [&'a [S]; I],
+        results: &mut [R],
+        parts: impl Fn(&mut R) -> [&mut [S]; O],
+    ) where
+        S: 'a,
+    {
+        for (row, results) in results.chunks_mut(ROW).enumerate() {
+            let inputs = |element: usize| inputs(row * ROW + element);
+            if results.len() >= WORTH_A_ROW && self.registers <= SMALL {
+                self.run_in::<SMALL, BLOCK, BLOCKS, _, I, O>(inputs, results, &parts);
+            } else if results.len() >= WORTH_A_ROW && self.registers <= MEDIUM {
+                self.run_in::<MEDIUM, BLOCK, BLOCKS, _, I, O>(inputs, results, &parts);
+            } else {
+                for (element, result) in results.iter_mut().enumerate() {
+                    self.run(inputs(element), parts(result));
+                }
             }
         }
     }
+
+    /// The same with so many registers, of `Q` blocks of `B` numbers.
+    fn run_in<
+        'a,
+        const P: usize,
+        const B: usize,
+        const Q: usize,
+        R,
+        const I: usize,
+        const O: usize,
+    >(
+        &self,
+        inputs: impl Fn(usize) -> [&'a [S]; I],
+        results: &mut [R],
+        parts: impl Fn(&mut R) -> [&mut [S]; O],
+    ) where
+        S: 'a,
+    {
+        const { assert!(P.is_power_of_two()) };
+        let mut file = [[[S::zero(); B]; Q]; P];
+        for (register, &constant) in file.iter_mut().zip(&self.constants) {
+            *register = [[constant; B]; Q];
+        }
+        let (first, last) = (self.constants.len(), results.len() - 1);
+        for element in 0..B * Q {
+            let mut registers = file[first..first + self.inputs].iter_mut();
+            // What is computed beyond the last element belongs to nobody.
+            for input in inputs(element.min(last)) {
+                for (&number, register) in input.iter().zip(registers.by_ref()) {
+                    register[element / B][element % B] = number;
+                }
+            }
+            debug_assert_eq!(registers.len(), 0, "an input is missing");
+        }
+        for instruction in &self.instructions {
+            instruction.execute(&mut file);
+        }
+        for (element, result) in results.iter_mut().enumerate() {
+            let mut outputs = self.outputs.iter();
+            for part in parts(result) {
+                for (number, &output) in part.iter_mut().zip(&mut outputs) {
+                    *number = file[usize::from(output) & (P - 1)][element / B][element % B];
+                }
+            }
+        }
+    }
+}
+
+/// The results of one element.
+fn each_of<'a, S, const O: usize>(results: &'a mut [&mut [S]; O]) -> [&'a mut [S]; O] {
+    results.each_mut().map(|part| &mut **part)
 }

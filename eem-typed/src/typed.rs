@@ -1,25 +1,35 @@
-//! A law as a material: the free energy of a spring, evaluated by tapes.
+//! A law as a material: the free energy of a spring or a solid, evaluated by tapes.
 
+mod rows;
+mod strains;
+
+use core::cell::OnceCell;
+use core::marker::PhantomData;
 use std::sync::Arc;
 
-use eem_material::free_energy::{Caloric, FreeEnergy, Rates};
+use eem_material::free_energy::{Caloric, FreeEnergy, Rates, Rows};
 use eem_material::number::scalar::Scalar;
+use eem_runtime::Strain;
 
 use crate::functions::{Functions, KEPT};
 use crate::names::NAMELESS;
+use crate::shape::{Measures, Shape};
 use crate::tape::Tape;
 
-/// A spring of a law, for scenes with the numbers `S`; made by [`Law::model`](crate::Law::model).
+/// A law as a material for scenes with the numbers `S`; made by [`Law::model`](crate::Law::model).
 ///
-/// | | number of |
+/// | | |
 /// |---|---|
-/// | N | variables: stretch, dashpots, temperature |
+/// | H | its measures: [`Stretch`](crate::Stretch), [`Strains`](crate::Strains), [`Flow`](crate::Flow) |
+/// | N | number of variables: measures, dashpots, temperature |
 /// | K | dashpots in series |
+/// | V | viscosities: K, and those of a viscous strain |
 /// | D | dashpots beside the spring, 0 or 1 |
 /// | C | corners: 2 (N − 1) with a temperature, else 0 |
 /// | R | responses: N + 1 with a temperature, else N |
 ///
-/// Use the names of the shapes, such as [`ThermalSpring1`](crate::ThermalSpring1). A copy shares the tapes.
+/// Use the names of the shapes of springs, such as [`ThermalSpring1`](crate::ThermalSpring1), and [`solid!`](crate::solid). A
+/// copy shares the tapes.
 ///
 /// ```
 /// use eem::FreeEnergy;
@@ -33,47 +43,114 @@ use crate::tape::Tape;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Typed<S, const N: usize, const K: usize, const D: usize, const C: usize, const R: usize>
-{
+pub struct Typed<
+    S,
+    H,
+    const N: usize,
+    const K: usize,
+    const V: usize,
+    const D: usize,
+    const C: usize,
+    const R: usize,
+> {
     functions: Arc<Functions<S>>,
+    measures: PhantomData<H>,
 }
 
-impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, const R: usize>
-    Typed<S, N, K, D, C, R>
+impl<
+    S: Scalar,
+    H: Measures,
+    const N: usize,
+    const K: usize,
+    const V: usize,
+    const D: usize,
+    const C: usize,
+    const R: usize,
+> Typed<S, H, N, K, V, D, C, R>
 {
+    /// What a law of this type is a function of.
+    pub(crate) const SHAPE: Shape = {
+        assert!(R == N || R == N + 1, "there is one temperature or none");
+        let [strains, _, dashpots, _] = H::AT_POINT;
+        let (measures, flows) = (N - K - (R - N), V - K);
+        // A viscous strain has five components, or six.
+        let strains = match dashpots {
+            0 => strains,
+            dashpots => strains - (dashpots - K),
+        };
+        Shape {
+            strains,
+            joints: if strains == 0 { 0 } else { measures - strains },
+            flows,
+            dashpots: K,
+            drag: D,
+            thermal: R > N,
+        }
+    };
+
     /// Of functions that have this shape.
     pub(crate) fn new(functions: Arc<Functions<S>>) -> Self {
         const {
-            assert!(R == N || R == N + 1, "there is one temperature or none");
-            assert!(N == 1 + K + (R - N), "N = 1 + K + T");
+            assert!(N == Self::SHAPE.variables(), "N = M + K + T");
             assert!(C == 2 * (N - 1) * (R - N), "C = 2 (N − 1) T");
             assert!(D <= 1, "one dashpot stands beside a spring");
             assert!(2 * N <= KEPT, "the old state can be kept");
+            let (here, there) = (Self::SHAPE.at_point(), H::AT_POINT);
+            assert!(
+                here[0] == there[0] && here[1] == there[1],
+                "the numbers of a point"
+            );
+            assert!(
+                here[2] == there[2] && here[3] == there[3],
+                "the numbers of a point"
+            );
         }
-        Self { functions }
+        Self {
+            functions,
+            measures: PhantomData,
+        }
+    }
+
+    /// The strains of a solid at a point.
+    fn strains_at_point<const M: usize>(&self) -> [Strain; M] {
+        core::array::from_fn(|index| self.functions.strains[index])
     }
 
     fn number(tape: &Tape<S>, x: &[S; N]) -> S {
         let mut number = [S::zero()];
-        tape.run(&[x], &mut [&mut number]);
+        tape.run([x], [&mut number]);
         number[0]
     }
 
     /// Forces, heat capacity and slopes, and then other results.
-    fn rates_of(tape: &Tape<S>, inputs: &[&[S]], others: &mut [S]) -> Rates<[S; N]> {
+    fn rates_of<const I: usize>(
+        tape: &Tape<S>,
+        inputs: [&[S]; I],
+        others: &mut [S],
+    ) -> Rates<[S; N]> {
         let (mut forces, mut slopes) = ([S::zero(); N], [S::zero(); N]);
         let count = if Self::THERMAL { N - 1 } else { 0 };
-        tape.run(inputs, &mut [&mut forces, &mut slopes[..count], others]);
+        tape.run(inputs, [&mut forces, &mut slopes[..count], others]);
         Rates { forces, slopes }
     }
 }
 
-impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, const R: usize>
-    FreeEnergy<S> for Typed<S, N, K, D, C, R>
+impl<
+    S: Scalar,
+    H: Measures,
+    const N: usize,
+    const K: usize,
+    const V: usize,
+    const D: usize,
+    const C: usize,
+    const R: usize,
+> FreeEnergy<S> for Typed<S, H, N, K, V, D, C, R>
 {
-    const MEASURES: usize = 1;
+    const MEASURES: usize = N - K - (R - N);
     const DASHPOTS: usize = K;
     const THERMAL: bool = R > N;
+    const PER_VOLUME: bool = H::AT_POINT[0] > 0;
+    const ROWS: Option<Rows<S, Self>> = Some(Self::rows());
     const MODEL: &'static str = NAMELESS;
     /// Names are those of the law.
     const PARAMETERS: &'static [&'static str] = &[];
@@ -81,7 +158,7 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
     type Parameters = [S; 0];
     type Variables = [S; N];
     type Hessian = [[S; N]; N];
-    type Viscosities = [S; K];
+    type Viscosities = [S; V];
     type Drag = [S; D];
     type Corners = [S; C];
     type Response = [S; R];
@@ -127,39 +204,41 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
 
     fn gradient(&self, x: &[S; N]) -> [S; N] {
         let mut gradient = [S::zero(); N];
-        self.functions.gradient.run(&[x], &mut [&mut gradient]);
+        self.functions.gradient.run([x], [&mut gradient]);
         gradient
     }
 
     fn hessian(&self, x: &[S; N]) -> ([S; N], [[S; N]; N]) {
         let (mut gradient, mut hessian) = ([S::zero(); N], [[S::zero(); N]; N]);
-        let results = &mut [&mut gradient, hessian.as_flattened_mut()];
-        self.functions.hessian.run(&[x], results);
+        let results = [&mut gradient[..], hessian.as_flattened_mut()];
+        self.functions.hessian.run([x], results);
         (gradient, hessian)
     }
 
     fn caloric(&self, x: &[S; N]) -> Caloric<S> {
         let mut found = [S::zero(); 3];
         if let Some(tape) = &self.functions.caloric {
-            tape.run(&[x], &mut [&mut found]);
+            tape.run([x], [&mut found]);
         }
         caloric(found)
     }
 
     fn caloric_at(&self, x: [S; N]) -> impl Fn(S) -> (Caloric<S>, S) {
-        let mut kept = [S::zero(); KEPT];
         let staged = self.functions.caloric_at.as_ref();
-        let mut count = 0;
-        if let Some(staged) = staged {
-            staged.keep(&x[..N - 1], &mut kept);
-            count = staged.old.results();
-        }
+        // Where the first value is known, often no other is needed.
+        let kept = OnceCell::new();
         move |theta| {
             let (mut found, mut free_energy) = ([S::zero(); 3], [S::zero()]);
             match staged {
                 Some(staged) => {
-                    let results = &mut [&mut found[..], &mut free_energy];
-                    staged.new.run(&[&kept[..count], &[theta]], results);
+                    let kept: &[S; KEPT] = kept.get_or_init(|| {
+                        let mut kept = [S::zero(); KEPT];
+                        staged.keep(&x[..N - 1], &mut kept);
+                        kept
+                    });
+                    let count = staged.old.results();
+                    let results = [&mut found[..], &mut free_energy];
+                    staged.new.run([&kept[..count], &[theta]], results);
                 }
                 None => free_energy = [self.free_energy(&x)],
             }
@@ -168,7 +247,7 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
     }
 
     fn rates(&self, x: &[S; N]) -> Rates<[S; N]> {
-        Self::rates_of(&self.functions.rates, &[x], &mut [])
+        Self::rates_of(&self.functions.rates, [x], &mut [])
     }
 
     fn rates_at(&self, x: [S; N]) -> impl Fn(S) -> (Rates<[S; N]>, [S; 2]) {
@@ -183,10 +262,10 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
             let mut others = [S::zero(); 2];
             let rates = match (staged, &self.functions.rates_of_state) {
                 (Some(staged), _) => {
-                    let inputs = [&kept[..count], &[theta]];
-                    Self::rates_of(&staged.new, &inputs, &mut others)
+                    let inputs = [&kept[..count], &[theta][..]];
+                    Self::rates_of(&staged.new, inputs, &mut others)
                 }
-                (None, Some(tape)) => Self::rates_of(tape, &[&x], &mut others[1..]),
+                (None, Some(tape)) => Self::rates_of(tape, [&x], &mut others[1..]),
                 (None, None) => unreachable!("one of them is there"),
             };
             (rates, others)
@@ -196,16 +275,16 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
     fn entropy_hessian(&self, x: &[S; N]) -> [[S; N]; N] {
         let mut hessian = [[S::zero(); N]; N];
         if let Some(tape) = &self.functions.entropy_hessian {
-            tape.run(&[x], &mut [hessian.as_flattened_mut()]);
+            tape.run([x], [hessian.as_flattened_mut()]);
         }
         hessian
     }
 
-    fn viscosity(&self, theta: S) -> ([S; K], [S; K]) {
-        let (mut eta, mut slope) = ([S::zero(); K], [S::zero(); K]);
+    fn viscosity(&self, theta: S) -> ([S; V], [S; V]) {
+        let (mut eta, mut slope) = ([S::zero(); V], [S::zero(); V]);
         if let Some(tape) = &self.functions.viscosity {
             let theta = if Self::THERMAL { &[theta][..] } else { &[] };
-            tape.run(&[theta], &mut [&mut eta, &mut slope]);
+            tape.run([theta], [&mut eta, &mut slope]);
         }
         (eta, slope)
     }
@@ -214,7 +293,7 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
         let (mut eta, mut slope) = ([S::zero(); D], [S::zero(); D]);
         if let Some(tape) = &self.functions.drag {
             let theta = if Self::THERMAL { &[theta][..] } else { &[] };
-            tape.run(&[theta], &mut [&mut eta, &mut slope]);
+            tape.run([theta], [&mut eta, &mut slope]);
         }
         (eta, slope)
     }
@@ -237,9 +316,9 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
     ) -> ([S; R], [[S; N]; R]) {
         let (mut response, mut tangent) = ([S::zero(); R], [[S::zero(); N]; R]);
         let form = &self.functions.entropy_form.staged;
-        let results = &mut [&mut response, tangent.as_flattened_mut()];
+        let results = [&mut response[..], tangent.as_flattened_mut()];
         let old = &old[..form.old.results()];
-        form.new.run(&[old, x1, corners], results);
+        form.new.run([old, x1, corners], results);
         (response, tangent)
     }
 
@@ -247,7 +326,7 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
         let mut response = [S::zero(); R];
         let form = &self.functions.entropy_form;
         let old = &old[..form.staged.old.results()];
-        form.response.run(&[old, x1, corners], &mut [&mut response]);
+        form.response.run([old, x1, corners], [&mut response]);
         response
     }
 
@@ -264,7 +343,7 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
             let old = &old[first..first + mixed.old.results()];
             mixed
                 .new
-                .run(&[old, x1, corners], &mut [found.as_flattened_mut()]);
+                .run([old, x1, corners], [found.as_flattened_mut()]);
         }
         found
     }
@@ -283,9 +362,9 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
             return self.entropy_form(old, x1, &[S::zero(); C]);
         };
         let (mut response, mut tangent) = ([S::zero(); R], [[S::zero(); N]; R]);
-        let results = &mut [&mut response, tangent.as_flattened_mut()];
+        let results = [&mut response[..], tangent.as_flattened_mut()];
         let old = &old[..form.staged.old.results()];
-        form.staged.new.run(&[old, x1], results);
+        form.staged.new.run([old, x1], results);
         (response, tangent)
     }
 
@@ -295,7 +374,7 @@ impl<S: Scalar, const N: usize, const K: usize, const D: usize, const C: usize, 
         };
         let mut response = [S::zero(); R];
         let old = &old[..form.staged.old.results()];
-        form.response.run(&[old, x1], &mut [&mut response]);
+        form.response.run([old, x1], [&mut response]);
         response
     }
 }

@@ -4,7 +4,7 @@
 #![allow(clippy::float_cmp, reason = "the numbers are exact")]
 
 use eem::FreeEnergy;
-use eem::typed::{Compiled, Law, LawError, Source, Spring0, compile};
+use eem::typed::{Compiled, Law, LawError, Source, Spring0, compile, solid};
 
 fn compiled(psi: &str, parameters: &[&str]) -> Compiled {
     let source = parameters.iter().fold(Source::new(psi), |source, name| {
@@ -73,19 +73,24 @@ fn parameters_that_no_formula_mentions_may_have_values() {
 }
 
 #[test]
-fn solids_and_many_dashpots_are_refused() {
-    let solid = compiled("|e1: StrainTrace, e2: StrainSquare| e1.powi(2) + e2", &[]);
-    assert_eq!(Law::new(solid, &[]).unwrap_err(), LawError::Solid);
-
-    let psi = "|lambda: Stretch, a: Viscous, b: Viscous, c: Viscous, d: Viscous| {
-        let branch = |gamma| (lambda - gamma).powi(2);
-        branch(a) + branch(b) + branch(c) + branch(d)
+fn a_type_is_refused_to_laws_of_another_shape() {
+    let psi = "|e1: StrainTrace, e2: StrainSquare, m3: ViscousStrain, m1: ViscousTrace| {
+        e1.powi(2) + e2 - m3 + m1.powi(2)
     }";
-    let dashpots = ["a", "b", "c", "d"].into_iter();
-    let source = dashpots.fold(Source::new(psi), |source, name| source.viscosity(name, "3"));
-    let error = Law::new(compile(&source).unwrap(), &[]).unwrap_err();
-    let text = "the law has 4 dashpots in series: a spring made of texts has at most 3";
-    assert_eq!(error.to_string(), text);
+    let source = Source::new(psi).viscosity("m3", "3").viscosity("m1", "4");
+    let flowing = Law::new(compile(&source).unwrap(), &[]).unwrap();
+    let right: Result<solid!(strains: 2, invariants: 2, volume_flow: 1), _> = flowing.model();
+    assert!(right.is_ok());
+    let of_law = "the law has 2 strains, 2 invariants of a viscous strain with a trace";
+    let wrong: Result<solid!(strains: 2, invariants: 2), _> = flowing.model();
+    let text = "the type of the material has 2 strains, 2 invariants of a viscous strain";
+    assert_eq!(wrong.unwrap_err().to_string(), format!("{of_law}; {text}"));
+    let wrong: Result<solid!(strains: 4, temperature: 1), _> = flowing.model();
+    let text = "the type of the material has 4 strains, 1 temperature";
+    assert_eq!(wrong.unwrap_err().to_string(), format!("{of_law}; {text}"));
+    let wrong: Result<Spring0, _> = flowing.model();
+    let text = "the type of the material has 1 stretch";
+    assert_eq!(wrong.unwrap_err().to_string(), format!("{of_law}; {text}"));
 }
 
 #[test]

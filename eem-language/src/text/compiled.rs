@@ -7,7 +7,7 @@ use eem_symbolic::{Model, Programs};
 use super::fault::{Fault, Faults};
 use super::source::Source;
 use super::stack::on_deep_stack;
-use crate::ast::Role;
+use crate::ast::{Joint, Role, Strain};
 use crate::expand::equation::{Equation, equations};
 use crate::units::Quantities;
 
@@ -52,6 +52,9 @@ pub struct Compiled {
     /// In the order of the state.
     arguments: Vec<(String, Role)>,
     units: &'static Quantities,
+    /// The first measures of the model, and the others.
+    strains: Vec<Strain>,
+    joints: Vec<Joint>,
     /// Nothing if a number in them does not fit.
     programs: OnceLock<Option<Programs>>,
     /// What is said in that case.
@@ -64,6 +67,7 @@ impl Compiled {
         source: &Source,
         model: Model,
         (arguments, units): (Vec<(String, Role)>, &'static Quantities),
+        (strains, joints): (Vec<Strain>, Vec<Joint>),
         [too_large, warnings]: [Faults; 2],
     ) -> Self {
         Self {
@@ -71,6 +75,8 @@ impl Compiled {
             model,
             arguments,
             units,
+            strains,
+            joints,
             programs: OnceLock::new(),
             too_large,
             warnings: warnings.0,
@@ -150,6 +156,27 @@ impl Compiled {
             unit: equation.unit,
         };
         equations.into_iter().map(formula).collect()
+    }
+
+    /// The strains that ψ depends on, the first measures of the model; none of a spring.
+    ///
+    /// ```
+    /// use eem_language::text::{Joint, Source, Strain, compile};
+    ///
+    /// let source = Source::new("|m2: ViscousSquare, e2: StrainSquare, m3: ViscousStrain| e2 - 2 * m3 + m2");
+    /// let compiled = compile(&source.viscosity("m3", "5")).unwrap();
+    /// assert_eq!(compiled.strains(), [Strain::Square]);
+    /// assert_eq!(compiled.joints(), [Joint::Square, Joint::Strain]);
+    /// ```
+    #[must_use]
+    pub fn strains(&self) -> &[Strain] {
+        &self.strains
+    }
+
+    /// The invariants of a viscous strain that ψ depends on, the other measures of the model.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
     }
 
     /// The programs of the model, which are made at the first call: the same that the derive prints.

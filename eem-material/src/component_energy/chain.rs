@@ -36,14 +36,16 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     }
 
     /// The invariant at an index of the variables of the material.
-    fn joint(of_material: usize) -> Option<Joint> {
+    #[inline]
+    fn joint(&self, of_material: usize) -> Option<Joint> {
         let joint = of_material.checked_sub(Self::STRAINS)?;
-        Self::JOINT.get(joint).copied()
+        self.joints().get(joint).copied()
     }
 
     /// The invariants with their indices among the variables of the material.
-    fn invariants() -> impl Iterator<Item = (usize, Joint)> {
-        (Self::STRAINS..).zip(Self::JOINT.iter().copied())
+    #[inline]
+    fn invariants(&self) -> impl Iterator<Item = (usize, Joint)> {
+        (Self::STRAINS..).zip(self.joints().iter().copied())
     }
 
     /// E and Γ.
@@ -53,11 +55,11 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     }
 
     /// The variables of the material.
-    fn variables<const N: usize>(x: &[S; N]) -> Self::Variables {
+    fn variables<const N: usize>(&self, x: &[S; N]) -> Self::Variables {
         let tensors = Self::tensors(x);
         let mut variables = Self::Variables::filled(S::zero());
         for (index, variable) in variables.as_mut().iter_mut().enumerate() {
-            *variable = match Self::joint(index) {
+            *variable = match self.joint(index) {
                 Some(joint) => tensors.value(joint),
                 None => x[Self::index(index)],
             };
@@ -67,11 +69,11 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
 
     /// Conjugates of the components from those of the material, along gradients `P` of the invariants; those of Γ with
     /// the given sign.
-    fn conjugates<const W: usize>(along: &Tensors<S>, of_material: &[S], sign: S) -> [S; W] {
+    fn conjugates<const W: usize>(&self, along: &Tensors<S>, of_material: &[S], sign: S) -> [S; W] {
         let [strain, viscous] = Self::FIRST;
         let mut conjugates = [S::zero(); W];
         for (index, &value) in of_material.iter().enumerate() {
-            let Some(joint) = Self::joint(index) else {
+            let Some(joint) = self.joint(index) else {
                 conjugates[Self::index(index)] = value;
                 continue;
             };
@@ -85,11 +87,11 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
 
     /// Weights of conjugates of the material from those of the components: the transpose of
     /// [`conjugates`](Self::conjugates).
-    fn weights<A: Array<S>>(along: &Tensors<S>, of_components: &[S], sign: S) -> A {
+    fn weights<A: Array<S>>(&self, along: &Tensors<S>, of_components: &[S], sign: S) -> A {
         let [strain, viscous] = Self::FIRST;
         let mut weights = A::filled(S::zero());
         for (index, weight) in weights.as_mut().iter_mut().enumerate() {
-            let Some(joint) = Self::joint(index) else {
+            let Some(joint) = self.joint(index) else {
                 *weight = of_components[Self::index(index)];
                 continue;
             };
@@ -102,14 +104,19 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     }
 
     /// Weights of the response of the material from those of the response by components.
-    fn response_weights<const N: usize>(ends: [&[S; N]; 2], of_components: &[S]) -> Self::Response {
+    fn response_weights<const N: usize>(
+        &self,
+        ends: [&[S; N]; 2],
+        of_components: &[S],
+    ) -> Self::Response {
         let [old, new] = ends.map(Self::tensors);
-        Self::weights(&old.mean(&new), of_components, -S::one())
+        self.weights(&old.mean(&new), of_components, -S::one())
     }
 
     /// The derivatives of conjugates by the new components, from those of the material; the gradients change by
     /// the given fraction of those at the new state.
     fn slopes<const N: usize, const W: usize>(
+        &self,
         [along, new]: [&Tensors<S>; 2],
         (response, tangent): (&[S], &[Self::Variables]),
         [sign, fraction]: [S; 2],
@@ -117,8 +124,8 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
         let [strain, viscous] = Self::FIRST;
         let mut slopes = [[S::zero(); N]; W];
         for (index, row) in tangent.iter().enumerate() {
-            let row: [S; N] = Self::conjugates(new, row.as_ref(), S::one());
-            let Some(joint) = Self::joint(index) else {
+            let row: [S; N] = self.conjugates(new, row.as_ref(), S::one());
+            let Some(joint) = self.joint(index) else {
                 slopes[Self::index(index)] = row;
                 continue;
             };
@@ -147,8 +154,8 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
         let mut own = T::filled(S::zero());
         let (of_material, components) = old.split_at(T::LEN);
         own.as_mut().copy_from_slice(of_material);
-        let (strain, viscous) = components.split_at(Self::COMPONENTS);
-        (own, Tensors::new(strain, viscous))
+        let (strain, rest) = components.split_at(Self::COMPONENTS);
+        (own, Tensors::new(strain, &rest[..Self::COMPONENTS]))
     }
 
     /// Joins what [`split`](Self::split) splits.
@@ -164,16 +171,18 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
 
     /// The response of a form by components, from that of the material.
     fn response<const N: usize, const R: usize>(
+        &self,
         old: &Tensors<S>,
         x1: &[S; N],
         of_material: &Self::Response,
     ) -> [S; R] {
         let mean = old.mean(&Self::tensors(x1));
-        Self::conjugates(&mean, of_material.as_ref(), -S::one())
+        self.conjugates(&mean, of_material.as_ref(), -S::one())
     }
 
     /// The response of a form by components with its tangent, from those of the material.
     fn form<const N: usize, const R: usize>(
+        &self,
         old: &Tensors<S>,
         x1: &[S; N],
         (response, tangent): (Self::Response, Self::Tangent),
@@ -182,8 +191,8 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
         let both = [&old.mean(&new), &new];
         let of_material = (response.as_ref(), tangent.as_ref());
         (
-            Self::response(old, x1, &response),
-            Self::slopes(both, of_material, [-S::one(), S::from_f64(0.5)]),
+            self.response(old, x1, &response),
+            self.slopes(both, of_material, [-S::one(), S::from_f64(0.5)]),
         )
     }
 

@@ -12,10 +12,12 @@
 //! close      impulses, what is booked, and the new state            (closing, recovery, certify)
 //! ```
 
+mod ahead;
 mod arms;
 mod audit;
 mod begin;
 mod build;
+mod by_rows;
 mod certify;
 mod closing;
 mod correct;

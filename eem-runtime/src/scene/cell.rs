@@ -43,7 +43,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
         let first = self.next_element(model);
         let points = H::PerPoint::from_fn(|point| first.after(point));
         let (group, place) =
-            match self.expect_cell::<H, N>(nodes, (M::STRAINS, properties), points.as_ref()) {
+            match self.expect_cell::<H, N>(nodes, (model.strains(), properties), points.as_ref()) {
                 Ok(cell) => {
                     let parts = H::PerPoint::from_fn(|at| {
                         let point = cell.as_ref()[at];

@@ -72,7 +72,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             is_invalid: false,
         };
         // One error for the solid, not one per cell.
-        if let Err(error) = properties.measures(M::STRAINS, first) {
+        if let Err(error) = properties.measures(model.strains(), first) {
             self.refuse(error);
             properties.is_invalid = true;
         }

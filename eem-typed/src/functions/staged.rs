@@ -100,8 +100,7 @@ impl<S: Scalar> Staged<S> {
 
     /// What is kept of the old inputs, at the beginning of `kept`.
     pub(crate) fn keep(&self, inputs: &[S], kept: &mut [S]) {
-        self.old
-            .run(&[inputs], &mut [&mut kept[..self.old.results()]]);
+        self.old.run([inputs], [&mut kept[..self.old.results()]]);
     }
 }
 

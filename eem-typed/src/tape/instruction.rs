@@ -1,5 +1,7 @@
 //! One instruction of a tape, and what it does.
 
+use core::array;
+
 use eem_material::kernel::{self, Differences};
 use eem_material::number::scalar::Scalar;
 use eem_symbolic::{Function, ProgramKernel};
@@ -85,36 +87,85 @@ impl<V: Copy> Action<V> {
     }
 }
 
+/// Registers, of which there are a power of two: blocks of numbers, one for each element.
+pub(crate) type File<S, const B: usize, const Q: usize, const P: usize> = [[[S; B]; Q]; P];
+
 impl Instruction {
-    /// Reads and writes registers, of which there are a power of two.
+    /// Reads and writes registers.
     #[inline]
-    pub(crate) fn execute<S: Scalar, const P: usize>(&self, file: &mut [S; P]) {
-        let place = |register: Register| usize::from(register) & (P - 1);
-        let at = |register: Register| file[place(register)];
-        let result = match self.action {
-            Action::Add(a, b) => at(a) + at(b),
-            Action::Sub(a, b) => at(a) - at(b),
-            Action::Mul(a, b) => at(a) * at(b),
-            Action::Div(a, b) => at(a) / at(b),
-            Action::Neg(a) => -at(a),
-            Action::Powi(a, n) => at(a).powi(n),
-            Action::Sqrt(a) => at(a).sqrt(),
-            Action::Power(a, b) => at(a).powf(at(b)),
-            Action::Apply(function, a) => apply(function, at(a)),
-            Action::MulAdd(a, b, c) => at(a) * at(b) + at(c),
-            Action::MulSub(a, b, c) => at(a) * at(b) - at(c),
-            Action::SubMul(a, b, c) => at(c) - at(a) * at(b),
-            Action::MulMul(a, b, c) => at(a) * at(b) * at(c),
-            Action::First(f, a, b) => first(f.map(at), at(a), at(b)),
-            Action::Second(f, a, b) => second(f.map(at), at(a), at(b)),
-            Action::Joint(f, a, b) => {
-                let all = joint(f.map(at), at(a), at(b));
-                file[place(self.to + 1)] = all.second_a;
-                file[place(self.to + 2)] = all.second_b;
-                all.first
+    pub(crate) fn execute<S: Scalar, const B: usize, const Q: usize, const P: usize>(
+        &self,
+        file: &mut File<S, B, Q, P>,
+    ) {
+        let to = self.to;
+        match self.action {
+            Action::Add(a, b) => each(file, to, [a, b], |[a, b]| a + b),
+            Action::Sub(a, b) => each(file, to, [a, b], |[a, b]| a - b),
+            Action::Mul(a, b) => each(file, to, [a, b], |[a, b]| a * b),
+            Action::Div(a, b) => each(file, to, [a, b], |[a, b]| a / b),
+            Action::Neg(a) => each(file, to, [a], |[a]| -a),
+            Action::Powi(a, n) => each(file, to, [a], |[a]| a.powi(n)),
+            Action::Sqrt(a) => each(file, to, [a], |[a]| a.sqrt()),
+            Action::Power(a, b) => each(file, to, [a, b], |[a, b]| a.powf(b)),
+            Action::Apply(function, a) => each(file, to, [a], |[a]| apply(function, a)),
+            Action::MulAdd(a, b, c) => each(file, to, [a, b, c], |[a, b, c]| a * b + c),
+            Action::MulSub(a, b, c) => each(file, to, [a, b, c], |[a, b, c]| a * b - c),
+            Action::SubMul(a, b, c) => each(file, to, [a, b, c], |[a, b, c]| c - a * b),
+            Action::MulMul(a, b, c) => each(file, to, [a, b, c], |[a, b, c]| a * b * c),
+            Action::First(f, a, b) => {
+                differences(file, to, (f, a, b), |f, a, b| [first(f, a, b)]);
             }
-        };
-        file[place(self.to)] = result;
+            Action::Second(f, a, b) => {
+                differences(file, to, (f, a, b), |f, a, b| [second(f, a, b)]);
+            }
+            Action::Joint(f, a, b) => differences(file, to, (f, a, b), |f, a, b| {
+                let all = joint(f, a, b);
+                [all.first, all.second_a, all.second_b]
+            }),
+        }
+    }
+}
+
+/// A register of some others, a block at a time.
+#[inline]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "the same blocks of several registers"
+)]
+fn each<S: Scalar, const B: usize, const Q: usize, const P: usize, const N: usize>(
+    file: &mut File<S, B, Q, P>,
+    to: Register,
+    from: [Register; N],
+    of: impl Fn([S; N]) -> S,
+) {
+    for block in 0..Q {
+        let operands = from.map(|register| file[usize::from(register) & (P - 1)][block]);
+        let result = array::from_fn(|index| of(operands.map(|operand| operand[index])));
+        file[usize::from(to) & (P - 1)][block] = result;
+    }
+}
+
+/// Registers one after the other, of the differences of a function.
+#[inline]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "the same blocks of several registers"
+)]
+fn differences<S: Scalar, const B: usize, const Q: usize, const P: usize, const N: usize>(
+    file: &mut File<S, B, Q, P>,
+    to: Register,
+    (f, a, b): (ProgramKernel<Register>, Register, Register),
+    of: impl Fn(ProgramKernel<S>, S, S) -> [S; N],
+) {
+    let place = |register: usize| register & (P - 1);
+    for block in 0..Q {
+        for index in 0..B {
+            let at = |register: Register| file[place(register.into())][block][index];
+            let results = of(f.map(at), at(a), at(b));
+            for (next, result) in results.into_iter().enumerate() {
+                file[place(usize::from(to) + next)][block][index] = result;
+            }
+        }
     }
 }
 

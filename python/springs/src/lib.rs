@@ -1,6 +1,8 @@
 //! Springs of texts in one to three dimensions: the solver is compiled for each of their shapes here and nowhere else, which
 //! takes most of the time that the package takes, and is not done again when other parts of it change.
 
+#[cfg(not(feature = "all"))]
+use eem::typed::{DampedSpring0, Spring0, ThermalSpring1};
 use eem::typed::{Law, LawError};
 use eem::{Element, Node, Scene};
 
@@ -25,13 +27,16 @@ macro_rules! springs {
 
                 #[cfg(not(feature = "all"))]
                 fn add_spring(&mut self, law: &Law, nodes: [Node; 2]) -> Result<Element, LawError> {
-                    if let Ok(elastic) = law.model::<f64, 1, 0, 0, 0, 1>() {
+                    let elastic: Result<Spring0, _> = law.model();
+                    if let Ok(elastic) = elastic {
                         return Ok(self.spring(elastic, nodes));
                     }
-                    if let Ok(damped) = law.model::<f64, 1, 0, 1, 0, 1>() {
+                    let damped: Result<DampedSpring0, _> = law.model();
+                    if let Ok(damped) = damped {
                         return Ok(self.spring(damped, nodes));
                     }
-                    Ok(self.spring(law.model::<f64, 3, 1, 0, 4, 4>()?, nodes))
+                    let thermal: ThermalSpring1 = law.model()?;
+                    Ok(self.spring(thermal, nodes))
                 }
             }
         )*

@@ -10,7 +10,7 @@
 //! inversion is needed: the new temperature is the unknown.
 
 use crate::element::conjugates::element::{ElementScheme, Form, Placement, Start};
-use eem_material::free_energy::{Entry, Material};
+use eem_material::free_energy::{Entry, FormRows, Material};
 use eem_material::number::scalar::Real;
 
 /// See the module.
@@ -19,6 +19,10 @@ pub(crate) struct EemTemperature;
 
 impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     const EXACT: bool = true;
+    const ROWS: Option<FormRows<S, M, Self::Old>> = match M::ROWS {
+        Some(rows) => Some(rows.temperature_form),
+        None => None,
+    };
 
     type Old = M::TemperatureFormOld;
     type Memory = ();

@@ -2,7 +2,8 @@
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use eem_material::free_energy::{Array, Entry, FreeEnergy};
+pub(crate) use eem_material::free_energy::Form;
+use eem_material::free_energy::{Array, Entry, FormRows, FreeEnergy};
 use eem_material::inversion::InversionError;
 use eem_material::number::scalar::{Real, is_positive};
 
@@ -37,6 +38,10 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
 
     /// What the scheme keeps of the old state.
     type Old: Copy + Send + Sync;
+
+    /// [`old`](Self::old), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
+    /// has them and the form needs nothing else.
+    const ROWS: Option<FormRows<S, M, Self::Old>> = None;
 
     /// What it keeps from one iteration to the next, as starting values.
     type Memory: Copy + Send + Sync;
@@ -152,12 +157,6 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         M::Parameters::filled(S::from_f64(f64::NAN))
     }
 }
-
-/// A response and its derivative by the variables.
-pub(crate) type Form<S, M> = (
-    <M as FreeEnergy<S>>::Response,
-    <M as FreeEnergy<S>>::Tangent,
-);
 
 /// The old state of an element as its scheme sees it.
 #[derive(Clone, Copy, Debug)]

@@ -52,14 +52,12 @@ pub(crate) struct Settled<S> {
 /// its square times d ln C/d ln θ, is far below a rounding of the entropy. `ψ + θ s` is stationary in θ
 /// at fixed s, so that it may be that of the last temperature that was tried.
 #[inline]
-pub(crate) fn settled_at<S: Real, M: FreeEnergy<S>>(
-    model: &M,
-    x: M::Variables,
+pub(crate) fn settled_at<S: Real>(
+    mut energy_at: impl FnMut(S) -> (Caloric<S>, S),
     entropy: S,
     guess: S,
 ) -> Result<Settled<S>, Infeasible> {
     let root = S::EPSILON.sqrt();
-    let energy_at = model.caloric_at(x);
     let with_energy = |theta: S| {
         let (caloric, psi) = energy_at(theta);
         let of_energy = [psi, theta, caloric.heat_capacity, caloric.magnitude];
@@ -82,7 +80,7 @@ pub(crate) fn settled_at<S: Real, M: FreeEnergy<S>>(
 /// θ̂, and what else was evaluated at the last temperature that was tried.
 #[inline]
 fn near<S: Real, const W: usize>(
-    caloric_at: impl Fn(S) -> (Caloric<S>, [S; W]),
+    caloric_at: impl FnMut(S) -> (Caloric<S>, [S; W]),
     entropy: S,
     guess: S,
     enough: S,

@@ -6,7 +6,7 @@ use super::point::{Point, grown, variables};
 use super::pose::Pose;
 use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::error::StateError;
-use crate::element::group::view::{Before, StepView};
+use crate::element::group::view::{Before, Old, StepView};
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
@@ -28,8 +28,30 @@ pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
+    /// The old state; what the scheme keeps of it may be known.
+    #[inline]
+    pub(super) fn begin(
+        &mut self,
+        view: &StepView<'_, S>,
+        old: &mut Old<'_, S, D>,
+        known: Option<C::Old>,
+    ) -> Result<(), StateError> {
+        let r0 = self.arms_in(view.state);
+        self.r0 = r0;
+        for point in self.points.as_mut() {
+            let measures = point.kinematics.measure(&r0);
+            point.begin(view, old.before.as_ref(), &measures, known);
+            let length = point.kinematics.length(&measures);
+            shorten::<K, S, D>(&self.site.nodes, length, old.lengths);
+        }
+        if self.scheme().implicit() < 1.0 {
+            self.take_old_share(view, old.force)?;
+        }
+        Ok(())
+    }
+
     /// The part of rates and nodal forces that the scheme takes from the old state.
-    pub(super) fn take_old_share(
+    fn take_old_share(
         &mut self,
         view: &StepView<'_, S>,
         old_force: &mut [[S; D]],
@@ -57,13 +79,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted.
+    /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted. What the scheme keeps
+    /// of the old state may be known.
     #[inline]
     pub(super) fn begin(
         &mut self,
         view: &StepView<'_, S>,
         before: Option<&Before<'_, S>>,
         measures: &Measures<K, S, D>,
+        old: Option<C::Old>,
     ) {
         let slots = self.slots();
         let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
@@ -71,7 +95,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             .thermal
             .map(|slot| view.state.entropies.values()[slot]);
         self.start.x0 = x0;
-        self.start.old = C::old(&self.model, &x0, entropy.unwrap_or(S::zero()));
+        let old = old.unwrap_or_else(|| C::old(&self.model, &x0, entropy.unwrap_or(S::zero())));
+        self.start.old = old;
         self.x = x0;
         self.creep = M::Viscosities::filled(S::zero());
         if let Some(slot) = slots.thermal {
@@ -119,7 +144,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let share = S::one() - S::from_f64(self.scheme.implicit());
         let x0 = self.start.x0;
         let theta = x0[Self::VARIABLES - 1];
-        self.find_viscosities(theta)?;
+        self.find_viscosities(theta, None)?;
         let mut gradient = self.model.gradient(&x0);
         let mut rates = M::Variables::filled(S::zero());
         let mut heat = self.add_old_drag((r0, velocities), &mut gradient, &mut rates)?;

@@ -16,11 +16,12 @@ use super::site::Contact;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::Partner;
 use crate::element::conjugates::{ElementScheme, Placement};
+use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use eem_material::free_energy::{Array, Material};
+use eem_material::free_energy::{Array, Caloric, Material};
 use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
@@ -59,6 +60,41 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             Some(weights) => pull::<K, S, D>(&weights, mean),
             None => K::PerNode::filled([S::zero(); D]),
         }
+    }
+}
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
+{
+    /// Books the step, finds the new temperature, whose caloric quantities may be known at that of the trial, and judges.
+    #[inline]
+    pub(super) fn close(
+        &mut self,
+        contacts: &[Contact<K, S, D>],
+        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+        known: Option<&(Caloric<S>, S)>,
+    ) -> Result<(), StateError> {
+        let r1 = self.arms_in(next);
+        for point in self.points.as_mut() {
+            let contact = point.contact_in(contacts);
+            let received = point.book(view, (contact, trial), next, tally);
+            let near = (point.x[M::Variables::LEN - 1], known);
+            if let Some(entropy) = point.recover_temperature(&r1, view, near, next)? {
+                point.book_thermostat(view, [entropy, received.entropy], next);
+            }
+            if C::EXACT {
+                let [forces, at_end] = point.amplitude([&self.r0, &r1], tally.care);
+                tally.force(forces);
+                tally.exchange(view.step * point.largest_pull(&r1));
+                let energy = &mut next.energies[point.element.index()];
+                energy.add_secants(at_end, M::THERMAL);
+                let magnitude = energy.magnitude + forces;
+                point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
+            }
+        }
+        Ok(())
     }
 }
 

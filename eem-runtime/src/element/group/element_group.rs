@@ -1,7 +1,7 @@
 //! The elements of one model, with one set of forces in a step.
 
+use super::ahead::Ahead;
 use super::arms::change_in;
-use super::begin::shorten;
 use super::interface::{Elements, Group, Loose};
 use super::loose::LooseElements;
 use super::member::Member;
@@ -19,7 +19,7 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Kinematics, Points, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tally::{Reevaluation, Tally};
-use eem_material::free_energy::{Array, Material};
+use eem_material::free_energy::Material;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 
@@ -36,6 +36,8 @@ pub(crate) struct ElementGroup<
     pub(super) contacts: Vec<Contact<K, S, D>>,
     /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, S, D>>,
+    /// Workspace for elements that are evaluated together.
+    pub(super) ahead: Ahead<S, M, C::Old>,
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
@@ -49,6 +51,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             members: members.collect(),
             contacts: Vec::new(),
             shares: Vec::new(),
+            ahead: Ahead::new(),
         }
     }
 
@@ -76,6 +79,31 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     pub(super) fn at(&self, place: usize) -> (&Member<S, M, K, C, D>, usize) {
         let points = K::PerPoint::<Point<S, M, K, C, D>>::LEN;
         (&self.members[place / points], place % points)
+    }
+
+    /// The old state of all elements.
+    #[inline]
+    pub(super) fn begin_one_by_one(
+        &mut self,
+        view: &StepView<'_, S>,
+        old: &mut Old<'_, S, D>,
+    ) -> Result<(), StateError> {
+        let mut members = self.members.iter_mut();
+        members.try_for_each(|member| member.begin(view, old, None))
+    }
+
+    /// The end of a step.
+    #[inline]
+    pub(super) fn close_one_by_one(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> Result<(), StateError> {
+        let mut members = self.members.iter_mut();
+        members
+            .try_for_each(|member| member.close(&self.contacts, (view, trial), next, tally, None))
     }
 }
 
@@ -112,20 +140,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     }
 
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
-        for member in &mut self.members {
-            let r0 = member.arms_in(view.state);
-            member.r0 = r0;
-            for point in member.points.as_mut() {
-                let measures = point.kinematics.measure(&r0);
-                point.begin(view, old.before.as_ref(), &measures);
-                let length = point.kinematics.length(&measures);
-                shorten::<K, S, D>(&member.site.nodes, length, old.lengths);
-            }
-            if self.scheme.implicit() < 1.0 {
-                member.take_old_share(view, old.force)?;
-            }
+        if const { C::ROWS.is_some() } {
+            return self.begin_by_rows(view, old);
         }
-        Ok(())
+        self.begin_one_by_one(view, old)
     }
 
     fn evaluate(
@@ -138,11 +156,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
             Some(system) if K::PerPoint::<()>::LEN > 1 => {
                 self.linearize_in_rounds(view, trial, system)
             }
+            Some(system) if const { C::ROWS.is_some() } => {
+                self.linearize_by_rows(view, trial, system)
+            }
             Some(system) => self.linearize_one_by_one(view, trial, system),
-            None => self
-                .members
-                .iter_mut()
-                .try_for_each(|member| member.respond(view, trial)),
+            None if const { C::ROWS.is_some() } => self.respond_by_rows(view, trial),
+            None => self.respond_one_by_one(view, trial),
         }
     }
 
@@ -218,27 +237,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        for member in &mut self.members {
-            let r1 = member.arms_in(next);
-            for point in member.points.as_mut() {
-                let contact = point.contact_in(&self.contacts);
-                let received = point.book(view, (contact, trial), next, tally);
-                let near = point.x[M::Variables::LEN - 1];
-                if let Some(entropy) = point.recover_temperature(&r1, view, near, next)? {
-                    point.book_thermostat(view, [entropy, received.entropy], next);
-                }
-                if C::EXACT {
-                    let [forces, at_end] = point.amplitude([&member.r0, &r1], tally.care);
-                    tally.force(forces);
-                    tally.exchange(view.step * point.largest_pull(&r1));
-                    let energy = &mut next.energies[point.element.index()];
-                    energy.add_secants(at_end, M::THERMAL);
-                    let magnitude = energy.magnitude + forces;
-                    point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
-                }
-            }
+        if const { M::ROWS.is_some() } {
+            return self.close_by_rows(view, trial, next, tally);
         }
-        Ok(())
+        self.close_one_by_one(view, trial, next, tally)
     }
 
     fn reevaluate(&self, ends: [&State<S>; 2], reevaluation: &mut Reevaluation<S>) {

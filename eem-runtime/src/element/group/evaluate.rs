@@ -1,11 +1,12 @@
 //! Evaluation of a trial state: responses, condensed local systems, contributions.
 
 use super::member::Member;
+use super::point::Known;
 use super::share::Share;
 use super::site::Contact;
 use crate::algebra::system::LinearSystem;
 use crate::algebra::threads;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
@@ -27,13 +28,24 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let (values, right) = system.parts();
         for member in &mut self.members {
             let mut share = Share::none();
-            member.linearize(&self.contacts, view, trial, &mut share)?;
+            member.linearize(&self.contacts, view, trial, None, &mut share)?;
             member.add_share(&share, &self.contacts, (&mut *values, &mut *right));
         }
         Ok(())
     }
 
-    /// The same for elements with many points, in parallel. Contributions are computed by all threads and added in the
+    /// Responses without tangents.
+    #[inline]
+    pub(super) fn respond_one_by_one(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+    ) -> Result<(), StateError> {
+        let mut members = self.members.iter_mut();
+        members.try_for_each(|member| member.respond(view, trial, None))
+    }
+
+    /// Linearizes elements with many points, in parallel. Contributions are computed by all threads and added in the
     /// order of the elements, so that every sum has the same bits for any number of threads.
     #[inline(never)]
     pub(super) fn linearize_in_rounds(
@@ -45,7 +57,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let (values, right) = system.parts();
         let contacts = &self.contacts;
         let linearize = |member: &mut Member<S, M, K, C, D>, share: &mut Share<K, S, D>| {
-            member.linearize(contacts, view, trial, share)
+            member.linearize(contacts, view, trial, None, share)
         };
         self.shares
             .resize_with(ROUND.min(self.members.len()), Share::none);
@@ -102,33 +114,36 @@ fn in_pieces<A: Send, B: Send>(
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// Responses without tangents.
+    /// Responses without tangents, which may be known.
     #[inline]
     pub(super) fn respond(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
+        known: Known<M::Response, S, M>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
         self.points.as_mut().iter_mut().try_for_each(|point| {
             let found = point.values_to_restore(trial.settled);
-            point.respond_alone(view, trial, &arms)?;
+            point.respond_alone(view, trial, &arms, known)?;
             point.restore(found, trial.settled);
             Ok(())
         })
     }
 
-    /// Responses with their tangents, and the contribution of the element to the system of the next iteration.
+    /// Responses with their tangents, which may be known, and the contribution of the element to the system of the next
+    /// iteration.
     #[expect(
         clippy::inline_always,
         reason = "a call of its own costs 1 % of a step of a spring"
     )]
     #[inline(always)]
-    fn linearize(
+    pub(super) fn linearize(
         &mut self,
         contacts: &[Contact<K, S, D>],
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
+        known: Known<&Form<S, M>, S, M>,
         share: &mut Share<K, S, D>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
@@ -140,11 +155,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             point.sensitivity = pose.sensitivity;
             let by_rate = point.extend(&pose, &arms.motion);
             // Used in place: copies would cost a good part of the time.
-            let mut form = point.form(trial);
+            let mut form = known.map_or_else(|| point.form(trial), |(form, _)| *form);
             if M::THERMAL && point.scheme.is_in_temperature() {
                 point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
             }
-            point.accept(view.per_step, &form)?;
+            point.accept(
+                view.per_step,
+                &form,
+                known.map(|(_, viscosities)| viscosities),
+            )?;
             let elastic = point.add_drag(view.per_step, &mut form);
             let contact = point.contact_in(contacts);
             point.condense(view, &trial.interface, &form, contact)?;

@@ -189,7 +189,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let x = self.locate(r, state)?;
         let slot = self.slots().thermal;
         let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
-        self.find_viscosities(theta)?;
+        self.find_viscosities(theta, None)?;
         self.find_drag_viscosity(theta)?;
         let caloric = self.model.caloric(&x);
         let mut energy = self.energy_at(&x, caloric)?;

@@ -75,6 +75,15 @@ impl<S: Real, V: Array<S>, A> PointMemory<S, V, A> {
     }
 }
 
+/// `η_k` and `dη_k/dθ`.
+pub(super) type Viscosities<S, M> = (
+    <M as FreeEnergy<S>>::Viscosities,
+    <M as FreeEnergy<S>>::Viscosities,
+);
+
+/// What may be known of a trial before it is evaluated: response or form, and viscosities.
+pub(super) type Known<T, S, M> = Option<(T, Viscosities<S, M>)>;
+
 /// A point with its variables in a step of the scheme `C`.
 pub(crate) struct Point<
     S: Real,
@@ -112,7 +121,7 @@ pub(crate) struct Point<
     pub(super) response: M::Response,
     pub(super) slopes: M::Hessian,
     /// `η_k` and `dη_k/dθ` at θ*.
-    pub(super) viscosities: (M::Viscosities, M::Viscosities),
+    pub(super) viscosities: Viscosities<S, M>,
     /// The Kelvin–Voigt dashpot, if there is one.
     pub(super) drag: Drag<M::Drag>,
     /// The derivative of the measures by the new arms.
@@ -253,13 +262,17 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         })
     }
 
-    /// The viscosities at a temperature, all positive.
+    /// The viscosities at a temperature, all positive; they may be known.
     #[inline]
-    pub(super) fn find_viscosities(&mut self, theta: S) -> Result<(), StateError> {
+    pub(super) fn find_viscosities(
+        &mut self,
+        theta: S,
+        known: Option<Viscosities<S, M>>,
+    ) -> Result<(), StateError> {
         if M::DASHPOTS == 0 {
             return Ok(());
         }
-        self.viscosities = self.model.viscosity(theta);
+        self.viscosities = known.unwrap_or_else(|| self.model.viscosity(theta));
         let viscosities = self.viscosities.0.as_ref();
         match viscosities.iter().position(|&eta| !is_positive(eta)) {
             None => Ok(()),

@@ -25,7 +25,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
     }
 
-    /// The new temperature, which is near a given one, from the new entropy, or the other way round
+    /// The new temperature, which is near a given one (what belongs to that may be known), from the new entropy, or the other way round
     /// where the scheme integrates the temperature or it is prescribed.
     ///
     /// Returns the new entropy if a thermostat prescribes the temperature.
@@ -34,7 +34,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         &mut self,
         r: &Arms<K, S, D>,
         view: &StepView<'_, S>,
-        near: S,
+        (near, known): (S, Option<&(Caloric<S>, S)>),
         state: &mut State<S>,
     ) -> Result<Option<S>, StateError> {
         let mut x = self.locate(r, state)?;
@@ -50,8 +50,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         if let (false, None) = (self.scheme.is_in_temperature(), prescribed) {
             // The guess from the trial is good: usually one evaluation is enough.
             let entropy = state.entropies.values()[slot];
-            let found = settled_at(&self.model, x, entropy, near)
-                .map_err(|infeasible| infeasible.of(self.element))?;
+            let energy_at = self.model.caloric_at(x);
+            let found = if let Some(&known) = known {
+                let mut known = Some(known);
+                let energy_at = |theta| known.take().unwrap_or_else(|| energy_at(theta));
+                settled_at(energy_at, entropy, near)
+            } else {
+                settled_at(energy_at, entropy, near)
+            };
+            let found = found.map_err(|infeasible| infeasible.of(self.element))?;
             check_temperature(self.element, found.temperature)?;
             state.temperatures[slot] = found.temperature;
             self.unless_infinite(found.free_energy)?;

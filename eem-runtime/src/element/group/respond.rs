@@ -1,7 +1,7 @@
 //! The response of the elements at a trial state, and its checks.
 
 use super::arms::{add_scaled, measures_in};
-use super::point::{Drag, Point, temperature_in};
+use super::point::{Drag, Known, Point, Viscosities, temperature_in};
 use super::pose::{Pose, seen_measures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
@@ -31,11 +31,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         r1: &Arms<K, S, D>,
         trial: &Trial<S, D>,
     ) -> Result<Measures<K, S, D>, StateError> {
-        let kinematics = &self.kinematics;
-        let measures1 = kinematics.measure(r1);
-        let measures0 = measures_in::<K, S, D>(&self.start.x0);
-        let measures = seen_measures::<K, S, D>(self.scheme.placement(), &measures0, measures1);
-        check_measures::<K, S, D>(kinematics, self.element, &measures, r1)?;
+        let [measures1, measures] = self.seen(r1);
+        check_measures::<K, S, D>(&self.kinematics, self.element, &measures, r1)?;
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
@@ -54,6 +51,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 .map_err(|infeasible| infeasible.of(self.element))?;
         }
         Ok(measures1)
+    }
+
+    /// The measures of arms, and those that the scheme sees there.
+    #[inline]
+    pub(super) fn seen(&self, r1: &Arms<K, S, D>) -> [Measures<K, S, D>; 2] {
+        let measures1 = self.kinematics.measure(r1);
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+        let seen = seen_measures::<K, S, D>(self.scheme.placement(), &measures0, measures1);
+        [measures1, seen]
     }
 
     /// The gradients in the configuration that the scheme uses, which has these measures.
@@ -80,20 +86,27 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             .form(&self.model, &self.start, &self.x, &self.memory)
     }
 
-    /// Finds the viscosities for a response; an error if the trial is unstable or a value is not finite.
+    /// Finds the viscosities for a response, unless they are known; an error if the trial is unstable or a value is not
+    /// finite.
     #[inline]
-    pub(super) fn accept(&mut self, per_step: S, form: &Form<S, M>) -> Result<(), StateError> {
+    pub(super) fn accept(
+        &mut self,
+        per_step: S,
+        form: &Form<S, M>,
+        known: Option<Viscosities<S, M>>,
+    ) -> Result<(), StateError> {
         C::check(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
-        self.accept_response(per_step, &form.0)
+        self.accept_response(per_step, &form.0, known)
     }
 
-    /// The response at the trial that has been located, where no tangent is needed: at the end of a step.
+    /// The response at the trial that has been located, where no tangent is needed: at the end of a step. It may be known.
     #[inline]
     pub(super) fn respond_alone(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         arms: &TrialArms<K, S, D>,
+        known: Known<M::Response, S, M>,
     ) -> Result<(), StateError> {
         let per_step = view.per_step;
         let measures = self.locate_trial(&arms.placed, trial)?;
@@ -103,7 +116,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
         if trial.is_start {
             let form = self.form(trial);
-            self.accept(per_step, &form)?;
+            self.accept(per_step, &form, None)?;
             self.response = form.0;
             return Ok(());
         }
@@ -111,22 +124,29 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let mut form = self.form(trial);
             let pose = self.pose(arms, &measures);
             self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
-            self.accept(per_step, &form)?;
+            self.accept(per_step, &form, None)?;
             self.response = form.0;
             return Ok(());
         }
-        self.response = self
-            .scheme
-            .response(&self.model, &self.start, &self.x, &self.memory);
+        let (response, viscosities) = known.unzip();
+        self.response = response.unwrap_or_else(|| {
+            self.scheme
+                .response(&self.model, &self.start, &self.x, &self.memory)
+        });
         let response = self.response;
-        self.accept_response(per_step, &response)
+        self.accept_response(per_step, &response, viscosities)
     }
 
     #[inline]
-    fn accept_response(&mut self, per_step: S, response: &M::Response) -> Result<(), StateError> {
+    fn accept_response(
+        &mut self,
+        per_step: S,
+        response: &M::Response,
+        known: Option<Viscosities<S, M>>,
+    ) -> Result<(), StateError> {
         check_response::<S, M>(self.element, response)?;
         self.find_drag(per_step, response)?;
-        self.find_viscosities(temperature_in::<S, M>(response))
+        self.find_viscosities(temperature_in::<S, M>(response), known)
     }
 
     /// For a scheme in temperature: replaces the Δs of the response by that of rates.

@@ -107,6 +107,11 @@ pub trait StrainEnergy<const N: usize> {
     /// strain has some.
     const STRAINS: [Strain; N];
 
+    /// [`STRAINS`](Self::STRAINS), unless they are known only when a program runs.
+    fn strains(&self) -> [Strain; N] {
+        Self::STRAINS
+    }
+
     /// The free energy as a function of these measures: the material itself, or one of components in place of
     /// joint invariants of strain and viscous strain.
     type AtPoint<S: Real>: FreeEnergy<S> + Send + Sync + 'static

@@ -354,7 +354,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
     ) -> Result<(), StateError> {
         let booked = self.book(in_state, (view, trial), next, tally);
         let near = self.temperatures[MOST_POINTS];
-        if let Some(entropy) = in_state.recover_temperature(r1, view, near, next)? {
+        if let Some(entropy) = in_state.recover_temperature(r1, view, (near, None), next)? {
             self.book_thermostat(&booked, entropy, next);
         }
         let energy = &mut next.energies[in_state.element.index()];

@@ -262,7 +262,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
     ) -> Result<(), StateError> {
         let received = self.book(in_state.slots(), view, next);
         let near = self.theta(self.point.rule.stages() - 1);
-        if let Some(entropy) = in_state.recover_temperature(r1, view, near, next)? {
+        if let Some(entropy) = in_state.recover_temperature(r1, view, (near, None), next)? {
             self.book_thermostat(view.step, [entropy, received], next);
         }
         Ok(())
@@ -302,7 +302,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
                 value: value.to_f64(),
             });
         }
-        in_state.find_viscosities(theta)?;
+        in_state.find_viscosities(theta, None)?;
         let dissipation_by = at_stage.creep(&in_state.viscosities);
         let Some(slot) = in_state.slots().thermal else {
             return Ok(());

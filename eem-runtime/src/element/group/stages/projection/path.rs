@@ -169,7 +169,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                     value: theta.to_f64(),
                 });
             }
-            in_state.find_viscosities(theta)?;
+            in_state.find_viscosities(theta, None)?;
             self.viscosities[stage] = in_state.viscosities;
         }
         Ok(())

@@ -1,0 +1,36 @@
+//! What a model evaluates of several springs in one call, before they are gone through one by one.
+
+use super::point::Viscosities;
+use crate::element::conjugates::Form;
+use eem_material::free_energy::{Caloric, FreeEnergy};
+use eem_material::number::scalar::Real;
+
+/// Workspace for the springs of a call; empty for other models.
+pub(super) struct Ahead<S: Real, M: FreeEnergy<S>, O> {
+    pub(super) x: Vec<M::Variables>,
+    pub(super) old: Vec<O>,
+    pub(super) forms: Vec<Form<S, M>>,
+    pub(super) responses: Vec<M::Response>,
+    pub(super) viscosities: Vec<Viscosities<S, M>>,
+    pub(super) caloric: Vec<(Caloric<S>, S)>,
+}
+
+impl<S: Real, M: FreeEnergy<S>, O> Ahead<S, M, O> {
+    pub(super) const fn new() -> Self {
+        Self {
+            x: Vec::new(),
+            old: Vec::new(),
+            forms: Vec::new(),
+            responses: Vec::new(),
+            viscosities: Vec::new(),
+            caloric: Vec::new(),
+        }
+    }
+
+    /// Takes the variables of some springs.
+    pub(super) fn take(&mut self, x: impl Iterator<Item = M::Variables>) -> usize {
+        self.x.clear();
+        self.x.extend(x);
+        self.x.len()
+    }
+}

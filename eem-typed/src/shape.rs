@@ -1,0 +1,129 @@
+//! What a law must have in common with its type: what it is a function of.
+
+use core::fmt;
+
+use eem_language::text::{Compiled, Joint};
+
+/// Of what a law is a function besides its dashpots and its temperature: [`Stretch`], [`Strains`] or [`Flow`].
+pub trait Measures: fmt::Debug + Copy + Send + Sync + 'static + sealed::Sealed {
+    /// Strains, variables, dashpots and responses at a point of a solid; zeros of a spring.
+    #[doc(hidden)]
+    const AT_POINT: [usize; 4];
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// A spring, whose one measure is its length.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch;
+
+/// A solid with M strains.
+#[derive(Clone, Copy, Debug)]
+pub struct Strains<const M: usize>;
+
+/// A solid with invariants of a viscous strain. At a point it has M strains with the components of E, N variables, K
+/// dashpots with the components of Γ, and R responses.
+#[derive(Clone, Copy, Debug)]
+pub struct Flow<const M: usize, const N: usize, const K: usize, const R: usize>;
+
+impl sealed::Sealed for Stretch {}
+impl Measures for Stretch {
+    const AT_POINT: [usize; 4] = [0; 4];
+}
+
+impl<const M: usize> sealed::Sealed for Strains<M> {}
+impl<const M: usize> Measures for Strains<M> {
+    const AT_POINT: [usize; 4] = [M, 0, 0, 0];
+}
+
+impl<const M: usize, const N: usize, const K: usize, const R: usize> sealed::Sealed
+    for Flow<M, N, K, R>
+{
+}
+impl<const M: usize, const N: usize, const K: usize, const R: usize> Measures for Flow<M, N, K, R> {
+    const AT_POINT: [usize; 4] = [M, N, K, R];
+}
+
+/// The numbers of what a law is a function of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shape {
+    /// None of a spring.
+    pub(crate) strains: usize,
+    /// Invariants of a viscous strain.
+    pub(crate) joints: usize,
+    /// Viscosities of that: with two of them, the volume flows as well.
+    pub(crate) flows: usize,
+    /// Dashpots in series, and beside.
+    pub(crate) dashpots: usize,
+    pub(crate) drag: usize,
+    pub(crate) thermal: bool,
+}
+
+impl Shape {
+    /// Of texts.
+    pub(crate) fn of(compiled: &Compiled) -> Self {
+        let (model, joints) = (compiled.model(), compiled.joints());
+        let flows = if joints.contains(&Joint::Trace) { 2 } else { 1 };
+        Self {
+            strains: compiled.strains().len(),
+            joints: joints.len(),
+            flows: if joints.is_empty() { 0 } else { flows },
+            dashpots: model.dashpots.len(),
+            drag: usize::from(model.drag.is_some()),
+            thermal: model.temperature.is_some(),
+        }
+    }
+
+    /// Number of variables: measures, dashpots, temperature.
+    pub(crate) const fn variables(&self) -> usize {
+        let stretch = if self.strains == 0 { 1 } else { 0 };
+        stretch + self.strains + self.joints + self.dashpots + self.thermal as usize
+    }
+
+    /// The components of a viscous strain: six where the volume flows, five without.
+    pub(crate) const fn components(&self) -> usize {
+        match self.flows {
+            0 => 0,
+            flows => 4 + flows,
+        }
+    }
+
+    /// Strains, variables, dashpots and responses at a point of a solid.
+    pub(crate) const fn at_point(&self) -> [usize; 4] {
+        if self.joints == 0 {
+            return [self.strains, 0, 0, 0];
+        }
+        let components = self.components();
+        let variables = self.variables() - self.joints + 2 * components;
+        [
+            self.strains + components,
+            variables,
+            self.dashpots + components,
+            variables + self.thermal as usize,
+        ]
+    }
+}
+
+impl fmt::Display for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        let mut add = |count: usize, one: &str, several: &str| match count {
+            0 => {}
+            1 => parts.push(format!("1 {one}")),
+            count => parts.push(format!("{count} {several}")),
+        };
+        add(usize::from(self.strains == 0), "stretch", "stretches");
+        add(self.strains, "strain", "strains");
+        let invariants = ["invariant", "invariants"].map(|word| match self.flows {
+            2 => format!("{word} of a viscous strain with a trace"),
+            _ => format!("{word} of a viscous strain"),
+        });
+        add(self.joints, &invariants[0], &invariants[1]);
+        add(self.dashpots, "dashpot in series", "dashpots in series");
+        add(self.drag, "dashpot beside", "dashpots beside");
+        add(usize::from(self.thermal), "temperature", "temperatures");
+        f.write_str(&parts.join(", "))
+    }
+}

@@ -1,0 +1,106 @@
+//! Solids of laws: their strains, and at a point the components of a viscous strain.
+
+use eem_material::free_energy::{FreeEnergy, Material};
+use eem_material::number::scalar::{Real, Scalar};
+use eem_material::{ComponentEnergy, Joint, JointEnergy};
+use eem_runtime::{Strain, StrainEnergy};
+
+use super::Typed;
+use crate::functions::KEPT;
+use crate::shape::{Flow, Strains};
+
+/// Room for what is kept of the old state of a material, and for the components of E and Γ.
+const KEPT_WITH_COMPONENTS: usize = KEPT + 12;
+
+// Which strains they are is known when a program runs: `strains` says it.
+impl<
+    S: Scalar,
+    const M: usize,
+    const N: usize,
+    const K: usize,
+    const V: usize,
+    const D: usize,
+    const C: usize,
+    const R: usize,
+> StrainEnergy<M> for Typed<S, Strains<M>, N, K, V, D, C, R>
+{
+    const STRAINS: [Strain; M] = [Strain::Trace; M];
+
+    fn strains(&self) -> [Strain; M] {
+        self.strains_at_point()
+    }
+
+    type AtPoint<T: Real>
+        = Self
+    where
+        Self: Material<T>;
+
+    fn at_point<T: Real>(&self) -> Self
+    where
+        Self: Material<T>,
+    {
+        FreeEnergy::<T>::duplicate(self)
+    }
+}
+
+impl<
+    S: Scalar,
+    const M: usize,
+    const N1: usize,
+    const K1: usize,
+    const R1: usize,
+    const N: usize,
+    const K: usize,
+    const V: usize,
+    const D: usize,
+    const C: usize,
+    const R: usize,
+> StrainEnergy<M> for Typed<S, Flow<M, N1, K1, R1>, N, K, V, D, C, R>
+{
+    const STRAINS: [Strain; M] = [Strain::Trace; M];
+
+    fn strains(&self) -> [Strain; M] {
+        self.strains_at_point()
+    }
+
+    type AtPoint<T: Real>
+        = ComponentEnergy<Self, N1, K1, R1, KEPT_WITH_COMPONENTS, KEPT_WITH_COMPONENTS>
+    where
+        Self: Material<T>;
+
+    fn at_point<T: Real>(&self) -> Self::AtPoint<T>
+    where
+        Self: Material<T>,
+    {
+        ComponentEnergy::new(FreeEnergy::<T>::duplicate(self))
+    }
+}
+
+impl<
+    S: Scalar,
+    const M: usize,
+    const N1: usize,
+    const K1: usize,
+    const R1: usize,
+    const N: usize,
+    const K: usize,
+    const V: usize,
+    const D: usize,
+    const C: usize,
+    const R: usize,
+> JointEnergy for Typed<S, Flow<M, N1, K1, R1>, N, K, V, D, C, R>
+{
+    // As many as there are, with the trace where there is one: `joints` says which they are.
+    const JOINT: &'static [Joint] = match (Self::SHAPE.joints, Self::SHAPE.flows) {
+        (1, 1) => &[Joint::Strain],
+        (2, 1) => &[Joint::Strain, Joint::Square],
+        (1, 2) => &[Joint::Trace],
+        (2, 2) => &[Joint::Strain, Joint::Trace],
+        (3, 2) => &[Joint::Strain, Joint::Square, Joint::Trace],
+        _ => panic!("there are one to three invariants"),
+    };
+
+    fn joints(&self) -> &[Joint] {
+        &self.functions.joints
+    }
+}
