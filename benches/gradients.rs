@@ -1,7 +1,7 @@
 //! What gradients cost: the time of the adjoint over that of the run, in turn, the least of several.
 //!
 //! ```text
-//! cargo bench -p eem-benches --bench gradients --features gradients
+//! cargo bench -p eem-benches --bench gradients --features gradients [-- NAME ...]
 //! ```
 
 use std::time::Instant;
@@ -58,9 +58,16 @@ fn times<const D: usize>(scene: &Scene<D>, scheme: Scheme, step: f64, steps: usi
     least
 }
 
-fn print<const D: usize>(name: &str, scene: &Scene<D>, step: f64, steps: usize) {
+fn print<const D: usize>(name: &str, scene: impl FnOnce() -> Scene<D>, step: f64, steps: usize) {
+    let names = std::env::args()
+        .skip(1)
+        .filter(|name| !name.starts_with("--"));
+    if names.count() > 0 && !std::env::args().any(|own| own == name) {
+        return;
+    }
+    let scene = scene();
     for scheme in [Scheme::EemTemperature, Scheme::EemEntropy] {
-        let [plain, kept, gradient] = times(scene, scheme, step, steps);
+        let [plain, kept, gradient] = times(&scene, scheme, step, steps);
         let per_step = 1e6 * plain / f64::from(u32::try_from(steps).unwrap_or(u32::MAX));
         println!(
             "{name:<12} {scheme:<16} step {per_step:>11.2} µs   with history {:>5.2}   gradient {:>5.2}",
@@ -71,10 +78,10 @@ fn print<const D: usize>(name: &str, scene: &Scene<D>, step: f64, steps: usize) 
 }
 
 fn main() {
-    print("single", &single_pendulum_scene().0, 0.1, 5000);
+    print("single", || single_pendulum_scene().0, 0.1, 5000);
     let [_, krueger, log] = DoublePendulum::ALL;
-    print("krueger", &krueger.scene().0, 0.02, 2000);
-    print("log", &log.scene().0, 0.02, 2000);
-    print("lattice 100²", &networks::lattice(100, None), 0.01, 4);
-    print("cube 8³", &solids::cube(8), 0.01, 4);
+    print("krueger", || krueger.scene().0, 0.02, 2000);
+    print("log", || log.scene().0, 0.02, 2000);
+    print("lattice 100²", || networks::lattice(100, None), 0.01, 4);
+    print("cube 8³", || solids::cube(8), 0.01, 4);
 }

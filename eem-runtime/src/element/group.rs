@@ -44,6 +44,8 @@ mod respond;
 mod share;
 mod site;
 mod stages;
+#[cfg(feature = "gradients")]
+mod terms;
 mod view;
 
 pub(crate) use arms::points;
@@ -54,7 +56,9 @@ pub(crate) use explicit::{
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
 #[cfg(feature = "gradients")]
-pub(crate) use point_step::{PointStep, PointWeights};
+pub(crate) use point_step::{Costate, PastStep, SeeParameters, StepWeights};
+#[cfg(feature = "gradients")]
+pub(crate) use terms::Terms;
 pub(crate) use view::{
     Along, Before, ElementGeneric, ElementTotals, ElementView, EntropySlopes, Old, Placed, Sites,
     StepView, Trial,

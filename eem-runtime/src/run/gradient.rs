@@ -4,3 +4,4 @@ pub(crate) mod error;
 pub(crate) mod history;
 pub(crate) mod objective;
 pub(crate) mod result;
+pub(crate) mod snapshots;

@@ -49,7 +49,7 @@ use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 #[cfg(feature = "gradients")]
-use crate::run::gradient::history::Kept;
+use crate::run::gradient::snapshots::Record;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
@@ -111,7 +111,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     homes: BTreeMap<usize, [S; D]>,
     /// The states since a history is kept.
     #[cfg(feature = "gradients")]
-    history: Option<Box<Kept<S>>>,
+    history: Option<Box<Record<S>>>,
     /// Somebody asks for sums of dissipation and heat.
     wants_meters: AtomicBool,
     /// The report with the largest `|defect|/bound` so far.

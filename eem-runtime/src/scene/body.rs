@@ -2,6 +2,12 @@
 
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::Shape;
+#[cfg(feature = "gradients")]
+use eem_material::number::scalar::Real;
+#[cfg(feature = "gradients")]
+use eem_mesh::integrals::{self, Pairs};
+#[cfg(feature = "gradients")]
+use eem_mesh::per_node;
 use eem_mesh::{Mesh, MeshError, distance};
 
 /// A solid of a scene: its mesh and the handles of its nodes and integration points, in the reference
@@ -38,6 +44,8 @@ pub struct Body<H: Shape<D>, const D: usize> {
     pub(super) thickness: f64,
     /// W/(m K).
     pub(super) conductivity: Option<f64>,
+    #[cfg(feature = "gradients")]
+    pub(super) is_lumped: bool,
 }
 
 impl<H: Shape<D>, const D: usize> Body<H, D> {
@@ -51,6 +59,22 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
+    }
+
+    /// The masses of the pairs of nodes of each cell at unit density, with the indices of the nodes.
+    #[cfg(feature = "gradients")]
+    pub(crate) fn masses_per_density<S: Real>(
+        &self,
+    ) -> impl Iterator<Item = (H::PerNode<usize>, Pairs<H, S, D>)> {
+        self.mesh.cells().iter().map(|cell| {
+            let places = self.mesh.nodes();
+            let reference = per_node::<H, _, D>(|at| places[cell[at]].map(S::from_f64));
+            let mut masses = integrals::masses::<H, S, D>(&reference, S::from_f64(self.thickness));
+            if self.is_lumped {
+                integrals::lump::<H, S, D>(&mut masses);
+            }
+            (per_node::<H, _, D>(|at| self.nodes[cell[at]].index), masses)
+        })
     }
 
     /// The handles of its integration points, cell by cell; the first coordinate of a cell varies fastest.

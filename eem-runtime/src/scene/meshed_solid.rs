@@ -91,6 +91,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
             points,
             thickness: bulk.thickness,
             conductivity,
+            #[cfg(feature = "gradients")]
+            is_lumped: bulk.lumped,
         };
         self.conduct_in(&body, bulk.allow_skew_cells);
         body

@@ -13,428 +13,223 @@
 //! With λ¹ the derivatives by x¹, `(∂R/∂x¹)ᵀ w = λ¹` and `λ⁰ = −(∂R/∂x⁰)ᵀ w`. As in a step, v¹ and the variables of a point are
 //! eliminated; what remains has the pattern of the system of a step.
 
-mod local;
+mod rockets;
 
-use crate::algebra::lu::Singular;
+use core::array;
+use core::mem;
+
 use crate::algebra::system::LinearSystem;
-use crate::element::conduction::{Conduction, Partner};
-use crate::element::group::{PointStep, PointWeights};
+use crate::element::conduction::InterfaceTemperatures;
+use crate::element::error::StateError;
+use crate::element::group::{Group, PastStep, SeeParameters, StepView};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
+use crate::element::state::State;
 use eem_material::number::scalar::Real;
-use local::{Cell, Eliminated, Heat, LocalStep};
 
-/// The derivatives of a number by a state, or by the conditions at the start.
-#[derive(Clone, Debug)]
-pub(crate) struct Costate<S> {
-    /// By the positions of all nodes, anchors too, and by the velocities of the masses.
-    pub(crate) positions: Vec<S>,
-    pub(crate) velocities: Vec<S>,
-    pub(crate) viscous: Vec<S>,
-    pub(crate) temperatures: Vec<S>,
-    /// By the entropies that reservoirs have received.
-    pub(crate) reservoirs: Vec<S>,
+pub(crate) use crate::element::group::{Costate, StepWeights, Terms};
+pub(crate) use rockets::RocketStep;
+
+/// Why a step has no adjoint.
+pub(crate) enum NoAdjoint {
+    /// Its equations do not determine the new state.
+    Singular,
+    /// An element cannot be in one of the states.
+    State(StateError),
 }
 
-impl<S: Real> Costate<S> {
-    /// Zero, for a scene with so many coordinates.
-    pub(crate) fn zero(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
-        let zeros = |count| vec![S::zero(); count];
-        Self {
-            positions: zeros(coordinates),
-            velocities: zeros(coordinates),
-            viscous: zeros(layout.viscous),
-            temperatures: zeros(layout.thermal),
-            reservoirs: zeros(reservoirs),
-        }
-    }
-
-    /// All its numbers.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = S> + '_ {
-        let parts = [
-            &self.positions,
-            &self.velocities,
-            &self.viscous,
-            &self.temperatures,
-            &self.reservoirs,
-        ];
-        parts.into_iter().flatten().copied()
+impl From<StateError> for NoAdjoint {
+    fn from(error: StateError) -> Self {
+        Self::State(error)
     }
 }
 
-/// What does not change from step to step.
+/// The adjoint of one step after the other, with memory for all of them.
+#[derive(Debug)]
+pub(crate) struct Adjoint<S, const D: usize> {
+    nodes: Vec<Inertia<S, D>>,
+    pairs: Vec<CoupledInertia<S, D>>,
+    /// The interface temperatures of a step, and whether there are any.
+    interface: InterfaceTemperatures<S>,
+    is_coupled: bool,
+    /// `M w_v`.
+    momenta: Vec<S>,
+    /// The derivatives by the present state, and those by the one after it.
+    pub(crate) costate: Costate<S>,
+    pub(crate) after: Costate<S>,
+    /// The weights of the last step.
+    pub(crate) weights: StepWeights<S>,
+}
+
+/// A node that moves.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place<'a, S> {
-    pub(crate) layout: &'a Layout,
-    pub(crate) conduction: &'a Conduction<S>,
-    pub(crate) masses: &'a Masses<S>,
-    /// Whether thermostats hold the temperatures, by thermal slot.
-    pub(crate) held: &'a [bool],
+struct Inertia<S, const D: usize> {
+    /// Its first coordinate and unknown, and its diagonal entries.
+    coordinate: usize,
+    unknown: usize,
+    diagonal: [usize; D],
+    mass: S,
 }
 
-/// The weights w of a step.
-#[derive(Clone, Debug)]
-pub(crate) struct StepWeights<S> {
-    /// Of the momentum balances of all nodes, zero at anchors.
-    pub(crate) motion: Vec<S>,
-    /// Of the entropy balances, of the temperatures that are held, and θ*, by thermal slot.
-    pub(crate) entropies: Vec<S>,
-    pub(crate) held: Vec<S>,
-    pub(crate) temperatures: Vec<S>,
-    /// The derivatives by the positions of anchors in the old state and in the new one, zero at masses.
-    pub(crate) anchors: [Vec<S>; 2],
-    /// Of the points in the derivatives by their parameters.
-    pub(crate) points: Vec<PointWeights<S>>,
+/// The entries of a mass that couples two nodes, in both triangles.
+#[derive(Clone, Copy, Debug)]
+struct CoupledInertia<S, const D: usize> {
+    places: [[usize; D]; 2],
+    mass: S,
 }
 
-impl<S: Real> Place<'_, S> {
-    /// The heat of a point at temperatures θ* by thermal slot.
-    fn heat(
-        &self,
-        slot: Option<usize>,
-        step: S,
-        temperatures: &[S],
-        costate: &Costate<S>,
-    ) -> Heat<S> {
-        let mut heat = Heat {
-            received: S::zero(),
-            to_reservoirs: S::zero(),
-            to_elements: S::zero(),
-            of_reservoirs: S::zero(),
+impl<S: Real, const D: usize> Adjoint<S, D> {
+    /// From the derivatives by the last state on.
+    pub(crate) fn new(
+        layout: &Layout,
+        masses: &Masses<S>,
+        system: &LinearSystem<S, 1>,
+        costate: Costate<S>,
+    ) -> Self {
+        let zeros = |count| vec![S::zero(); count];
+        let coordinates = costate.positions.len();
+        let place = |row: usize, column: usize| {
+            array::from_fn(|axis| system.place(Some(row + axis), Some(column + axis)))
         };
-        let Some(slot) = slot else {
-            return heat;
-        };
-        for link in self.conduction.links(slot) {
-            let conductance = link.conductance;
-            let other = match link.partner {
-                Partner::Slot(other) => {
-                    heat.to_elements += conductance;
-                    temperatures[other]
-                }
-                Partner::Reservoir(index) => {
-                    let theta = self.conduction.reservoirs[index];
-                    heat.to_reservoirs += conductance;
-                    heat.of_reservoirs += costate.reservoirs[index] * step * conductance / theta;
-                    theta
-                }
-            };
-            heat.received += conductance * (other - temperatures[slot]);
-        }
-        heat
-    }
-
-    /// Solves the adjoint equations of a step for the derivatives by its new state.
-    pub(crate) fn solve<const D: usize>(
-        &self,
-        step: S,
-        points: &[PointStep<S, D>],
-        new: &Costate<S>,
-        system: &mut LinearSystem<S, 1>,
-    ) -> Result<(Costate<S>, StepWeights<S>), Singular> {
-        let mut temperatures = vec![S::one(); self.layout.thermal];
-        for point in points {
-            if let Some(slot) = point.slots.thermal {
-                temperatures[slot] = point.temperature;
-            }
-        }
-        let locals: Vec<LocalStep<'_, S, D>> = points
-            .iter()
-            .map(|point| LocalStep {
-                point,
-                step,
-                heat: self.heat(point.slots.thermal, step, &temperatures, new),
-                is_coupled: point
-                    .slots
-                    .thermal
-                    .is_some_and(|slot| self.layout.coupled[slot].is_some()),
-                is_held: point.slots.thermal.is_some_and(|slot| self.held[slot]),
+        let nodes = masses.iter().zip(&layout.nodes).enumerate();
+        let nodes = nodes.filter_map(|(node, (mass, unknown))| {
+            let unknown = (*unknown)?;
+            Some(Inertia {
+                coordinate: node * D,
+                unknown,
+                diagonal: place(unknown, unknown),
+                mass: mass?,
             })
-            .collect();
-        self.begin::<D>(step, new, system);
-        let mut eliminated = Vec::with_capacity(locals.len());
-        let mut cell = Cell::default();
-        for local in &locals {
-            let own = Eliminated::new(local, &inner_of(local.point, new))?;
-            if cell.nodes != local.point.nodes {
-                self.add_cell::<D>(&cell, system);
-                cell = Cell::new(local);
-            }
-            cell.add(&own);
-            self.add_heat(local, &own, system);
-            eliminated.push(own);
-        }
-        self.add_cell::<D>(&cell, system);
-        system.solve()?;
-        let unknown = |unknown: usize| system.solution()[unknown][0];
-        let mut weights = StepWeights {
-            motion: vec![S::zero(); new.positions.len()],
-            entropies: vec![S::zero(); self.layout.thermal],
-            held: vec![S::zero(); self.layout.thermal],
-            anchors: [(); 2].map(|()| vec![S::zero(); new.positions.len()]),
-            temperatures,
-            points: Vec::with_capacity(points.len()),
-        };
-        for (node, first) in self.layout.nodes.iter().enumerate() {
-            if let Some(first) = first {
-                for axis in 0..D {
-                    weights.motion[node * D + axis] = unknown(first + axis);
-                }
-            }
-        }
-        let mut old = self.of_motion::<D>(step, new, &weights.motion);
-        for (local, own) in locals.iter().zip(&eliminated) {
-            let point = local.point;
-            let mut all = arms_of::<S, D>(&point.nodes, &weights.motion);
-            if let Some(slot) = point.slots.thermal
-                && let Some(at) = self.layout.coupled[slot]
-            {
-                all.push(unknown(at));
-            }
-            let mut inner = own.constant.clone();
-            for (column, &weight) in own.by_outer.iter().zip(&all) {
-                for (inner, &by) in inner.iter_mut().zip(column) {
-                    *inner += by * weight;
-                }
-            }
-            all.extend(inner);
-            if let Some(slot) = point.slots.thermal {
-                [weights.entropies[slot], weights.held[slot]] = local.heat_weights(&all);
-            }
-            self.subtract_old(local, &all, &mut old, &mut weights.anchors);
-            weights.points.push(local.parameter_weights(&all));
-        }
-        Ok((old, weights))
-    }
-
-    /// Inertia, and the derivatives by positions and velocities.
-    fn begin<const D: usize>(&self, step: S, new: &Costate<S>, system: &mut LinearSystem<S, 1>) {
-        system.clear();
-        let per = S::from_f64(2.0) / step;
-        for (node, mass) in self.masses.iter().enumerate() {
-            let (Some(mass), Some(first)) = (mass, self.layout.nodes[node]) else {
-                continue;
-            };
-            for axis in 0..D {
-                let (row, at) = (Some(first + axis), node * D + axis);
-                let place = system.place(row, row);
-                let (values, right) = system.parts();
-                values[place] += per * mass;
-                right[first + axis][0] += new.positions[at] + per * new.velocities[at];
-            }
-        }
-        for pair in self.masses.pairs() {
-            let [a, b] = pair.nodes().map(|node| self.layout.nodes[node]);
-            for axis in 0..D {
-                let [a, b] = [a, b].map(|first| first.map(|first| first + axis));
-                let places = [system.place(a, b), system.place(b, a)];
-                let (values, _) = system.parts();
-                for place in places {
-                    values[place] += per * pair.mass;
-                }
-            }
+        });
+        let pairs = masses.pairs().iter().filter_map(|pair| {
+            let [a, b] = pair.nodes().map(|node| layout.nodes[node]);
+            let (a, b) = (a?, b?);
+            Some(CoupledInertia {
+                places: [place(a, b), place(b, a)],
+                mass: pair.mass,
+            })
+        });
+        let is_coupled = layout.coupled.iter().any(Option::is_some);
+        Self {
+            nodes: nodes.collect(),
+            pairs: pairs.collect(),
+            interface: InterfaceTemperatures::new(layout.thermal),
+            is_coupled,
+            momenta: zeros(coordinates),
+            weights: StepWeights {
+                motion: zeros(coordinates),
+                entropies: zeros(layout.thermal),
+                held: zeros(layout.thermal),
+                temperatures: vec![S::one(); layout.thermal],
+                anchors: [zeros(coordinates), zeros(coordinates)],
+                by_size: Terms::none(),
+            },
+            after: costate.clone(),
+            costate,
         }
     }
 
-    /// Adds the momentum balances of a cell.
-    fn add_cell<const D: usize>(&self, cell: &Cell<S>, system: &mut LinearSystem<S, 1>) {
-        let (arms, all) = (cell.right.len(), cell.nodes.len() * D);
-        // The first node has the negative sums of the others.
-        let mut rows = vec![S::zero(); arms * all];
-        for (row, entries) in cell.matrix.chunks_exact(arms.max(1)).enumerate() {
-            let row = &mut rows[row * all..(row + 1) * all];
-            for (column, &entry) in entries.iter().enumerate() {
-                row[column % D] -= entry;
-                row[column + D] = entry;
-            }
-        }
-        let mut matrix = vec![S::zero(); all * all];
-        for (row, entries) in rows.chunks_exact(all.max(1)).enumerate() {
-            for (column, &entry) in entries.iter().enumerate() {
-                matrix[(row % D) * all + column] -= entry;
-                matrix[(row + D) * all + column] = entry;
-            }
-        }
-        let unknown = |at: usize| {
-            let first = self.layout.nodes[cell.nodes[at / D] as usize];
-            first.map(|first| first + at % D)
-        };
-        for row in 0..all {
-            let Some(own) = unknown(row) else { continue };
-            let right = if let Some(arm) = row.checked_sub(D) {
-                cell.right[arm]
-            } else {
-                let axis = cell.right.iter().skip(row).step_by(D);
-                -axis.fold(S::zero(), |sum, &entry| sum + entry)
-            };
-            system.parts().1[own][0] -= right;
-            for column in 0..all {
-                if let Some(other) = unknown(column) {
-                    let place = system.place(Some(own), Some(other));
-                    system.parts().0[place] += matrix[row * all + column];
-                }
-            }
-        }
-    }
-
-    /// Adds what the interface temperatures of a point and of its neighbours have to do with it.
-    fn add_heat<const D: usize>(
-        &self,
-        local: &LocalStep<'_, S, D>,
-        own: &Eliminated<S>,
+    /// Goes on from the new state of a step, the present one, to its old state. The derivatives by the parameters of each
+    /// element in the step are passed to `see`.
+    pub(crate) fn step_back(
+        &mut self,
+        (view, new, held): (StepView<'_, S>, &State<S>, &[bool]),
+        (layout, rockets): (&Layout, &[RocketStep<S, D>]),
+        groups: &mut [Box<dyn Group<S, D>>],
         system: &mut LinearSystem<S, 1>,
-    ) {
-        if !local.is_coupled {
-            return;
-        }
-        let unknowns = self.unknowns(local);
-        let heat = local.arms();
-        for (row, rows) in unknowns.iter().enumerate() {
-            if row == heat {
-                for &(unknown, _) in rows {
-                    let at = system.row(unknown);
-                    system.parts().1[at][0] -= own.outer[row];
-                }
-            }
-            for (column, columns) in unknowns.iter().enumerate() {
-                if row != heat && column != heat {
-                    continue;
-                }
-                let entry = own.outer_by_outer[column][row];
-                for &(unknown, sign) in rows {
-                    for &(other, other_sign) in columns {
-                        let place = system.place(unknown, other);
-                        system.parts().0[place] += sign * other_sign * entry;
-                    }
-                }
-            }
-        }
-        if local.is_held {
-            return;
-        }
-        let Some(slot) = local.point.slots.thermal else {
-            return;
+        see: &mut SeeParameters<'_, S>,
+    ) -> Result<(), NoAdjoint> {
+        mem::swap(&mut self.costate, &mut self.after);
+        let step = PastStep {
+            view,
+            new,
+            held,
+            by_new: &self.after,
         };
-        let entropy = local.point.dashpots();
-        for link in self.conduction.links(slot) {
-            let Partner::Slot(other) = link.partner else {
-                continue;
-            };
-            let row = self.layout.coupled[other];
-            let factor = -local.per_heat() * link.conductance;
-            let at = system.row(row);
-            system.parts().1[at][0] -= factor * own.constant[entropy];
-            for (column, columns) in unknowns.iter().enumerate() {
-                for &(unknown, sign) in columns {
-                    let place = system.place(row, unknown);
-                    system.parts().0[place] += factor * sign * own.by_outer[column][entropy];
-                }
+        let interface = &mut self.interface;
+        if self.is_coupled {
+            for group in &mut *groups {
+                group.find_interfaces(&step, interface)?;
             }
         }
-    }
-
-    /// The unknowns of the outer variables of a point, with their signs.
-    fn unknowns<const D: usize>(
-        &self,
-        local: &LocalStep<'_, S, D>,
-    ) -> Vec<Vec<(Option<usize>, S)>> {
-        let nodes = &local.point.nodes;
-        let at = |node: u32, axis: usize| {
-            let first = self.layout.nodes[node as usize];
-            first.map(|first| first + axis)
-        };
-        let mut unknowns = Vec::with_capacity(local.outer());
-        for &node in &nodes[1..] {
+        add_inertia((&self.nodes, &self.pairs), view.step, &self.after, system);
+        for group in &mut *groups {
+            group.pull_back(&step, interface, system)?;
+        }
+        for rocket in rockets {
+            rocket.add_to(layout, system);
+        }
+        system.solve().map_err(|_| NoAdjoint::Singular)?;
+        let solution = system.solution();
+        for node in &self.nodes {
             for axis in 0..D {
-                unknowns.push(vec![
-                    (at(node, axis), S::one()),
-                    (at(nodes[0], axis), -S::one()),
-                ]);
+                self.weights.motion[node.coordinate + axis] = solution[node.unknown + axis][0];
             }
         }
-        if let Some(slot) = local.point.slots.thermal
-            && let Some(unknown) = self.layout.coupled[slot]
-        {
-            unknowns.push(vec![(Some(unknown), S::one())]);
+        let momenta = &mut self.momenta;
+        view.masses.find_momenta(D, &self.weights.motion, momenta);
+        move_back(
+            &self.nodes,
+            view.step,
+            momenta,
+            (&self.after, &mut self.costate),
+        );
+        for anchors in &mut self.weights.anchors {
+            anchors.fill(S::zero());
         }
-        for all in &mut unknowns {
-            all.retain(|(unknown, _)| unknown.is_some());
+        self.weights.by_size = Terms::none();
+        for group in groups {
+            let found = (&mut self.costate, &mut self.weights);
+            group.recover(&step, interface, solution, found, see);
         }
-        unknowns
+        for rocket in rockets {
+            rocket.subtract(layout, &mut self.costate, &mut self.weights);
+        }
+        Ok(())
     }
+}
 
-    /// `λ_q⁰ = w_q = (2/h)(M w_v − λ_v)` and `λ_v⁰ = 2M w_v − λ_v` of the masses; anchors keep their sums.
-    fn of_motion<const D: usize>(&self, step: S, new: &Costate<S>, motion: &[S]) -> Costate<S> {
-        let mut old = Costate::zero(motion.len(), self.layout, new.reservoirs.len());
-        old.reservoirs.copy_from_slice(&new.reservoirs);
-        let mut inertia = vec![S::zero(); motion.len()];
-        self.masses.find_momenta(D, motion, &mut inertia);
-        let two = S::from_f64(2.0);
-        for (node, mass) in self.masses.iter().enumerate() {
-            for at in (0..D).map(|axis| node * D + axis) {
-                if mass.is_none() {
-                    old.positions[at] = new.positions[at];
-                    continue;
-                }
-                old.positions[at] = two / step * (inertia[at] - new.velocities[at]);
-                old.velocities[at] = two * inertia[at] - new.velocities[at];
-            }
+/// Starts the system with inertia, and with the derivatives by positions and velocities.
+fn add_inertia<S: Real, const D: usize>(
+    (nodes, pairs): (&[Inertia<S, D>], &[CoupledInertia<S, D>]),
+    step: S,
+    after: &Costate<S>,
+    system: &mut LinearSystem<S, 1>,
+) {
+    system.clear();
+    let (values, right) = system.parts();
+    let per = S::from_f64(2.0) / step;
+    for node in nodes {
+        for (axis, &place) in node.diagonal.iter().enumerate() {
+            let at = node.coordinate + axis;
+            values[place] += per * node.mass;
+            right[node.unknown + axis][0] += after.positions[at] + per * after.velocities[at];
         }
-        old
     }
-
-    /// Subtracts `(∂R/∂x⁰)ᵀ w` of a point, and at anchors, which are the same in both states, `(∂R/∂x¹)ᵀ w` too.
-    fn subtract_old<const D: usize>(
-        &self,
-        local: &LocalStep<'_, S, D>,
-        weights: &[S],
-        old: &mut Costate<S>,
-        anchors: &mut [Vec<S>; 2],
-    ) {
-        let (point, arms, outer) = (local.point, local.arms(), local.outer());
-        let [by_old, by_new] = [0, 1].map(|end| local.pull(end, weights, S::one()));
-        let nodes = point.nodes.iter();
-        for (place, &node) in nodes.enumerate() {
-            let node = node as usize;
-            let is_anchor = self.layout.nodes[node].is_none();
-            for axis in 0..D {
-                let of = |pulled: &[S]| match place {
-                    0 => {
-                        let own = pulled[..arms].iter().skip(axis).step_by(D);
-                        own.fold(S::zero(), |sum, &entry| sum - entry)
-                    }
-                    _ => pulled[(place - 1) * D + axis],
-                };
-                let at = node * D + axis;
-                old.positions[at] -= of(&by_old);
-                if is_anchor {
-                    old.positions[at] -= of(&by_new);
-                    anchors[0][at] -= of(&by_old);
-                    anchors[1][at] -= of(&by_new);
-                }
-            }
-        }
-        for k in 0..point.dashpots() {
-            old.viscous[point.slots.viscous + k] -= by_old[outer + k];
-        }
-        if let Some(slot) = point.slots.thermal {
-            old.temperatures[slot] -= by_old[outer + point.dashpots()];
+    for pair in pairs {
+        for &place in pair.places.as_flattened() {
+            values[place] += per * pair.mass;
         }
     }
 }
 
-/// The derivatives by γ and θ of a point.
-fn inner_of<S: Real, const D: usize>(point: &PointStep<S, D>, costate: &Costate<S>) -> Vec<S> {
-    let first = point.slots.viscous;
-    let mut inner = costate.viscous[first..first + point.dashpots()].to_vec();
-    inner.extend(point.slots.thermal.map(|slot| costate.temperatures[slot]));
-    inner
-}
-
-/// The arms of a point in a list of vectors of nodes.
-fn arms_of<S: Real, const D: usize>(nodes: &[u32], vectors: &[S]) -> Vec<S> {
-    let at = |node: u32, axis: usize| vectors[node as usize * D + axis];
-    let others = nodes[1..].iter();
-    let arms = others.flat_map(|&node| (0..D).map(move |axis| at(node, axis) - at(nodes[0], axis)));
-    arms.collect()
+/// `λ_q⁰ = w_q = (2/h)(M w_v − λ_v)` and `λ_v⁰ = 2M w_v − λ_v` of the masses, given `M w_v`; anchors keep their sums, and have
+/// `M w_v` by their old velocities.
+fn move_back<S: Real, const D: usize>(
+    nodes: &[Inertia<S, D>],
+    step: S,
+    momenta: &[S],
+    (after, before): (&Costate<S>, &mut Costate<S>),
+) {
+    before.reservoirs.copy_from_slice(&after.reservoirs);
+    before.positions.copy_from_slice(&after.positions);
+    before.velocities.copy_from_slice(momenta);
+    let per = S::from_f64(2.0) / step;
+    for node in nodes {
+        for at in (node.coordinate..).take(D) {
+            let rest = momenta[at] - after.velocities[at];
+            before.positions[at] = per * rest;
+            before.velocities[at] = momenta[at] + rest;
+        }
+    }
 }

@@ -160,6 +160,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.evaluations
     }
 
+    /// The system of an iteration; nothing in it outlives a step.
+    #[cfg(feature = "gradients")]
+    pub(crate) const fn tangent_mut(&mut self) -> &mut LinearSystem<S, 1> {
+        &mut self.tangent
+    }
+
     /// Where elements write.
     pub(crate) fn sites<'a>(
         &'a self,

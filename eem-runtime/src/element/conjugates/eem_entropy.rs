@@ -95,6 +95,15 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
         model.entropy_form_response(&start.old, x, corners)
     }
 
+    /// The ascending chain is the descending one seen from the other end.
+    #[cfg(feature = "gradients")]
+    #[inline]
+    fn exchanged(corners: &Self::Memory) -> Self::Memory {
+        let mut exchanged = *corners;
+        exchanged.as_mut().rotate_left(M::Corners::LEN / 2);
+        exchanged
+    }
+
     #[cfg(feature = "gradients")]
     fn form_adjoint(
         self,

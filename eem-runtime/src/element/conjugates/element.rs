@@ -145,6 +145,12 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         self.form(model, start, x, memory).0
     }
 
+    /// What [`prepare`](Self::prepare) finds for the step back from the new state to the old one.
+    #[cfg(feature = "gradients")]
+    fn exchanged(memory: &Self::Memory) -> Self::Memory {
+        *memory
+    }
+
     /// The derivative of the weighted response by the parameters at fixed `x⁰` and `x¹`; of the exact forms.
     #[cfg(feature = "gradients")]
     fn form_adjoint(

@@ -7,11 +7,13 @@ use super::loose::LooseElements;
 use super::member::Member;
 use super::point::Point;
 #[cfg(feature = "gradients")]
-use super::point_step::{PointStep, PointWeights, SeeParameters};
+use super::point_step::{Costate, PastStep, SeeParameters, StepWeights};
 use super::share::Share;
 use super::site::{Contact, Site};
 use super::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
+#[cfg(feature = "gradients")]
+use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::error::StateError;
 use crate::element::group::view::ElementGeneric;
@@ -265,23 +267,34 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     }
 
     #[cfg(feature = "gradients")]
-    fn between(
-        &self,
-        step: S,
-        states: [&State<S>; 2],
-        see: &mut dyn FnMut(PointStep<S, D>),
+    fn find_interfaces(
+        &mut self,
+        step: &PastStep<'_, S>,
+        interface: &mut InterfaceTemperatures<S>,
     ) -> Result<(), StateError> {
-        Self::between(self, step, states, see)
+        Self::find_interfaces(self, step, interface)
     }
 
     #[cfg(feature = "gradients")]
-    fn by_parameters(
-        &self,
-        states: [&State<S>; 2],
-        weights: &mut dyn Iterator<Item = PointWeights<S>>,
-        see: &mut SeeParameters<'_, S>,
+    fn pull_back(
+        &mut self,
+        step: &PastStep<'_, S>,
+        interface: &InterfaceTemperatures<S>,
+        system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
-        Self::by_parameters(self, states, weights, see)
+        Self::pull_back(self, step, interface, system)
+    }
+
+    #[cfg(feature = "gradients")]
+    fn recover(
+        &mut self,
+        step: &PastStep<'_, S>,
+        interface: &InterfaceTemperatures<S>,
+        solution: &[[S; 1]],
+        found: (&mut Costate<S>, &mut StepWeights<S>),
+        see: &mut SeeParameters<'_, S>,
+    ) {
+        Self::recover(self, step, interface, solution, found, see);
     }
 
     #[cfg(feature = "gradients")]

@@ -75,6 +75,20 @@ pub(super) struct LocalSystem<S: Real, M: FreeEnergy<S>> {
     pub(super) unit: [S; 2],
 }
 
+impl<S: Real, M: FreeEnergy<S>> LocalSystem<S, M> {
+    /// Without equations.
+    #[inline]
+    pub(super) fn empty(unit: [S; 2]) -> Self {
+        let zeros = M::Variables::filled(S::zero());
+        Self {
+            constant: zeros,
+            rows: M::Hessian::filled(zeros),
+            by_heat: zeros,
+            unit,
+        }
+    }
+}
+
 /// Gauss–Jordan elimination with partial pivoting.
 #[expect(clippy::inline_always, reason = "a few numbers in registers")]
 #[inline(always)]

@@ -45,8 +45,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         members.try_for_each(|member| member.respond(view, trial, None))
     }
 
-    /// Linearizes elements with many points, in parallel. Contributions are computed by all threads and added in the
-    /// order of the elements, so that every sum has the same bits for any number of threads.
+    /// Linearizes elements with many points, in rounds.
     #[inline(never)]
     pub(super) fn linearize_in_rounds(
         &mut self,
@@ -59,28 +58,40 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let linearize = |member: &mut Member<S, M, K, C, D>, share: &mut Share<K, S, D>| {
             member.linearize(contacts, view, trial, None, share)
         };
-        self.shares
-            .resize_with(ROUND.min(self.members.len()), Share::none);
-        let (members, shares) = (&mut self.members, &mut self.shares);
-        let is_shared = members.len() > PIECE;
-        let mut outcome = Ok(());
-        let mut linearize_all = || {
-            outcome = members.chunks_mut(ROUND).try_for_each(|members| {
-                let shares = &mut shares[..members.len()];
-                in_pieces(members, shares, &linearize)?;
-                for (member, share) in members.iter().zip(shares) {
-                    member.add_share(share, contacts, (&mut *values, &mut *right));
-                }
-                Ok(())
-            });
+        let mut add = |member: &Member<S, M, K, C, D>, share: &Share<K, S, D>| {
+            member.add_share(share, contacts, (&mut *values, &mut *right));
         };
-        if is_shared {
-            threads::enter(&mut linearize_all);
-        } else {
-            linearize_all();
-        }
-        outcome
+        in_rounds(&mut self.members, &mut self.shares, &linearize, &mut add)
     }
+}
+
+/// Computes contributions of elements with many points in parallel, and adds them in the order of the elements, so that
+/// every sum has the same bits for any number of threads.
+pub(super) fn in_rounds<A: Send, K: Kinematics<S, D>, S: Real, const D: usize>(
+    members: &mut [A],
+    shares: &mut Vec<Share<K, S, D>>,
+    of_one: &(impl Fn(&mut A, &mut Share<K, S, D>) -> Result<(), StateError> + Sync),
+    add: &mut (impl FnMut(&A, &Share<K, S, D>) + Send),
+) -> Result<(), StateError> {
+    shares.resize_with(ROUND.min(members.len()), Share::none);
+    let is_shared = members.len() > PIECE;
+    let mut outcome = Ok(());
+    let mut all = || {
+        outcome = members.chunks_mut(ROUND).try_for_each(|members| {
+            let shares = &mut shares[..members.len()];
+            in_pieces(members, shares, of_one)?;
+            for (member, share) in members.iter().zip(shares) {
+                add(member, share);
+            }
+            Ok(())
+        });
+    };
+    if is_shared {
+        threads::enter(&mut all);
+    } else {
+        all();
+    }
+    outcome
 }
 
 /// Elements whose contributions are stored at a time.

@@ -6,9 +6,11 @@ use core::fmt::Debug;
 use super::explicit::stage::Stage;
 use super::explicit::view::{ClosingView, NodeStiffness};
 #[cfg(feature = "gradients")]
-use super::point_step::{PointStep, PointWeights, SeeParameters};
+use super::point_step::{Costate, PastStep, SeeParameters, StepWeights};
 use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
+#[cfg(feature = "gradients")]
+use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::Conjugates;
 use crate::element::error::StateError;
 use crate::element::group::audit::Misfit;
@@ -147,27 +149,39 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// The contributions of the elements to the discrete GENERIC form of the last step, between two states.
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
 
-    /// Passes every point between two states to `see`, in a step of this size. Only of the energy–entropy–momentum forms.
+    /// Finds the interface temperatures θ* of its points in a step that was made, before [`pull_back`](Self::pull_back).
     #[cfg(feature = "gradients")]
-    fn between(
-        &self,
-        _step: S,
-        _states: [&State<S>; 2],
-        _see: &mut dyn FnMut(PointStep<S, D>),
+    fn find_interfaces(
+        &mut self,
+        _: &PastStep<'_, S>,
+        _: &mut InterfaceTemperatures<S>,
     ) -> Result<(), StateError> {
         Ok(())
     }
 
-    /// Passes the derivatives by the parameters of every point to `see`, with weights in the order of
-    /// [`between`](Self::between).
+    /// Adds the transposed tangent of a step that was made, local unknowns eliminated, and the right-hand side to a system.
+    /// Only of the energy–entropy–momentum forms; so are the others.
     #[cfg(feature = "gradients")]
-    fn by_parameters(
-        &self,
-        _states: [&State<S>; 2],
-        _weights: &mut dyn Iterator<Item = PointWeights<S>>,
-        _see: &mut SeeParameters<'_, S>,
+    fn pull_back(
+        &mut self,
+        _: &PastStep<'_, S>,
+        _: &InterfaceTemperatures<S>,
+        _: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
         Ok(())
+    }
+
+    /// Adds the derivatives by the old state, given the solution of that system, and passes those by the parameters of every
+    /// point to `see`.
+    #[cfg(feature = "gradients")]
+    fn recover(
+        &mut self,
+        _: &PastStep<'_, S>,
+        _: &InterfaceTemperatures<S>,
+        _solution: &[[S; 1]],
+        _found: (&mut Costate<S>, &mut StepWeights<S>),
+        _see: &mut SeeParameters<'_, S>,
+    ) {
     }
 
     /// Passes the derivatives of the internal energy of every point by its parameters in a state to `see`.

@@ -48,19 +48,44 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         // Called first: the call would spill the registers used below.
         let theta = temperature_in::<S, M>(&form.0);
         let flow = self.heat_flow(view, contact, interface, theta);
-        let zeros = M::Variables::filled(S::zero());
-        let mut system = LocalSystem::<S, M> {
-            constant: zeros,
-            rows: M::Hessian::filled(zeros),
-            by_heat: zeros,
-            unit: self.pivot_units(theta),
+        let mut system = LocalSystem::<S, M>::empty(self.pivot_units(theta));
+        self.balances::<true>(view, &flow, form, &mut system);
+        let depends_on_heat = self.depends_on_heat(contact.is_some());
+        let solved = if depends_on_heat {
+            eliminate::<S, M, true>(&mut system)
+        } else {
+            eliminate::<S, M, false>(&mut system)
         };
+        solved.map_err(|singular| self.unsolved(singular))?;
+        self.keep_solved(&system, depends_on_heat);
+        Ok(())
+    }
+
+    /// A finite local system is singular only where the response has no derivative.
+    pub(super) fn unsolved(&self, Singular: Singular) -> StateError {
+        StateError::NotFinite {
+            element: self.element,
+            quantity: "inverse of the local tangent",
+            value: f64::INFINITY,
+        }
+    }
+
+    /// Writes the local equations to an empty system; `SCALED` as [`ElementScheme::SCALES_HEAT`] has it, else as they are.
+    #[expect(clippy::inline_always, reason = "the system stays in registers")]
+    #[inline(always)]
+    pub(super) fn balances<const SCALED: bool>(
+        &mut self,
+        view: &StepView<'_, S>,
+        flow: &HeatFlow<S>,
+        form: &Form<S, M>,
+        system: &mut LocalSystem<S, M>,
+    ) {
         let mut dissipation = Dissipation {
             power: S::zero(),
-            by: zeros,
+            by: M::Variables::filled(S::zero()),
         };
         for k in 0..M::DASHPOTS {
-            self.dashpot_balance(view, k, form, &mut system, &mut dissipation);
+            self.dashpot_balance(view, k, form, system, &mut dissipation);
         }
         self.dissipate_by_drag(view, form, &mut dissipation);
         if M::THERMAL {
@@ -71,28 +96,14 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
                 system.rows[row][Self::TEMPERATURE] = S::one();
             } else {
                 system.by_heat[row] = S::one();
-                self.heat_balance(view, &flow, form, &mut system, &dissipation);
+                self.heat_balance::<SCALED>(view, flow, form, system, &dissipation);
             }
         }
-        let depends_on_heat = self.depends_on_heat(contact.is_some());
-        let solved = if depends_on_heat {
-            eliminate::<S, M, true>(&mut system)
-        } else {
-            eliminate::<S, M, false>(&mut system)
-        };
-        // A finite local system is singular only where the response has no derivative.
-        solved.map_err(|Singular| StateError::NotFinite {
-            element: self.element,
-            quantity: "inverse of the local tangent",
-            value: f64::INFINITY,
-        })?;
-        self.keep_solved(&system, depends_on_heat);
-        Ok(())
     }
 
     /// Stores the solved local system.
     #[inline]
-    fn keep_solved(&mut self, system: &LocalSystem<S, M>, depends_on_heat: bool) {
+    pub(super) fn keep_solved(&mut self, system: &LocalSystem<S, M>, depends_on_heat: bool) {
         for u in 0..Self::UNKNOWNS {
             self.condensed.constant.set(u, system.constant[u]);
             for a in 0..M::MEASURES {
@@ -106,7 +117,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// Factors that turn the rows of the local system into energies.
     #[inline]
-    fn pivot_units(&self, theta: S) -> [S; 2] {
+    pub(super) fn pivot_units(&self, theta: S) -> [S; 2] {
         if C::EXACT {
             [self.viscous_unit(), theta]
         } else {
@@ -251,7 +262,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// `r_s` and its derivatives.
     #[inline]
-    fn heat_balance(
+    fn heat_balance<const SCALED: bool>(
         &mut self,
         view: &StepView<'_, S>,
         flow: &HeatFlow<S>,
@@ -270,7 +281,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         let weight = h * S::from_f64(self.scheme.implicit()) * per_theta;
         self.condensed.heat_factor = -weight;
         let mut by_theta = weight * (flow.conductance + rate);
-        if C::SCALES_HEAT {
+        if SCALED && C::SCALES_HEAT {
             // Newton's method on θ* r_s, which has the same root as r_s and is far less curved where conduction is
             // stiff.
             by_theta += residual * per_theta;

@@ -1,46 +1,87 @@
-//! A point between two states, as the adjoint of a step sees it, and its weights in the derivatives by parameters.
+//! A step that was made, as its adjoint sees it: its states, derivatives by them, and the weights of its equations.
 
+use super::terms::Terms;
+use super::view::StepView;
 use crate::element::handle::Element;
-use crate::element::layout::Slots;
+use crate::element::layout::Layout;
+use crate::element::state::State;
+use eem_material::number::scalar::{Mask, Real};
 
-/// A point in a step: its response and the derivatives by both states. Arms are edge vectors from its first node.
-#[derive(Debug)]
-pub(crate) struct PointStep<S, const D: usize> {
-    pub(crate) nodes: Vec<u32>,
-    pub(crate) slots: Slots,
-    /// θ*, K; zero without temperature.
-    pub(crate) temperature: S,
-    /// The derivatives of `(f*, g*, θ*, Δs)` by the variables of the old state and of the new one.
-    pub(crate) slopes: [Vec<Vec<S>>; 2],
-    /// The derivatives of the measures by the arms in both states.
-    pub(crate) gradients: [Vec<Vec<[S; D]>>; 2],
-    /// The mean-value gradients of the measures, along which the forces act.
-    pub(crate) direction: Vec<Vec<[S; D]>>,
-    /// The derivatives of the forces on the arms by the arms of both states at constant `f* + f_d`, rows by arm and axis.
-    pub(crate) curvature: [Vec<Vec<S>>; 2],
-    /// Increments of measures and viscous stretches.
-    pub(crate) extension: Vec<S>,
-    pub(crate) creep: Vec<S>,
-    /// η at θ*, and dη/dθ, of the dashpots in series and in parallel.
-    pub(crate) viscosities: [Vec<S>; 2],
-    pub(crate) drag: [Vec<S>; 2],
+/// The derivatives of a number by a state, or by the conditions at the start.
+#[derive(Clone, Debug)]
+pub(crate) struct Costate<S> {
+    /// By the positions and velocities of all nodes, anchors too; anchors have velocities only where masses couple them.
+    pub(crate) positions: Vec<S>,
+    pub(crate) velocities: Vec<S>,
+    pub(crate) viscous: Vec<S>,
+    pub(crate) temperatures: Vec<S>,
+    /// By the entropies that reservoirs have received.
+    pub(crate) reservoirs: Vec<S>,
 }
 
-impl<S, const D: usize> PointStep<S, D> {
-    /// Number of dashpots in series.
-    pub(crate) const fn dashpots(&self) -> usize {
-        self.creep.len()
+impl<S: Real> Costate<S> {
+    /// Zero, for a scene with so many coordinates.
+    pub(crate) fn zero(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
+        let zeros = |count| vec![S::zero(); count];
+        Self {
+            positions: zeros(coordinates),
+            velocities: zeros(coordinates),
+            viscous: zeros(layout.viscous),
+            temperatures: zeros(layout.thermal),
+            reservoirs: zeros(reservoirs),
+        }
+    }
+
+    /// All its numbers.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = S> + '_ {
+        self.parts().into_iter().flatten().copied()
+    }
+
+    fn parts(&self) -> [&[S]; 5] {
+        [
+            &self.positions,
+            &self.velocities,
+            &self.viscous,
+            &self.temperatures,
+            &self.reservoirs,
+        ]
+    }
+
+    /// Whether all its numbers are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        // Zero for finite numbers, NaN for others.
+        let zero = S::zero();
+        self.parts().into_iter().all(|part| {
+            let sum = part.iter().fold(zero, |sum, &number| sum + zero * number);
+            sum.equal(zero).all()
+        })
     }
 }
 
-/// The weights of a point in the derivatives by parameters: of its response, of the viscosities in series and in parallel, with
-/// θ*, K, at which these are.
+/// A step that was made, with the derivatives by its new state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PastStep<'a, S> {
+    /// Its size, its old state, and what does not change from step to step.
+    pub(crate) view: StepView<'a, S>,
+    pub(crate) new: &'a State<S>,
+    /// Whether thermostats hold the temperatures, by thermal slot.
+    pub(crate) held: &'a [bool],
+    pub(crate) by_new: &'a Costate<S>,
+}
+
+/// The weights w of the equations of a step.
 #[derive(Clone, Debug)]
-pub(crate) struct PointWeights<S> {
-    pub(crate) temperature: S,
-    pub(crate) response: Vec<S>,
-    pub(crate) viscosities: Vec<S>,
-    pub(crate) drag: Vec<S>,
+pub(crate) struct StepWeights<S> {
+    /// Of the momentum balances of all nodes, zero at anchors.
+    pub(crate) motion: Vec<S>,
+    /// Of the entropy balances, of the temperatures that are held, and θ*, by thermal slot.
+    pub(crate) entropies: Vec<S>,
+    pub(crate) held: Vec<S>,
+    pub(crate) temperatures: Vec<S>,
+    /// The derivatives by the positions of anchors in the old state and in the new one, zero at masses.
+    pub(crate) anchors: [Vec<S>; 2],
+    /// The terms of `−(∂R/∂h)ᵀ w` of the points.
+    pub(crate) by_size: Terms<S>,
 }
 
 /// What receives the derivatives by the parameters of each element.

@@ -1,61 +1,139 @@
-//! What the adjoint of a step needs of a point: its response between two states with the derivatives by both.
+//! The adjoint of a step at its points: the transposed local equations and their elimination.
+//!
+//! With the weights w of the equations of a step (see `step/adjoint.rs`), the local unknowns are the weights of `R_γ` and `R_s`,
+//!
+//! ```text
+//! Aᵀ w_u = λ_u − Bᵀ (h D*π·w_v) + (∂θ*/∂u) (w_Θ + s)      A = ∂r_u/∂u,  B = ∂f*/∂u,  s = Σ λ_σ h κ_r/θ_r
+//! ```
+//!
+//! for u = (γ, θ). They have the form of the local equations of a step with numbers per measure, `h D*π·w_v`, and per
+//! interface temperature, `w_Θ`, and are eliminated like them. What is left of `wᵀ ∂R/∂x¹` is added transposed to the places
+//! of a step.
 //!
 //! The response `(f*, g*, θ*, Δs)` of a point is even in its two states, except Δs, which is odd. So its derivative by the
 //! old state is the tangent of the form from the new state to the old one, with the row of Δs negated. The same holds for the
 //! mean-value gradients of the measures.
 
-use super::arms::measures_in;
+mod condensed;
+mod weights;
+
+use super::arms::{scale, spread};
 use super::element_group::ElementGroup;
+use super::evaluate::in_rounds;
 use super::member::Member;
-use super::point::{Point, temperature_in};
-use super::point_step::{PointStep, PointWeights, SeeParameters};
-use crate::element::conjugates::{ElementScheme, Start};
+use super::point::temperature_in;
+use super::point_step::{Costate, PastStep, SeeParameters, StepWeights};
+use super::pose::Pose;
+use super::share::{Heat, Momentum, Share};
+use super::site::{Contact, Site};
+use crate::algebra::system::LinearSystem;
+use crate::element::conduction::InterfaceTemperatures;
+use crate::element::conjugates::ElementScheme;
 use crate::element::error::StateError;
-use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics};
+use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
-
-/// What a form needs of the old state, and besides the variables.
-type Begun<S, M, C> = (
-    Start<S, M, <C as ElementScheme<S, M>>::Old>,
-    <C as ElementScheme<S, M>>::Memory,
-);
+use weights::Seen;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>
 {
-    /// Every point between two states, in a step of this size.
-    pub(super) fn between(
-        &self,
-        step: S,
-        states: [&State<S>; 2],
-        see: &mut dyn FnMut(PointStep<S, D>),
+    /// Takes over the states of a step where points have interface temperatures, and finds those.
+    pub(super) fn find_interfaces(
+        &mut self,
+        step: &PastStep<'_, S>,
+        interface: &mut InterfaceTemperatures<S>,
     ) -> Result<(), StateError> {
-        for member in &self.members {
-            for point in member.points.as_ref() {
-                see(point.between(member, step, states)?);
+        for member in &mut self.members {
+            let arms = member.past_arms(step);
+            for point in member.points.as_mut() {
+                if let Some(slot) = point.slots().thermal
+                    && point.contact_in(&self.contacts).is_some()
+                {
+                    point.return_to(step, &arms)?;
+                    let (model, scheme) = (&point.model, point.scheme);
+                    let response = scheme.response(model, &point.start, &point.x, &point.memory);
+                    interface.set(slot, temperature_in::<S, M>(&response));
+                }
             }
         }
         Ok(())
     }
 
-    /// The derivatives by the parameters, with the weights of each point in the order of [`between`](Self::between).
-    pub(super) fn by_parameters(
-        &self,
-        states: [&State<S>; 2],
-        weights: &mut dyn Iterator<Item = PointWeights<S>>,
-        see: &mut SeeParameters<'_, S>,
+    /// Adds `(∂R/∂x¹)ᵀ` of a step and the right-hand side, local weights eliminated, to a system.
+    pub(super) fn pull_back(
+        &mut self,
+        step: &PastStep<'_, S>,
+        interface: &InterfaceTemperatures<S>,
+        system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
-        let members = self.members.iter();
-        let points =
-            members.flat_map(|member| member.points.as_ref().iter().map(move |p| (member, p)));
-        for ((member, point), weights) in points.zip(weights) {
-            let [x0, x1] = states.map(|state| point.variables_in(&member.arms_in(state), state));
-            let by = point.by_parameters([&x0, &x1], &weights)?;
-            see(point.element, by.as_ref());
+        let (values, right) = system.parts();
+        let contacts = &self.contacts;
+        let of_one = |member: &mut Member<S, M, K, C, D>, share: &mut Share<K, S, D>| {
+            member.pull_back(contacts, step, interface, share)
+        };
+        let mut add = |member: &Member<S, M, K, C, D>, share: &Share<K, S, D>| {
+            member.add_transposed(share, contacts, (&mut *values, &mut *right));
+        };
+        if K::PerPoint::<()>::LEN > 1 {
+            return in_rounds(&mut self.members, &mut self.shares, &of_one, &mut add);
         }
-        Ok(())
+        self.members.iter_mut().try_for_each(|member| {
+            let mut share = Share::none();
+            of_one(member, &mut share)?;
+            add(member, &share);
+            Ok(())
+        })
+    }
+
+    /// From the solution of that system to the derivatives by the old state and by the parameters.
+    pub(super) fn recover(
+        &mut self,
+        step: &PastStep<'_, S>,
+        interface: &InterfaceTemperatures<S>,
+        solution: &[[S; 1]],
+        (by_old, weights): (&mut Costate<S>, &mut StepWeights<S>),
+        see: &mut SeeParameters<'_, S>,
+    ) {
+        for member in &mut self.members {
+            let w = member.site.motion_in(solution);
+            let arms = member.past_arms(step);
+            let is_held = member.site.is_mass.as_ref().contains(&false);
+            let mut by_arms = [Arms::<K, S, D>::filled([S::zero(); D]); 2];
+            for point in member.points.as_mut() {
+                let contact = point.contact_in(&self.contacts);
+                let seen = Seen {
+                    step,
+                    interface,
+                    contact,
+                    theta: contact.map_or(S::zero(), |own| solution[own.unknown as usize][0]),
+                };
+                let [by_end, by_start] = &mut by_arms;
+                let ends = point.ends(arms);
+                let of_point = point.weigh(&seen, &ends, &w);
+                let by = point.by_old(&of_point.rho, &of_point.increments);
+                let back = point.ends_back(arms);
+                point.add_by_arms(&back, &by, &w, step.view.step, by_start);
+                if is_held {
+                    let by = point.by_new(&of_point.rho, &of_point.increments);
+                    point.add_by_arms(&ends, &by, &w, step.view.step, by_end);
+                }
+                point.write(&by, &of_point, by_old, weights);
+                weights.by_size.add_all(&of_point.by_size);
+                see(point.element, point.by_parameters(&of_point).as_ref());
+            }
+            let [by_end, by_start] = by_arms;
+            member.site.subtract(&by_start, &mut by_old.positions);
+            if is_held {
+                member
+                    .site
+                    .subtract_at_anchors(&by_end, &mut by_old.positions);
+                let [old, new] = &mut weights.anchors;
+                member.site.subtract_at_anchors(&by_start, old);
+                member.site.subtract_at_anchors(&by_end, new);
+            }
+        }
     }
 
     /// The derivatives of the internal energies by the parameters in a state.
@@ -70,133 +148,138 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
+    Member<S, M, K, C, D>
 {
-    /// The step of the scheme from one state, and what it keeps of both.
-    fn start(&self, [x0, x1]: [&M::Variables; 2]) -> Result<Begun<S, M, C>, StateError> {
-        let start = Start {
-            x0: *x0,
-            old: C::old(&self.model, x0, S::zero()),
-        };
-        let theta = if M::THERMAL {
-            x0[Self::TEMPERATURE]
-        } else {
-            S::one()
-        };
-        let mut memory = C::memory(theta);
-        C::prepare(&self.model, &start, x1, &mut memory)
-            .map_err(|infeasible| infeasible.of(self.element))?;
-        Ok((start, memory))
+    /// Its arms in both states.
+    #[inline]
+    fn past_arms(&self, step: &PastStep<'_, S>) -> [Arms<K, S, D>; 2] {
+        [step.view.state, step.new].map(|state| self.arms_in(state))
     }
 
-    fn between(
+    /// The contribution of its points to the transposed system.
+    #[inline]
+    fn pull_back(
+        &mut self,
+        contacts: &[Contact<K, S, D>],
+        step: &PastStep<'_, S>,
+        interface: &InterfaceTemperatures<S>,
+        share: &mut Share<K, S, D>,
+    ) -> Result<(), StateError> {
+        let arms = self.past_arms(step);
+        share.momentum = None;
+        for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
+            let contact = point.contact_in(contacts);
+            if contact.is_none() {
+                point.return_to(step, &arms)?;
+            }
+            let form = point.tangent_in(step.view.per_step)?;
+            let reduced = point.condense_transposed(step, interface, &form, contact)?;
+            let pose = Pose::new(
+                &point.kinematics,
+                point.scheme.placement(),
+                point.ends(arms),
+            );
+            *heat = contact.map(|_| point.heat_transposed(step.view.step, &pose, &reduced));
+            point.add_transposed(
+                step.view.step,
+                &pose,
+                (&form, &reduced),
+                &mut share.momentum,
+            );
+        }
+        Ok(())
+    }
+
+    /// Adds the contribution to the entries of Aᵀ and the rows of B.
+    #[inline]
+    fn add_transposed(
         &self,
-        member: &Member<S, M, K, C, D>,
-        step: S,
-        states: [&State<S>; 2],
-    ) -> Result<PointStep<S, D>, StateError> {
-        let arms = states.map(|state| member.arms_in(state));
-        let x = [0, 1].map(|end| self.variables_in(&arms[end], states[end]));
-        let form = |from: usize, to: usize| {
-            let (start, memory) = self.start([&x[from], &x[to]])?;
-            Ok(self.scheme.form(&self.model, &start, &x[to], &memory))
-        };
-        let (response, by_new) = form(0, 1)?;
-        let (_, by_old) = form(1, 0)?;
-        let rows = |tangent: &M::Tangent| {
-            let rows = tangent.as_ref().iter().map(|row| row.as_ref().to_vec());
-            rows.collect::<Vec<_>>()
-        };
-        let mut slopes = [rows(&by_old), rows(&by_new)];
-        if M::THERMAL {
-            for entry in &mut slopes[0][Self::ENTROPY] {
-                *entry = -*entry;
+        share: &Share<K, S, D>,
+        contacts: &[Contact<K, S, D>],
+        (values, right): (&mut [S], &mut [[S; 1]]),
+    ) {
+        let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
+        for (heat, point) in heats {
+            if let (Some(heat), Some(contact)) = (heat, point.contact_in(contacts)) {
+                contact.add_transposed(&self.site, heat, (&mut *values, &mut *right));
             }
         }
-        let theta = temperature_in::<S, M>(&response);
-        let (eta, eta_slope) = self.model.viscosity(theta);
-        let (drag, drag_slope) = self.model.drag(theta);
-        let change = |index: usize| x[1][index] - x[0][index];
-        let extension: Vec<S> = (0..M::MEASURES).map(change).collect();
-        let mut force = measures_in::<K, S, D>(&response);
-        for (a, eta) in drag.as_ref().iter().enumerate() {
-            force[a] += *eta * extension[a] / step;
+        if let Some(momentum) = &share.momentum {
+            self.site
+                .add_transposed(momentum, right.as_flattened_mut(), values);
         }
-        let measures = x.map(|x| measures_in::<K, S, D>(&x));
-        let ends = |from: usize, to: usize| {
-            let (arms, measures) = ([arms[from], arms[to]], [measures[from], measures[to]]);
-            Ends::new(&self.kinematics, arms, measures)
-        };
-        let still = Gradient::<K, S, D>::filled(Arms::<K, S, D>::filled([S::zero(); D]));
-        let curvature = |from: usize, to: usize| {
-            let ends = ends(from, to);
-            let blocks = self.kinematics.discrete_tangent(&ends, &force, &still);
-            by_component::<K, S, D>(&blocks)
-        };
-        let gradient = |end: usize| self.kinematics.gradient(&arms[end], &measures[end]);
-        Ok(PointStep {
-            nodes: member.site.nodes.as_ref().to_vec(),
-            slots: self.slots(),
-            temperature: theta,
-            slopes,
-            gradients: [0, 1].map(|end| by_measure::<K, S, D>(&gradient(end))),
-            direction: by_measure::<K, S, D>(&self.kinematics.discrete_gradient(&ends(0, 1))),
-            curvature: [curvature(1, 0), curvature(0, 1)],
-            creep: (M::MEASURES..M::MEASURES + M::DASHPOTS)
-                .map(change)
-                .collect(),
-            extension,
-            viscosities: [eta.as_ref().to_vec(), eta_slope.as_ref().to_vec()],
-            drag: [drag.as_ref().to_vec(), drag_slope.as_ref().to_vec()],
-        })
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// Adds transposed blocks.
+    #[inline]
+    fn add_transposed(&self, momentum: &Momentum<K, S, D>, right: &mut [S], values: &mut [S]) {
+        self.subtract_arms(&momentum.pull, &self.rows, right);
+        for (j, row) in momentum.blocks.as_ref().iter().enumerate() {
+            for (i, block) in row.as_ref().iter().enumerate() {
+                let mut transposed = *block;
+                for (row, entries) in transposed.iter_mut().enumerate() {
+                    for (entry, of) in entries.iter_mut().zip(block) {
+                        *entry = of[row];
+                    }
+                }
+                self.add_block([i + 1, j + 1], &transposed, values);
+            }
+        }
     }
 
-    fn by_parameters(
+    /// Subtracts derivatives by the arms from those by the positions of all nodes.
+    #[inline]
+    fn subtract(&self, by_arm: &Arms<K, S, D>, target: &mut [S]) {
+        let target = target.as_chunks_mut::<D>().0;
+        let by_node = spread::<K, S, D>(by_arm);
+        for (&node, by) in self.nodes.as_ref().iter().zip(by_node.as_ref()) {
+            for (sum, &by) in target[node as usize].iter_mut().zip(by) {
+                *sum -= by;
+            }
+        }
+    }
+
+    /// The same for anchors only.
+    fn subtract_at_anchors(&self, by_arm: &Arms<K, S, D>, target: &mut [S]) {
+        let target = target.as_chunks_mut::<D>().0;
+        let by_node = spread::<K, S, D>(by_arm);
+        let nodes = self.nodes.as_ref().iter().zip(self.is_mass.as_ref());
+        for ((&node, &is_mass), by) in nodes.zip(by_node.as_ref()) {
+            if is_mass {
+                continue;
+            }
+            for (sum, &by) in target[node as usize].iter_mut().zip(by) {
+                *sum -= by;
+            }
+        }
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+    /// Adds the transposed equations of interface temperatures, see [`Point::heat_transposed`].
+    fn add_transposed(
         &self,
-        x: [&M::Variables; 2],
-        weights: &PointWeights<S>,
-    ) -> Result<M::Parameters, StateError> {
-        let (_, memory) = self.start(x)?;
-        let response: M::Response = filled(&weights.response);
-        let theta = weights.temperature;
-        let mut sum = self.scheme.form_adjoint(&self.model, x, &memory, &response);
-        let viscosities = self
-            .model
-            .viscosity_adjoint(theta, &filled(&weights.viscosities));
-        let drag = self.model.drag_adjoint(theta, &filled(&weights.drag));
-        for (at, sum) in sum.as_mut().iter_mut().enumerate() {
-            *sum += viscosities[at] + drag[at];
+        site: &Site<K, S, D>,
+        heat: &Heat<K, S, D>,
+        (values, right): (&mut [S], &mut [[S; 1]]),
+    ) {
+        site.add_column(&self.column, &heat.by_arm, values);
+        let mut sum = S::zero();
+        for partner in &self.partners {
+            let conductance = partner.conductance;
+            sum += conductance;
+            let mut pull = heat.pull;
+            scale::<K, S, D>(&mut pull, conductance);
+            site.subtract_arms(&pull, &partner.row, values);
+            values[partner.entry_back as usize] -= conductance * heat.slope;
+            right[partner.unknown as usize][0] += conductance * heat.residual;
         }
-        Ok(sum)
+        let mut pull = heat.pull;
+        scale::<K, S, D>(&mut pull, -sum);
+        site.subtract_arms(&pull, &self.row, values);
+        values[self.diagonal as usize] += S::one() + sum * heat.slope;
+        right[self.unknown as usize][0] -= sum * heat.residual;
     }
-}
-
-/// An array with these first entries, the others zero.
-fn filled<S: Real, A: Array<S>>(values: &[S]) -> A {
-    let mut array = A::filled(S::zero());
-    for (entry, value) in array.as_mut().iter_mut().zip(values) {
-        *entry = *value;
-    }
-    array
-}
-
-fn by_measure<K: Kinematics<S, D>, S: Real, const D: usize>(
-    gradient: &Gradient<K, S, D>,
-) -> Vec<Vec<[S; D]>> {
-    let rows = gradient.as_ref().iter();
-    rows.map(|row| row.as_ref().to_vec()).collect()
-}
-
-/// Blocks of pairs of arms as rows by arm and axis.
-fn by_component<K: Kinematics<S, D>, S: Real, const D: usize>(
-    blocks: &Blocks<K, S, D>,
-) -> Vec<Vec<S>> {
-    let mut rows = Vec::new();
-    for row in blocks.as_ref() {
-        for axis in 0..D {
-            let entries = row.as_ref().iter().flat_map(|block| block[axis]);
-            rows.push(entries.collect());
-        }
-    }
-    rows
 }

@@ -51,6 +51,11 @@ pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) conductance: S,
     /// The entry of the first row of each node in the column of the partner's Θ.
     pub(super) column: K::PerNode<u32>,
+    /// For the transposed system: the first entry of each node, and that of the own Θ, in the row of the partner's Θ.
+    #[cfg(feature = "gradients")]
+    pub(super) row: K::PerNode<u32>,
+    #[cfg(feature = "gradients")]
+    pub(super) entry_back: u32,
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
@@ -124,6 +129,10 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
                 link: compact(place),
                 conductance: link.conductance,
                 column: column_of(theta),
+                #[cfg(feature = "gradients")]
+                row: per_node(&|node| sites.place(Some(theta), node)),
+                #[cfg(feature = "gradients")]
+                entry_back: compact(sites.place(Some(theta), Some(unknown))),
             })
         });
         Some(Self {

@@ -194,6 +194,51 @@ pub trait Kinematics<S: Real, const D: usize>:
         add_blocks::<Self, S, D>(sum, &own);
     }
 
+    /// `D*π_a·w` of each measure, for vectors w on the arms.
+    #[cfg(feature = "gradients")]
+    #[inline]
+    fn discrete_rates(
+        &self,
+        ends: &Ends<Self, S, D>,
+        w: &Arms<Self, S, D>,
+    ) -> Measures<Self, S, D> {
+        let mut rates = Measures::<Self, S, D>::filled(S::zero());
+        let gradient = self.discrete_gradient(ends);
+        for (rate, row) in rates.as_mut().iter_mut().zip(gradient.as_ref()) {
+            let pairs = row
+                .as_ref()
+                .iter()
+                .flatten()
+                .zip(w.as_ref().iter().flatten());
+            *rate = pairs.fold(S::zero(), |sum, (&g, &w)| sum + g * w);
+        }
+        rates
+    }
+
+    /// The derivative of `Σ_a (p_a π_a(r¹) + f_a D*π_a·w)` by `r¹`, for numbers p and vectors w on the arms.
+    #[cfg(feature = "gradients")]
+    #[inline]
+    fn pull_back(
+        &self,
+        ends: &Ends<Self, S, D>,
+        p: &Measures<Self, S, D>,
+        (force, w): (&Measures<Self, S, D>, &Arms<Self, S, D>),
+    ) -> Arms<Self, S, D> {
+        let still = Gradient::<Self, S, D>::filled(Arms::<Self, S, D>::filled([S::zero(); D]));
+        let blocks = self.discrete_tangent(ends, force, &still);
+        let mut sum = self.pull(ends, &self.new_gradient(ends), p);
+        for (row, w) in blocks.as_ref().iter().zip(w.as_ref()) {
+            for (sum, block) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+                for (entries, &w) in block.iter().zip(w) {
+                    for (sum, &entry) in sum.iter_mut().zip(entries) {
+                        *sum += w * entry;
+                    }
+                }
+            }
+        }
+        sum
+    }
+
     /// A of `Σ_a f_a D*π_a = A r_m`, with the measures held.
     fn secant(&self, ends: &Ends<Self, S, D>, force: &Measures<Self, S, D>) -> Weights<Self, S, D>;
 }

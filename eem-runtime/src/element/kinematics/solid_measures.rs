@@ -10,6 +10,8 @@ use crate::element::kinematics::between::{Between, Deformed};
 use crate::element::kinematics::measures::{Ends, Kinematics};
 use crate::element::kinematics::solid::{Deformations, PerArm, PerPair, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
+#[cfg(feature = "gradients")]
+use crate::element::kinematics::stiffness::strain_along;
 use crate::element::kinematics::strain::Measure;
 use eem_material::free_energy::{Array, Entry};
 use eem_material::joint::basis;
@@ -220,6 +222,36 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         let Deformations { mean, new, strains } = &ends.between;
         let (forces, half) = ((force, &force_by_arm[..]), S::from_f64(0.5));
         self.add_stiffness([mean, new], strains, forces, half, sum);
+    }
+
+    #[cfg(feature = "gradients")]
+    fn discrete_rates(&self, ends: &Ends<Self, S, D>, w: &PerArm<H, S, D>) -> [S; N] {
+        let Deformations { mean, strains, .. } = &ends.between;
+        let along = strain_along(mean, &self.deformation(w));
+        let slope = |measure| strains.slope(measure).contracted(&along);
+        self.measures.each_ref().map(slope)
+    }
+
+    #[cfg(feature = "gradients")]
+    fn pull_back(
+        &self,
+        ends: &Ends<Self, S, D>,
+        p: &[S; N],
+        (force, w): (&[S; N], &PerArm<H, S, D>),
+    ) -> PerArm<H, S, D> {
+        let Deformations { mean, new, strains } = &ends.between;
+        let mut by = self.pulled_stiffness([mean, new], strains, force, &self.deformation(w));
+        let stress = self.stress(&strains.at_the_end(), p);
+        for (by, row) in by.iter_mut().zip(new) {
+            for (by, along) in by.iter_mut().zip(stress.applied(row)) {
+                *by += along;
+            }
+        }
+        let mut pulled = self.gradients;
+        for b in pulled.as_mut() {
+            *b = pushed(&by, b);
+        }
+        pulled
     }
 
     // Σ f F_m P B_i = Σ_j (B_i·S* B_j) r_m,j

@@ -92,6 +92,40 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
         moduli
     }
 
+    /// `W : 𝔸`, with half of the change of the new deformation in F.
+    #[cfg(feature = "gradients")]
+    pub(super) fn pulled_stiffness(
+        &self,
+        [tensor, new]: [&Tensor<S, D>; 2],
+        between: &Strains<H, S, D>,
+        force: &[S; N],
+        w: &Tensor<S, D>,
+    ) -> Tensor<S, D> {
+        let slopes = self
+            .measures
+            .each_ref()
+            .map(|measure| between.slope(measure));
+        let nothing = H::Tensor::<S>::filled(S::zero());
+        let mut stress = nothing;
+        for (slope, &force) in slopes.iter().zip(force) {
+            add(&mut stress, S::from_f64(0.5) * force, slope);
+        }
+        let along = strain_along::<H::Tensor<S>, S, D>(tensor, w);
+        let mut pulled = w.map(|row| stress.applied(&row));
+        for l in 0..D {
+            let mut direction = [S::zero(); D];
+            direction[l] = S::one();
+            for (b, row) in new.iter().enumerate() {
+                let strain = H::Tensor::<S>::symmetrised(row, &direction);
+                for ((measure, slope), &force) in self.measures.iter().zip(&slopes).zip(force) {
+                    let own = between.change_of_slope(measure, slope, &strain);
+                    pulled[b][l] += force * own.contracted(&along);
+                }
+            }
+        }
+        pulled
+    }
+
     /// `𝔸_m·B_j` of all arms j, for each m.
     #[inline]
     fn changes(&self, moduli: &[Tensor<S, D>; D]) -> [PerArm<H, S, D>; D] {
@@ -103,6 +137,20 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
             change
         })
     }
+}
+
+/// The symmetric part of `FᵀW`.
+#[cfg(feature = "gradients")]
+#[inline]
+pub(super) fn strain_along<A: Symmetric<S, D>, S: Real, const D: usize>(
+    tensor: &Tensor<S, D>,
+    w: &Tensor<S, D>,
+) -> A {
+    let mut along = A::filled(S::zero());
+    for (row, w) in tensor.iter().zip(w) {
+        add(&mut along, S::one(), &A::symmetrised(row, w));
+    }
+    along
 }
 
 /// `Σ_m b_m rows_m`.

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::element::error::StateError;
 use crate::scene::error::SceneError;
+use crate::step::error::StepError;
 use eem_material::number::readable::Readable;
 
 /// Why a run has no gradient; nothing has changed.
@@ -29,17 +30,30 @@ pub enum GradientError {
     /// No history was kept.
     #[error("no history is kept: call `keep_history` before the first step that counts")]
     NoHistory,
-    /// The states do not fit the memory that is allowed.
+    /// The run has made more steps than its history may reach.
     #[error(
-        "the states of {steps} steps of {needed} bytes each exceed {allowed} bytes; allow more with `History::bytes`, or make fewer steps"
+        "the history reaches {most} steps with its memory, and the run has made more; allow more with `History::bytes`, or make fewer steps"
     )]
     HistoryTooLarge {
         /// The steps that were kept.
-        steps: usize,
-        /// For each of them.
-        needed: usize,
-        /// For all of them.
-        allowed: usize,
+        most: usize,
+    },
+    /// A step that was made again ended in another state.
+    #[error("steps that were made again from a snapshot end in another state at t = {} s: a load gives other values than before, or settings have changed; keep all states, with more memory by `History::bytes`", Readable(*time))]
+    NotRepeatable {
+        /// The time, s.
+        time: f64,
+    },
+    /// A step could not be made again.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// A standard deviation is not positive and finite.
+    #[error("the standard deviation of the record at t = {} s is {}, it must be positive and finite", Readable(*time), Readable(*value))]
+    Deviation {
+        /// The time of the record, s.
+        time: f64,
+        /// The standard deviation.
+        value: f64,
     },
     /// The states do not follow from each other by steps.
     #[error("the history ends at t = {} s: the state was restored, or made by another scheme, since; call `keep_history` again", Readable(*time))]
@@ -98,6 +112,22 @@ pub enum GradientError {
     NoSeries {
         /// What is missing.
         why: String,
+    },
+    /// A load is a function of time, whose derivative by time is not known.
+    #[error(
+        "{load} is a function of time, whose derivative is not known; `by_step_size_at_kept_loads` is without it"
+    )]
+    NoTimeDerivative {
+        /// The load.
+        load: String,
+    },
+    /// The time of an event does not follow the inputs.
+    #[error("at t = {} s the event changes at the rate {} with the time, zero to rounding: its time has no derivatives; take an event that crosses its value", Readable(*time), Readable(*rate))]
+    Grazing {
+        /// The time, s.
+        time: f64,
+        /// The derivative of the event by the time.
+        rate: f64,
     },
     /// The adjoint equations of a step have no solution.
     #[error("the adjoint equations of the step to t = {} s are singular", Readable(*time))]

@@ -1,13 +1,22 @@
 //! The states of a run, kept for its gradient.
 
+use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::step::scheme::Scheme;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::Real;
 
 /// How much memory the history of a run may take, see [`Simulation::keep_history`](crate::Simulation::keep_history).
+///
+/// All states are kept while they fit. Of longer histories some are kept, and the steps between them are made again, with the same
+/// bits, when a gradient is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct History {
-    bytes: usize,
+pub struct History(pub(crate) Limit);
+
+/// The limit of a history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Limit {
+    Bytes(usize),
+    Snapshots(usize),
 }
 
 /// The default, 1 GiB.
@@ -15,104 +24,171 @@ const BYTES: usize = 1 << 30;
 
 impl Default for History {
     fn default() -> Self {
-        Self { bytes: BYTES }
+        Self::bytes(BYTES)
     }
 }
 
 impl History {
-    /// So many bytes; 2³⁰ by default.
+    /// So many bytes; 2³⁰ by default. Three quarters are for states, of which one takes the bytes of its time, positions,
+    /// velocities, viscous stretches and temperatures, and for the sizes of steps, 8 bytes each.
     #[must_use]
     pub const fn bytes(bytes: usize) -> Self {
-        Self { bytes }
+        Self(Limit::Bytes(bytes))
+    }
+
+    /// So many states c besides the first one, for `(c + 3)!/(c! 3!)` steps at most: 176 851 with 100. Each step is made again
+    /// up to four times. The sizes of steps take 8 bytes each.
+    #[must_use]
+    pub const fn snapshots(snapshots: usize) -> Self {
+        Self(Limit::Snapshots(snapshots))
     }
 }
 
-/// A step that was made.
-#[derive(Clone, Debug)]
-pub(crate) struct KeptStep<S> {
-    pub(crate) step: S,
-    pub(crate) scheme: Scheme,
-    /// The state at its end.
-    pub(crate) state: State<S>,
-}
-
-/// The states since the history began.
+/// The states at the ends of consecutive steps: of each the numbers that its derivatives depend on.
 #[derive(Clone, Debug)]
 pub(crate) struct Kept<S> {
-    pub(crate) first: State<S>,
-    pub(crate) steps: Vec<KeptStep<S>>,
-    /// The bytes that all steps may take, and those of one.
-    pub(crate) allowed: usize,
-    pub(crate) needed: usize,
+    /// The times of the states, s.
+    times: Vec<S>,
+    /// The numbers of one state after the other, in pieces of this number of states.
+    pieces: Vec<Vec<S>>,
+    states_per_piece: usize,
+    /// How many numbers a state has.
+    numbers: usize,
 }
 
+/// Bytes of a piece, unless a state takes more.
+const PIECE: usize = 1 << 16;
+
 impl<S: Real> Kept<S> {
-    pub(crate) fn new(state: &State<S>, history: History) -> Self {
-        let sums = [
-            &state.positions,
-            &state.momenta,
-            &state.velocities,
-            &state.viscous,
-            &state.entropies,
-            &state.reservoir_entropies,
-        ];
-        let numbers = sums.map(|sums| 2 * sums.values().len());
-        let numbers = numbers.iter().sum::<usize>() + state.temperatures.len();
-        let energies = size_of_val(state.energies.as_slice());
-        Self {
-            first: state.clone(),
-            steps: Vec::new(),
-            allowed: history.bytes,
-            needed: size_of::<KeptStep<S>>() + energies + numbers * size_of::<S>(),
+    /// From a state on, for so many states at most.
+    pub(crate) fn new(state: &State<S>, most: usize) -> Self {
+        let numbers = numbers_of(state);
+        let per_piece = PIECE / (numbers * size_of::<S>()).max(1);
+        let mut kept = Self {
+            times: Vec::new(),
+            pieces: Vec::new(),
+            states_per_piece: per_piece.min(most).max(1),
+            numbers,
+        };
+        kept.keep(state);
+        kept
+    }
+
+    /// The bytes of one of these states.
+    pub(crate) fn bytes_of(state: &State<S>) -> usize {
+        (numbers_of(state) + 1) * size_of::<S>()
+    }
+
+    /// The number of steps.
+    pub(crate) const fn len(&self) -> usize {
+        self.times.len() - 1
+    }
+
+    /// Forgets all but so many steps.
+    pub(crate) fn return_to(&mut self, steps: usize) {
+        let states = steps + 1;
+        self.times.truncate(states);
+        self.pieces.truncate(states.div_ceil(self.states_per_piece));
+        let before = self.pieces.len().saturating_sub(1) * self.states_per_piece;
+        if let Some(piece) = self.pieces.last_mut() {
+            piece.truncate((states - before) * self.numbers);
         }
     }
 
-    /// Whether there is no memory for another step.
-    pub(crate) fn is_full(&self) -> bool {
-        (self.steps.len() + 1).saturating_mul(self.needed) > self.allowed
-    }
-
-    /// The time of the last state, s.
-    pub(crate) fn time(&self) -> S {
-        let last = self.steps.last();
-        last.map_or(self.first.time.value, |last| last.state.time.value)
-    }
-
-    /// Forgets steps that were undone: those that end after a time.
-    pub(crate) fn return_to(&mut self, time: S) {
-        while !self.steps.is_empty() && time.less(self.time()).all() {
-            self.steps.pop();
+    /// Keeps the state after a step.
+    pub(crate) fn keep(&mut self, state: &State<S>) {
+        if self.times.len().is_multiple_of(self.states_per_piece) {
+            let numbers = self.states_per_piece * self.numbers;
+            self.pieces.push(Vec::with_capacity(numbers));
         }
+        if let Some(piece) = self.pieces.last_mut() {
+            for part in parts(state) {
+                piece.extend_from_slice(part);
+            }
+        }
+        self.times.push(state.time.value);
     }
 
-    /// Keeps a step of this size between two states. Nothing if the first one is not the last that was kept, as after a step that
-    /// did not fit in memory.
-    pub(crate) fn keep(&mut self, step: S, scheme: Scheme, [old, state]: [&State<S>; 2]) {
-        self.return_to(old.time.value);
-        if self.is_full() || !self.ends_in(old) {
-            return;
+    /// The last state was set to this time, s.
+    pub(crate) fn arrive(&mut self, time: S) {
+        if let Some(last) = self.times.last_mut() {
+            *last = time;
         }
-        self.steps.push(KeptStep {
-            step,
-            scheme,
-            state: state.clone(),
-        });
     }
 
     /// Whether the last state is this one.
     pub(crate) fn ends_in(&self, state: &State<S>) -> bool {
-        let last = self.state(self.steps.len());
-        last.positions == state.positions
-            && last.momenta == state.momenta
-            && last.viscous == state.viscous
-            && last.temperatures == state.temperatures
+        let mut rest = self.numbers_after(self.len());
+        parts(state).into_iter().all(|part| {
+            let (own, others) = rest.split_at(part.len());
+            rest = others;
+            own == part
+        })
     }
 
-    /// The state after so many steps.
-    pub(crate) fn state(&self, steps: usize) -> &State<S> {
-        match steps.checked_sub(1) {
-            None => &self.first,
-            Some(last) => &self.steps[last].state,
-        }
+    /// The numbers of the state after so many steps.
+    fn numbers_after(&self, steps: usize) -> &[S] {
+        let piece = &self.pieces[steps / self.states_per_piece];
+        let first = steps % self.states_per_piece * self.numbers;
+        &piece[first..first + self.numbers]
     }
+
+    /// Writes what is kept of the state after so many steps to one of the same scene. Entropies, energies and sums are not kept.
+    pub(crate) fn load<const D: usize>(
+        &self,
+        steps: usize,
+        masses: &Masses<S>,
+        state: &mut State<S>,
+    ) {
+        state.time = Sum::new(self.times[steps]);
+        let mut rest = self.numbers_after(steps);
+        let mut next = |count: usize| {
+            let (own, others) = rest.split_at(count);
+            rest = others;
+            own
+        };
+        let positions = next(state.positions.values().len());
+        state
+            .positions
+            .write(|values| values.copy_from_slice(positions));
+        let moves = if masses.are_coupled() {
+            &mut state.velocities
+        } else {
+            &mut state.momenta
+        };
+        let numbers = next(moves.values().len());
+        moves.write(|values| values.copy_from_slice(numbers));
+        state.follow_velocities(D, masses);
+        let viscous = next(state.viscous.values().len());
+        state
+            .viscous
+            .write(|values| values.copy_from_slice(viscous));
+        let temperatures = next(state.temperatures.len());
+        state.temperatures.copy_from_slice(temperatures);
+        let sums = next(state.reservoir_entropies.values().len());
+        state
+            .reservoir_entropies
+            .write(|values| values.copy_from_slice(sums));
+    }
+}
+
+/// The numbers that are kept of a state: the others follow from them, or have no derivatives.
+fn parts<S: Real>(state: &State<S>) -> [&[S]; 5] {
+    let velocities = state.velocities.values();
+    let moves = if velocities.is_empty() {
+        state.momenta.values()
+    } else {
+        velocities
+    };
+    [
+        state.positions.values(),
+        moves,
+        state.viscous.values(),
+        &state.temperatures,
+        state.reservoir_entropies.values(),
+    ]
+}
+
+fn numbers_of<S: Real>(state: &State<S>) -> usize {
+    parts(state).iter().map(|part| part.len()).sum()
 }

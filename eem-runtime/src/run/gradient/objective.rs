@@ -12,10 +12,13 @@ use eem_material::number::scalar::Real;
 /// | [`at_end`](Self::at_end), [`at`](Self::at) | a quantity at the end, or at the end of another step |
 /// | [`integral`](Self::integral) | `Σ ½h (g⁰ + g¹)` over the steps |
 /// | [`misfit`](Self::misfit) | `½ Σ ((g(tᵢ) − dᵢ)/σᵢ)²` |
+/// | [`time`](Self::time) | the time at the end, s |
 /// | [`component`](Self::component), [`times`](Self::times), `+` | one component of a vector; a factor; sums |
 #[derive(Debug)]
 pub struct Objective<const D: usize, S: Real = f64> {
     pub(crate) terms: Vec<Term<D, S>>,
+    /// The factor of the time at the end.
+    pub(crate) time: f64,
 }
 
 /// A quantity with the way in which it counts.
@@ -46,7 +49,10 @@ impl<const D: usize, S: Real> Objective<D, S> {
             component: 0,
             when,
         };
-        Self { terms: vec![term] }
+        Self {
+            terms: vec![term],
+            time: 0.0,
+        }
     }
 
     /// A quantity at the end of the run; of a vector the first component.
@@ -67,10 +73,21 @@ impl<const D: usize, S: Real> Objective<D, S> {
         Self::new(quantity, When::Integral)
     }
 
-    /// Half the sum of the squares of `(g(t) − d)/σ` over records (t, d, σ); steps must end at the times, s.
+    /// Half the sum of the squares of `(g(t) − d)/σ` over records (t, d, σ); steps must end at the times, s, and σ be
+    /// positive.
     #[must_use]
     pub fn misfit(quantity: Quantity<D, S>, records: impl IntoIterator<Item = [f64; 3]>) -> Self {
         Self::new(quantity, When::Misfit(records.into_iter().collect()))
+    }
+
+    /// The time at the end of the run, s: of an event, whose derivatives
+    /// [`gradient_at_event`](crate::Simulation::gradient_at_event) finds. All others are zero but those by the sizes of steps.
+    #[must_use]
+    pub const fn time() -> Self {
+        Self {
+            terms: Vec::new(),
+            time: 1.0,
+        }
     }
 
     /// Takes this component, from 0, of all its vectors.
@@ -88,6 +105,7 @@ impl<const D: usize, S: Real> Objective<D, S> {
         for term in &mut self.terms {
             term.factor *= factor;
         }
+        self.time *= factor;
         self
     }
 }
@@ -97,6 +115,7 @@ impl<const D: usize, S: Real> Add for Objective<D, S> {
 
     fn add(mut self, other: Self) -> Self {
         self.terms.extend(other.terms);
+        self.time += other.time;
         self
     }
 }

@@ -6,18 +6,19 @@ use nalgebra::SVector;
 
 use super::error::GradientError;
 use crate::element::handle::{Element, Handle, HeatPath, Node, Reservoir};
+use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;
 use crate::element::lineage::Lineage;
+use crate::scene::body::Body;
 use crate::scene::error::SceneError;
 use crate::step::adjoint::Costate;
-use eem_material::number::readable::Readable;
 use eem_material::number::scalar::Real;
 
 /// The value of an [`Objective`](crate::Objective) and its derivatives by all inputs of a run, each in the unit of the
 /// objective over that of the input.
 ///
-/// `Display` prints the value, the derivatives by the parameters of every element, and a note where derivatives grow by more than
-/// a million.
+/// `Display` prints the value and the derivatives by the parameters of every element, a line each, and a note where derivatives grow
+/// by more than a million.
 #[derive(Clone, Debug)]
 pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) scene: Lineage,
@@ -25,10 +26,19 @@ pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) growth: f64,
     pub(crate) start: Costate<S>,
     pub(crate) masses: Vec<S>,
+    /// By the masses that two nodes have in common, and by those of solids at anchors, in order.
+    pub(crate) pairs: Vec<([usize; 2], S)>,
     pub(crate) gravity: SVector<S, D>,
     pub(crate) conductances: Vec<S>,
     pub(crate) reservoirs: Vec<S>,
     pub(crate) elements: Vec<OfElement<S>>,
+    /// By the sizes of steps, at their ends, with the values of functions of time kept.
+    pub(crate) sizes: Series<S, S>,
+    /// A load that is a function of time.
+    pub(crate) timed: Option<String>,
+    /// By thrusts of rockets, and by temperatures of ovens, in the middle of each step.
+    pub(crate) thrusts: Vec<(usize, Series<S, S>)>,
+    pub(crate) ovens: Vec<(usize, Series<S, S>)>,
     /// By forces at the middle of each step, by positions of moved anchors and by temperatures of thermostats at its ends.
     pub(crate) forces: Vec<(usize, Series<SVector<S, D>, S>)>,
     pub(crate) motions: Vec<(usize, Series<SVector<S, D>, S>)>,
@@ -98,7 +108,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Ok(vector(&self.start.positions, node))
     }
 
-    /// The derivative by the velocity of a mass at the start; zero for an anchor.
+    /// The derivative by the velocity of a node at the start. Of anchors only those have one that move beside solids with
+    /// consistent mass; there it belongs to the motion at the start, besides [`by_motion`](Self::by_motion).
     ///
     /// # Errors
     ///
@@ -108,8 +119,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Ok(vector(&self.start.velocities, node))
     }
 
-    /// The derivative by a mass, with its velocity kept; zero for an anchor. Solids have their mass by density, and only what
-    /// is added to a node counts here.
+    /// The derivative by a mass, with its velocity kept; zero for an anchor. Solids have theirs by
+    /// [`by_density`](Self::by_density).
     ///
     /// # Errors
     ///
@@ -117,6 +128,61 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     pub fn by_mass(&self, node: Node) -> Result<S, GradientError> {
         self.own(&node)?;
         Ok(self.masses[node.index])
+    }
+
+    /// The derivative by the density of a body, with the velocities kept.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position).
+    pub fn by_density<H: Shape<D>>(&self, body: &Body<H, D>) -> Result<S, GradientError> {
+        let mut sum = S::zero();
+        for node in body.nodes() {
+            self.own(node)?;
+        }
+        for (nodes, masses) in body.masses_per_density::<S>() {
+            for (a, row) in masses.as_ref().iter().enumerate() {
+                for (b, &mass) in row.as_ref().iter().enumerate().take(a + 1) {
+                    let [i, j] = [nodes[a], nodes[b]];
+                    let key = [i.min(j), i.max(j)];
+                    let pair = self.pairs.binary_search_by_key(&key, |&(nodes, _)| nodes);
+                    sum += mass * pair.map_or(S::zero(), |at| self.pairs[at].1);
+                    if i == j {
+                        sum += mass * self.masses[i];
+                    }
+                }
+            }
+        }
+        Ok(sum)
+    }
+
+    /// The derivatives by the sizes of the steps, with the times at their ends, s. Where a step ends at the jump of a load, the
+    /// derivative by the time of the jump is that by the size of the step before it less that by the size of the one after it.
+    ///
+    /// # Errors
+    ///
+    /// [`GradientError::NoTimeDerivative`] if the scene has a function of time.
+    pub fn by_step_size(&self) -> Result<&[(S, S)], GradientError> {
+        match &self.timed {
+            None => Ok(&self.sizes),
+            Some(load) => Err(GradientError::NoTimeDerivative { load: load.clone() }),
+        }
+    }
+
+    /// The same with the values of functions of time kept that each step had; all there is where these are constant in steps.
+    #[must_use]
+    pub fn by_step_size_at_kept_loads(&self) -> &[(S, S)] {
+        &self.sizes
+    }
+
+    /// The derivative by the time at the end, by the size of the last step; zero without a step.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_step_size`](Self::by_step_size).
+    pub fn by_end_time(&self) -> Result<S, GradientError> {
+        let last = self.by_step_size()?.last();
+        Ok(last.map_or(S::zero(), |&(_, by)| by))
     }
 
     /// The derivative by the temperature of an element at the start.
@@ -159,7 +225,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Ok(self.conductances[path.index])
     }
 
-    /// The derivative by the temperature of a reservoir.
+    /// The derivative by the temperature of a reservoir; of an oven by one that is added to its function.
     ///
     /// # Errors
     ///
@@ -186,8 +252,36 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         series(&self.forces, node.index, || format!("{node} has no force"))
     }
 
+    /// The derivatives by the thrust of a rocket in each step, with the time in its middle, s; of the rockets of a node in the order
+    /// of their creation, from 0.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if there is no such rocket.
+    pub fn by_thrust(&self, node: Node, rocket: usize) -> Result<&[(S, S)], GradientError> {
+        self.own(&node)?;
+        let mut own = self.thrusts.iter().filter(|(own, _)| *own == node.index);
+        match own.nth(rocket) {
+            Some((_, series)) => Ok(series),
+            None => Err(GradientError::NoSeries {
+                why: format!("{node} has no rocket {rocket}"),
+            }),
+        }
+    }
+
+    /// The derivatives by the temperature of an oven in each step, with the time in its middle, s.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if the temperature is not a function of time.
+    pub fn by_oven(&self, oven: Reservoir) -> Result<&[(S, S)], GradientError> {
+        self.own(&oven)?;
+        series(&self.ovens, oven.index, || format!("{oven} is not an oven"))
+    }
+
     /// The derivatives by the position of a moved anchor at the ends of all steps, with their times, s. Their sum is
-    /// [`by_position`](Self::by_position).
+    /// [`by_position`](Self::by_position). Beside solids with consistent mass positions at the thirds of steps count too, from which
+    /// its velocity is found, and that at the start, see [`by_velocity`](Self::by_velocity).
     ///
     /// # Errors
     ///
@@ -211,14 +305,20 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         })
     }
 
-    /// All derivatives: state, masses, gravity, conductances, reservoirs, parameters.
+    /// All derivatives: state, masses, gravity, conductances, reservoirs, parameters, sizes of steps.
     #[doc(hidden)]
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         let others = [&self.masses, &self.conductances, &self.reservoirs];
         let others = others.into_iter().flatten().chain(self.gravity.iter());
         let parameters = self.elements.iter().flat_map(|element| &element.values);
-        let others = others.chain(parameters).map(|number| number.to_f64());
+        let pairs = self.pairs.iter().map(|(_, by)| by);
+        let sizes = self.sizes.iter().map(|(_, by)| by);
+        let others = others
+            .chain(parameters)
+            .chain(pairs)
+            .chain(sizes)
+            .map(|number| number.to_f64());
         self.start
             .numbers()
             .map(Real::to_f64)
@@ -259,12 +359,19 @@ fn vector<S: Real, const D: usize>(coordinates: &[S], node: Node) -> SVector<S, 
 
 impl<const D: usize, S: Real> fmt::Display for Gradient<D, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "value {}", Readable(self.value))?;
+        let mut lines = vec![("value".to_owned(), self.value)];
         for own in &self.elements {
-            for (name, value) in own.names.iter().zip(&own.values) {
+            let named = own.names.iter().zip(&own.values);
+            lines.extend(named.map(|(name, value)| {
                 let by = format!("by {name} of {}", own.element);
-                writeln!(f, "{by:<40} {:>13.6e}", value.to_f64())?;
-            }
+                (by, value.to_f64())
+            }));
+        }
+        let width = lines.iter().map(|(by, _)| by.chars().count()).max();
+        let width = width.unwrap_or(0);
+        for (by, value) in lines {
+            let value = format!("{value:.15e}");
+            writeln!(f, "| {by:<width$} | {value:<22} |")?;
         }
         if self.growth > NOTED {
             let digits = -(S::EPSILON.to_f64() * self.growth).log10();

@@ -1,37 +1,49 @@
 //! The gradient of a run: the adjoint of its steps, from the last to the first.
 
+mod again;
+mod inputs;
 mod seeds;
+mod way;
 
 use core::mem;
 use std::collections::BTreeSet;
 
 use super::Simulation;
-use super::stepper::{Parts, Stepper};
-use crate::element::conduction::Partner;
+use super::stepper::Stepper;
+use crate::element::group::StepView;
+use crate::element::handle::Element;
 use crate::element::layout::Layout;
+use crate::element::phase::Phase;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
-use crate::run::gradient::history::{History, Kept, KeptStep};
+use crate::run::gradient::history::History;
 use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::{Gradient, OfElement, Series};
-use crate::scene::error::SceneError;
-use crate::step::adjoint::{Costate, Place, StepWeights};
-use crate::step::control::norm;
+use crate::run::gradient::snapshots::Record;
+use crate::scene::loads::{Course, Loads};
+use crate::step::adjoint::{Adjoint, Costate, NoAdjoint};
+use crate::step::control::norm as norm_of;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real};
+use inputs::Made;
 use nalgebra::SVector;
+use seeds::Seeds;
+use way::{Way, Weighted, add};
 
 /// # Gradients
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Keeps the states of all further steps for [`gradient`](Self::gradient). It costs memory and changes no bit.
     pub fn keep_history(&mut self, history: History) {
-        self.history = Some(Box::new(Kept::new(&self.state, history)));
+        let (past, _) = self.stepper.past(&self.state);
+        self.history = Some(Box::new(Record::new(&self.state, past, history)));
     }
 
     /// Keeps the step that was just made.
     pub(super) fn keep_step(&mut self, size: S) {
-        if let Some(history) = &mut self.history {
-            history.keep(size, self.in_use, [&self.next, &self.state]);
+        if let Some(history) = &mut self.history
+            && history.keep(size, self.in_use, [&self.next, &self.state])
+        {
+            history.snapshot(&self.state, || self.stepper.past(&self.state).0);
         }
     }
 
@@ -39,13 +51,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// materials, masses, gravity, conductances, temperatures of reservoirs, and the state at the start.
     ///
     /// They are those of the steps that were made, with their sizes kept, to rounding times the growth of errors along the
-    /// motion. All of them together cost a few runs, however many inputs there are.
+    /// motion. All of them together cost less than the run, or a few runs where steps are made again, however many inputs there
+    /// are.
     ///
     /// # Errors
     ///
-    /// [`GradientError`]: for steps of other schemes than [`Scheme::EemTemperature`] or [`Scheme::EemEntropy`]; for moved
-    /// anchors beside solids with consistent mass, rockets and ovens; without a history, or with one that does not end at the
-    /// present state; for a quantity without derivatives or a time at which no step ends. Nothing has changed then.
+    /// [`GradientError`]: for steps of other schemes than [`Scheme::EemTemperature`] or [`Scheme::EemEntropy`]; without a
+    /// history, or with one that does not end at the present state; for a quantity without derivatives or a time at which no step
+    /// ends. Nothing has changed then.
     ///
     /// ```
     /// use eem::prelude::*;
@@ -75,159 +88,275 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         &mut self,
         objective: &Objective<D, S>,
     ) -> Result<Gradient<D, S>, GradientError> {
+        self.on_history(|run, kept| run.gradient_of(kept, &[(1.0, objective)]))
+    }
+
+    /// The derivatives of an objective at an event, the end of the history, whose time follows the inputs so that another
+    /// objective φ keeps its value there:
+    ///
+    /// ```text
+    /// dJ/dα + ν dφ/dα,      ν = −(dJ/dh)/(dφ/dh)      with the size h of the last step
+    /// ```
+    ///
+    /// [`Objective::time`] has the derivatives of the time of the event.
+    ///
+    /// # Errors
+    ///
+    /// As [`gradient`](Self::gradient); [`GradientError::NoTimeDerivative`] if the scene has functions of time;
+    /// [`GradientError::Grazing`] if φ does not change with the time, to rounding; [`GradientError::NoHistory`] without a step.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::{History, Objective};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(1.0, [-1.0], [2.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.3)?;
+    /// run.keep_history(History::default());
+    /// let passes = Event::rising(|run: &Simulation<1>| Ok(run.position(mass)?[0]));
+    /// run.run_until_event(9.0, &mut [passes])?;
+    ///
+    /// // t = −q/v
+    /// let place = Objective::at_end(Quantity::Position(mass));
+    /// let gradient = run.gradient_at_event(&Objective::time(), &place)?;
+    /// assert!((gradient.by_position(mass)?[0] + 0.5).abs() < 1e-15);
+    /// assert!((gradient.by_velocity(mass)?[0] + 0.25).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn gradient_at_event(
+        &mut self,
+        objective: &Objective<D, S>,
+        event: &Objective<D, S>,
+    ) -> Result<Gradient<D, S>, GradientError> {
+        self.on_history(|run, kept| {
+            let mut rate = |of: &Objective<D, S>| {
+                let way = run.go_back(kept, &[(1.0, of)], 1)?;
+                let by_size = way.found.by_end_time()?;
+                let rounding = way.last.ok_or(GradientError::NoHistory)?.rounding();
+                Ok::<_, GradientError>((by_size, rounding))
+            };
+            let [(of_event, rounding), (of_objective, _)] = [rate(event)?, rate(objective)?];
+            if of_event.abs().at_most(rounding).all() {
+                return Err(GradientError::Grazing {
+                    time: kept.time().to_f64(),
+                    rate: of_event.to_f64(),
+                });
+            }
+            let follows = -(of_objective / of_event).to_f64();
+            run.gradient_of(kept, &[(1.0, objective), (follows, event)])
+        })
+    }
+
+    /// Calls a function with the history, after which everything is as before.
+    fn on_history(
+        &mut self,
+        act: impl FnOnce(&mut Self, &mut Record<S>) -> Result<Gradient<D, S>, GradientError>,
+    ) -> Result<Gradient<D, S>, GradientError> {
         let Some(mut kept) = self.history.take() else {
             return Err(GradientError::NoHistory);
         };
         kept.return_to(self.time());
-        let found = self.gradient_of(&kept, objective);
+        let checked = self.check_gradient(&kept);
+        let found = checked.and_then(|()| {
+            if kept.all().is_some() {
+                act(self, &mut kept)
+            } else {
+                self.with_steps_again(|run| act(run, &mut kept))
+            }
+        });
+        kept.forget_passing();
         self.history = Some(kept);
         found
     }
 
     fn gradient_of(
         &mut self,
-        kept: &Kept<S>,
-        objective: &Objective<D, S>,
+        kept: &mut Record<S>,
+        objectives: Weighted<'_, D, S>,
     ) -> Result<Gradient<D, S>, GradientError> {
-        self.check_gradient(kept)?;
-        let (value, seeds) = self.seeds(kept, objective)?;
+        let Way {
+            mut found, adjoint, ..
+        } = self.go_back(kept, objectives, usize::MAX)?;
+        found.start = adjoint.costate;
+        for (_, series) in found.forces.iter_mut().chain(&mut found.motions) {
+            series.reverse();
+        }
+        let thrusts = found.thrusts.iter_mut().map(|(_, series)| series);
+        let ovens = found.ovens.iter_mut().map(|(_, series)| series);
+        let temperatures = found.temperatures.iter_mut().map(|(_, series)| series);
+        for series in thrusts.chain(ovens).chain(temperatures) {
+            series.reverse();
+        }
+        found.sizes.reverse();
+        Ok(found)
+    }
+
+    /// Goes back over the last steps, so many if there are.
+    fn go_back(
+        &mut self,
+        kept: &mut Record<S>,
+        objectives: Weighted<'_, D, S>,
+        steps: usize,
+    ) -> Result<Way<D, S>, GradientError> {
+        let mut seeds = Seeds::new(kept, objectives)?;
+        let mut way = self.way_back()?;
+        let [mut old, mut new] = [(); 2].map(|()| State::clone(&self.state));
+        let mut end = kept.len();
+        let stop = end.saturating_sub(steps);
+        self.add_seeds((end, &mut new), (kept, &mut seeds), &mut way)?;
+        let at_end = self.effect(&way.adjoint.costate, &new);
+        let mut largest = at_end;
+        while end > stop {
+            let again;
+            let states = if let Some(all) = kept.all() {
+                all
+            } else {
+                again = self.states_before((end, &new), kept)?;
+                &again
+            };
+            let first = end - states.len();
+            for at in (first.max(stop)..end).rev() {
+                states.load::<D>(at - first, &self.masses, &mut old);
+                self.reverse((kept.size(at), [&old, &new]), &mut way)?;
+                largest = largest.max(self.effect(&way.adjoint.costate, &old));
+                self.add_seeds((at, &mut old), (kept, &mut seeds), &mut way)?;
+                mem::swap(&mut old, &mut new);
+            }
+            end = first;
+        }
+        way.found.value = seeds.value;
+        way.found.growth = if at_end > 0.0 { largest / at_end } else { 1.0 };
+        Ok(way)
+    }
+
+    /// The way back, at its beginning.
+    fn way_back(&mut self) -> Result<Way<D, S>, GradientError> {
         let layout = self.numbering();
-        let mut found = self.no_gradient(value, &layout);
-        let mut costate = mem::replace(&mut found.start, Costate::zero(0, &layout, 0));
+        let mut found = self.no_gradient(&layout);
+        let costate = mem::replace(&mut found.start, Costate::zero(0, &layout, 0));
         let mut held = vec![false; layout.thermal];
         for (element, _) in &self.loads.temperatures {
             if let Some(slot) = layout.elements[element.index()].thermal {
                 held[slot] = true;
             }
         }
-        let paths = self.conduction.path_ends();
-        let ends = self.ends();
-        let parts = Parts {
-            scheme: self.in_use,
-            masses: &self.masses,
-            elements: &ends,
-            layout: &layout,
-            conduction: &self.conduction,
-            loads: &self.loads,
+        let mut anchors = Vec::new();
+        if self.masses.are_coupled() {
+            let moved = self.loads.motions.iter().map(|(node, _)| node.index);
+            let moved: BTreeSet<usize> = moved.collect();
+            let all = self.masses.anchors();
+            anchors.extend(all.map(|node| (node, moved.contains(&node))));
+        }
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return Err(no_adjoint(self.in_use, self.time()));
         };
-        let systems = parts.systems(self.automatic.memory_limit);
-        let mut system = systems.map_err(SceneError::from)?.tangent;
-        self.add_seeds(
-            kept,
-            (kept.steps.len(), &seeds),
-            objective,
-            (&layout, &mut costate, &mut found),
-        )?;
-        let at_end = self.effect(&costate, kept.state(kept.steps.len()));
-        let mut largest = at_end;
-        for (index, step) in kept.steps.iter().enumerate().rev() {
-            let states = [kept.state(index), &step.state];
-            let mut points = Vec::new();
-            let Stepper::Newton(newton) = &self.stepper else {
-                continue;
-            };
-            for group in &newton.groups {
-                group.between(step.step, states, &mut |point| points.push(point))?;
-            }
-            let time = step.state.time.value.to_f64();
-            let place = Place {
-                layout: &layout,
-                conduction: &self.conduction,
-                masses: &self.masses,
-                held: &held,
-            };
-            let solved = place.solve(step.step, &points, &costate, &mut system);
-            let (old, mut weights) = solved.map_err(|_| GradientError::Singular { time })?;
-            if old.numbers().any(|number| !number.is_finite()) {
-                return Err(GradientError::NotFinite { time });
-            }
-            self.add_step((step, states[0]), (&paths, &costate), &weights, &mut found);
-            Self::add_series((step, states[0]), (&layout, &weights), &mut found);
-            let mut of_points = mem::take(&mut weights.points).into_iter();
-            for group in &newton.groups {
-                group.by_parameters(states, &mut of_points, &mut |element, values| {
-                    add(
-                        &mut found.elements[element.index()].values,
-                        S::one(),
-                        values,
-                    );
-                })?;
-            }
-            costate = old;
-            largest = largest.max(self.effect(&costate, states[0]));
-            self.add_seeds(
-                kept,
-                (index, &seeds),
-                objective,
-                (&layout, &mut costate, &mut found),
-            )?;
+        let system = newton.solver.tangent_mut();
+        Ok(Way {
+            adjoint: Adjoint::new(&layout, &self.masses, system, costate),
+            paths: self.conduction.path_ends(),
+            sums: self.masses.weights(),
+            conduction: self.conduction.clone(),
+            by_reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
+            by_speeds: Vec::new(),
+            rockets: Vec::new(),
+            layout,
+            held,
+            anchors,
+            by_size: S::zero(),
+            last: None,
+            found,
+        })
+    }
+
+    /// From the derivatives by the new state of a step to those by its old one.
+    fn reverse(&mut self, made: Made<'_, S>, way: &mut Way<D, S>) -> Result<(), GradientError> {
+        self.set_loads(made, way);
+        // The elements are evaluated elsewhere than at the ends of their last step.
+        self.has_stepped = false;
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return Ok(());
+        };
+        let (step, [old, new]) = made;
+        let view = StepView {
+            phase: Phase::Whole,
+            step,
+            per_step: step.recip(),
+            state: old,
+            conduction: &way.conduction,
+            loads: &newton.loads,
+            stages: &[],
+            masses: &self.masses,
+        };
+        let found = &mut way.found;
+        let see = &mut |element: Element, values: &[S]| {
+            add(
+                &mut found.elements[element.index()].values,
+                S::one(),
+                values,
+            );
+        };
+        let solved = way.adjoint.step_back(
+            (view, new, &way.held),
+            (&way.layout, &way.rockets),
+            &mut newton.groups,
+            newton.solver.tangent_mut(),
+            see,
+        );
+        let time = new.time.value.to_f64();
+        solved.map_err(|error| match error {
+            NoAdjoint::Singular => GradientError::Singular { time },
+            NoAdjoint::State(error) => error.into(),
+        })?;
+        if !way.adjoint.costate.is_finite() {
+            return Err(GradientError::NotFinite { time });
         }
-        found.start = costate;
-        found.growth = if at_end > 0.0 { largest / at_end } else { 1.0 };
-        for (_, series) in found.forces.iter_mut().chain(&mut found.motions) {
-            series.reverse();
-        }
-        for (_, series) in &mut found.temperatures {
-            series.reverse();
-        }
-        Ok(found)
+        Self::find_by_speeds(way);
+        self.add_step(made, way);
+        self.add_series(made, way);
+        self.add_size(made, way);
+        Ok(())
     }
 
     /// An error unless all steps of the history have an adjoint.
-    fn check_gradient(&self, kept: &Kept<S>) -> Result<(), GradientError> {
-        let loads = &self.loads;
-        for (is_there, what) in [
-            (
-                !loads.motions.is_empty() && self.masses.are_coupled(),
-                "moved anchors beside solids with consistent mass",
-            ),
-            (!loads.rockets.is_empty(), "rockets"),
-            (!loads.ovens.is_empty(), "ovens"),
-            (S::LANES > 1, "several numbers in one"),
-        ] {
-            if is_there {
-                return Err(GradientError::NotDifferentiable { what });
-            }
+    fn check_gradient(&self, kept: &Record<S>) -> Result<(), GradientError> {
+        if S::LANES > 1 {
+            let what = "several numbers in one";
+            return Err(GradientError::NotDifferentiable { what });
         }
-        let steps = kept.steps.iter();
-        let schemes = steps.map(|step| (step.scheme, step.state.time.value));
-        for (scheme, time) in schemes.clone().chain([(self.in_use, self.time())]) {
+        for (scheme, time) in kept.schemes().chain([(self.in_use, self.time())]) {
             if !matches!(scheme, Scheme::EemTemperature | Scheme::EemEntropy) {
-                let (scheme, time) = (scheme.name(), time.to_f64());
-                return Err(GradientError::NoAdjoint { scheme, time });
+                return Err(no_adjoint(scheme, time));
             }
         }
-        let is_whole = kept.ends_in(&self.state);
-        if !is_whole && kept.is_full() {
-            return Err(GradientError::HistoryTooLarge {
-                steps: kept.steps.len(),
-                needed: kept.needed,
-                allowed: kept.allowed,
-            });
+        let mut others = kept.schemes().filter(|&(scheme, _)| scheme != self.in_use);
+        if let Some((_, time)) = others.next() {
+            let time = time.to_f64();
+            return Err(GradientError::HistoryBroken { time });
         }
-        let mut others = schemes.filter(|&(scheme, _)| scheme != self.in_use);
-        let other = others.next().map(|(_, time)| time);
-        match other.or_else(|| (!is_whole).then(|| kept.time())) {
-            Some(time) => Err(GradientError::HistoryBroken {
-                time: time.to_f64(),
-            }),
-            None => Ok(()),
+        if kept.ends_in(&self.state) {
+            return Ok(());
         }
+        kept.check()?;
+        let time = kept.time().to_f64();
+        Err(GradientError::HistoryBroken { time })
     }
 
     /// What a relative change of a state does to the objective, `|λ_q||q| + |λ_v||v| + |λ_γ||q| + |λ_θ||θ|`.
     fn effect(&self, costate: &Costate<S>, state: &State<S>) -> f64 {
-        let norm = |values: &[S]| norm(values.iter().copied()).to_f64();
-        let velocities: Vec<S> = self.velocities_in(state);
+        let norm = |values: &[S]| norm_of(values.iter().copied()).to_f64();
+        let masses = self.masses.iter().enumerate();
+        let velocities = masses.flat_map(|(node, mass)| {
+            mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
+        });
         let length = norm(state.positions.values());
         norm(&costate.positions) * length
-            + norm(&costate.velocities) * norm(&velocities)
+            + norm(&costate.velocities) * norm_of(velocities).to_f64()
             + norm(&costate.viscous) * length
             + norm(&costate.temperatures) * norm(&state.temperatures)
     }
 
     /// A gradient of zeros, with the names of all parameters.
-    fn no_gradient(&self, value: f64, layout: &Layout) -> Gradient<D, S> {
+    fn no_gradient(&self, layout: &Layout) -> Gradient<D, S> {
         let coordinates = self.masses.len() * D;
         let mut elements = Vec::with_capacity(self.places.len());
         for (index, &[group, at]) in self.places.iter().enumerate() {
@@ -244,92 +373,79 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         Gradient {
             scene: self.scene.clone(),
-            value,
+            value: 0.0,
             growth: 1.0,
             start: Costate::zero(coordinates, layout, self.conduction.reservoirs.len()),
             masses: vec![S::zero(); self.masses.len()],
+            pairs: self.mass_pairs(),
             gravity: SVector::from_element(S::zero()),
             conductances: vec![S::zero(); self.conduction.path_ends().len()],
             reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
             elements,
+            sizes: Vec::new(),
+            timed: self.timed(),
             forces: empty(self.loads.forces.iter().map(|(node, _)| node.index)),
+            thrusts: self
+                .loads
+                .rockets
+                .iter()
+                .map(|rocket| (rocket.line.node.index, Vec::new()))
+                .collect(),
+            ovens: empty(self.loads.ovens.iter().map(|&(index, _)| index)),
             motions: empty(self.loads.motions.iter().map(|(node, _)| node.index)),
             temperatures: empty(self.loads.temperatures.iter().map(|(own, _)| own.index())),
         }
     }
 
-    /// The derivatives by the values of functions of time in a step; from the last one on.
-    fn add_series(
-        (step, old): (&KeptStep<S>, &State<S>),
-        (layout, weights): (&Layout, &StepWeights<S>),
-        found: &mut Gradient<D, S>,
-    ) {
-        let (h, start, end) = (step.step, old.time.value, step.state.time.value);
-        let vector =
-            |values: &[S], node: usize| SVector::<S, D>::from_fn(|axis, _| values[node * D + axis]);
-        for (node, series) in &mut found.forces {
-            let middle = start + S::from_f64(0.5) * h;
-            series.push((middle, vector(&weights.motion, *node) * h));
-        }
-        for (node, series) in &mut found.motions {
-            let [by_old, by_new] = [0, 1].map(|side| vector(&weights.anchors[side], *node));
-            if let Some((_, last)) = series.last_mut() {
-                *last += by_new;
-            }
-            series.push((start, by_old));
-        }
-        for (element, series) in &mut found.temperatures {
-            if let Some(slot) = layout.elements[*element].thermal {
-                series.push((end, weights.held[slot]));
-            }
-        }
+    /// The masses of pairs of nodes and of anchors, in order.
+    fn mass_pairs(&self) -> Vec<([usize; 2], S)> {
+        let pairs = self.masses.pairs().iter().chain(self.masses.held());
+        let mut pairs: Vec<_> = pairs.map(|pair| (pair.nodes(), S::zero())).collect();
+        pairs.sort_by_key(|&(nodes, _)| nodes);
+        pairs
     }
 
-    /// The derivatives of a step by masses, gravity, conductances and temperatures of reservoirs.
-    fn add_step(
-        &self,
-        (step, old): (&KeptStep<S>, &State<S>),
-        (paths, costate): (&[(usize, Partner)], &Costate<S>),
-        weights: &StepWeights<S>,
-        found: &mut Gradient<D, S>,
-    ) {
-        let h = step.step;
-        let sums = self.masses.weights();
-        for (node, mass) in self.masses.iter().enumerate() {
-            let Some(mass) = mass else { continue };
-            let [old, new] = [old, &step.state].map(|state| state.velocity::<D>(node, mass));
-            for axis in 0..D {
-                let weight = weights.motion[node * D + axis];
-                let fall = h * self.loads.gravity[axis];
-                found.masses[node] -= weight * (new[axis] - old[axis] - fall);
-                found.gravity[axis] += h * sums[node] * weight;
-            }
-        }
-        let theta = &weights.temperatures;
-        let per_theta = |slot: usize| weights.entropies[slot] / theta[slot];
-        for (slot, &own) in theta.iter().enumerate() {
-            for link in self.conduction.links(slot) {
-                if let Partner::Reservoir(at) = link.partner {
-                    let outer = self.conduction.reservoirs[at];
-                    let of_heat = costate.reservoirs[at] / outer;
-                    found.reservoirs[at] +=
-                        h * link.conductance * (per_theta(slot) - of_heat * own / outer);
-                }
-            }
-        }
-        for (sum, &(slot, partner)) in found.conductances.iter_mut().zip(paths) {
-            *sum += match partner {
-                Partner::Slot(other) => {
-                    h * (theta[other] - theta[slot]) * (per_theta(slot) - per_theta(other))
-                }
-                Partner::Reservoir(at) => {
-                    let outer = self.conduction.reservoirs[at];
-                    let of_heat = costate.reservoirs[at] / outer;
-                    h * (outer - theta[slot]) * (per_theta(slot) - of_heat)
-                }
-            };
-        }
+    /// The first load that is a function of time.
+    fn timed(&self) -> Option<String> {
+        let Loads {
+            forces,
+            motions,
+            temperatures,
+            rockets,
+            ovens,
+            ..
+        } = &self.loads;
+        let forces = forces
+            .iter()
+            .filter(|(_, of)| matches!(of, Course::Function(_)));
+        let forces = forces.map(|(node, _)| format!("the force on {node}"));
+        let motions = motions
+            .iter()
+            .filter(|(_, of)| matches!(of, Course::Function(_)));
+        let motions = motions.map(|(node, _)| format!("the motion of {node}"));
+        let held = temperatures
+            .iter()
+            .filter(|(_, of)| matches!(of, Course::Function(_)));
+        let held = held.map(|(element, _)| format!("the temperature of {element}"));
+        let rockets = rockets
+            .iter()
+            .map(|rocket| format!("the thrust on {}", rocket.line.node));
+        let ovens = ovens
+            .iter()
+            .map(|(index, _)| format!("the temperature of reservoir {index}"));
+        forces
+            .chain(motions)
+            .chain(held)
+            .chain(rockets)
+            .chain(ovens)
+            .next()
     }
+}
+
+#[cold]
+fn no_adjoint<S: Real>(scheme: Scheme, time: S) -> GradientError {
+    let (scheme, time) = (scheme.name(), time.to_f64());
+    GradientError::NoAdjoint { scheme, time }
 }
 
 /// Series for these indices, each once.
@@ -339,11 +455,4 @@ fn empty<T, S>(indices: impl Iterator<Item = usize>) -> Vec<(usize, Series<T, S>
         .into_iter()
         .map(|index| (index, Vec::new()))
         .collect()
-}
-
-/// `sum + factor values`.
-fn add<S: Real>(sum: &mut [S], factor: S, values: &[S]) {
-    for (sum, &value) in sum.iter_mut().zip(values) {
-        *sum += factor * value;
-    }
 }

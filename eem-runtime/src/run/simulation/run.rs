@@ -159,6 +159,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Sets the end of the last step to this time, which it misses by rounding.
     pub(super) fn arrive_at(&mut self, end: S, report: &mut StepReport<S>) {
+        #[cfg(feature = "gradients")]
+        if let Some(history) = &mut self.history {
+            history.arrive(self.state.time, end);
+        }
         self.state.time = Sum::new(end);
         report.time = end;
     }

@@ -2,63 +2,87 @@
 
 use core::mem;
 
-use super::add;
+use super::way::{Way, Weighted, add, dot};
 use crate::element::group::ElementGeneric;
 use crate::element::handle::{Element, Node};
-use crate::element::layout::Layout;
+use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
-use crate::run::gradient::history::Kept;
-use crate::run::gradient::objective::{Objective, Term, When};
+use crate::run::gradient::objective::{Term, When};
 use crate::run::gradient::result::Gradient;
+use crate::run::gradient::snapshots::Record;
 use crate::run::recorder::Quantity;
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
 use crate::step::adjoint::Costate;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Real, is_positive};
 use nalgebra::SVector;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
-    /// The value of an objective, and the weights of its quantities in the state after each number of steps.
-    pub(super) fn seeds(
-        &mut self,
-        kept: &Kept<S>,
-        objective: &Objective<D, S>,
-    ) -> Result<(f64, Vec<Vec<f64>>), GradientError> {
-        let mut value = 0.0;
-        let mut seeds = Vec::with_capacity(objective.terms.len());
-        for term in &objective.terms {
-            let mut weights = vec![0.0; kept.steps.len() + 1];
-            if let When::Misfit(records) = &term.when {
-                for &[time, datum, deviation] in records {
-                    let at = end_of(kept, time)?;
-                    let misfit = (self.value_at(kept, term, at)? - datum) / deviation;
-                    weights[at] += term.factor * misfit / deviation;
-                    value += 0.5 * term.factor * misfit * misfit;
-                }
-            } else {
-                share(kept, &term.when, &mut weights)?;
-                for (at, weight) in weights.iter_mut().enumerate() {
-                    if *weight != 0.0 {
-                        *weight *= term.factor;
-                        value += *weight * self.value_at(kept, term, at)?;
-                    }
-                }
-            }
-            seeds.push(weights);
-        }
-        Ok((value, seeds))
-    }
+/// What objectives ask of the states, from the last one on.
+pub(super) struct Seeds<'a, const D: usize, S: Real> {
+    terms: Vec<Asked<'a, D, S>>,
+    /// The factor of the time at the end.
+    time: f64,
+    /// The value of the first objective, of the states that were seen.
+    pub(super) value: f64,
+}
 
-    /// A quantity in a state of the history.
-    fn value_at(
+/// A quantity of an objective.
+struct Asked<'a, const D: usize, S: Real> {
+    term: &'a Term<D, S>,
+    /// That of the objective.
+    factor: f64,
+    /// Whether it is the first one.
+    counts: bool,
+    moments: Vec<Moment>,
+}
+
+/// A state at which a quantity counts.
+#[derive(Clone, Copy, Debug)]
+struct Moment {
+    /// The number of steps before it.
+    steps: usize,
+    /// A datum and its standard deviation.
+    record: Option<[f64; 2]>,
+}
+
+impl<'a, const D: usize, S: Real> Seeds<'a, D, S> {
+    pub(super) fn new(
+        kept: &Record<S>,
+        objectives: Weighted<'a, D, S>,
+    ) -> Result<Self, GradientError> {
+        let (mut terms, mut time, mut value) = (Vec::new(), 0.0, 0.0);
+        for (place, &(factor, objective)) in objectives.iter().enumerate() {
+            let counts = place == 0;
+            for term in &objective.terms {
+                terms.push(Asked {
+                    term,
+                    factor,
+                    counts,
+                    moments: moments(kept, &term.when)?,
+                });
+            }
+            time += factor * objective.time;
+            if counts && objective.time != 0.0 {
+                value += objective.time * kept.time().to_f64();
+            }
+        }
+        Ok(Self { terms, time, value })
+    }
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// A quantity in a state of the history, whose energies are not known unless it is the present one.
+    fn value_in(
         &mut self,
-        kept: &Kept<S>,
+        (state, is_present): (&mut State<S>, bool),
         term: &Term<D, S>,
-        steps: usize,
     ) -> Result<f64, GradientError> {
-        let present = mem::replace(&mut *self.state, kept.state(steps).clone());
+        if !is_present && matches!(term.quantity, Quantity::TotalEnergy) {
+            self.find_energies(state)?;
+        }
+        mem::swap(&mut *self.state, state);
         let values = term.quantity.present(self);
-        *self.state = present;
+        mem::swap(&mut *self.state, state);
         let values = values?;
         let component = term.component;
         values.get(component).copied().ok_or_else(|| {
@@ -71,31 +95,81 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })
     }
 
-    /// Adds the derivatives of the quantities in the state after so many steps.
+    /// Finds entropies and energies of a state from its temperatures.
+    fn find_energies(&mut self, state: &mut State<S>) -> Result<(), GradientError> {
+        self.has_stepped = false;
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return Ok(());
+        };
+        let mut refused = None;
+        for group in &mut newton.groups {
+            let elements = group.elements_mut();
+            elements.initialize(state, &mut |error| refused = Some(error));
+        }
+        refused.map_or(Ok(()), |error| Err(error.into()))
+    }
+
+    /// Adds the values and the derivatives of the quantities in the state after so many steps.
     pub(super) fn add_seeds(
         &mut self,
-        kept: &Kept<S>,
-        (steps, seeds): (usize, &[Vec<f64>]),
-        objective: &Objective<D, S>,
-        (layout, costate, found): (&Layout, &mut Costate<S>, &mut Gradient<D, S>),
+        (steps, state): (usize, &mut State<S>),
+        (kept, seeds): (&Record<S>, &mut Seeds<'_, D, S>),
+        way: &mut Way<D, S>,
     ) -> Result<(), GradientError> {
         let place = |costate: &Costate<S>, node: usize| {
             SVector::<S, D>::from_fn(|axis, _| costate.positions[node * D + axis])
         };
-        let motions = found.motions.iter();
-        let before: Vec<_> = motions.map(|&(node, _)| place(costate, node)).collect();
-        for (term, weights) in objective.terms.iter().zip(seeds) {
-            let weight = S::from_f64(weights[steps]);
-            if !weight.equal(S::zero()).all() {
-                self.add_seed(
-                    kept,
-                    (steps, weight),
-                    term,
-                    (layout, &mut *costate, &mut *found),
-                )?;
+        let motions = way.found.motions.iter();
+        let before: Vec<_> = motions
+            .map(|&(node, _)| place(&way.adjoint.costate, node))
+            .collect();
+        way.by_size = S::from_f64(seeds.time);
+        let is_present = steps == kept.len();
+        let mut sum = 0.0;
+        for asked in &mut seeds.terms {
+            let (term, factor) = (asked.term, asked.factor * asked.term.factor);
+            let (mut weight, mut own, mut counts) = (0.0, 0.0, false);
+            if matches!(term.when, When::Integral) {
+                let value = self.value_in((state, is_present), term)?;
+                counts = true;
+                let half = 0.5 * term.factor;
+                if let Some(before) = steps.checked_sub(1) {
+                    let share = half * kept.size(before).to_f64();
+                    (weight, own) = (weight + share, own + share * value);
+                    way.by_size += S::from_f64(asked.factor * half * value);
+                }
+                if steps < kept.len() {
+                    let share = half * kept.size(steps).to_f64();
+                    (weight, own) = (weight + share, own + share * value);
+                    if let Some((_, by_size)) = way.found.sizes.last_mut() {
+                        *by_size += S::from_f64(asked.factor * half * value);
+                    }
+                }
+                weight *= asked.factor;
+            }
+            while let Some(moment) = asked.moments.pop_if(|moment| moment.steps == steps) {
+                let value = self.value_in((state, is_present), term)?;
+                counts = true;
+                if let Some([datum, deviation]) = moment.record {
+                    let misfit = (value - datum) / deviation;
+                    weight += factor * misfit / deviation;
+                    own += 0.5 * term.factor * misfit * misfit;
+                } else {
+                    weight += factor;
+                    own += term.factor * value;
+                }
+            }
+            if asked.counts {
+                sum += own;
+            }
+            // Also without weight: a quantity without derivatives is an error, whatever its value.
+            if counts {
+                self.add_seed((state, S::from_f64(weight)), term, way)?;
             }
         }
-        let time = kept.state(steps).time.value;
+        seeds.value += sum;
+        let time = state.time.value;
+        let (costate, found) = (&way.adjoint.costate, &mut way.found);
         for ((node, series), before) in found.motions.iter_mut().zip(before) {
             let own = place(costate, *node) - before;
             match series.last_mut() {
@@ -109,12 +183,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The same of one quantity with a weight.
     fn add_seed(
         &mut self,
-        kept: &Kept<S>,
-        (steps, weight): (usize, S),
+        (state, weight): (&State<S>, S),
         term: &Term<D, S>,
-        (layout, costate, found): (&Layout, &mut Costate<S>, &mut Gradient<D, S>),
+        way: &mut Way<D, S>,
     ) -> Result<(), GradientError> {
-        let state = kept.state(steps);
+        let (layout, found) = (&way.layout, &mut way.found);
+        let costate = &mut way.adjoint.costate;
         let at = |node: &Node| node.index * D + term.component;
         let velocities = |node: usize, mass: S| state.velocity::<D>(node, mass);
         let slots = |element: &Element| layout.elements[element.index()];
@@ -163,11 +237,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let entropy = state.reservoir_entropies.values()[reservoir.index];
                 found.reservoirs[reservoir.index] += weight * entropy;
             }
-            Quantity::KineticEnergy => self.add_kinetic(kept, (steps, weight), (costate, found)),
+            Quantity::KineticEnergy => self.add_kinetic((state, weight), (costate, found)),
             Quantity::TotalEnergy => {
-                self.add_kinetic(kept, (steps, weight), (costate, found));
-                self.add_potential(kept, (steps, weight), (costate, found));
-                self.add_internal(kept, (steps, weight), (costate, found));
+                self.add_kinetic((state, weight), (costate, found));
+                self.add_potential((state, weight), (costate, found));
+                self.add_internal((state, weight), (costate, found));
                 for (index, &theta) in self.conduction.reservoirs.iter().enumerate() {
                     costate.reservoirs[index] += weight * theta;
                     found.reservoirs[index] += weight * state.reservoir_entropies.values()[index];
@@ -181,52 +255,68 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// `½ vᵀ M v`.
     fn add_kinetic(
         &self,
-        kept: &Kept<S>,
-        (steps, weight): (usize, S),
+        (state, weight): (&State<S>, S),
         (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
     ) {
-        let momenta = kept.state(steps).momenta.values();
+        let momenta = state.momenta.values();
         let half = S::from_f64(0.5);
         for (node, mass) in self.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
-            let velocity = kept.state(steps).velocity::<D>(node, mass);
+            let velocity = state.velocity::<D>(node, mass);
             for axis in 0..D {
                 costate.velocities[node * D + axis] += weight * momenta[node * D + axis];
                 found.masses[node] += weight * half * velocity[axis] * velocity[axis];
             }
+        }
+        if !self.masses.are_coupled() {
+            return;
+        }
+        for (node, _) in &self.loads.motions {
+            for at in (0..D).map(|axis| node.index * D + axis) {
+                costate.velocities[at] += weight * momenta[at];
+            }
+        }
+        let velocity = |node: usize| SVector::from(state.velocity::<D>(node, S::one()));
+        for ([i, j], by) in &mut found.pairs {
+            let share = if i == j { half } else { S::one() };
+            *by += weight * share * dot(&velocity(*i), &velocity(*j));
         }
     }
 
     /// `−Σ m g·q`.
     fn add_potential(
         &self,
-        kept: &Kept<S>,
-        (steps, weight): (usize, S),
+        (state, weight): (&State<S>, S),
         (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
     ) {
-        let positions = kept.state(steps).positions.values();
+        let positions = state.positions.values();
+        let place = |node: usize| SVector::<S, D>::from_fn(|axis, _| positions[node * D + axis]);
+        let gravity = self.loads.gravity;
         let sums = self.masses.weights();
         for (node, &sum) in sums.iter().enumerate() {
-            let is_mass = self.masses.get(node).is_some();
-            for axis in 0..D {
-                let (at, fall) = (node * D + axis, self.loads.gravity[axis]);
-                costate.positions[at] -= weight * sum * fall;
-                found.gravity[axis] -= weight * sum * positions[at];
-                if is_mass {
-                    found.masses[node] -= weight * fall * positions[at];
-                }
+            for (axis, at) in (node * D..(node + 1) * D).enumerate() {
+                costate.positions[at] -= weight * sum * gravity[axis];
             }
+            found.gravity -= place(node) * (weight * sum);
+            if self.masses.get(node).is_some() {
+                found.masses[node] -= weight * dot(&gravity, &place(node));
+            }
+        }
+        for ([i, j], by) in &mut found.pairs {
+            let mut own = place(*i);
+            if i != j {
+                own += place(*j);
+            }
+            *by -= weight * dot(&gravity, &own);
         }
     }
 
     /// `Σ e` of all elements.
     fn add_internal(
         &mut self,
-        kept: &Kept<S>,
-        (steps, weight): (usize, S),
+        (state, weight): (&State<S>, S),
         (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
     ) {
-        let state = kept.state(steps);
         // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         let Stepper::Newton(newton) = &mut self.stepper else {
@@ -274,38 +364,40 @@ fn no_derivative<const D: usize, S: Real>(quantity: &Quantity<D, S>) -> Gradient
 /// given and of the time of the run, and what steps of rounded sizes add.
 const ROUNDINGS: f64 = 4.0;
 
-/// The number of steps that end at a time.
-fn end_of<S: Real>(kept: &Kept<S>, time: f64) -> Result<usize, GradientError> {
-    let of = |steps: usize| kept.state(steps).time.value.to_f64();
-    let steps = &kept.steps;
-    let before = steps.partition_point(|step| step.state.time.value.to_f64() < time);
-    let after = (before + 1).min(steps.len());
-    let off = |&steps: &usize| (of(steps) - time).abs();
-    let nearest = if off(&before) <= off(&after) {
-        before
-    } else {
-        after
-    };
-    if off(&nearest) <= ROUNDINGS * S::EPSILON.to_f64() * time.abs() {
-        return Ok(nearest);
-    }
-    let nearest = of(nearest);
-    Err(GradientError::NotAnEndOfStep { time, nearest })
-}
-
-/// The weights of a quantity in the states after each number of steps, where they do not depend on its values.
-fn share<S: Real>(kept: &Kept<S>, when: &When, weights: &mut [f64]) -> Result<(), GradientError> {
-    match when {
-        When::End => weights[kept.steps.len()] = 1.0,
-        When::At(time) => weights[end_of(kept, *time)?] = 1.0,
-        When::Integral => {
-            for (index, step) in kept.steps.iter().enumerate() {
-                let half = 0.5 * step.step.to_f64();
-                weights[index] += half;
-                weights[index + 1] += half;
+/// The states in which a quantity counts, the last one at the end.
+fn moments<S: Real>(kept: &Record<S>, when: &When) -> Result<Vec<Moment>, GradientError> {
+    let at = |steps: usize, record| Moment { steps, record };
+    let mut asked: Vec<(f64, Option<[f64; 2]>)> = match when {
+        When::End => return Ok(vec![at(kept.len(), None)]),
+        When::Integral => return Ok(Vec::new()),
+        When::At(time) => vec![(*time, None)],
+        When::Misfit(records) => {
+            let mut asked = Vec::with_capacity(records.len());
+            for &[time, datum, deviation] in records {
+                if !is_positive(deviation) {
+                    let value = deviation;
+                    return Err(GradientError::Deviation { time, value });
+                }
+                asked.push((time, Some([datum, deviation])));
             }
+            asked
         }
-        When::Misfit(_) => {}
+    };
+    asked.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    let mut times = kept.times().map(Real::to_f64).enumerate().peekable();
+    let (mut steps, mut near) = times.next().unwrap_or((0, f64::NAN));
+    let mut found = Vec::with_capacity(asked.len());
+    for (time, record) in asked {
+        let nearer = |next: f64, near: f64| (next - time).abs() < (near - time).abs();
+        while let Some(next) = times.next_if(|&(_, next)| nearer(next, near)) {
+            (steps, near) = next;
+        }
+        let is_there = (near - time).abs() <= ROUNDINGS * S::EPSILON.to_f64() * time.abs();
+        if !is_there {
+            let nearest = near;
+            return Err(GradientError::NotAnEndOfStep { time, nearest });
+        }
+        found.push(at(steps, record));
     }
-    Ok(())
+    Ok(found)
 }

@@ -1,0 +1,242 @@
+//! The transposed equations of a point, and their elimination.
+
+use crate::element::conduction::{InterfaceTemperatures, Partner};
+use crate::element::conjugates::{ElementScheme, Form, Start};
+use crate::element::error::StateError;
+use crate::element::group::arms::{add_scaled, measures_in};
+use crate::element::group::eliminate::{LocalSystem, eliminate};
+use crate::element::group::point::{Point, temperature_in};
+use crate::element::group::point_step::PastStep;
+use crate::element::group::pose::Pose;
+use crate::element::group::share::{Heat, Momentum};
+use crate::element::group::site::Contact;
+use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
+use crate::element::layout::Slots;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
+
+/// What is left of the transposed equations of a point when its own weights are eliminated:
+/// `Σ_a h (D*π_a·w_v) moduli_a + w_Θ by_heat + constant`, by measure.
+pub(super) struct Reduced<K: Kinematics<S, D>, S: Real, const D: usize> {
+    moduli: K::PerMeasure<Measures<K, S, D>>,
+    by_heat: Measures<K, S, D>,
+    constant: Measures<K, S, D>,
+}
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
+{
+    /// Takes over both states of a step.
+    #[inline]
+    pub(super) fn return_to(
+        &mut self,
+        step: &PastStep<'_, S>,
+        arms: &[Arms<K, S, D>; 2],
+    ) -> Result<(), StateError> {
+        let [r0, r1] = arms;
+        let x0 = self.variables_in(r0, step.view.state);
+        self.x = self.variables_in(r1, step.new);
+        self.start = Start {
+            x0,
+            old: C::old(&self.model, &x0, S::zero()),
+        };
+        let mut theta = S::one();
+        if let Some(slot) = self.slots().thermal {
+            theta = x0[Self::TEMPERATURE];
+            self.is_prescribed = step.held[slot];
+        }
+        self.memory = C::memory(theta);
+        C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
+            .map_err(|infeasible| infeasible.of(self.element))?;
+        for k in 0..M::DASHPOTS {
+            self.creep[k] = self.x[M::MEASURES + k] - x0[M::MEASURES + k];
+        }
+        for a in 0..Self::DRAGS {
+            self.drag.extension[a] = self.x[a] - x0[a];
+        }
+        Ok(())
+    }
+
+    /// Both states as its kinematics see them.
+    #[inline]
+    pub(super) fn ends(&self, arms: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
+        let measures = [&self.start.x0, &self.x].map(|x| measures_in::<K, S, D>(x));
+        Ends::new(&self.kinematics, arms, measures)
+    }
+
+    /// The same from the new state to the old one.
+    #[inline]
+    pub(super) fn ends_back(&self, [r0, r1]: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
+        let measures = [&self.x, &self.start.x0].map(|x| measures_in::<K, S, D>(x));
+        Ends::new(&self.kinematics, [r1, r0], measures)
+    }
+
+    /// Its response with tangent, including Kelvin–Voigt dashpots.
+    #[inline]
+    pub(super) fn tangent_in(&mut self, per_step: S) -> Result<Form<S, M>, StateError> {
+        let mut form = self
+            .scheme
+            .form(&self.model, &self.start, &self.x, &self.memory);
+        self.accept(per_step, &form, None)?;
+        self.response = form.0;
+        self.add_drag(per_step, &mut form);
+        Ok(form)
+    }
+
+    /// `Σ λ_σ h κ_r/θ_r`.
+    #[inline]
+    pub(super) fn of_reservoirs(&self, step: &PastStep<'_, S>) -> S {
+        let mut sum = S::zero();
+        let Some(slot) = self.slots().thermal.filter(|_| self.meets_reservoirs) else {
+            return sum;
+        };
+        let conduction = step.view.conduction;
+        for link in conduction.links(slot) {
+            if let Partner::Reservoir(index) = link.partner {
+                let conducted = step.view.step * link.conductance;
+                sum += step.by_new.reservoirs[index] * conducted / conduction.reservoirs[index];
+            }
+        }
+        sum
+    }
+
+    /// Eliminates its own weights, which are kept as functions of the others.
+    #[inline]
+    pub(super) fn condense_transposed(
+        &mut self,
+        step: &PastStep<'_, S>,
+        interface: &InterfaceTemperatures<S>,
+        form: &Form<S, M>,
+        contact: Option<&Contact<K, S, D>>,
+    ) -> Result<Reduced<K, S, D>, StateError> {
+        let (response, tangent) = form;
+        let mut reduced = Reduced::<K, S, D> {
+            moduli: K::PerMeasure::filled(Measures::<K, S, D>::filled(S::zero())),
+            by_heat: Measures::<K, S, D>::filled(S::zero()),
+            constant: Measures::<K, S, D>::filled(S::zero()),
+        };
+        for a in 0..M::MEASURES {
+            reduced.moduli[a] = measures_in::<K, S, D>(&tangent[a]);
+        }
+        if Self::UNKNOWNS == 0 {
+            return Ok(reduced);
+        }
+        let theta = temperature_in::<S, M>(response);
+        let flow = self.heat_flow(&step.view, contact, interface, theta);
+        let mut system = LocalSystem::<S, M>::empty(self.pivot_units(theta));
+        self.balances::<false>(&step.view, &flow, form, &mut system);
+        let mut transposed = LocalSystem::<S, M>::empty(system.unit);
+        let of_reservoirs = self.of_reservoirs(step);
+        let Slots { viscous, thermal } = self.slots();
+        for u in 0..Self::UNKNOWNS {
+            let column = M::MEASURES + u;
+            for a in 0..M::MEASURES {
+                transposed.rows[u][a] = tangent[a][column];
+            }
+            for v in 0..Self::UNKNOWNS {
+                transposed.rows[u][M::MEASURES + v] = system.rows[v][column];
+            }
+            let by_new = match thermal.filter(|_| u == M::DASHPOTS) {
+                Some(slot) => step.by_new.temperatures[slot],
+                None => step.by_new.viscous[viscous + u],
+            };
+            transposed.constant[u] = -by_new;
+            if M::THERMAL {
+                let by_theta = tangent[Self::TEMPERATURE][column];
+                transposed.constant[u] -= of_reservoirs * by_theta;
+                transposed.by_heat[u] = -by_theta;
+            }
+        }
+        let solved = if contact.is_some() {
+            eliminate::<S, M, true>(&mut transposed)
+        } else {
+            eliminate::<S, M, false>(&mut transposed)
+        };
+        solved.map_err(|singular| self.unsolved(singular))?;
+        self.keep_solved(&transposed, contact.is_some());
+        for b in 0..M::MEASURES {
+            if M::THERMAL {
+                let by_theta = tangent[Self::TEMPERATURE][b];
+                reduced.constant[b] = -of_reservoirs * by_theta;
+                reduced.by_heat[b] = -by_theta;
+            }
+            for u in 0..Self::UNKNOWNS {
+                let by = system.rows[u][b];
+                reduced.constant[b] -= by * self.condensed.constant.get(u);
+                if contact.is_some() {
+                    reduced.by_heat[b] -= by * self.condensed.by_heat.get(u);
+                }
+                for a in 0..M::MEASURES {
+                    reduced.moduli[a][b] -= by * self.condensed.by_measure[a].get(u);
+                }
+            }
+        }
+        Ok(reduced)
+    }
+
+    /// Adds the derivatives of `wᵀR` by the arms: constant, and by `w_v` (rows) transposed.
+    #[inline]
+    pub(super) fn add_transposed(
+        &self,
+        step: S,
+        pose: &Pose<K, S, D>,
+        (form, reduced): (&Form<S, M>, &Reduced<K, S, D>),
+        sum: &mut Option<Momentum<K, S, D>>,
+    ) {
+        let (kinematics, at) = (&self.kinematics, self.scheme.placement());
+        let mut forces = Measures::<K, S, D>::filled(S::zero());
+        let mut by_arm = pose.sensitivity;
+        for a in 0..M::MEASURES {
+            forces[a] = step * form.0[a];
+            by_arm[a] = combined::<K, S, D>(&pose.sensitivity, &reduced.moduli[a], step);
+        }
+        let pull = combined::<K, S, D>(&pose.sensitivity, &reduced.constant, S::one());
+        match sum {
+            None => {
+                *sum = Some(Momentum {
+                    pull,
+                    blocks: pose.tangent(kinematics, at, &forces, &by_arm),
+                });
+            }
+            Some(sum) => {
+                add_scaled::<K, S, D>(&mut sum.pull, S::one(), &pull);
+                pose.add_tangent(kinematics, at, (&forces, &by_arm), &mut sum.blocks);
+            }
+        }
+    }
+
+    /// What its own and its partners' interface temperatures have to do with it: `by_arm` the derivative of `wᵀR` by `w_Θ`
+    /// and the arms; the others of `−(∂R_s/∂Q) w_s`, by `w_v`, by `w_Θ` and constant.
+    pub(super) fn heat_transposed(
+        &self,
+        step: S,
+        pose: &Pose<K, S, D>,
+        reduced: &Reduced<K, S, D>,
+    ) -> Heat<K, S, D> {
+        let (own, factor) = (M::DASHPOTS, self.condensed.heat_factor);
+        let mut by_measure = Measures::<K, S, D>::filled(S::zero());
+        for a in 0..M::MEASURES {
+            by_measure[a] = self.condensed.by_measure[a].get(own);
+        }
+        Heat {
+            residual: factor * self.condensed.constant.get(own),
+            by_arm: combined::<K, S, D>(&pose.sensitivity, &reduced.by_heat, S::one()),
+            slope: factor * self.condensed.by_heat.get(own),
+            pull: combined::<K, S, D>(&pose.direction, &by_measure, step * factor),
+        }
+    }
+}
+
+/// `factor Σ_b slopes_b rows_b`.
+#[inline]
+fn combined<K: Kinematics<S, D>, S: Real, const D: usize>(
+    rows: &Gradient<K, S, D>,
+    slopes: &Measures<K, S, D>,
+    factor: S,
+) -> Arms<K, S, D> {
+    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (row, &slope) in rows.as_ref().iter().zip(slopes.as_ref()) {
+        add_scaled::<K, S, D>(&mut sum, factor * slope, row);
+    }
+    sum
+}

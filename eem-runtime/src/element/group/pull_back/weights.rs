@@ -1,0 +1,236 @@
+//! The weights of the equations of a point, and the derivatives that follow from them.
+
+use crate::element::conduction::InterfaceTemperatures;
+use crate::element::conjugates::{ElementScheme, Start};
+use crate::element::group::arms::{add_scaled, measures_in};
+use crate::element::group::point::Point;
+use crate::element::group::point_step::{Costate, PastStep, StepWeights};
+use crate::element::group::site::Contact;
+use crate::element::group::terms::Terms;
+use crate::element::kinematics::{Arms, Ends, Kinematics};
+use crate::element::layout::Slots;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
+
+/// What the weights of a point depend on besides its own values.
+pub(super) struct Seen<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
+    pub(super) step: &'a PastStep<'a, S>,
+    pub(super) interface: &'a InterfaceTemperatures<S>,
+    pub(super) contact: Option<&'a Contact<K, S, D>>,
+    /// `w_Θ`.
+    pub(super) theta: S,
+}
+
+/// The derivatives of `wᵀR` by the response, the increments and the viscosities of a point, and the weight of its balance of
+/// heat.
+pub(super) struct OfPoint<S: Real, M: Material<S>> {
+    pub(super) rho: M::Response,
+    pub(super) increments: M::Variables,
+    pub(super) by_size: Terms<S>,
+    viscosities: M::Viscosities,
+    drag: M::Drag,
+    own: S,
+}
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
+{
+    /// The weights of its equations, given those of the motion of its arms, and its terms of `−(∂R/∂h)ᵀ w`, with those of the
+    /// momentum balances replaced by means of these,
+    ///
+    /// ```text
+    /// w_v·(MΔv + Σ η_d Δλ D*λ)/h + w_γ η Δγ/h² + (w_s/θ*)(Σ κ (Θ_b − Θ_a) + Σ κ_r (θ_r − θ*) − Σ η Δγ²/h² − Σ η_d Δλ²/h²)
+    /// ```
+    ///
+    /// without inertia.
+    #[inline]
+    pub(super) fn weigh(
+        &self,
+        seen: &Seen<'_, K, S, D>,
+        ends: &Ends<K, S, D>,
+        w: &Arms<K, S, D>,
+    ) -> OfPoint<S, M> {
+        let (h, per_step) = (seen.step.view.step, seen.step.view.per_step);
+        let along = self.kinematics.discrete_rates(ends, w);
+        let own = |u: usize| {
+            let mut sum = self.condensed.constant.get(u);
+            for a in 0..M::MEASURES {
+                sum += self.condensed.by_measure[a].get(u) * (h * along[a]);
+            }
+            if seen.contact.is_some() {
+                sum += self.condensed.by_heat.get(u) * seen.theta;
+            }
+            -sum
+        };
+        let mut of = OfPoint::<S, M> {
+            rho: M::Response::filled(S::zero()),
+            increments: M::Variables::filled(S::zero()),
+            by_size: Terms::none(),
+            viscosities: M::Viscosities::filled(S::zero()),
+            drag: M::Drag::filled(S::zero()),
+            own: S::zero(),
+        };
+        let theta = self.temperature();
+        // Without a temperature there is no balance of entropy.
+        let mut per_theta = S::zero();
+        if M::THERMAL {
+            of.own = own(M::DASHPOTS);
+            per_theta = theta.recip();
+        }
+        let entropy = if self.is_prescribed {
+            S::zero()
+        } else {
+            of.own
+        };
+        let per_heat = entropy * per_theta;
+        let (mut by_theta, mut heat, mut slope) = (S::zero(), S::zero(), S::zero());
+        for a in 0..M::MEASURES {
+            of.rho[a] = h * along[a];
+        }
+        for k in 0..M::DASHPOTS {
+            let (eta, by_eta) = (self.viscosities.0[k], self.viscosities.1[k]);
+            let (weight, rate) = (own(k), self.creep[k] * per_step);
+            of.rho[M::MEASURES + k] = -weight;
+            of.increments[M::MEASURES + k] =
+                eta * (weight * per_step - (per_heat + per_heat) * rate);
+            of.viscosities[k] = rate * (weight - h * per_heat * rate);
+            of.by_size.add(weight * eta * rate * per_step);
+            by_theta += weight * by_eta * rate;
+            heat += eta * rate * rate;
+            slope += by_eta * rate * rate;
+        }
+        for a in 0..Self::DRAGS {
+            let (eta, by_eta) = (self.drag.viscosity.0[a], self.drag.viscosity.1[a]);
+            let rate = self.drag.extension[a] * per_step;
+            of.increments[a] = eta * (along[a] - (per_heat + per_heat) * rate);
+            of.drag[a] = h * rate * (along[a] - per_heat * rate);
+            of.by_size.add(eta * rate * along[a]);
+            by_theta += by_eta * self.drag.extension[a] * along[a];
+            heat += eta * rate * rate;
+            slope += by_eta * rate * rate;
+        }
+        if M::THERMAL {
+            let flow = self.heat_flow(&seen.step.view, seen.contact, seen.interface, theta);
+            of.by_size.add(per_heat * flow.heat);
+            of.by_size.add(-per_heat * heat);
+            heat += flow.heat;
+            slope -= flow.conductance;
+            by_theta += h * per_heat * (heat * per_theta - slope);
+            by_theta -= self.of_reservoirs(seen.step) + seen.theta;
+            of.rho[Self::TEMPERATURE] = by_theta;
+            of.rho[Self::ENTROPY] = entropy;
+        }
+        of
+    }
+
+    /// The derivatives of `wᵀR` by the variables of the old state.
+    #[inline]
+    pub(super) fn by_old(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
+        let start = Start {
+            x0: self.x,
+            old: C::old(&self.model, &self.x, S::zero()),
+        };
+        let memory = C::exchanged(&self.memory);
+        let (_, tangent) = self
+            .scheme
+            .form(&self.model, &start, &self.start.x0, &memory);
+        let mut rho = *rho;
+        if M::THERMAL {
+            rho[Self::ENTROPY] = -rho[Self::ENTROPY];
+        }
+        pulled::<S, M>(&rho, &tangent, increments, -S::one())
+    }
+
+    /// The derivatives of `wᵀR` by the variables of the new state, without those by temperatures that are held.
+    pub(super) fn by_new(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
+        let (_, tangent) = self
+            .scheme
+            .form(&self.model, &self.start, &self.x, &self.memory);
+        pulled::<S, M>(rho, &tangent, increments, S::one())
+    }
+
+    /// Adds the derivatives of `wᵀR` by the arms of the second of two ends, given those by its variables.
+    #[inline]
+    pub(super) fn add_by_arms(
+        &self,
+        ends: &Ends<K, S, D>,
+        by: &M::Variables,
+        w: &Arms<K, S, D>,
+        step: S,
+        sum: &mut Arms<K, S, D>,
+    ) {
+        let mut forces = self.pulls();
+        for force in forces.as_mut() {
+            *force *= step;
+        }
+        let by = measures_in::<K, S, D>(by);
+        let pulled = self.kinematics.pull_back(ends, &by, (&forces, w));
+        add_scaled::<K, S, D>(sum, S::one(), &pulled);
+    }
+
+    /// Writes the derivatives by its old internal variables, and the weights of its balance of heat.
+    #[inline]
+    pub(super) fn write(
+        &self,
+        by: &M::Variables,
+        of: &OfPoint<S, M>,
+        by_old: &mut Costate<S>,
+        weights: &mut StepWeights<S>,
+    ) {
+        let Slots { viscous, thermal } = self.slots();
+        for k in 0..M::DASHPOTS {
+            by_old.viscous[viscous + k] = -by[M::MEASURES + k];
+        }
+        if let Some(slot) = thermal {
+            by_old.temperatures[slot] = -by[Self::TEMPERATURE];
+            weights.temperatures[slot] = self.temperature();
+            weights.entropies[slot] = of.rho[Self::ENTROPY];
+            if self.is_prescribed {
+                weights.held[slot] = of.own;
+            }
+        }
+    }
+
+    /// The derivatives of the number by the parameters in this step.
+    #[inline]
+    pub(super) fn by_parameters(&self, of: &OfPoint<S, M>) -> M::Parameters {
+        let x = [&self.start.x0, &self.x];
+        let mut sum = (self.scheme).form_adjoint(&self.model, x, &self.memory, &of.rho);
+        let theta = self.temperature();
+        if M::DASHPOTS > 0 {
+            let by = self.model.viscosity_adjoint(theta, &of.viscosities);
+            add::<S, M>(&mut sum, &by);
+        }
+        if Self::DRAGS > 0 {
+            add::<S, M>(&mut sum, &self.model.drag_adjoint(theta, &of.drag));
+        }
+        for entry in sum.as_mut() {
+            *entry = -*entry;
+        }
+        sum
+    }
+}
+
+fn add<S: Real, M: Material<S>>(sum: &mut M::Parameters, by: &M::Parameters) {
+    for (sum, &by) in sum.as_mut().iter_mut().zip(by.as_ref()) {
+        *sum += by;
+    }
+}
+
+/// `Tᵀρ ± increments`.
+#[inline]
+fn pulled<S: Real, M: Material<S>>(
+    rho: &M::Response,
+    tangent: &M::Tangent,
+    increments: &M::Variables,
+    sign: S,
+) -> M::Variables {
+    let mut pulled = M::Variables::filled(S::zero());
+    for (at, pulled) in pulled.as_mut().iter_mut().enumerate() {
+        *pulled = sign * increments[at];
+        for (&rho, row) in rho.as_ref().iter().zip(tangent.as_ref()) {
+            *pulled += rho * row[at];
+        }
+    }
+    pulled
+}

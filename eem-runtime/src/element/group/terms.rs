@@ -1,0 +1,47 @@
+//! Sums whose rounding is known.
+
+use eem_material::number::scalar::Real;
+
+/// A sum with the size of its terms.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Terms<S> {
+    pub(crate) sum: S,
+    magnitude: S,
+    count: f64,
+}
+
+impl<S: Real> Terms<S> {
+    /// None.
+    pub(crate) fn none() -> Self {
+        Self {
+            sum: S::zero(),
+            magnitude: S::zero(),
+            count: 0.0,
+        }
+    }
+
+    pub(crate) fn add(&mut self, term: S) {
+        self.sum += term;
+        self.magnitude += term.abs();
+        self.count += 1.0;
+    }
+
+    /// Adds `factor (new − old)`, whose rounding is that of both numbers.
+    pub(crate) fn add_change(&mut self, factor: S, [old, new]: [S; 2]) {
+        self.sum += factor * (new - old);
+        self.magnitude += factor.abs() * (new.abs() + old.abs());
+        self.count += 1.0;
+    }
+
+    /// Adds the terms of another sum.
+    pub(crate) fn add_all(&mut self, other: &Self) {
+        self.sum += other.sum;
+        self.magnitude += other.magnitude;
+        self.count += other.count;
+    }
+
+    /// What rounding may do to the sum: half ε of each partial sum and of each term, none of which exceeds all sizes.
+    pub(crate) fn rounding(&self) -> S {
+        S::from_f64(self.count) * S::EPSILON * self.magnitude
+    }
+}

@@ -1,0 +1,369 @@
+//! The steps of a run in limited memory: all states while they fit, then snapshots from which steps are made again.
+//!
+//! Of n steps every 2ᵏ-th state is kept with what the next step is predicted from, so that steps made again have the same bits.
+//! Backwards, the steps after the last snapshot are made again and their states kept. If these are too many, snapshots are kept
+//! among them: with f free ones and r passes over each step before the one that keeps states,
+//!
+//! ```text
+//! reach(f, r) = (f + r)!/(f! r!)      times the states that fit,      reach(f, r) = reach(f − 1, r) + reach(f, r − 1)
+//! ```
+//!
+//! (Griewank & Walther 2000, Algorithm 799; Stumm & Walther 2010).
+
+use super::error::GradientError;
+use super::history::{History, Kept, Limit};
+use crate::element::state::State;
+use crate::step::scheme::Scheme;
+use crate::step::solver::SavedPast;
+use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::{Mask, Real};
+
+/// How often a step is made again, at most, before the pass that keeps states.
+const MOST_PASSES: usize = 3;
+
+/// The share of the memory for snapshots, which are several times as large as states.
+const SHARE_OF_SNAPSHOTS: usize = 4;
+
+/// The distance of the first snapshots where there is memory for many states: copying them costs little there.
+const FIRST_STRIDE: usize = 64;
+
+/// A state with what its next step depends on.
+#[derive(Clone, Debug)]
+pub(crate) struct Snapshot<S> {
+    /// The number of steps before it.
+    pub(crate) index: usize,
+    pub(crate) state: State<S>,
+    pub(crate) past: SavedPast<S>,
+}
+
+/// The steps since the history began.
+#[derive(Clone, Debug)]
+pub(crate) struct Record<S> {
+    sizes: Vec<S>,
+    /// The first step of each scheme.
+    schemes: Vec<(usize, Scheme)>,
+    /// The times of states that were set to the end of a run, which the step missed by rounding.
+    arrivals: Vec<(usize, S)>,
+    /// The time after the last step.
+    time: Sum<S>,
+    /// Every `stride`-th state, in their order.
+    snapshots: Vec<Snapshot<S>>,
+    stride: usize,
+    /// Those that are needed only on the way back.
+    passing: Vec<Snapshot<S>>,
+    /// All states, while they fit.
+    all: Option<Kept<S>>,
+    /// Whether a step was not kept because it did not fit.
+    is_full: bool,
+    limits: Limits,
+}
+
+/// What may be kept.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    /// Bytes for states and sizes of steps, and those of one state; `None` for a single state.
+    states: Option<[usize; 2]>,
+    /// Snapshots besides the first one.
+    snapshots: usize,
+}
+
+impl Limits {
+    /// The states that fit beside the sizes of so many steps.
+    fn fit<S>(&self, steps: usize) -> usize {
+        self.states.map_or(1, |[bytes, state]| {
+            bytes.saturating_sub(steps.saturating_mul(size_of::<S>())) / state
+        })
+    }
+}
+
+/// What is made again next: the steps from a snapshot up to a state; all their states are kept, or the last one as a snapshot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pass {
+    pub(crate) steps: [usize; 2],
+    pub(crate) keeps_all: bool,
+}
+
+/// `(f + r)!/(f! r!)`.
+fn reach(free: usize, passes: usize) -> usize {
+    (1..=passes).fold(1, |reach: usize, pass| {
+        // The product is a multiple of `pass`; one that saturates is beyond any history.
+        reach.saturating_mul(free.saturating_add(pass)) / pass
+    })
+}
+
+fn bytes_of_snapshot<S: Real>(state: &State<S>, past: &SavedPast<S>) -> usize {
+    let sums = [
+        &state.positions,
+        &state.momenta,
+        &state.velocities,
+        &state.viscous,
+        &state.entropies,
+        &state.reservoir_entropies,
+    ];
+    let numbers = sums.map(|sums| 2 * sums.values().len());
+    let numbers = numbers.iter().sum::<usize>() + state.temperatures.len();
+    let of_past = past.forces.iter().map(Vec::len).sum::<usize>() + past.internal.len();
+    let energies = size_of_val(state.energies.as_slice());
+    size_of::<Snapshot<S>>() + energies + (numbers + of_past) * size_of::<S>()
+}
+
+impl<S: Real> Record<S> {
+    /// From a state on, with what its next step depends on.
+    pub(crate) fn new(state: &State<S>, past: SavedPast<S>, limit: History) -> Self {
+        let own = Kept::bytes_of(state);
+        let snapshot = bytes_of_snapshot(state, &past);
+        let limits = match limit.0 {
+            Limit::Bytes(bytes) => Limits {
+                states: Some([bytes - bytes / SHARE_OF_SNAPSHOTS, own]),
+                snapshots: bytes / SHARE_OF_SNAPSHOTS / snapshot,
+            },
+            Limit::Snapshots(snapshots) => Limits {
+                states: None,
+                snapshots,
+            },
+        };
+        let most = limits.fit::<S>(0).clamp(1, FIRST_STRIDE);
+        Self {
+            sizes: Vec::new(),
+            schemes: Vec::new(),
+            arrivals: Vec::new(),
+            time: state.time,
+            snapshots: vec![Snapshot {
+                index: 0,
+                state: state.clone(),
+                past,
+            }],
+            stride: (most / 2 + 1).next_power_of_two(),
+            passing: Vec::new(),
+            all: limits.states.map(|_| Kept::new(state, limits.fit::<S>(0))),
+            is_full: false,
+            limits,
+        }
+    }
+
+    /// The number of steps.
+    pub(crate) const fn len(&self) -> usize {
+        self.sizes.len()
+    }
+
+    /// All states, if they are kept.
+    pub(crate) const fn all(&self) -> Option<&Kept<S>> {
+        self.all.as_ref()
+    }
+
+    /// The size of a step, s.
+    pub(crate) fn size(&self, step: usize) -> S {
+        self.sizes[step]
+    }
+
+    /// The time that the state after so many steps was set to, s.
+    pub(crate) fn arrival(&self, steps: usize) -> Option<S> {
+        let found = self.arrivals.binary_search_by_key(&steps, |&(at, _)| at);
+        found.ok().map(|place| self.arrivals[place].1)
+    }
+
+    /// The times of all states, s.
+    pub(crate) fn times(&self) -> impl Iterator<Item = S> + '_ {
+        let mut time = self.snapshots[0].state.time;
+        let later = self.sizes.iter().zip(1..).map(move |(&size, at)| {
+            time = self.next_time(time, size, at);
+            time.value
+        });
+        [self.snapshots[0].state.time.value]
+            .into_iter()
+            .chain(later)
+    }
+
+    /// The time after a step of this size, to the state after so many.
+    fn next_time(&self, mut time: Sum<S>, size: S, steps: usize) -> Sum<S> {
+        time.add(size);
+        self.arrival(steps).map_or(time, Sum::new)
+    }
+
+    /// The schemes of the steps, with the time after the first step of each.
+    pub(crate) fn schemes(&self) -> impl Iterator<Item = (Scheme, S)> + '_ {
+        let of = |&(first, scheme): &(usize, Scheme)| (scheme, self.time_of(first + 1).value);
+        self.schemes.iter().map(of)
+    }
+
+    fn time_of(&self, steps: usize) -> Sum<S> {
+        let mut before = self.snapshots.iter().rev();
+        let from = before.find(|snapshot| snapshot.index <= steps);
+        let from = from.map_or((0, self.time), |snapshot| {
+            (snapshot.index, snapshot.state.time)
+        });
+        let sizes = self.sizes[from.0..steps].iter().zip(from.0 + 1..);
+        sizes.fold(from.1, |time, (&size, at)| self.next_time(time, size, at))
+    }
+
+    /// Whether the last state is this one, as far as that is known.
+    pub(crate) fn ends_in(&self, state: &State<S>) -> bool {
+        self.time == state.time && self.all.as_ref().is_none_or(|all| all.ends_in(state))
+    }
+
+    /// The time of the last state, s.
+    pub(crate) const fn time(&self) -> S {
+        self.time.value
+    }
+
+    /// Forgets steps that were undone: those that end after a time.
+    pub(crate) fn return_to(&mut self, time: S) {
+        let before = self.len();
+        while !self.sizes.is_empty() && time.less(self.time.value).all() {
+            self.sizes.pop();
+            self.time = self.time_of(self.len());
+        }
+        let len = self.len();
+        if len < before {
+            self.is_full = false;
+            self.arrivals.retain(|&(at, _)| at <= len);
+            self.schemes.retain(|&(first, _)| first < len);
+            self.snapshots.retain(|snapshot| snapshot.index <= len);
+            if let Some(all) = &mut self.all {
+                all.return_to(len);
+            }
+        }
+    }
+
+    /// Keeps a step between two states, unless the first one is not the last that was kept, or memory does not suffice.
+    /// Whether a snapshot is due.
+    pub(crate) fn keep(&mut self, size: S, scheme: Scheme, [old, state]: [&State<S>; 2]) -> bool {
+        self.return_to(old.time.value);
+        let steps = self.len() + 1;
+        if self.is_full || !self.ends_in(old) {
+            return false;
+        }
+        if !self.is_within_reach(steps) {
+            self.is_full = true;
+            return false;
+        }
+        if self.schemes.last().is_none_or(|&(_, last)| last != scheme) {
+            self.schemes.push((self.len(), scheme));
+        }
+        self.sizes.push(size);
+        self.time = state.time;
+        if let Some(all) = &mut self.all {
+            if steps < self.limits.fit::<S>(steps) {
+                all.keep(state);
+            } else {
+                self.all = None;
+            }
+        }
+        steps.is_multiple_of(self.stride)
+    }
+
+    /// Keeps the present state as a snapshot if every second one makes room, or there is room.
+    pub(crate) fn snapshot(&mut self, state: &State<S>, past: impl FnOnce() -> SavedPast<S>) {
+        let index = self.len();
+        if self.snapshots.len() > self.limits.snapshots {
+            self.stride *= 2;
+            let stride = self.stride;
+            self.snapshots
+                .retain(|snapshot| snapshot.index.is_multiple_of(stride));
+        }
+        if index.is_multiple_of(self.stride) && self.snapshots.len() <= self.limits.snapshots {
+            self.snapshots.push(Snapshot {
+                index,
+                state: state.clone(),
+                past: past(),
+            });
+        }
+    }
+
+    /// A state is set to a time instead of this one, s.
+    pub(crate) fn arrive(&mut self, before: Sum<S>, time: S) {
+        let len = self.len();
+        // Not one that was not kept.
+        if len == 0 || self.time != before {
+            return;
+        }
+        self.time = Sum::new(time);
+        self.arrivals.push((len, time));
+        if let Some(all) = &mut self.all {
+            all.arrive(time);
+        }
+        if let Some(last) = self.snapshots.last_mut().filter(|last| last.index == len) {
+            last.state.time = self.time;
+        }
+    }
+
+    /// Whether so many steps can be reversed.
+    fn is_within_reach(&self, steps: usize) -> bool {
+        let states = self.limits.fit::<S>(steps);
+        steps <= reach(self.limits.snapshots, MOST_PASSES).saturating_mul(states)
+    }
+
+    /// An error if a step did not fit.
+    pub(crate) fn check(&self) -> Result<(), GradientError> {
+        if !self.is_full {
+            return Ok(());
+        }
+        let most = self.len();
+        Err(GradientError::HistoryTooLarge { most })
+    }
+
+    /// The snapshot with this index.
+    pub(crate) fn at(&self, index: usize) -> Option<&Snapshot<S>> {
+        let mut all = self.snapshots.iter().chain(&self.passing);
+        all.find(|snapshot| snapshot.index == index)
+    }
+
+    /// Keeps a snapshot on the way back.
+    pub(crate) fn pass(&mut self, snapshot: Snapshot<S>) {
+        self.passing.push(snapshot);
+    }
+
+    /// The next pass on the way back, before the state after so many steps, which is not the first one.
+    pub(crate) fn next_pass(&mut self, end: usize) -> Pass {
+        self.passing.retain(|snapshot| snapshot.index < end);
+        let states = self.limits.fit::<S>(self.len()).max(1);
+        loop {
+            let (from, free) = self.last_before(end);
+            let [start, steps] = [from, end - from];
+            if steps <= states {
+                return Pass {
+                    steps: [start, end],
+                    keeps_all: true,
+                };
+            }
+            let mut passes = 1..=MOST_PASSES;
+            let within = |passes: usize| reach(free, passes).saturating_mul(states);
+            if let Some(passes) = passes.find(|&passes| steps <= within(passes)) {
+                let first = within(passes - 1).min(steps - 1);
+                return Pass {
+                    steps: [start, start + first],
+                    keeps_all: false,
+                };
+            }
+            // Snapshots that are not needed any more make room, then the one at which these steps begin.
+            let behind = self.snapshots.last().is_some_and(|last| last.index >= end);
+            if !behind && self.snapshots.len() == 1 {
+                // Not reached: all that was kept is within reach.
+                return Pass {
+                    steps: [start, end],
+                    keeps_all: true,
+                };
+            }
+            self.snapshots.pop();
+        }
+    }
+
+    /// The last snapshot before a state, and how many more may be kept.
+    fn last_before(&self, end: usize) -> (usize, usize) {
+        let all = self.snapshots.iter().chain(&self.passing);
+        let last = all
+            .map(|snapshot| snapshot.index)
+            .filter(|&index| index < end)
+            .max();
+        let kept = self.snapshots.len() - 1 + self.passing.len();
+        (
+            last.unwrap_or(0),
+            self.limits.snapshots.saturating_sub(kept),
+        )
+    }
+
+    /// The way back is over.
+    pub(crate) fn forget_passing(&mut self) {
+        self.passing.clear();
+    }
+}

@@ -1,0 +1,65 @@
+//! Steps of a history that are made again, from snapshots.
+
+use super::super::Simulation;
+use super::super::guard::Guard;
+use crate::element::state::State;
+use crate::run::gradient::error::GradientError;
+use crate::run::gradient::history::Kept;
+use crate::run::gradient::snapshots::{Record, Snapshot};
+use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::Real;
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Calls a function that makes steps, after which everything is as before.
+    pub(super) fn with_steps_again<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.snapshot();
+        let reservoirs = self.conduction.reservoirs.clone();
+        let (iterations, end) = (self.effort.history.clone(), self.effort.end);
+        let guard = Guard::new(self, |run| {
+            run.return_to_snapshot(&before);
+            run.conduction.reservoirs = reservoirs;
+            (run.effort.history, run.effort.end) = (iterations, end);
+        });
+        act(&mut *guard.value)
+    }
+
+    /// The states of some steps before the state after so many, made again.
+    pub(super) fn states_before(
+        &mut self,
+        (end, last): (usize, &State<S>),
+        kept: &mut Record<S>,
+    ) -> Result<Kept<S>, GradientError> {
+        loop {
+            let pass = kept.next_pass(end);
+            let [from, to] = pass.steps;
+            if let Some(snapshot) = kept.at(from) {
+                self.state.copy_all_from(&snapshot.state);
+                self.stepper.restore(&snapshot.past, None);
+            }
+            let mut states = Kept::new(&self.state, to - from + 1);
+            for step in from..to {
+                let size = kept.size(step);
+                self.step_by(size)?;
+                if let Some(time) = kept.arrival(step + 1) {
+                    self.state.time = Sum::new(time);
+                }
+                if pass.keeps_all {
+                    states.keep(&self.state);
+                }
+            }
+            if !pass.keeps_all {
+                let (past, _) = self.stepper.past(&self.state);
+                kept.pass(Snapshot {
+                    index: to,
+                    state: State::clone(&self.state),
+                    past,
+                });
+            } else if states.ends_in(last) {
+                return Ok(states);
+            } else {
+                let time = last.time.value.to_f64();
+                return Err(GradientError::NotRepeatable { time });
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! The derivatives of a step by its inputs, from the weights of its equations.
+
+use super::super::Simulation;
+use super::way::{Way, dot};
+use crate::element::conduction::Partner;
+use crate::element::state::State;
+use crate::scene::loads::Course;
+use crate::step::adjoint::RocketStep;
+use eem_material::number::scalar::Real;
+use nalgebra::SVector;
+
+/// A step that was made: its size, its old state and its new one.
+pub(super) type Made<'a, S> = (S, [&'a State<S>; 2]);
+
+/// The cubic through four positions of a moved anchor, `q̇ = Σ weight (q_end − q_k)/(2h)`, at these thirds of the step.
+const CUBIC: [(f64, f64); 3] = [(2.0, 18.0), (1.0, -9.0), (0.0, 2.0)];
+
+fn vector<S: Real, const D: usize>(values: &[S], node: usize) -> SVector<S, D> {
+    SVector::from_fn(|axis, _| values[node * D + axis])
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Finds the rockets of a step and the temperatures of ovens in it.
+    pub(super) fn set_loads(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
+        let middle = old.time.value + S::from_f64(0.5) * h;
+        for (index, temperature) in &self.loads.ovens {
+            way.conduction.reservoirs[*index] = temperature(middle);
+            // Its entropy is booked as heat after the step.
+            way.adjoint.costate.reservoirs[*index] = S::zero();
+        }
+        way.rockets.clear();
+        way.rockets.extend(self.loads.rockets.iter().map(|rocket| {
+            let impulse = h * (rocket.thrust)(middle);
+            RocketStep::new(rocket.line, impulse, [old, new])
+        }));
+    }
+
+    /// By the velocities of moved anchors at the end of a step; of the derivatives by the old state only those by velocities
+    /// of masses and of moved anchors remain.
+    pub(super) fn find_by_speeds(way: &mut Way<D, S>) {
+        way.by_speeds.clear();
+        let adjoint = &mut way.adjoint;
+        for &(node, is_moved) in &way.anchors {
+            if is_moved {
+                let [old, new] =
+                    [&adjoint.costate, &adjoint.after].map(|by| vector(&by.velocities, node));
+                way.by_speeds.push((node, new - old));
+            } else {
+                adjoint.costate.velocities[node * D..][..D].fill(S::zero());
+            }
+        }
+    }
+
+    /// By masses, gravity, conductances and temperatures of reservoirs.
+    pub(super) fn add_step(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
+        let (weights, found) = (&way.adjoint.weights, &mut way.found);
+        // Δv − h g, of nodes with a mass or beside one.
+        let change = |node: usize, mass: S| {
+            let [old, new] = [old, new].map(|state| state.velocity::<D>(node, mass));
+            SVector::<S, D>::from_fn(|axis, _| new[axis] - old[axis] - h * self.loads.gravity[axis])
+        };
+        for (node, mass) in self.masses.iter().enumerate() {
+            let Some(mass) = mass else { continue };
+            let weight = vector::<S, D>(&weights.motion, node);
+            found.masses[node] -= dot(&weight, &change(node, mass));
+            found.gravity += weight * (h * way.sums[node]);
+        }
+        for ([i, j], by) in &mut found.pairs {
+            let [w_i, w_j] = [*i, *j].map(|node| vector::<S, D>(&weights.motion, node));
+            *by -= dot(&w_i, &change(*j, S::one())) + dot(&w_j, &change(*i, S::one()));
+        }
+        let theta = &weights.temperatures;
+        let per_theta = |slot: usize| weights.entropies[slot] / theta[slot];
+        let by_new = &way.adjoint.after.reservoirs;
+        let of_heat = |at: usize| by_new[at] / way.conduction.reservoirs[at];
+        let by_reservoirs = &mut way.by_reservoirs;
+        by_reservoirs.fill(S::zero());
+        for (slot, &own) in theta.iter().enumerate() {
+            for link in way.conduction.links(slot) {
+                if let Partner::Reservoir(at) = link.partner {
+                    let outer = way.conduction.reservoirs[at];
+                    by_reservoirs[at] +=
+                        h * link.conductance * (per_theta(slot) - of_heat(at) * own / outer);
+                }
+            }
+        }
+        for (sum, &by) in found.reservoirs.iter_mut().zip(&*by_reservoirs) {
+            *sum += by;
+        }
+        let middle = old.time.value + S::from_f64(0.5) * h;
+        for (reservoir, series) in &mut found.ovens {
+            series.push((middle, by_reservoirs[*reservoir]));
+        }
+        for (sum, &(slot, partner)) in found.conductances.iter_mut().zip(&way.paths) {
+            *sum += match partner {
+                Partner::Slot(other) => {
+                    h * (theta[other] - theta[slot]) * (per_theta(slot) - per_theta(other))
+                }
+                Partner::Reservoir(at) => {
+                    let outer = way.conduction.reservoirs[at];
+                    h * (outer - theta[slot]) * (per_theta(slot) - of_heat(at))
+                }
+            };
+        }
+    }
+
+    /// By the values of functions of time; from the last one on.
+    pub(super) fn add_series(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
+        let (start, end) = (old.time.value, new.time.value);
+        let middle = start + S::from_f64(0.5) * h;
+        let (weights, found) = (&way.adjoint.weights, &mut way.found);
+        for (node, series) in &mut found.forces {
+            series.push((middle, vector::<S, D>(&weights.motion, *node) * h));
+        }
+        let pushes = self.loads.rockets.iter().zip(&way.rockets);
+        for ((_, series), (rocket, own)) in found.thrusts.iter_mut().zip(pushes) {
+            let weight = vector::<S, D>(&weights.motion, rocket.line.node.index);
+            series.push((middle, dot(&weight, &own.direction.into()) * h));
+        }
+        for (node, series) in &mut found.motions {
+            let [mut by_old, mut by_new] =
+                [0, 1].map(|side| vector::<S, D>(&weights.anchors[side], *node));
+            let at_end = series.len().checked_sub(1);
+            if let Some((_, by)) = way.by_speeds.iter().find(|(own, _)| own == node) {
+                for (thirds, weight) in CUBIC {
+                    let own = by * (S::from_f64(0.5 * weight) / h);
+                    by_new += own;
+                    if thirds > 0.0 {
+                        let at = start + S::from_f64(thirds) * (h / S::from_f64(3.0));
+                        series.push((at, -own));
+                    } else {
+                        by_old -= own;
+                    }
+                }
+            }
+            if let Some(at_end) = at_end {
+                series[at_end].1 += by_new;
+            }
+            series.push((start, by_old));
+        }
+        for (element, series) in &mut found.temperatures {
+            if let Some(slot) = way.layout.elements[*element].thermal {
+                series.push((end, weights.held[slot]));
+            }
+        }
+    }
+
+    /// By its size, with the values of functions of time kept:
+    ///
+    /// ```text
+    /// (v¹·λ_v⁰ − v⁰·λ_v¹)/h + λ_X·ΔX/h + Σ λ_σ (1/θ_r) Σ κ_r (θ* − θ_r)        and the terms of the points
+    /// ```
+    ///
+    /// with the positions X of anchors that move at a velocity that is set. Where masses couple moved anchors with others, these have
+    /// `Δv·M w_v/h`, and the velocity of a function, a difference over h, another −1/h.
+    pub(super) fn add_size(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
+        let (by_old, by_new) = (&way.adjoint.costate, &way.adjoint.after);
+        let weights = &way.adjoint.weights;
+        let mut terms = weights.by_size;
+        terms.add(way.by_size);
+        for (node, mass) in self.masses.iter().enumerate() {
+            let Some(mass) = mass else { continue };
+            let [v0, v1] = [old, new].map(|state| state.velocity::<D>(node, mass));
+            for (axis, at) in (node * D..(node + 1) * D).enumerate() {
+                terms.add(v1[axis] * by_old.velocities[at] / h);
+                terms.add(-v0[axis] * by_new.velocities[at] / h);
+            }
+        }
+        for (node, motion) in &self.loads.motions {
+            let node = node.index;
+            let is_set = matches!(motion, Course::Set(_));
+            let by_speed = way.by_speeds.iter().find(|(own, _)| *own == node);
+            for (axis, at) in (node * D..(node + 1) * D).enumerate() {
+                if is_set {
+                    let moved = [old, new].map(|state| state.positions.values()[at]);
+                    let by = by_new.positions[at] + weights.anchors[1][at];
+                    terms.add_change(by / h, moved);
+                }
+                if let Some((_, by_speed)) = by_speed {
+                    let speeds = [old, new].map(|state| state.velocities.values()[at]);
+                    terms.add_change(by_old.velocities[at] / h, speeds);
+                    if !is_set {
+                        terms.add(-by_speed[axis] * speeds[1] / h);
+                    }
+                }
+            }
+        }
+        for (slot, &own) in weights.temperatures.iter().enumerate() {
+            for link in way.conduction.links(slot) {
+                if let Partner::Reservoir(at) = link.partner {
+                    let outer = way.conduction.reservoirs[at];
+                    let of_heat = by_new.reservoirs[at] / outer;
+                    terms.add(of_heat * link.conductance * (own - outer));
+                }
+            }
+        }
+        way.found.sizes.push((new.time.value, terms.sum));
+        way.last.get_or_insert(terms);
+    }
+}

@@ -1,0 +1,52 @@
+//! What is carried back through a history.
+
+use crate::element::conduction::{Conduction, Partner};
+use crate::element::layout::Layout;
+use crate::run::gradient::objective::Objective;
+use crate::run::gradient::result::Gradient;
+use crate::step::adjoint::{Adjoint, RocketStep, Terms};
+use eem_material::number::scalar::Real;
+use nalgebra::SVector;
+
+/// The way back through a history.
+pub(super) struct Way<const D: usize, S: Real> {
+    pub(super) layout: Layout,
+    /// With the temperatures of ovens in the present step.
+    pub(super) conduction: Conduction<S>,
+    pub(super) paths: Vec<(usize, Partner)>,
+    /// Sums of the rows of the mass matrix.
+    pub(super) sums: Vec<S>,
+    /// Whether thermostats hold the temperatures, by thermal slot.
+    pub(super) held: Vec<bool>,
+    /// The anchors that masses couple with other nodes, and whether they are moved.
+    pub(super) anchors: Vec<(usize, bool)>,
+    /// The rockets in the present step.
+    pub(super) rockets: Vec<RocketStep<S, D>>,
+    /// The derivatives of the present step by the velocities of moved anchors at its end, where masses couple them with
+    /// others, and by the temperatures of reservoirs.
+    pub(super) by_speeds: Vec<(usize, SVector<S, D>)>,
+    pub(super) by_reservoirs: Vec<S>,
+    /// With the derivatives by the present state.
+    pub(super) adjoint: Adjoint<S, D>,
+    /// By the size of the step before it, as far as the objective depends on that itself.
+    pub(super) by_size: S,
+    /// By the size of the last step.
+    pub(super) last: Option<Terms<S>>,
+    pub(super) found: Gradient<D, S>,
+}
+
+/// Objectives with factors. The value of the first one is that of the gradient.
+pub(super) type Weighted<'a, const D: usize, S> = &'a [(f64, &'a Objective<D, S>)];
+
+/// `sum + factor values`.
+pub(super) fn add<S: Real>(sum: &mut [S], factor: S, values: &[S]) {
+    for (sum, &value) in sum.iter_mut().zip(values) {
+        *sum += factor * value;
+    }
+}
+
+/// The product of two vectors.
+pub(super) fn dot<S: Real, const D: usize>(one: &SVector<S, D>, other: &SVector<S, D>) -> S {
+    let pairs = one.iter().zip(other);
+    pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+}

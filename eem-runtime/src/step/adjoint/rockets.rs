@@ -1,0 +1,98 @@
+//! Rockets in the adjoint of a step: `h F n(r_m)` in the momentum balance of the node that is pushed.
+
+use core::array;
+
+use crate::algebra::system::LinearSystem;
+use crate::element::group::{Costate, StepWeights, points};
+use crate::element::layout::Layout;
+use crate::element::loads::PushLine;
+use crate::element::state::State;
+use eem_material::number::scalar::Real;
+
+/// A rocket in a step.
+#[derive(Clone, Debug)]
+pub(crate) struct RocketStep<S, const D: usize> {
+    line: PushLine,
+    /// n in the middle.
+    pub(crate) direction: [S; D],
+    /// `½ h F (1 − n nᵀ)/|r|`, the derivative of its impulse by the head in either state; by the tail it is the negative.
+    turning: [[S; D]; D],
+}
+
+impl<S: Real, const D: usize> RocketStep<S, D> {
+    /// With the impulse `h F` between two states.
+    pub(crate) fn new(line: PushLine, impulse: S, states: [&State<S>; 2]) -> Self {
+        let half = S::from_f64(0.5);
+        let arm: [S; D] = array::from_fn(|axis| {
+            let arms = states.map(|state| {
+                let positions = points::<S, D>(state.positions.values());
+                positions[line.head.index][axis] - positions[line.tail.index][axis]
+            });
+            half * (arms[0] + arms[1])
+        });
+        let length = arm.iter().fold(S::zero(), |sum, &r| sum + r * r).sqrt();
+        let n = arm.map(|r| r / length);
+        let size = half * impulse / length;
+        let turning = array::from_fn(|row| {
+            array::from_fn(|column| {
+                let own = if row == column { S::one() } else { S::zero() };
+                size * (own - n[row] * n[column])
+            })
+        });
+        Self {
+            line,
+            direction: n,
+            turning,
+        }
+    }
+
+    /// Tail and head, with the signs of the derivatives of the arm.
+    fn ends(&self) -> [(usize, S); 2] {
+        let PushLine { tail, head, .. } = self.line;
+        [(tail.index, -S::one()), (head.index, S::one())]
+    }
+
+    /// Subtracts the transposed derivatives by the new state.
+    pub(super) fn add_to(&self, layout: &Layout, system: &mut LinearSystem<S, 1>) {
+        let Some(pushed) = layout.nodes[self.line.node.index] else {
+            return;
+        };
+        for (end, sign) in self.ends() {
+            let Some(first) = layout.nodes[end] else {
+                continue;
+            };
+            for (axis, turning) in self.turning.iter().enumerate() {
+                for (other, &turning) in turning.iter().enumerate() {
+                    let place = system.place(Some(first + other), Some(pushed + axis));
+                    system.parts().0[place] -= sign * turning;
+                }
+            }
+        }
+    }
+
+    /// Subtracts `(∂R/∂q)ᵀ w` at both ends of its line, the same in both states: at anchors twice, and from those by their
+    /// positions in each.
+    pub(super) fn subtract(
+        &self,
+        layout: &Layout,
+        by_old: &mut Costate<S>,
+        weights: &mut StepWeights<S>,
+    ) {
+        let node = self.line.node.index;
+        let w: [S; D] = array::from_fn(|axis| weights.motion[node * D + axis]);
+        for (end, sign) in self.ends() {
+            for axis in 0..D {
+                let rows = self.turning.iter().zip(w);
+                let sum = rows.fold(S::zero(), |sum, (row, w)| sum + row[axis] * w);
+                let (at, by) = (end * D + axis, -sign * sum);
+                by_old.positions[at] -= by;
+                if layout.nodes[end].is_none() {
+                    by_old.positions[at] -= by;
+                    for anchors in &mut weights.anchors {
+                        anchors[at] -= by;
+                    }
+                }
+            }
+        }
+    }
+}
