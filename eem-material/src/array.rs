@@ -6,7 +6,7 @@ use core::ops::{Index, IndexMut};
 /// A fixed-size array, named only by its element type.
 ///
 /// Implemented for `[T; N]`. The lengths of the arrays of a model depend on its variables, so the trait
-/// [`FreeEnergy`] leaves them to associated types.
+/// [`FreeEnergy`](crate::free_energy::FreeEnergy) leaves them to associated types.
 ///
 /// ```
 /// use eem::Array;

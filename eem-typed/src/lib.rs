@@ -28,8 +28,9 @@
 //! ```
 //!
 //! Operations are read one by one, so that a step of the pendulum with one dashpot costs 2.2 times that of the derived
-//! material (`EemTemperature`), or 2.7 times (`EemEntropy`). A law takes some 11 ms to compile and make: do that once, and
-//! clone the spring.
+//! material (`EemTemperature`), or 2.7 times (`EemEntropy`). With `EemTemperature`, springs of one law are evaluated 32 at a
+//! time: a step of a lattice of 10⁴ springs costs 1.3 to 1.4 times that of derived ones. A law takes some 11 ms to compile
+//! and make: do that once, and clone the spring.
 //!
 //! # Where to change what
 //!

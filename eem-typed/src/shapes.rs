@@ -119,7 +119,7 @@ shapes! {
 /// this order; what is not there is left out, and numbers are `f64`. Volume flows if one of the invariants is the trace.
 ///
 /// ```
-/// use eem::kinematics::Hex8;
+/// use eem::kinematics::Quad4;
 /// use eem::prelude::*;
 /// use eem::typed::{Law, Source, compile, solid};
 ///
@@ -133,11 +133,11 @@ shapes! {
 /// let law = Law::new(compile(&source)?, &[("lame", 2000.0), ("branch", 800.0), ("eta", 40.0)])?;
 /// let putty: solid!(strains: 2, invariants: 2) = law.model()?;
 ///
-/// let mut scene = Scene::<3>::new();
-/// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+/// let mut scene = Scene::<2>::new();
+/// let mesh = Mesh::<Quad4, 2>::block([1; 2], [[0.0, 1.0]; 2])?;
 /// let block = scene.solid(putty, &mesh, &Bulk::new(10.0));
 /// for (&node, [x, ..]) in block.nodes().iter().zip(mesh.nodes()) {
-///     scene.set_velocity(node, [*x, 0.0, 0.0]);
+///     scene.set_velocity(node, [*x, 0.0]);
 /// }
 /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.05)?;
 /// let before = run.ledger();

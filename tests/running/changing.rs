@@ -2,6 +2,7 @@
 
 use eem::materials::Hooke;
 use eem::prelude::*;
+use eem_testkit::length::at_length;
 use eem_testkit::random::Random;
 
 use crate::support::{EXACT, Hencky, busy};
@@ -14,8 +15,6 @@ struct Damper {
     stiffness: f64,
     eta: f64,
 }
-
-const CHANGES: usize = 10_000;
 
 /// The stored state in all bits; energies are evaluated again by another scheme.
 fn bits<const D: usize>(run: &Simulation<D>) -> String {
@@ -62,7 +61,7 @@ fn the_balance_holds_over_random_changes_of_scheme_and_step() {
     let mut run = Simulation::new(busy(), Scheme::EemEntropy, 0.01).unwrap();
     let start = run.ledger().balance;
     let mut bound = 0.0;
-    for _ in 0..CHANGES {
+    for _ in 0..at_length(10_000, 3_000) {
         let scheme = EXACT[random.below(EXACT.len())];
         run = run.with_scheme(scheme).unwrap();
         if random.below(2) == 0 {

@@ -46,7 +46,7 @@ pub enum GradientError {
     },
     /// A step could not be made again.
     #[error(transparent)]
-    Step(#[from] StepError),
+    Step(Box<StepError>),
     /// A standard deviation is not positive and finite.
     #[error("the standard deviation of the record at t = {} s is {}, it must be positive and finite", Readable(*time), Readable(*value))]
     Deviation {
@@ -147,4 +147,10 @@ pub enum GradientError {
     /// An element cannot be in a state of the history.
     #[error(transparent)]
     State(#[from] StateError),
+}
+
+impl From<StepError> for GradientError {
+    fn from(error: StepError) -> Self {
+        Self::Step(Box::new(error))
+    }
 }
