@@ -8,6 +8,7 @@ pub(crate) mod control;
 pub(crate) mod error;
 pub(crate) mod explicit;
 pub(crate) mod law;
+mod line;
 pub(crate) mod loads;
 pub(crate) mod newton;
 pub(crate) mod outcome;

@@ -60,7 +60,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let (values, right) = system.parts();
         let ahead = &mut self.ahead;
         for members in self.members.chunks_mut(model.most) {
-            let count = ahead.take(members.iter().map(|member| member.seen_variables(trial)));
+            let count = ahead.take(members.iter().map(|member| member.placed_variables(trial)));
             let zeros = M::Variables::filled(S::zero());
             let none = (M::Response::filled(S::zero()), M::Tangent::filled(zeros));
             ahead.forms.resize(count, none);
@@ -88,7 +88,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         };
         let ahead = &mut self.ahead;
         for members in self.members.chunks_mut(model.most) {
-            let count = ahead.take(members.iter().map(|member| member.seen_variables(trial)));
+            let count = ahead.take(members.iter().map(|member| member.placed_variables(trial)));
             ahead
                 .responses
                 .resize(count, M::Response::filled(S::zero()));
@@ -190,12 +190,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 {
     /// The variables of a spring at a trial, at which the form of its scheme is evaluated.
     #[inline]
-    fn seen_variables(&self, trial: &Trial<S, D>) -> M::Variables {
+    fn placed_variables(&self, trial: &Trial<S, D>) -> M::Variables {
         let point = self.only();
         let at = point.scheme.placement();
         let r1 = placed_arms::<K, S, D>(at, &self.r0, self.new_arms(trial));
         let mut x = point.x;
-        for (a, &measure) in point.seen(&r1)[1].as_ref().iter().enumerate() {
+        for (a, &measure) in point.placed(&r1)[1].as_ref().iter().enumerate() {
             x[a] = measure;
         }
         x

@@ -32,7 +32,7 @@ pub(super) fn placed_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// The measures that a scheme uses: those of its configuration, or their means with the old ones.
 #[inline]
-pub(super) fn seen_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn placed_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
     at: Placement,
     measures0: &Measures<K, S, D>,
     mut measures1: Measures<K, S, D>,

@@ -34,7 +34,7 @@ use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
-use weights::Seen;
+use weights::Surroundings;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>
@@ -103,7 +103,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let mut by_arms = [Arms::<K, S, D>::filled([S::zero(); D]); 2];
             for point in member.points.as_mut() {
                 let contact = point.contact_in(&self.contacts);
-                let seen = Seen {
+                let around = Surroundings {
                     step,
                     interface,
                     contact,
@@ -111,7 +111,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 };
                 let [by_end, by_start] = &mut by_arms;
                 let ends = point.ends(arms);
-                let of_point = point.weigh(&seen, &ends, &w);
+                let of_point = point.weigh(&around, &ends, &w);
                 let by = point.by_old(&of_point.rho, &of_point.increments);
                 let back = point.ends_back(arms);
                 point.add_by_arms(&back, &by, &w, step.view.step, by_start);
@@ -124,14 +124,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 see(point.element, point.by_parameters(&of_point).as_ref());
             }
             let [by_end, by_start] = by_arms;
-            member.site.subtract(&by_start, &mut by_old.positions);
+            member
+                .site
+                .subtract(&by_start, false, &mut by_old.positions);
             if is_held {
-                member
-                    .site
-                    .subtract_at_anchors(&by_end, &mut by_old.positions);
+                member.site.subtract(&by_end, true, &mut by_old.positions);
                 let [old, new] = &mut weights.anchors;
-                member.site.subtract_at_anchors(&by_start, old);
-                member.site.subtract_at_anchors(&by_end, new);
+                member.site.subtract(&by_start, true, old);
+                member.site.subtract(&by_end, true, new);
             }
         }
     }
@@ -229,25 +229,14 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
         }
     }
 
-    /// Subtracts derivatives by the arms from those by the positions of all nodes.
+    /// Subtracts derivatives by the arms from those by the positions of all nodes, or of anchors only.
     #[inline]
-    fn subtract(&self, by_arm: &Arms<K, S, D>, target: &mut [S]) {
-        let target = target.as_chunks_mut::<D>().0;
-        let by_node = spread::<K, S, D>(by_arm);
-        for (&node, by) in self.nodes.as_ref().iter().zip(by_node.as_ref()) {
-            for (sum, &by) in target[node as usize].iter_mut().zip(by) {
-                *sum -= by;
-            }
-        }
-    }
-
-    /// The same for anchors only.
-    fn subtract_at_anchors(&self, by_arm: &Arms<K, S, D>, target: &mut [S]) {
+    fn subtract(&self, by_arm: &Arms<K, S, D>, only_anchors: bool, target: &mut [S]) {
         let target = target.as_chunks_mut::<D>().0;
         let by_node = spread::<K, S, D>(by_arm);
         let nodes = self.nodes.as_ref().iter().zip(self.is_mass.as_ref());
         for ((&node, &is_mass), by) in nodes.zip(by_node.as_ref()) {
-            if is_mass {
+            if is_mass && only_anchors {
                 continue;
             }
             for (sum, &by) in target[node as usize].iter_mut().zip(by) {

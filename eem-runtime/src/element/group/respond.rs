@@ -2,7 +2,7 @@
 
 use super::arms::{add_scaled, measures_in};
 use super::point::{Drag, Known, Point, Viscosities, temperature_in};
-use super::pose::{Pose, seen_measures};
+use super::pose::{Pose, placed_measures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
@@ -31,7 +31,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         r1: &Arms<K, S, D>,
         trial: &Trial<S, D>,
     ) -> Result<Measures<K, S, D>, StateError> {
-        let [measures1, measures] = self.seen(r1);
+        let [measures1, measures] = self.placed(r1);
         check_measures::<K, S, D>(&self.kinematics, self.element, &measures, r1)?;
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
@@ -55,11 +55,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The measures of arms, and those that the scheme sees there.
     #[inline]
-    pub(super) fn seen(&self, r1: &Arms<K, S, D>) -> [Measures<K, S, D>; 2] {
+    pub(super) fn placed(&self, r1: &Arms<K, S, D>) -> [Measures<K, S, D>; 2] {
         let measures1 = self.kinematics.measure(r1);
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
-        let seen = seen_measures::<K, S, D>(self.scheme.placement(), &measures0, measures1);
-        [measures1, seen]
+        let placed = placed_measures::<K, S, D>(self.scheme.placement(), &measures0, measures1);
+        [measures1, placed]
     }
 
     /// The gradients in the configuration that the scheme uses, which has these measures.

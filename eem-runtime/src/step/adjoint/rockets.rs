@@ -7,6 +7,7 @@ use crate::element::group::{Costate, StepWeights, points};
 use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
 use crate::element::state::State;
+use crate::step::line::Line;
 use eem_material::number::scalar::Real;
 
 /// A rocket in a step.
@@ -30,19 +31,11 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
             });
             half * (arms[0] + arms[1])
         });
-        let length = arm.iter().fold(S::zero(), |sum, &r| sum + r * r).sqrt();
-        let n = arm.map(|r| r / length);
-        let size = half * impulse / length;
-        let turning = array::from_fn(|row| {
-            array::from_fn(|column| {
-                let own = if row == column { S::one() } else { S::zero() };
-                size * (own - n[row] * n[column])
-            })
-        });
+        let along = Line::along(&arm);
         Self {
             line,
-            direction: n,
-            turning,
+            direction: along.direction,
+            turning: along.turning(half * impulse),
         }
     }
 

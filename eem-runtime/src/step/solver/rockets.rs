@@ -13,6 +13,7 @@ use crate::element::group::{Sites, StepView, Trial, points};
 use crate::element::impulse::Impulses;
 use crate::element::loads::{Push, PushLine, StepLoads};
 use crate::element::tableau::{MOST_SETS, Tableau};
+use crate::step::line::Line;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Real, is_positive};
 
@@ -35,14 +36,6 @@ struct Rocket<const D: usize> {
     /// The entries of that node in the tangent, row by row, in the columns of tail and head; for the rows of each set
     /// and the columns of each.
     places: [[[[[u32; D]; D]; 2]; MOST_SETS]; MOST_SETS],
-}
-
-/// A line at a time of a step.
-struct Line<S, const D: usize> {
-    /// n.
-    direction: [S; D],
-    /// `|r|`, m.
-    length: S,
 }
 
 impl<S: Real, const D: usize> Rockets<S, D> {
@@ -143,8 +136,8 @@ impl<S: Real, const D: usize> Rockets<S, D> {
             for (rocket, &Push { thrust, .. }) in self.all.iter().zip(&loads.pushes) {
                 let line = rocket.line_at(view, trial.displacements_of_set(stage), share)?;
                 let node = rocket.line.node.index;
-                for (sum, force) in forces[node].iter_mut().zip(line.push(thrust)) {
-                    *sum += force;
+                for (sum, n) in forces[node].iter_mut().zip(line.direction) {
+                    *sum += thrust * n;
                 }
                 let Some(system) = system.as_deref_mut() else {
                     continue;
@@ -153,7 +146,11 @@ impl<S: Real, const D: usize> Rockets<S, D> {
                     let weight = self.rule.map_or(1.0, |rule| rule.positions[set][stage]);
                     let impulse = S::from_f64(weight) * (view.step * thrust);
                     let turning = line.turning(share * impulse);
-                    rocket.add_to([set, stage], system, (&line.push(impulse), &turning));
+                    rocket.add_to(
+                        [set, stage],
+                        system,
+                        (&line.direction.map(|n| impulse * n), &turning),
+                    );
                 }
             }
         }
@@ -197,8 +194,8 @@ impl<const D: usize> Rocket<D> {
             let turned = moved[to][axis] - moved[from][axis];
             (positions[to][axis] - positions[from][axis]) + share * turned
         });
-        let square = arm.iter().fold(S::zero(), |sum, &r| sum + r * r);
-        if !is_positive(square) {
+        let line = Line::along(&arm);
+        if !is_positive(line.length) {
             let length = arm.iter().fold(S::zero(), |length, &r| length.hypot(r));
             return Err(StateError::NoDirection {
                 node,
@@ -207,11 +204,7 @@ impl<const D: usize> Rocket<D> {
                 value: length.to_f64(),
             });
         }
-        let length = square.sqrt();
-        Ok(Line {
-            direction: arm.map(|r| r / length),
-            length,
-        })
+        Ok(line)
     }
 
     /// Adds an impulse to the right-hand side of the rows of a set, and its negative derivative by the nodes of
@@ -232,24 +225,5 @@ impl<const D: usize> Rocket<D> {
                 values[head] -= turning[axis][column];
             }
         }
-    }
-}
-
-impl<S: Real, const D: usize> Line<S, D> {
-    /// `F n`.
-    fn push(&self, thrust: S) -> [S; D] {
-        self.direction.map(|n| thrust * n)
-    }
-
-    /// `(1 − n nᵀ)/|r|`, times a number.
-    fn turning(&self, factor: S) -> [[S; D]; D] {
-        let size = factor / self.length;
-        let n = &self.direction;
-        array::from_fn(|row| {
-            array::from_fn(|column| {
-                let own = if row == column { S::one() } else { S::zero() };
-                size * (own - n[row] * n[column])
-            })
-        })
     }
 }

@@ -13,7 +13,7 @@ use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
 /// What the weights of a point depend on besides its own values.
-pub(super) struct Seen<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct Surroundings<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) step: &'a PastStep<'a, S>,
     pub(super) interface: &'a InterfaceTemperatures<S>,
     pub(super) contact: Option<&'a Contact<K, S, D>>,
@@ -46,19 +46,19 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn weigh(
         &self,
-        seen: &Seen<'_, K, S, D>,
+        around: &Surroundings<'_, K, S, D>,
         ends: &Ends<K, S, D>,
         w: &Arms<K, S, D>,
     ) -> OfPoint<S, M> {
-        let (h, per_step) = (seen.step.view.step, seen.step.view.per_step);
+        let (h, per_step) = (around.step.view.step, around.step.view.per_step);
         let along = self.kinematics.discrete_rates(ends, w);
         let own = |u: usize| {
             let mut sum = self.condensed.constant.get(u);
             for a in 0..M::MEASURES {
                 sum += self.condensed.by_measure[a].get(u) * (h * along[a]);
             }
-            if seen.contact.is_some() {
-                sum += self.condensed.by_heat.get(u) * seen.theta;
+            if around.contact.is_some() {
+                sum += self.condensed.by_heat.get(u) * around.theta;
             }
             -sum
         };
@@ -110,13 +110,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             slope += by_eta * rate * rate;
         }
         if M::THERMAL {
-            let flow = self.heat_flow(&seen.step.view, seen.contact, seen.interface, theta);
+            let flow = self.heat_flow(&around.step.view, around.contact, around.interface, theta);
             of.by_size.add(per_heat * flow.heat);
             of.by_size.add(-per_heat * heat);
             heat += flow.heat;
             slope -= flow.conductance;
             by_theta += h * per_heat * (heat * per_theta - slope);
-            by_theta -= self.of_reservoirs(seen.step) + seen.theta;
+            by_theta -= self.of_reservoirs(around.step) + around.theta;
             of.rho[Self::TEMPERATURE] = by_theta;
             of.rho[Self::ENTROPY] = entropy;
         }

@@ -117,12 +117,12 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
     ) {
         let (rule, site) = (self.rule, &self.site.sets[set][set]);
         for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
-            let mut by_seen = Arms::<K, S, D>::filled([S::zero(); D]);
+            let mut by_interface = Arms::<K, S, D>::filled([S::zero(); D]);
             for (stage, impulse) in impulses.iter().enumerate().take(rule.stages()) {
                 let share = S::from_f64(rule.share(stage, column));
-                add_scaled::<K, S, D>(&mut by_seen, share, impulse);
+                add_scaled::<K, S, D>(&mut by_interface, share, impulse);
             }
-            contact.add_pull(site, &by_seen, self.values);
+            contact.add_pull(site, &by_interface, self.values);
         }
     }
 

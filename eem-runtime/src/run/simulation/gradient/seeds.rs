@@ -240,7 +240,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             Quantity::KineticEnergy => self.add_kinetic((state, weight), (costate, found)),
             Quantity::TotalEnergy => {
                 self.add_kinetic((state, weight), (costate, found));
-                self.add_potential((state, weight), (costate, found));
+                self.add_potential((state, weight), &way.sums, (costate, found));
                 self.add_internal((state, weight), (costate, found));
                 for (index, &theta) in self.conduction.reservoirs.iter().enumerate() {
                     costate.reservoirs[index] += weight * theta;
@@ -283,16 +283,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// `−Σ m g·q`.
+    /// `−Σ m g·q`, with the sums of the rows of the mass matrix.
     fn add_potential(
         &self,
         (state, weight): (&State<S>, S),
+        sums: &[S],
         (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
     ) {
         let positions = state.positions.values();
         let place = |node: usize| SVector::<S, D>::from_fn(|axis, _| positions[node * D + axis]);
         let gravity = self.loads.gravity;
-        let sums = self.masses.weights();
         for (node, &sum) in sums.iter().enumerate() {
             for (axis, at) in (node * D..(node + 1) * D).enumerate() {
                 costate.positions[at] -= weight * sum * gravity[axis];
