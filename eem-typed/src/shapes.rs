@@ -11,6 +11,35 @@ use crate::typed::Typed;
 /// The largest number of dashpots in series.
 const MOST_DASHPOTS: usize = 3;
 
+impl Law {
+    /// Whether [`add_spring`](Self::add_spring) has a shape for it.
+    ///
+    /// # Errors
+    ///
+    /// [`LawError::Solid`] of strains, and [`LawError::Dashpots`] with more than three in series.
+    ///
+    /// ```
+    /// use eem::typed::{Law, LawError, Source, compile};
+    ///
+    /// let solid = Law::new(compile(&Source::new("|e2: StrainSquare| e2"))?, &[])?;
+    /// assert_eq!(solid.check_spring(), Err(LawError::Solid));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn check_spring(&self) -> Result<(), LawError> {
+        let shape = self.shape();
+        if shape.strains > 0 {
+            return Err(LawError::Solid);
+        }
+        if shape.dashpots > MOST_DASHPOTS {
+            return Err(LawError::Dashpots {
+                dashpots: shape.dashpots,
+                most: MOST_DASHPOTS,
+            });
+        }
+        Ok(())
+    }
+}
+
 macro_rules! shapes {
     ($($(#[$docs:meta])* $name:ident: $n:literal, $k:literal, $d:literal, $c:literal, $r:literal;)*) => {
         $(
@@ -57,17 +86,15 @@ macro_rules! shapes {
                 scene: &mut Scene<D, S>,
                 nodes: [Node; 2],
             ) -> Result<Element, LawError> {
+                self.check_spring()?;
                 let shape = self.shape();
-                if shape.strains > 0 {
-                    return Err(LawError::Solid);
-                }
                 $(
                     if shape == $name::<S>::SHAPE {
                         let model: $name<S> = self.model()?;
                         return Ok(scene.spring(model, nodes));
                     }
                 )*
-                Err(LawError::Dashpots { dashpots: shape.dashpots, most: MOST_DASHPOTS })
+                unreachable!("the table has all shapes with so few dashpots")
             }
         }
     };

@@ -47,4 +47,8 @@ mod _eem {
     /// The version of the library.
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    /// The names of the scalar entries of a ledger.
+    #[pymodule_export]
+    const LEDGER: [&str; crate::record::LEDGER.len()] = crate::record::LEDGER;
 }

@@ -125,6 +125,8 @@ impl Material {
         let law = py.detach(|| {
             let compiled = compile(source).map_err(|faults| error::faults(&faults))?;
             let law = Law::new(compiled, &as_refs(values)).map_err(error::law)?;
+            // There are no solids of texts here yet.
+            law.check_spring().map_err(error::law)?;
             match name {
                 Some(name) => law.named(name).map_err(error::law),
                 None => Ok(law),

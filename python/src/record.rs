@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use eem::{SceneError, StepReport};
+use eem::{Ledger, SceneError, StepReport};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -11,23 +11,33 @@ use crate::built::Parts;
 use crate::handle::Lineage;
 use crate::run::AnyRun;
 
-/// The scalar entries of a ledger; linear and angular momentum follow.
-pub(crate) const LEDGER: [&str; 14] = [
-    "kinetic_energy",
-    "potential_energy",
-    "internal_energy",
-    "reservoir_heat",
-    "lost_heat",
-    "energy",
-    "work",
-    "heat",
-    "balance",
-    "element_entropy",
-    "element_entropy_of_state",
-    "reservoir_entropy",
-    "thermostat_entropy",
-    "entropy",
-];
+/// The scalar entries of a ledger, as their names and as their values; linear and angular momentum follow.
+macro_rules! ledger {
+    ($($entry:ident)*) => {
+        pub(crate) const LEDGER: [&str; [$(stringify!($entry)),*].len()] = [$(stringify!($entry)),*];
+
+        pub(crate) fn entries<const D: usize>(ledger: &Ledger<D>) -> [f64; LEDGER.len()] {
+            [$(ledger.$entry),*]
+        }
+    };
+}
+
+ledger! {
+    kinetic_energy
+    potential_energy
+    internal_energy
+    reservoir_heat
+    lost_heat
+    energy
+    work
+    heat
+    balance
+    element_entropy
+    element_entropy_of_state
+    reservoir_entropy
+    thermostat_entropy
+    entropy
+}
 
 /// What is recorded.
 #[derive(Clone, Copy)]

@@ -7,6 +7,8 @@ use eem::{
     StepReport, StepStatistics, Tolerance,
 };
 
+use crate::record::entries;
+
 /// Sees a run after each step.
 pub(crate) type Observer<'a> =
     &'a mut dyn FnMut(&dyn AnyRun, &StepReport<f64>) -> Result<ControlFlow<()>, SceneError>;
@@ -128,22 +130,7 @@ impl<const D: usize> AnyRun for Simulation<D> {
 
     fn add_ledger(&self, to: &mut Vec<f64>) {
         let ledger = self.ledger();
-        to.extend([
-            ledger.kinetic_energy,
-            ledger.potential_energy,
-            ledger.internal_energy,
-            ledger.reservoir_heat,
-            ledger.lost_heat,
-            ledger.energy,
-            ledger.work,
-            ledger.heat,
-            ledger.balance,
-            ledger.element_entropy,
-            ledger.element_entropy_of_state,
-            ledger.reservoir_entropy,
-            ledger.thermostat_entropy,
-            ledger.entropy,
-        ]);
+        to.extend(entries(&ledger));
         to.extend_from_slice(ledger.linear_momentum.as_slice());
         to.extend_from_slice(ledger.angular_momentum.as_slice());
     }

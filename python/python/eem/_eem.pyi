@@ -8,6 +8,7 @@ from eem._formulas import Argument, Formula
 from eem._record import EnsembleRecord, Record
 
 __all__ = [
+    "LEDGER",
     "VERSION",
     "Element",
     "ElementArray",
@@ -24,6 +25,7 @@ __all__ = [
     "StepReport",
 ]
 
+LEDGER: Final[list[str]]
 VERSION: Final[str]
 
 @final

@@ -6,29 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from eem._eem import LEDGER
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from eem._eem import Element, Lineage, Node
 
     _Floats = NDArray[np.float64]
-
-_LEDGER = (
-    "kinetic_energy",
-    "potential_energy",
-    "internal_energy",
-    "reservoir_heat",
-    "lost_heat",
-    "energy",
-    "work",
-    "heat",
-    "balance",
-    "element_entropy",
-    "element_entropy_of_state",
-    "reservoir_entropy",
-    "thermostat_entropy",
-    "entropy",
-)
 
 _CERTIFICATE = (
     "time",
@@ -48,8 +33,8 @@ _CERTIFICATE = (
 
 def as_ledger(rows: _Floats) -> np.recarray[Any, Any]:
     """Rows of numbers as balances with names."""
-    dim = rows.shape[-1] - len(_LEDGER) - 3
-    fields: list[Any] = [(name, np.float64) for name in _LEDGER]
+    dim = rows.shape[-1] - len(LEDGER) - 3
+    fields: list[Any] = [(name, np.float64) for name in LEDGER]
     fields += [("linear_momentum", np.float64, (dim,)), ("angular_momentum", np.float64, (3,))]
     return np.ascontiguousarray(rows).view(np.dtype(fields))[..., 0].view(np.recarray)
 
@@ -170,7 +155,7 @@ class Record(_Arrays):
         for name, values in (("theta", self.theta), ("gamma", self.gamma)):
             for index in range(values.shape[1]):
                 columns[f"{name}{index}"] = values[:, index]
-        for entry in _LEDGER:
+        for entry in LEDGER:
             columns[entry] = self.ledger[entry]
         return columns
 
