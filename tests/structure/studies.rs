@@ -74,7 +74,8 @@ fn runs(name: &str) -> &'static [&'static [&'static str]] {
             &["--end", "2"],
             &["--end", "1", "--members", "8", "--fits", "2"],
         ],
-        "l_block" | "rubber_bearing" | "satellite" => &[&["--end", "1"]],
+        "l_block" | "rubber_bearing" => &[&["--end", "1"]],
+        "satellite" => &[&["--end", "1"], &["--end", "0.4", "--aim", "1"]],
         "sweep" => &[&["--end", "2", "run"]],
         _ => &[&["--end", "2"]],
     }

@@ -11,7 +11,7 @@ use eem_studies::statistics::{Statistics, TIME_TOLERANCE, momentum_change};
 use eem_studies::{table, terminal};
 
 /// What the exact schemes may be off by: energy, J, and angular momentum between the firings, relative to itself.
-const ENERGY_DEFECT: f64 = 1e-10;
+pub(crate) const ENERGY_DEFECT: f64 = 1e-10;
 const MOMENTUM_DEFECT: f64 = 1e-14;
 
 /// By how much other schemes are off at the end, if they reach it, J.

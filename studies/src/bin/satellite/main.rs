@@ -37,6 +37,9 @@
 //! reach the end with E = W to 1e-10 J, no loss of entropy in any step, and, between the firings, J to 1e-14 of
 //! itself; midpoint and trapezoidal rule fail, or are off by more than 10 J. With the steps that are known from
 //! another program, energies are met to 1e-9 and attitudes to 0.01°.
+//!
+//! `--aim 90` finds the thrust over time that turns it by 90° and leaves it at rest, from one gradient of each run, and claims
+//! that the objective falls by 100 in at most 40 runs, each of which keeps both laws.
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -45,6 +48,7 @@ use eem::prelude::*;
 
 mod balance;
 mod known;
+mod optimal;
 mod pictures;
 mod scene;
 mod shapes;
@@ -57,6 +61,7 @@ use eem_studies::record::Record;
 use eem_studies::simulate::{self, Further, Watched};
 use eem_studies::time_grid::TimeGrid;
 use eem_studies::{output, terminal};
+use optimal::Aim;
 use scene::{Axis, Satellite, satellite};
 
 const ABOUT: &str =
@@ -104,6 +109,9 @@ struct Options {
     /// The rockets do not stop it.
     #[arg(long)]
     no_stop: bool,
+    /// Finds the thrust that turns it by this angle and leaves it at rest, instead of comparing schemes.
+    #[arg(long, value_name = "DEGREES", conflicts_with = "no_stop")]
+    aim: Option<f64>,
     #[command(flatten)]
     common: CommandLine,
 }
@@ -124,6 +132,19 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     let grid = options.common.time_grid(scene::STEP, scene::END);
     let directory = options.common.out.as_deref();
     directory.map_or(Ok(()), output::prepare)?;
+    if let Some(degrees) = options.aim {
+        let scheme = options.common.schemes_or(&COMPARED[..1])[0];
+        let (axis, angle) = (options.axis, degrees.to_radians());
+        return optimal::run(
+            Aim {
+                axis,
+                scheme,
+                angle,
+                grid,
+            },
+            directory,
+        );
+    }
     let case = Case {
         axis: options.axis,
         stops: !options.no_stop,
@@ -155,20 +176,20 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
 
 /// Turns the satellite and records what the CSV files hold.
 fn turn(scheme: Scheme, case: Case, grid: TimeGrid) -> Result<Record, Box<dyn Error>> {
-    let satellite = satellite(case.axis, case.stops)?;
-    let further = further(&satellite, case.axis);
-    let watched = Watched {
-        elements: satellite.stiffeners,
-        ..Watched::default()
-    };
+    let satellite = satellite(case.axis, move |t| scene::thrust(t, case.stops))?;
+    let (watched, further) = watched(&satellite, case.axis);
     let mut simulation = Simulation::new(satellite.scene, scheme, grid.step)?;
     let mut run = simulate::record_with(scheme.name(), &mut simulation, &watched, grid, further)?;
     run.change(ATTITUDE, unwind);
     Ok(run)
 }
 
-/// Columns of this example's own. A handle that is not of the scene would show as not a number.
-fn further(satellite: &Satellite, axis: Axis) -> [Further<3>; 3] {
+/// What is recorded, with columns of this example's own. A handle that is not of the scene would show as not a number.
+fn watched(satellite: &Satellite, axis: Axis) -> (Watched, [Further<3>; 3]) {
+    let watched = Watched {
+        elements: satellite.stiffeners.clone(),
+        ..Watched::default()
+    };
     let [tail, head] = satellite.line;
     let attitude = Quantity::custom_in("°", move |run: &Simulation<3>| {
         let [Ok(tail), Ok(head)] = [tail, head].map(|node| run.position(node)) else {
@@ -181,11 +202,12 @@ fn further(satellite: &Satellite, axis: Axis) -> [Further<3>; 3] {
         };
         ahead.atan2(line.x).to_degrees()
     });
-    [
+    let further = [
         ("work", Quantity::Ledger(|ledger| ledger.work)),
         ("kinetic", Quantity::Ledger(|ledger| ledger.kinetic_energy)),
         (ATTITUDE, attitude),
-    ]
+    ];
+    (watched, further)
 }
 
 /// Angles that go on where they jump back by a turn, degrees.

@@ -26,6 +26,9 @@ const HALF: f64 = 0.5;
 const THICKNESS: f64 = 0.1;
 const FOOT: f64 = HALF + 0.866_025_403_784_438_6;
 
+/// Where the panels end, m.
+pub(crate) const TIP: f64 = 4.5;
+
 /// Densities of body and panels, kg/m³.
 const BODY_DENSITY: f64 = 500.0;
 const PANEL_DENSITY: f64 = 10.0;
@@ -79,6 +82,15 @@ impl Axis {
             Self::Z => [x, side, 0.0],
         }
     }
+
+    /// A place after a turn about the axis, m and rad.
+    pub(crate) fn turned(self, [x, y, z]: [f64; 3], angle: f64) -> [f64; 3] {
+        let (sin, cos) = angle.sin_cos();
+        match self {
+            Self::Y => [x * cos + z * sin, y, z * cos - x * sin],
+            Self::Z => [x * cos - y * sin, x * sin + y * cos, z],
+        }
+    }
 }
 
 /// The scene, and what is looked at in it.
@@ -91,10 +103,15 @@ pub(crate) struct Satellite {
     pub(crate) marks: Vec<(&'static str, Vec<Node>)>,
     /// Two nodes of the body, one behind the other along x.
     pub(crate) line: [Node; 2],
+    /// Nodes that the rockets push, one each.
+    pub(crate) rockets: [Node; 2],
 }
 
-/// The satellite at rest; its rockets turn it about an axis, and may stop it.
-pub(crate) fn satellite(axis: Axis, stops: bool) -> Result<Satellite, Box<dyn Error>> {
+/// The satellite at rest; its rockets have this thrust over time, N, which turns it about an axis.
+pub(crate) fn satellite<F>(axis: Axis, thrust: F) -> Result<Satellite, Box<dyn Error>>
+where
+    F: Fn(f64) -> f64 + Clone + Send + Sync + 'static,
+{
     let mut scene = Scene::<3>::new();
     let cube = Mesh::block([2; 3], [[-HALF, HALF]; 3])?;
     let body = scene.solid(BODY, &cube, &Bulk::new(BODY_DENSITY));
@@ -109,6 +126,7 @@ pub(crate) fn satellite(axis: Axis, stops: bool) -> Result<Satellite, Box<dyn Er
             marks.push(("hinge", vec![body.node_at([x, y, 0.0], 0.0)?]));
         }
     }
+    let mut rockets = Vec::new();
     for side in [-HALF, HALF] {
         // Both push along x, to opposite sides: their couple turns about the positive axis.
         let end = match axis {
@@ -117,7 +135,8 @@ pub(crate) fn satellite(axis: Axis, stops: bool) -> Result<Satellite, Box<dyn Er
         };
         let node = |x: f64| body.node_at(axis.beside(x, side), 0.0);
         let line = [node(-end)?, node(end)?];
-        scene.rocket(node(0.0)?, line, move |t| thrust(t, stops));
+        scene.rocket(node(0.0)?, line, thrust.clone());
+        rockets.push(node(0.0)?);
         marks.push(("rocket, first pushes to the dot", vec![node(0.0)?, line[1]]));
         marks.push(("rocket, first pushes to the dot", vec![line[1]]));
     }
@@ -132,12 +151,13 @@ pub(crate) fn satellite(axis: Axis, stops: bool) -> Result<Satellite, Box<dyn Er
         stiffeners,
         marks,
         line,
+        rockets: [rockets[0], rockets[1]],
     })
 }
 
 /// A plate of 8 × 2 × 2 cells on the right; a line of its nodes is where the stiffeners hold it.
 fn right_panel() -> Result<Mesh<Hex8, 3>, eem::MeshError> {
-    let lengths = [HALF, 1.0, FOOT, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5];
+    let lengths = [HALF, 1.0, FOOT, 2.0, 2.5, 3.0, 3.5, 4.0, TIP];
     let half = 0.5 * THICKNESS;
     Mesh::grid([&lengths, &[-HALF, 0.0, HALF], &[-half, 0.0, half]])
 }
@@ -169,8 +189,8 @@ fn stiffen(
     Ok(stiffeners)
 }
 
-/// The thrust over time, N.
-fn thrust(t: f64, stops: bool) -> f64 {
+/// The thrust over time that starts and may stop the turn, N.
+pub(crate) fn thrust(t: f64, stops: bool) -> f64 {
     if t < FIRED {
         THRUST
     } else if stops && STOP[0] < t && t < STOP[1] {

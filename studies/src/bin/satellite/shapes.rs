@@ -6,7 +6,7 @@ use std::path::Path;
 use eem::prelude::*;
 
 use super::Case;
-use super::scene::satellite;
+use super::scene::{self, satellite};
 use eem_studies::deformed::{self, Mark, Picture, State, View};
 use eem_studies::points;
 use eem_studies::time_grid::TimeGrid;
@@ -19,7 +19,7 @@ const SCHEME: Scheme = Scheme::EemEntropy;
 
 /// Runs the satellite once more and draws it.
 pub(crate) fn write(directory: &Path, case: Case, grid: TimeGrid) -> Result<(), Box<dyn Error>> {
-    let satellite = satellite(case.axis, case.stops)?;
+    let satellite = satellite(case.axis, move |t| scene::thrust(t, case.stops))?;
     let mut run = Simulation::new(satellite.scene, SCHEME, grid.step)?;
     let states = deformed::states(&mut run, &TIMES, grid.end(), |run| {
         let strain = |points: &[Element]| mean_strain(run, points);

@@ -1,0 +1,325 @@
+//! The thrust over time that turns the satellite by an angle and leaves it at rest.
+//!
+//! ```text
+//! J = ½ Σ (q − d)²/σ² + K/K_σ + ½ ∫ F²/F_σ² dt/T       at the end T, by 40 values of the thrust F, T/40 each
+//! ```
+//!
+//! with the positions q of two nodes of the body and of the tips of both panels, their places d in a body that is turned and
+//! stiff, and the kinetic energy K. One gradient of the run is the derivative by all 40 values; L-BFGS of the crate
+//! `argmin` finds the least J from the thrust that would do for a stiff satellite: +F, then −F.
+
+use std::cell::RefCell;
+use std::error::Error;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use argmin::core::{CostFunction, Error as ArgminError, Executor, Gradient};
+use argmin::solver::linesearch::MoreThuenteLineSearch;
+use argmin::solver::quasinewton::LBFGS;
+use eem::prelude::*;
+use eem::{History, Objective};
+use eem_studies::claims::Claims;
+use eem_studies::figures::{Axes, Curve, Figure, write_stack};
+use eem_studies::progress::Progress;
+use eem_studies::record::Record;
+use eem_studies::statistics::Statistics;
+use eem_studies::time_grid::TimeGrid;
+use eem_studies::{simulate, table, terminal};
+
+use super::balance::ENERGY_DEFECT;
+use super::scene::{self, Axis, Satellite, satellite};
+use super::{ATTITUDE, watched};
+
+/// Values of the thrust.
+const VALUES: usize = 40;
+
+/// What positions (m), the kinetic energy (J) and the thrust (N) may be off by: 0.05° of the body, and hardly any thrust.
+const LENGTH: f64 = 5e-4;
+const ENERGY: f64 = 1e-6;
+const FORCE: f64 = 10.0;
+
+/// Moment of inertia of the satellite about the axis of the hinges as if it were stiff, kg m².
+const INERTIA: f64 = 144.0;
+
+/// Runs that may be made, steps of the optimiser, and by how much J must fall.
+const MOST_RUNS: usize = 40;
+const MOST_STEPS: u64 = 30;
+const FALL: f64 = 100.0;
+
+/// Runs are so long for the fall to be claimed, s.
+const LONG: f64 = scene::END;
+
+/// What is run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Aim {
+    pub(crate) axis: Axis,
+    pub(crate) scheme: Scheme,
+    /// By how much it is to turn, rad.
+    pub(crate) angle: f64,
+    pub(crate) grid: TimeGrid,
+}
+
+/// A thrust and what follows from it.
+#[derive(Clone, Debug)]
+struct Point {
+    thrust: Vec<f64>,
+    objective: f64,
+    gradient: Vec<f64>,
+    record: Record,
+}
+
+/// All runs that the optimiser has asked for.
+struct Runs {
+    aim: Aim,
+    /// The unit in which the optimiser sees the thrust, N.
+    unit: f64,
+    made: RefCell<Vec<Point>>,
+    progress: RefCell<Progress>,
+}
+
+impl Aim {
+    /// How long each value of the thrust is held, s.
+    fn held(self) -> f64 {
+        self.grid.end() / VALUES as f64
+    }
+
+    /// +F for the first half of the time, −F for the second, which turns what is stiff by the angle: `F (T/2)² = I α` with arms
+    /// of half a metre for two rockets.
+    fn start(self) -> Vec<f64> {
+        let half = 0.5 * self.grid.end();
+        let force = INERTIA * self.angle / (half * half);
+        (0..VALUES)
+            .map(|i| if 2 * i < VALUES { force } else { -force })
+            .collect()
+    }
+
+    /// Steps to the end with a thrust.
+    fn run(self, thrust: &[f64]) -> Result<Point, Box<dyn Error>> {
+        let (held, values) = (self.held(), thrust.to_vec());
+        let at = move |t: f64| values[value_at(t, held)];
+        let satellite = satellite(self.axis, at)?;
+        let places = places(&satellite)?;
+        let rockets = satellite.rockets;
+        let (watched, further) = watched(&satellite, self.axis);
+        let mut run = Simulation::new(satellite.scene, self.scheme, self.grid.step)?;
+        let mut objective = Objective::at_end(Quantity::KineticEnergy).times(1.0 / ENERGY);
+        for node in places {
+            let at_start = run.position(node)?;
+            let turned = self.axis.turned(at_start.into(), self.angle);
+            for (i, place) in turned.into_iter().enumerate() {
+                let data = [[self.grid.end(), place, LENGTH]];
+                let off = Objective::misfit(Quantity::Position(node), data);
+                objective = objective + off.component(i);
+            }
+        }
+        run.keep_history(History::default());
+        let name = self.scheme.name();
+        let record = simulate::record_with(name, &mut run, &watched, self.grid, further)?;
+        let found = run.gradient(&objective)?;
+        let share = 1.0 / (VALUES as f64 * FORCE * FORCE);
+        let effort = 0.5 * share * thrust.iter().map(|f| f * f).sum::<f64>();
+        let mut gradient: Vec<f64> = thrust.iter().map(|f| share * f).collect();
+        for node in rockets {
+            for &(time, by_thrust) in found.by_thrust(node, 0)? {
+                gradient[value_at(time, held)] += by_thrust;
+            }
+        }
+        Ok(Point {
+            thrust: thrust.to_vec(),
+            objective: found.value() + effort,
+            gradient,
+            record,
+        })
+    }
+}
+
+/// Which value the thrust has at a time.
+fn value_at(time: f64, held: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "times are not negative, and there are 40 values"
+    )]
+    let value = (time / held) as usize;
+    value.min(VALUES - 1)
+}
+
+/// Two nodes of the body and the tips of the panels.
+fn places(satellite: &Satellite) -> Result<[Node; 4], Box<dyn Error>> {
+    let [right, left] = &satellite.panels;
+    let tips = [
+        right.node_at([scene::TIP, 0.0, 0.0], 0.0)?,
+        left.node_at([-scene::TIP, 0.0, 0.0], 0.0)?,
+    ];
+    let [tail, head] = satellite.line;
+    Ok([tail, head, tips[0], tips[1]])
+}
+
+impl Runs {
+    /// The thrust for a stiff satellite. The unit makes the first step of the optimiser, `−dJ/dx`, that to the least value of
+    /// a parabola that touches 0.
+    fn start(aim: Aim) -> Result<Self, Box<dyn Error>> {
+        let first = aim.run(&aim.start())?;
+        let slope: f64 = first.gradient.iter().map(|g| g * g).sum();
+        Ok(Self {
+            aim,
+            unit: (2.0 * first.objective / slope).sqrt(),
+            made: RefCell::new(vec![first]),
+            progress: RefCell::new(Progress::new("runs", MOST_RUNS)),
+        })
+    }
+
+    /// What `of` says of a thrust, which is run unless it has been.
+    fn at<T>(&self, in_units: &[f64], of: impl Fn(&Point) -> T) -> Result<T, ArgminError> {
+        let thrust = &self.thrust(in_units);
+        let is_it = |point: &&Point| point.thrust == *thrust;
+        if let Some(point) = self.made.borrow().iter().find(is_it) {
+            return Ok(of(point));
+        }
+        let point = self
+            .aim
+            .run(thrust)
+            .map_err(|error| ArgminError::msg(error.to_string()))?;
+        let said = of(&point);
+        let mut made = self.made.borrow_mut();
+        made.push(point);
+        self.progress.borrow_mut().advance(made.len());
+        Ok(said)
+    }
+
+    fn thrust(&self, in_units: &[f64]) -> Vec<f64> {
+        in_units.iter().map(|x| x * self.unit).collect()
+    }
+}
+
+impl CostFunction for &Runs {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, thrust: &Vec<f64>) -> Result<f64, ArgminError> {
+        self.at(thrust, |point| point.objective)
+    }
+}
+
+impl Gradient for &Runs {
+    type Param = Vec<f64>;
+    type Gradient = Vec<f64>;
+
+    fn gradient(&self, thrust: &Vec<f64>) -> Result<Vec<f64>, ArgminError> {
+        self.at(thrust, |point| {
+            point.gradient.iter().map(|g| g * self.unit).collect()
+        })
+    }
+}
+
+/// Finds the thrust, prints and draws it.
+pub(crate) fn run(aim: Aim, directory: Option<&Path>) -> Result<Claims, Box<dyn Error>> {
+    let runs = Runs::start(aim)?;
+    let start = aim.start().iter().map(|f| f / runs.unit).collect();
+    let search = LBFGS::new(MoreThuenteLineSearch::new(), 10);
+    let executor = Executor::new(&runs, search);
+    executor
+        .configure(|state| state.param(start).max_iters(MOST_STEPS))
+        .run()?;
+    let mut made = runs.made.into_inner();
+    made.truncate(MOST_RUNS);
+    let least = made
+        .iter()
+        .min_by(|a, b| a.objective.total_cmp(&b.objective));
+    let ends = [made.first(), least].map(|point| point.ok_or("nothing was run"));
+    let [first, best] = [ends[0]?, ends[1]?];
+    print([first, best], made.len());
+    if let Some(directory) = directory {
+        draw(aim, [first, best], directory)?;
+    }
+    let mut claims = Claims::default();
+    for point in &made {
+        keeps_its_laws(&point.record, &mut claims);
+    }
+    if aim.grid.end() >= LONG {
+        let fall = first.objective / best.objective;
+        claims.at_least("the fall of J", Some(fall), FALL);
+    }
+    Ok(claims)
+}
+
+/// First and second law of a run.
+fn keeps_its_laws(run: &Record, claims: &mut Claims) {
+    claims.reaches_the_end(run);
+    claims.keeps_the_first_law(run, ENERGY_DEFECT);
+    let increment = Statistics::of(run).entropy_increment;
+    claims.at_least("the smallest entropy increment (J/K)", increment, 0.0);
+}
+
+const NAMES: [&str; 2] = ["for a stiff satellite", "optimal"];
+
+fn print(points: [&Point; 2], runs: usize) {
+    let mut table = table::headed([
+        "thrust",
+        "J",
+        "turn (°)",
+        "kinetic energy (J)",
+        "largest thrust (N)",
+        "off by (J)",
+    ]);
+    for (name, point) in NAMES.iter().zip(points) {
+        let largest = point
+            .thrust
+            .iter()
+            .fold(0.0_f64, |most, f| most.max(f.abs()));
+        table.add_row([
+            (*name).to_owned(),
+            format!("{:.3e}", point.objective),
+            table::last(&point.record, ATTITUDE, |turn| format!("{turn:.4}")),
+            table::last(&point.record, "kinetic", |energy| format!("{energy:.2e}")),
+            format!("{largest:.3}"),
+            table::first_law_defect(&point.record),
+        ]);
+    }
+    terminal::say(format_args!("{table}\n\n{runs} runs with their gradients."));
+}
+
+/// Thrust, attitude and kinetic energy over time.
+fn draw(aim: Aim, points: [&Point; 2], directory: &Path) -> Result<(), Box<dyn Error>> {
+    let figure =
+        |what: &str, y_label: &str, points_of: &dyn Fn(&Point) -> Vec<(f64, f64)>| Figure {
+            title: format!(
+                "A satellite that turns by {:.0}°: {what}",
+                aim.angle * 360.0 / TAU
+            ),
+            x_label: "time (s)".to_owned(),
+            y_label: y_label.to_owned(),
+            curves: NAMES
+                .iter()
+                .zip(points)
+                .enumerate()
+                .map(|(look, (name, point))| {
+                    let points = points_of(point);
+                    Curve {
+                        label: (*name).to_owned(),
+                        decisive: points.len(),
+                        points,
+                        look,
+                        trusted: true,
+                    }
+                })
+                .collect(),
+            axes: Axes::Even,
+        };
+    let thrust = |point: &Point| {
+        let ends = point.thrust.iter().zip(0_u32..);
+        ends.flat_map(|(&f, i)| [(f64::from(i), f), (f64::from(i + 1), f)])
+            .map(|(i, f)| (i * aim.held(), f))
+            .collect()
+    };
+    let figures = [
+        figure("thrust of each rocket", "thrust (N)", &thrust),
+        figure("its attitude", "turn of the body (°)", &|point| {
+            point.record.points("time", ATTITUDE)
+        }),
+        figure("its motion", "kinetic energy (J)", &|point| {
+            point.record.points("time", "kinetic")
+        }),
+    ];
+    write_stack(&figures, &directory.join("optimal.svg"))
+}
