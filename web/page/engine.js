@@ -4,13 +4,9 @@
 const PATIENCE = 20000;
 
 export class Engine {
-  #worker;
+  #worker = null;
   #number = 0;
   #pending = new Map();
-
-  constructor() {
-    this.#hire();
-  }
 
   #hire() {
     this.#worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
@@ -28,10 +24,11 @@ export class Engine {
   }
 
   #replace(reason) {
-    this.#worker.terminate();
+    // The next question hires another one, so that one that cannot start is not tried for ever.
+    this.#worker?.terminate();
+    this.#worker = null;
     const left = [...this.#pending.values()];
     this.#pending.clear();
-    this.#hire();
     for (const { timer, reject } of left) {
       clearTimeout(timer);
       reject(new Error(reason));
@@ -46,6 +43,7 @@ export class Engine {
   /** The answer to a question; an error if the worker had to be replaced, which then knows nothing of the past. */
   ask(kind, question = {}) {
     const number = ++this.#number;
+    if (this.#worker === null) this.#hire();
     return new Promise((resolve, reject) => {
       const timer = setTimeout(
         () => this.#replace(`no answer within ${PATIENCE / 1000} s`), PATIENCE);

@@ -119,7 +119,7 @@ async function begin() {
 
 /** Asks for the steps until the next picture, and one more to draw towards. */
 async function advance() {
-  const steps = Math.ceil(clock / setting.step + 1e-9) + 1;
+  const steps = Math.ceil(clock / setting.step) + 1;
   const asked = runs;
   const standings = await engine.ask("advance", { runs: runs.length, steps });
   // Another start has come in between.

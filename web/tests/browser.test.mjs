@@ -75,7 +75,7 @@ test("the pendulum moves, and the first scheme alone keeps both laws", async () 
   assert.notEqual(await look("stage"), start);
   await page.waitForTimeout(400);
   const [exact, midpoint] = await numbers();
-  // E is some 500 J: 1e-9 J are 2e-12 of it.
+  // E is 1471 J at the start: 1e-9 J are 7e-13 of it.
   assert.ok(exact[0] < 1e-9, `energy is off by ${exact[0]} J`);
   assert.ok(exact[1] > 0 && exact[2] >= 0, `entropy ${exact}`);
   assert.ok(midpoint[0] > 1e-3, `midpoint is off by ${midpoint[0]} J`);
@@ -172,6 +172,32 @@ test("nothing that is typed stops the page", async () => {
   await page.locator("#sheet").fill(text);
   await says("No mistakes.");
   await until(0.5);
+});
+
+test("a solver that breaks is started again, with the last material that was right", async () => {
+  await page.route("**/worker.js", async (route) => {
+    const response = await route.fetch();
+    const breaks = `const real = onmessage;
+      onmessage = (event) => event.data.question.sheet === "break"
+        ? postMessage({ number: event.data.number, broken: "a trap" })
+        : real(event);`;
+    await route.fulfill({ response, body: `${await response.text()}\n${breaks}` });
+  });
+  await page.reload();
+  await says("No mistakes.");
+  await until(0.3);
+  await page.locator("#sheet").fill("break");
+  await says("The solver was restarted: a trap");
+  await page.waitForFunction(() => Number(document.getElementById("stage").dataset.time) < 0.3);
+  await until(0.3);
+});
+
+test("a page without its module says so", async () => {
+  await page.route("**/eem.wasm", (route) => route.fulfill({ status: 404 }));
+  await page.reload();
+  await says("The solver does not start: Error: eem.wasm: 404");
+  // Chromium says it, too.
+  said = said.filter((text) => !text.includes("404"));
 });
 
 for (const [width, colorScheme] of [[1280, "light"], [1280, "dark"], [390, "light"], [390, "dark"]]) {
