@@ -136,6 +136,7 @@ test("all examples run, and a scheme that stops says why", async () => {
     await page.waitForTimeout(300);
     const [exact] = await numbers();
     assert.ok(exact[0] < 1e-9 && exact[2] >= 0, `${name}: ${exact}`);
+    assert.equal(await page.locator("#setting-air").isVisible(), (await sheet()).includes("Temperature"));
     await page.screenshot({ path: `${pictures}/example-${index}.png` });
   }
   await page.selectOption("#example", "0");
