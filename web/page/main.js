@@ -10,7 +10,6 @@ import { Stage } from "./stage.js";
 
 /** Schemes to begin with: one that keeps the laws, and two that do not. */
 const SCHEMES = ["eem-temperature", "midpoint", "trapezoidal"];
-const SAMPLE = 6;
 
 /** Sliders of the start: key, name, unit, range, whether only for springs with a temperature. */
 const STEP = { key: "step", name: "h", note: "step size", unit: "s", least: 0.001, most: 1, isLogarithmic: true };
@@ -33,6 +32,8 @@ const charts = [
 ];
 const editor = new Editor(at("editor"), () => read());
 
+/** Numbers of a sample. */
+let sampleSize;
 let setting;
 let schemes = [...SCHEMES];
 /** The last sheet that was right, and what it means. */
@@ -109,7 +110,7 @@ const restart = latest(() => (good.law === null ? undefined : begin()));
 async function begin() {
   const standings = await engine.ask("start", { setting, schemes });
   runs = standings.map(({ samples, ...standing }) => {
-    const history = new History(SAMPLE);
+    const history = new History(sampleSize);
     history.add(samples);
     return { ...standing, history };
   });
@@ -282,7 +283,8 @@ at("play").addEventListener("click", () => {
 at("restart").addEventListener("click", () => restart());
 
 try {
-  const { examples, schemes: all } = await engine.ask("contents");
+  const { examples, schemes: all, ...contents } = await engine.ask("contents");
+  sampleSize = contents.sampleSize;
   at("example").append(...examples.map(({ name }, index) => new Option(name, index)));
   at("example").addEventListener("change", (event) => take(examples[event.target.value]));
   showSchemes(all);

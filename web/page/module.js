@@ -4,6 +4,7 @@
 export async function load(bytes) {
   const { instance } = await WebAssembly.instantiate(bytes, {});
   const call = instance.exports;
+  const sampleSize = call.eem_sample_size();
 
   const write = (text) => {
     const utf8 = new TextEncoder().encode(text);
@@ -21,13 +22,12 @@ export async function load(bytes) {
   };
 
   return {
-    sampleSize: call.eem_sample_size(),
     /** Bytes of memory that the module has. */
     memoryBytes: () => call.memory.buffer.byteLength,
-    /** Examples and schemes. */
+    /** Examples, schemes, and how many numbers a sample has. */
     contents() {
       call.eem_contents();
-      return answer();
+      return { ...answer(), sampleSize };
     },
     /** What a sheet means: its law, and all that is wrong with it. */
     read(sheet) {
@@ -39,12 +39,11 @@ export async function load(bytes) {
     start(setting, schemes) {
       write(JSON.stringify({ setting, schemes }));
       call.eem_start();
-      const size = call.eem_sample_size();
       const all = samples();
       let next = 0;
       return answer().map((standing) =>
         standing.failure === null
-          ? { ...standing, samples: all.slice(next, (next += size)) }
+          ? { ...standing, samples: all.slice(next, (next += sampleSize)) }
           : { ...standing, samples: new Float64Array() });
     },
     /** Makes steps with a run, until one fails. */

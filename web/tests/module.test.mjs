@@ -18,14 +18,15 @@ test("runs have the bits of the native library", async () => {
   const eem = await load(bytes);
   const lines = [];
   const schemes = ["eem-temperature", "midpoint", "trapezoidal"];
-  eem.contents().examples.forEach((example, index) => {
+  const { examples, sampleSize } = eem.contents();
+  examples.forEach((example, index) => {
     assert.notEqual(eem.read(example.sheet).law, null);
     eem.start(example.setting, schemes);
     schemes.forEach((scheme, run) => {
       const { samples, failure } = eem.advance(run, 100);
-      const made = samples.length / eem.sampleSize;
+      const made = samples.length / sampleSize;
       for (let step = 10; step <= made; step += 10) {
-        const sample = samples.slice((step - 1) * eem.sampleSize, step * eem.sampleSize);
+        const sample = samples.slice((step - 1) * sampleSize, step * sampleSize);
         lines.push([index, scheme, step, ...Array.from(sample, bits)].join(" "));
       }
       if (failure !== null) lines.push(`${index} ${scheme} ${made + 1} ends`);
