@@ -40,6 +40,7 @@ pub use nalgebra;
 // - extremes, or fresh random steps: `tests/extremes`, a file per kind; `models.rs`, `families.rs`, `judge.rs`
 // - a free energy that is compared with all oracles: a `specimen!` in `tests/materials/zoo/families`
 // - fuzzing of the front end and of the mathematics: `fuzz`
+// - the page in the browser: `web/src/lib.rs` says more
 // - benchmarks: `benches`, and `benches/README.md`
 // - limits on files, functions and imports: `tests/structure`
 // - the gate: `.ci/run`

@@ -4,5 +4,6 @@ mod cases;
 mod drawing;
 mod item;
 mod limits;
+mod mutated;
 mod words;
 mod zoo;

@@ -12,7 +12,7 @@ use crate::attr::Attributes;
 use crate::ctxt::Ctxt;
 use crate::dialect::Dialect;
 use crate::tests::catalogue::sources;
-use crate::text::compile;
+use crate::text::{Source, compile};
 use crate::{check, derive, parse};
 
 /// The structs that the specimens of a file stand for, as source.
@@ -86,24 +86,39 @@ fn derived(input: &DeriveInput) -> Option<Model> {
     cx.barrier(model).ok().map(|(model, _)| model)
 }
 
+/// All structs of the zoo.
+fn zoo() -> Vec<String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/materials/zoo/families");
+    let read = |file| fs::read_to_string(file).expect("a file of the zoo can be read");
+    sources(&root)
+        .into_iter()
+        .flat_map(|file| structs(&read(file)))
+        .collect()
+}
+
+/// All of them as texts.
+pub(super) fn sources_of_all() -> Vec<Source> {
+    let source = |item: &String| AsText::new(item, &read(item)).map(|text| text.source);
+    zoo().iter().filter_map(|item| source(item).ok()).collect()
+}
+
+fn read(item: &str) -> DeriveInput {
+    syn::parse_str(item).unwrap_or_else(|error| panic!("{item}: {error}"))
+}
+
 #[test]
 fn texts_of_the_zoo_give_the_programs_of_the_derive() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/materials/zoo/families");
     let mut compared = 0;
-    for file in sources(&root) {
-        let text = fs::read_to_string(&file).expect("a file of the zoo can be read");
-        for item in structs(&text) {
-            let input: DeriveInput =
-                syn::parse_str(&item).unwrap_or_else(|e| panic!("{item}: {e}"));
-            let as_text = AsText::new(&item, &input).unwrap_or_else(|why| panic!("{item}: {why}"));
-            let compiled = compile(&as_text.source);
-            let compiled = compiled.unwrap_or_else(|faults| panic!("{item}\n{faults}"));
-            let derived = derived(&input).expect("the derive takes it").programs();
-            let programs = compiled.programs().expect("its numbers fit");
-            // With all digits, and the sign of zero.
-            assert_eq!(format!("{programs:?}"), format!("{derived:?}"), "{item}");
-            compared += 1;
-        }
+    for item in zoo() {
+        let input = read(&item);
+        let as_text = AsText::new(&item, &input).unwrap_or_else(|why| panic!("{item}: {why}"));
+        let compiled = compile(&as_text.source);
+        let compiled = compiled.unwrap_or_else(|faults| panic!("{item}\n{faults}"));
+        let derived = derived(&input).expect("the derive takes it").programs();
+        let programs = compiled.programs().expect("its numbers fit");
+        // With all digits, and the sign of zero.
+        assert_eq!(format!("{programs:?}"), format!("{derived:?}"), "{item}");
+        compared += 1;
     }
     assert!(compared > 60, "{compared} models");
 }
