@@ -86,7 +86,8 @@ pub use run::equilibrium::motion::{FreeMotion, MotionKind};
 pub use run::equilibrium::{Equilibrium, EquilibriumReport};
 #[cfg(feature = "gradients")]
 pub use run::gradient::{
-    error::GradientError, history::History, objective::Objective, result::Gradient,
+    error::GradientError, history::History, input::Input, objective::Objective, result::Gradient,
+    sensitivities::Sensitivities,
 };
 pub use run::ledger::Ledger;
 pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};

@@ -5,7 +5,7 @@ use eem::prelude::*;
 use eem::{Gradient, GradientError, History, Objective};
 
 use super::inputs::check;
-use super::{FORMS, INPUTS, TWO, VOIGT, net};
+use super::{FORMS, INPUTS, TWO, VOIGT, assert_tangent, net};
 use crate::support::single_pendulum_scene;
 use crate::support::solids::Viscous;
 
@@ -56,7 +56,9 @@ fn controlled(values: [f64; 11], scheme: Scheme) -> (Gradient<2>, [Node; 2], Ele
         + Objective::integral(Quantity::TotalEnergy).times(0.1)
         + Objective::time().times(3.0)
         + Objective::at_end(Quantity::Temperature(springs[1])).times(0.1);
-    (run.gradient(&objective).unwrap(), [bob, hook], springs[2])
+    let gradient = run.gradient(&objective).unwrap();
+    assert_tangent("controlled", &mut run, &gradient, &objective);
+    (gradient, [bob, hook], springs[2])
 }
 
 #[test]

@@ -11,7 +11,7 @@ use crate::element::layout::Slots;
 use crate::element::lineage::Lineage;
 use crate::scene::body::Body;
 use crate::scene::error::SceneError;
-use crate::step::adjoint::Costate;
+use crate::step::adjoint::PerVariable;
 use eem_material::number::scalar::Real;
 
 /// The value of an [`Objective`](crate::Objective) and its derivatives by all inputs of a run, each in the unit of the
@@ -24,7 +24,7 @@ pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) scene: Lineage,
     pub(crate) value: f64,
     pub(crate) growth: f64,
-    pub(crate) start: Costate<S>,
+    pub(crate) start: PerVariable<S>,
     pub(crate) masses: Vec<S>,
     /// By the masses that two nodes have in common, and by those of solids at anchors, in order.
     pub(crate) pairs: Vec<([usize; 2], S)>,
@@ -140,17 +140,12 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         for node in body.nodes() {
             self.own(node)?;
         }
-        for (nodes, masses) in body.masses_per_density::<S>() {
-            for (a, row) in masses.as_ref().iter().enumerate() {
-                for (b, &mass) in row.as_ref().iter().enumerate().take(a + 1) {
-                    let [i, j] = [nodes[a], nodes[b]];
-                    let key = [i.min(j), i.max(j)];
-                    let pair = self.pairs.binary_search_by_key(&key, |&(nodes, _)| nodes);
-                    sum += mass * pair.map_or(S::zero(), |at| self.pairs[at].1);
-                    if i == j {
-                        sum += mass * self.masses[i];
-                    }
-                }
+        for (nodes, mass) in body.pair_masses::<S>() {
+            let pair = self.pairs.binary_search_by_key(&nodes, |&(nodes, _)| nodes);
+            sum += mass * pair.map_or(S::zero(), |at| self.pairs[at].1);
+            let [i, j] = nodes;
+            if i == j {
+                sum += mass * self.masses[i];
             }
         }
         Ok(sum)

@@ -208,7 +208,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
     }
 
     /// The names of its columns.
-    pub(super) fn columns(&self, name: &str) -> Vec<String> {
+    pub(crate) fn columns(&self, name: &str) -> Vec<String> {
         let components = match self {
             Self::Position(_) | Self::Momentum(_) | Self::Velocity(_) | Self::LinearMomentum => D,
             Self::AngularMomentum if D > 2 => 3,

@@ -1,8 +1,12 @@
 //! The gradient of a run: the adjoint of its steps, from the last to the first.
 
 mod again;
+mod checks;
+mod derivatives;
+mod directions;
 mod inputs;
 mod seeds;
+mod tangents;
 mod way;
 
 use core::mem;
@@ -21,9 +25,10 @@ use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::{Gradient, OfElement, Series};
 use crate::run::gradient::snapshots::Record;
 use crate::scene::loads::{Course, Loads};
-use crate::step::adjoint::{Adjoint, Costate, NoAdjoint};
+use crate::step::adjoint::{Adjoint, NoAdjoint, PerVariable};
 use crate::step::control::norm as norm_of;
 use crate::step::scheme::Scheme;
+use derivatives::Outline;
 use eem_material::number::scalar::{Mask, Real};
 use inputs::Made;
 use nalgebra::SVector;
@@ -148,15 +153,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Calls a function with the history, after which everything is as before.
-    fn on_history(
+    fn on_history<T>(
         &mut self,
-        act: impl FnOnce(&mut Self, &mut Record<S>) -> Result<Gradient<D, S>, GradientError>,
-    ) -> Result<Gradient<D, S>, GradientError> {
+        act: impl FnOnce(&mut Self, &mut Record<S>) -> Result<T, GradientError>,
+    ) -> Result<T, GradientError> {
         let Some(mut kept) = self.history.take() else {
             return Err(GradientError::NoHistory);
         };
         kept.return_to(self.time());
-        let checked = self.check_gradient(&kept);
+        let checked = self.check_history(&kept);
         let found = checked.and_then(|()| {
             if kept.all().is_some() {
                 act(self, &mut kept)
@@ -231,15 +236,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The way back, at its beginning.
     fn way_back(&mut self) -> Result<Way<D, S>, GradientError> {
-        let layout = self.numbering();
-        let mut found = self.no_gradient(&layout);
-        let costate = mem::replace(&mut found.start, Costate::zero(0, &layout, 0));
-        let mut held = vec![false; layout.thermal];
-        for (element, _) in &self.loads.temperatures {
-            if let Some(slot) = layout.elements[element.index()].thermal {
-                held[slot] = true;
-            }
-        }
+        let outline = self.outline();
+        let layout = &outline.layout;
+        let mut found = self.no_gradient(&outline);
+        let costate = mem::replace(&mut found.start, PerVariable::zero(0, layout, 0));
         let mut anchors = Vec::new();
         if self.masses.are_coupled() {
             let moved = self.loads.motions.iter().map(|(node, _)| node.index);
@@ -252,15 +252,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let system = newton.solver.tangent_mut();
         Ok(Way {
-            adjoint: Adjoint::new(&layout, &self.masses, system, costate),
+            adjoint: Adjoint::new(layout, &self.masses, system, costate),
             paths: self.conduction.path_ends(),
-            sums: self.masses.weights(),
             conduction: self.conduction.clone(),
             by_reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
             by_speeds: Vec::new(),
             rockets: Vec::new(),
-            layout,
-            held,
+            held: self.held(layout),
+            outline,
             anchors,
             by_size: S::zero(),
             last: None,
@@ -270,7 +269,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// From the derivatives by the new state of a step to those by its old one.
     fn reverse(&mut self, made: Made<'_, S>, way: &mut Way<D, S>) -> Result<(), GradientError> {
-        self.set_loads(made, way);
+        self.find_loads(made, &mut way.conduction, &mut way.rockets);
+        for (oven, _) in &self.loads.ovens {
+            // Its entropy is booked as heat after the step.
+            way.adjoint.costate.reservoirs[*oven] = S::zero();
+        }
         // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         let Stepper::Newton(newton) = &mut self.stepper else {
@@ -297,7 +300,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let solved = way.adjoint.step_back(
             (view, new, &way.held),
-            (&way.layout, &way.rockets),
+            (&way.outline.layout, &way.rockets),
             &mut newton.groups,
             newton.solver.tangent_mut(),
             see,
@@ -318,7 +321,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// An error unless all steps of the history have an adjoint.
-    fn check_gradient(&self, kept: &Record<S>) -> Result<(), GradientError> {
+    fn check_history(&self, kept: &Record<S>) -> Result<(), GradientError> {
         if S::LANES > 1 {
             let what = "several numbers in one";
             return Err(GradientError::NotDifferentiable { what });
@@ -342,7 +345,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// What a relative change of a state does to the objective, `|λ_q||q| + |λ_v||v| + |λ_γ||q| + |λ_θ||θ|`.
-    fn effect(&self, costate: &Costate<S>, state: &State<S>) -> f64 {
+    fn effect(&self, costate: &PerVariable<S>, state: &State<S>) -> f64 {
         let norm = |values: &[S]| norm_of(values.iter().copied()).to_f64();
         let masses = self.masses.iter().enumerate();
         let velocities = masses.flat_map(|(node, mass)| {
@@ -356,7 +359,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A gradient of zeros, with the names of all parameters.
-    fn no_gradient(&self, layout: &Layout) -> Gradient<D, S> {
+    fn no_gradient(&self, outline: &Outline<S>) -> Gradient<D, S> {
+        let layout = &outline.layout;
         let coordinates = self.masses.len() * D;
         let mut elements = Vec::with_capacity(self.places.len());
         for (index, &[group, at]) in self.places.iter().enumerate() {
@@ -375,9 +379,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             scene: self.scene.clone(),
             value: 0.0,
             growth: 1.0,
-            start: Costate::zero(coordinates, layout, self.conduction.reservoirs.len()),
+            start: PerVariable::zero(coordinates, layout, self.conduction.reservoirs.len()),
             masses: vec![S::zero(); self.masses.len()],
-            pairs: self.mass_pairs(),
+            pairs: outline
+                .pairs
+                .iter()
+                .map(|&nodes| (nodes, S::zero()))
+                .collect(),
             gravity: SVector::from_element(S::zero()),
             conductances: vec![S::zero(); self.conduction.path_ends().len()],
             reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
@@ -397,12 +405,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The masses of pairs of nodes and of anchors, in order.
-    fn mass_pairs(&self) -> Vec<([usize; 2], S)> {
-        let pairs = self.masses.pairs().iter().chain(self.masses.held());
-        let mut pairs: Vec<_> = pairs.map(|pair| (pair.nodes(), S::zero())).collect();
-        pairs.sort_by_key(|&(nodes, _)| nodes);
-        pairs
+    /// Whether thermostats hold the temperatures, by thermal slot.
+    fn held(&self, layout: &Layout) -> Vec<bool> {
+        let mut held = vec![false; layout.thermal];
+        for (element, _) in &self.loads.temperatures {
+            if let Some(slot) = layout.elements[element.index()].thermal {
+                held[slot] = true;
+            }
+        }
+        held
     }
 
     /// The first load that is a function of time.
