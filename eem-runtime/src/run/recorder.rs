@@ -16,6 +16,8 @@ use crate::step::newton::StepReport;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
+#[cfg(feature = "gradients")]
+pub(crate) use quantity::axis_name;
 pub use quantity::{CustomQuantity, Quantity};
 
 /// The name of the first column.

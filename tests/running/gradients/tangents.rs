@@ -86,7 +86,7 @@ fn every_input_has_a_column() {
         pairs.push((Input::reservoir_temperature(net.air), air));
         let force = gradient.by_force(tail).unwrap();
         let by_phase = force.iter().map(|(t, by)| by[0] * t.cos()).sum();
-        pairs.push((Input::force(tail, |t| [t.cos(), 0.0]), by_phase));
+        pairs.push((Input::force(tail, |t: f64| [t.cos(), 0.0]), by_phase));
         assert_columns(&mut run, of(), pairs);
     }
 }

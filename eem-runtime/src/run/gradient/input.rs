@@ -7,6 +7,7 @@ use nalgebra::SVector;
 
 use crate::element::handle::{Element, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
+use crate::run::recorder::axis_name;
 use crate::scene::body::Body;
 use crate::scene::loads::{OfTime, TemperatureOfTime};
 use eem_material::number::scalar::Real;
@@ -181,13 +182,13 @@ impl<const D: usize, S: Real> Input<D, S> {
             },
             InputOf::Mass(node) => format!("mass of {node}"),
             InputOf::Density(..) => "density".to_owned(),
-            InputOf::Gravity(axis) => format!("gravity {axis}"),
+            InputOf::Gravity(axis) => format!("gravity {}", axis_name(*axis)),
             InputOf::Conductance(path) => format!("conductance of {path}"),
             InputOf::Reservoir(reservoir) | InputOf::Oven(reservoir, _) => {
                 format!("temperature of {reservoir}")
             }
-            InputOf::Position(node, axis) => format!("position {axis} of {node}"),
-            InputOf::Velocity(node, axis) => format!("velocity {axis} of {node}"),
+            InputOf::Position(node, axis) => format!("position {} of {node}", axis_name(*axis)),
+            InputOf::Velocity(node, axis) => format!("velocity {} of {node}", axis_name(*axis)),
             InputOf::Temperature(element) | InputOf::Thermostat(element, _) => {
                 format!("temperature of {element}")
             }

@@ -183,6 +183,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             mut found, adjoint, ..
         } = self.go_back(kept, objectives, usize::MAX)?;
         found.start = adjoint.costate;
+        if let Some((_, objective)) = objectives.first() {
+            found.unit = objective.unit();
+        }
         for (_, series) in found.forces.iter_mut().chain(&mut found.motions) {
             series.reverse();
         }
@@ -372,14 +375,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 slots: layout.elements[index],
                 dashpots: self.shapes[group as usize].dashpots,
                 names,
+                units: of_group.parameter_units(),
+                viscous_unit: self.viscous_unit(group as usize),
                 values: vec![S::zero(); names.len()],
             });
         }
         Gradient {
             scene: self.scene.clone(),
             value: 0.0,
+            unit: String::new(),
             growth: 1.0,
             start: PerVariable::zero(coordinates, layout, self.conduction.reservoirs.len()),
+            moving: (0..self.masses.len())
+                .filter(|&node| self.masses.get(node).is_some())
+                .collect(),
             masses: vec![S::zero(); self.masses.len()],
             pairs: outline
                 .pairs

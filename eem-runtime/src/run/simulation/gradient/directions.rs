@@ -275,13 +275,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 });
                 found.copied().unwrap_or_default().to_owned()
             }
-            InputOf::ViscousStretch(element, _) => {
-                match self.shapes[group_of(element)].viscous_unit {
-                    "" => "1".to_owned(),
-                    unit => unit.to_owned(),
-                }
-            }
+            InputOf::ViscousStretch(element, _) => self.viscous_unit(group_of(element)).to_owned(),
             _ => input.unit().to_owned(),
+        }
+    }
+
+    /// The unit of the viscous stretches of a group.
+    pub(super) fn viscous_unit(&self, group: usize) -> &'static str {
+        match self.shapes[group].viscous_unit {
+            "" => "1",
+            unit => unit,
         }
     }
 
