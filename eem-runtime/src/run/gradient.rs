@@ -6,5 +6,6 @@ pub(crate) mod input;
 pub(crate) mod objective;
 pub(crate) mod result;
 pub(crate) mod sensitivities;
+pub(crate) mod series;
 pub(crate) mod snapshots;
 pub(crate) mod units;

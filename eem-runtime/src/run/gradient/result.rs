@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use nalgebra::SVector;
 
 use super::error::GradientError;
+use super::series::Series;
 use crate::element::handle::{Element, Handle, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;
@@ -40,7 +41,7 @@ pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) reservoirs: Vec<S>,
     pub(crate) elements: Vec<OfElement<S>>,
     /// By the sizes of steps, at their ends, with the values of functions of time kept.
-    pub(crate) sizes: Series<S, S>,
+    pub(crate) sizes: Vec<(S, S)>,
     /// A load that is a function of time.
     pub(crate) timed: Option<String>,
     /// By thrusts of rockets, and by temperatures of ovens, in the middle of each step.
@@ -54,9 +55,6 @@ pub struct Gradient<const D: usize, S: Real = f64> {
 
 /// The name of an input, the derivative by it, and its unit.
 type Derivative = (String, f64, String);
-
-/// Derivatives by the values of a function of time, with the times, s.
-pub(crate) type Series<T, S> = Vec<(S, T)>;
 
 /// The growth from which it is noted.
 const NOTED: f64 = 1e6;
@@ -341,13 +339,13 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         self.gravity
     }
 
-    /// The derivatives by the force on a mass in each step, with the time in its middle, s. Those by a parameter of a force are
-    /// `Σ dJ/df(t)·∂f/∂α(t)`.
+    /// The derivatives by the force on a mass in each step, with the time in its middle, s. That by a parameter of a force is found by
+    /// [`Series::contract`].
     ///
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if no force acts on it.
-    pub fn by_force(&self, node: Node) -> Result<&[(S, SVector<S, D>)], GradientError> {
+    pub fn by_force(&self, node: Node) -> Result<&Series<SVector<S, D>, S>, GradientError> {
         self.own(&node)?;
         series(&self.forces, node.index, || format!("{node} has no force"))
     }
@@ -358,7 +356,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if there is no such rocket.
-    pub fn by_thrust(&self, node: Node, rocket: usize) -> Result<&[(S, S)], GradientError> {
+    pub fn by_thrust(&self, node: Node, rocket: usize) -> Result<&Series<S, S>, GradientError> {
         self.own(&node)?;
         let mut own = self.thrusts.iter().filter(|(own, _)| *own == node.index);
         match own.nth(rocket) {
@@ -374,7 +372,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if the temperature is not a function of time.
-    pub fn by_oven(&self, oven: Reservoir) -> Result<&[(S, S)], GradientError> {
+    pub fn by_oven(&self, oven: Reservoir) -> Result<&Series<S, S>, GradientError> {
         self.own(&oven)?;
         series(&self.ovens, oven.index, || format!("{oven} is not an oven"))
     }
@@ -386,7 +384,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if it is not moved.
-    pub fn by_motion(&self, anchor: Node) -> Result<&[(S, SVector<S, D>)], GradientError> {
+    pub fn by_motion(&self, anchor: Node) -> Result<&Series<SVector<S, D>, S>, GradientError> {
         self.own(&anchor)?;
         series(&self.motions, anchor.index, || {
             format!("{anchor} is not moved")
@@ -398,7 +396,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] without a thermostat.
-    pub fn by_thermostat(&self, element: Element) -> Result<&[(S, S)], GradientError> {
+    pub fn by_thermostat(&self, element: Element) -> Result<&Series<S, S>, GradientError> {
         self.own(&element)?;
         series(&self.temperatures, element.index(), || {
             format!("{element} has no thermostat")
@@ -445,7 +443,7 @@ fn series<T, S>(
     all: &[(usize, Series<T, S>)],
     index: usize,
     why: impl FnOnce() -> String,
-) -> Result<&[(S, T)], GradientError> {
+) -> Result<&Series<T, S>, GradientError> {
     let mut own = all.iter().filter(|(own, _)| *own == index);
     match own.next() {
         Some((_, series)) => Ok(series),

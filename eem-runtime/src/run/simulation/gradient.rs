@@ -22,7 +22,8 @@ use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::history::History;
 use crate::run::gradient::objective::Objective;
-use crate::run::gradient::result::{Gradient, OfElement, Series};
+use crate::run::gradient::result::{Gradient, OfElement};
+use crate::run::gradient::series::Series;
 use crate::run::gradient::snapshots::Record;
 use crate::scene::loads::{Course, Loads};
 use crate::step::adjoint::{Adjoint, NoAdjoint, PerVariable};
@@ -187,13 +188,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             found.unit = objective.unit();
         }
         for (_, series) in found.forces.iter_mut().chain(&mut found.motions) {
-            series.reverse();
+            series.0.reverse();
         }
         let thrusts = found.thrusts.iter_mut().map(|(_, series)| series);
         let ovens = found.ovens.iter_mut().map(|(_, series)| series);
         let temperatures = found.temperatures.iter_mut().map(|(_, series)| series);
         for series in thrusts.chain(ovens).chain(temperatures) {
-            series.reverse();
+            series.0.reverse();
         }
         found.sizes.reverse();
         Ok(found)
@@ -406,7 +407,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 .loads
                 .rockets
                 .iter()
-                .map(|rocket| (rocket.line.node.index, Vec::new()))
+                .map(|rocket| (rocket.line.node.index, Series(Vec::new())))
                 .collect(),
             ovens: empty(self.loads.ovens.iter().map(|&(index, _)| index)),
             motions: empty(self.loads.motions.iter().map(|(node, _)| node.index)),
@@ -473,6 +474,6 @@ fn empty<T, S>(indices: impl Iterator<Item = usize>) -> Vec<(usize, Series<T, S>
     let indices: BTreeSet<usize> = indices.collect();
     indices
         .into_iter()
-        .map(|index| (index, Vec::new()))
+        .map(|index| (index, Series(Vec::new())))
         .collect()
 }

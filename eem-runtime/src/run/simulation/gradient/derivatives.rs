@@ -4,6 +4,7 @@ use super::way::dot;
 use crate::element::group::ElementGeneric;
 use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
+use crate::element::masses::MassPair;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::recorder::Quantity;
@@ -47,7 +48,7 @@ pub(super) struct Outline<S> {
 impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn outline(&self) -> Outline<S> {
         let pairs = self.masses.pairs().iter().chain(self.masses.held());
-        let mut pairs: Vec<_> = pairs.map(|pair| pair.nodes()).collect();
+        let mut pairs: Vec<_> = pairs.map(MassPair::nodes).collect();
         pairs.sort_unstable();
         Outline {
             layout: self.numbering(),
@@ -142,13 +143,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         for (node, mass) in self.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
             let velocity = state.velocity::<D>(node, mass);
-            for axis in 0..D {
-                let at = node * D + axis;
+            for (speed, at) in velocity.into_iter().zip(node * D..) {
                 see(Of::Velocity(at), weight * momenta[at]);
-                see(
-                    Of::Mass(node),
-                    weight * half * velocity[axis] * velocity[axis],
-                );
+                see(Of::Mass(node), weight * half * speed * speed);
             }
         }
         if !self.masses.are_coupled() {

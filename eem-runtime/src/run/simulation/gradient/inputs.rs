@@ -92,7 +92,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let middle = old.time.value + S::from_f64(0.5) * h;
         for (reservoir, series) in &mut found.ovens {
-            series.push((middle, by_reservoirs[*reservoir]));
+            series.0.push((middle, by_reservoirs[*reservoir]));
         }
         for (sum, &(slot, partner)) in found.conductances.iter_mut().zip(&way.paths) {
             *sum += match partner {
@@ -113,12 +113,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let middle = start + S::from_f64(0.5) * h;
         let (weights, found) = (&way.adjoint.weights, &mut way.found);
         for (node, series) in &mut found.forces {
-            series.push((middle, vector::<S, D>(&weights.motion, *node) * h));
+            series
+                .0
+                .push((middle, vector::<S, D>(&weights.motion, *node) * h));
         }
         let pushes = self.loads.rockets.iter().zip(&way.rockets);
         for ((_, series), (rocket, own)) in found.thrusts.iter_mut().zip(pushes) {
             let weight = vector::<S, D>(&weights.motion, rocket.line.node.index);
-            series.push((middle, dot(&weight, &own.direction.into()) * h));
+            series
+                .0
+                .push((middle, dot(&weight, &own.direction.into()) * h));
         }
         for (node, series) in &mut found.motions {
             let [mut by_old, mut by_new] =
@@ -130,20 +134,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     by_new += own;
                     if thirds > 0.0 {
                         let at = start + S::from_f64(thirds) * (h / S::from_f64(3.0));
-                        series.push((at, -own));
+                        series.0.push((at, -own));
                     } else {
                         by_old -= own;
                     }
                 }
             }
             if let Some(at_end) = at_end {
-                series[at_end].1 += by_new;
+                series.0[at_end].1 += by_new;
             }
-            series.push((start, by_old));
+            series.0.push((start, by_old));
         }
         for (element, series) in &mut found.temperatures {
             if let Some(slot) = way.outline.layout.elements[*element].thermal {
-                series.push((end, weights.held[slot]));
+                series.0.push((end, weights.held[slot]));
             }
         }
     }

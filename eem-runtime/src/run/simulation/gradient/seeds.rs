@@ -224,9 +224,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let (costate, found) = (&way.adjoint.costate, &mut way.found);
         for ((node, series), before) in found.motions.iter_mut().zip(before) {
             let own = place(costate, *node) - before;
-            match series.last_mut() {
+            match series.0.last_mut() {
                 Some((_, last)) => *last += own,
-                None => series.push((time, own)),
+                None => series.0.push((time, own)),
             }
         }
         Ok(())
