@@ -8,4 +8,5 @@ pub(crate) mod result;
 pub(crate) mod sensitivities;
 pub(crate) mod series;
 pub(crate) mod snapshots;
+pub(crate) mod times;
 pub(crate) mod units;

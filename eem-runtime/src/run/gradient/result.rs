@@ -7,6 +7,7 @@ use nalgebra::SVector;
 
 use super::error::GradientError;
 use super::series::Series;
+use super::times::Timed;
 use crate::element::handle::{Element, Handle, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;
@@ -42,8 +43,9 @@ pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) elements: Vec<OfElement<S>>,
     /// By the sizes of steps, at their ends, with the values of functions of time kept.
     pub(crate) sizes: Vec<(S, S)>,
-    /// A load that is a function of time.
-    pub(crate) timed: Option<String>,
+    /// The time at the start, s, and the loads that are functions of time.
+    pub(crate) started: S,
+    pub(crate) timed: Vec<Timed>,
     /// By thrusts of rockets, and by temperatures of ovens, in the middle of each step.
     pub(crate) thrusts: Vec<(usize, Series<S, S>)>,
     pub(crate) ovens: Vec<(usize, Series<S, S>)>,
@@ -252,35 +254,6 @@ impl<const D: usize, S: Real> Gradient<D, S> {
             }
         }
         Ok(sum)
-    }
-
-    /// The derivatives by the sizes of the steps, with the times at their ends, s. Where a step ends at the jump of a load, the
-    /// derivative by the time of the jump is that by the size of the step before it less that by the size of the one after it.
-    ///
-    /// # Errors
-    ///
-    /// [`GradientError::NoTimeDerivative`] if the scene has a function of time.
-    pub fn by_step_size(&self) -> Result<&[(S, S)], GradientError> {
-        match &self.timed {
-            None => Ok(&self.sizes),
-            Some(load) => Err(GradientError::NoTimeDerivative { load: load.clone() }),
-        }
-    }
-
-    /// The same with the values of functions of time kept that each step had; all there is where these are constant in steps.
-    #[must_use]
-    pub fn by_step_size_at_kept_loads(&self) -> &[(S, S)] {
-        &self.sizes
-    }
-
-    /// The derivative by the time at the end, by the size of the last step; zero without a step.
-    ///
-    /// # Errors
-    ///
-    /// As [`by_step_size`](Self::by_step_size).
-    pub fn by_end_time(&self) -> Result<S, GradientError> {
-        let last = self.by_step_size()?.last();
-        Ok(last.map_or(S::zero(), |&(_, by)| by))
     }
 
     /// The derivative by the temperature of an element at the start.

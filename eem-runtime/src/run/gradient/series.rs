@@ -42,18 +42,33 @@ impl<T, S> Deref for Series<T, S> {
 impl<S: Real> Series<S, S> {
     /// The derivative by a parameter α of a function f(t), given `∂f/∂α`: `Σ dJ/df(t) ∂f/∂α(t)`.
     pub fn contract(&self, by: impl Fn(S) -> S) -> S {
-        let terms = self.iter().map(|&(time, derivative)| derivative * by(time));
-        terms.fold(S::zero(), |sum, term| sum + term)
+        sum(self.products(by))
+    }
+
+    /// The terms of this sum, with their times.
+    pub(crate) fn products(&self, by: impl Fn(S) -> S) -> impl Iterator<Item = (S, S)> {
+        let terms = self.iter();
+        terms.map(move |&(time, derivative)| (time, derivative * by(time)))
     }
 }
 
 impl<S: Real, const D: usize> Series<SVector<S, D>, S> {
     /// The derivative by a parameter α of a function f(t), given `∂f/∂α`: `Σ dJ/df(t)·∂f/∂α(t)`.
     pub fn contract<V: Into<SVector<S, D>>>(&self, by: impl Fn(S) -> V) -> S {
-        self.iter().fold(S::zero(), |sum, (time, derivative)| {
-            let by: SVector<S, D> = by(*time).into();
+        sum(self.products(move |time| by(time).into()))
+    }
+
+    /// The terms of this sum, with their times.
+    pub(crate) fn products(&self, by: impl Fn(S) -> SVector<S, D>) -> impl Iterator<Item = (S, S)> {
+        self.iter().map(move |(time, derivative)| {
+            let by = by(*time);
             let products = derivative.iter().zip(by.iter());
-            products.fold(sum, |sum, (&a, &b)| sum + a * b)
+            let product = products.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+            (*time, product)
         })
     }
+}
+
+fn sum<S: Real>(terms: impl Iterator<Item = (S, S)>) -> S {
+    terms.fold(S::zero(), |sum, (_, term)| sum + term)
 }

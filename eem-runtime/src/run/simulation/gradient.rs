@@ -25,7 +25,8 @@ use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::{Gradient, OfElement};
 use crate::run::gradient::series::Series;
 use crate::run::gradient::snapshots::Record;
-use crate::scene::loads::{Course, Loads};
+use crate::run::gradient::times::Timed;
+use crate::scene::loads::Course;
 use crate::step::adjoint::{Adjoint, NoAdjoint, PerVariable};
 use crate::step::control::norm as norm_of;
 use crate::step::scheme::Scheme;
@@ -197,6 +198,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             series.0.reverse();
         }
         found.sizes.reverse();
+        if let Some(start) = kept.times().next() {
+            found.started = start;
+        }
         Ok(found)
     }
 
@@ -401,6 +405,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
             elements,
             sizes: Vec::new(),
+            started: self.time(),
             timed: self.timed(),
             forces: empty(self.loads.forces.iter().map(|(node, _)| node.index)),
             thrusts: self
@@ -426,40 +431,29 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         held
     }
 
-    /// The first load that is a function of time.
-    fn timed(&self) -> Option<String> {
-        let Loads {
-            forces,
-            motions,
-            temperatures,
-            rockets,
-            ovens,
-            ..
-        } = &self.loads;
-        let forces = forces
-            .iter()
-            .filter(|(_, of)| matches!(of, Course::Function(_)));
-        let forces = forces.map(|(node, _)| format!("the force on {node}"));
-        let motions = motions
-            .iter()
-            .filter(|(_, of)| matches!(of, Course::Function(_)));
-        let motions = motions.map(|(node, _)| format!("the motion of {node}"));
-        let held = temperatures
-            .iter()
-            .filter(|(_, of)| matches!(of, Course::Function(_)));
-        let held = held.map(|(element, _)| format!("the temperature of {element}"));
-        let rockets = rockets
-            .iter()
-            .map(|rocket| format!("the thrust on {}", rocket.line.node));
-        let ovens = ovens
-            .iter()
-            .map(|(index, _)| format!("the temperature of reservoir {index}"));
+    /// The loads that are functions of time.
+    fn timed(&self) -> Vec<Timed> {
+        let loads = &self.loads;
+        let forces = loads.forces.iter();
+        let forces = forces.filter(|(_, of)| matches!(of, Course::Function(_)));
+        let motions = loads.motions.iter();
+        let motions = motions.filter(|(_, of)| matches!(of, Course::Function(_)));
+        let held = loads.temperatures.iter();
+        let held = held.filter(|(_, of)| matches!(of, Course::Function(_)));
+        let rockets = loads.rockets.iter().enumerate().map(|(place, rocket)| {
+            let node = rocket.line.node;
+            let before = loads.rockets[..place].iter();
+            let before = before.filter(|other| other.line.node.index == node.index);
+            Timed::Thrust(node, before.count())
+        });
+        let ovens = loads.ovens.iter();
         forces
-            .chain(motions)
-            .chain(held)
+            .map(|&(node, _)| Timed::Force(node))
+            .chain(motions.map(|&(node, _)| Timed::Motion(node)))
+            .chain(held.map(|&(element, _)| Timed::Thermostat(element)))
             .chain(rockets)
-            .chain(ovens)
-            .next()
+            .chain(ovens.map(|&(index, _)| Timed::Oven(self.scene.reservoir(index))))
+            .collect()
     }
 }
 
