@@ -39,14 +39,14 @@ impl<T, S> Deref for Series<T, S> {
     }
 }
 
-impl<S: Real> Series<S, S> {
+impl<R: Real> Series<R, R> {
     /// The derivative by a parameter α of a function f(t), given `∂f/∂α`: `Σ dJ/df(t) ∂f/∂α(t)`.
-    pub fn contract(&self, by: impl Fn(S) -> S) -> S {
+    pub fn contract(&self, by: impl Fn(R) -> R) -> R {
         sum(self.products(by))
     }
 
     /// The terms of this sum, with their times.
-    pub(crate) fn products(&self, by: impl Fn(S) -> S) -> impl Iterator<Item = (S, S)> {
+    pub(crate) fn products(&self, by: impl Fn(R) -> R) -> impl Iterator<Item = (R, R)> {
         let terms = self.iter();
         terms.map(move |&(time, derivative)| (time, derivative * by(time)))
     }
