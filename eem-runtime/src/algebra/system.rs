@@ -11,6 +11,9 @@
 //! The [`Storage`] decides how entries are laid out and solved with. Another one is another variant there, with its `new`
 //! (from the pattern), `entries`, `position` and `solve`. One and two unknowns do without.
 
+#[cfg(feature = "gradients")]
+mod columns;
+
 #[cfg(feature = "sparse")]
 use core::marker::PhantomData;
 use core::mem;
@@ -361,42 +364,6 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         let is_definite = lu::is_positive_definite(&mut self.values[..n * n].to_vec(), n);
         self.solve()?;
         Ok(is_definite)
-    }
-
-    /// Overwrites right-hand sides with their solutions, except the scratch rows of anchors, by one elimination of A, which is then
-    /// zero.
-    #[cfg(feature = "gradients")]
-    pub(crate) fn solve_each<'a>(
-        &mut self,
-        columns: impl Iterator<Item = &'a mut Vec<[S; W]>>,
-    ) -> Result<(), Singular> {
-        let n = self.unknowns;
-        let mut columns = columns.map(|column| &mut column[..n]);
-        let mut solve_dense = |pivots: &mut [usize]| -> Result<(), Singular> {
-            let values = &mut self.values[..n * n];
-            lu::factor(values, pivots)?;
-            columns
-                .by_ref()
-                .for_each(|column| lu::solve(values, pivots, column));
-            values.fill(S::zero());
-            Ok(())
-        };
-        match &mut self.storage {
-            Storage::Fixed { .. } => solve_dense(&mut [0; MOST_FIXED][..n])?,
-            Storage::Dense { pivots } => solve_dense(pivots)?,
-            #[cfg(feature = "sparse")]
-            Storage::Sparse(sparse) => {
-                let values = &mut self.values[..sparse.pattern().entries()];
-                let mut factored = sparse.factor::<Stored<S>>(values).map_err(|_| Singular)?;
-                columns.try_for_each(|column| {
-                    let solved = factored.solve(column);
-                    solved.map(drop).map_err(|_| Singular)
-                })?;
-                values.fill(S::zero());
-            }
-        }
-        self.is_clear = true;
-        Ok(())
     }
 
     /// Finds X, except the scratch row of anchors; A is then zero, and B is lost.

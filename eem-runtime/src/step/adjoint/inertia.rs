@@ -21,7 +21,7 @@ pub(super) struct Moving<S, const D: usize> {
     pub(super) coordinate: usize,
     pub(super) unknown: usize,
     diagonal: [usize; D],
-    mass: S,
+    pub(super) mass: S,
 }
 
 /// The entries of a mass that couples two nodes, in both triangles.

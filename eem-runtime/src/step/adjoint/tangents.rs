@@ -161,6 +161,15 @@ impl<S: Real, const D: usize> Tangents<S, D> {
             old, new, right, ..
         } = direction;
         let [v0, v1] = [&old.velocities, &new.velocities];
+        if !masses.are_coupled() {
+            for node in &self.inertia.nodes {
+                for axis in 0..D {
+                    let speed = v0[node.coordinate + axis];
+                    right[node.unknown + axis][0] += node.mass * (speed + speed);
+                }
+            }
+            return;
+        }
         for (node, mass) in masses.iter().enumerate() {
             for at in (node * D..).take(D) {
                 let rest = if mass.is_some() { -v0[at] } else { v1[at] };

@@ -10,7 +10,7 @@ use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
 use crate::scene::loads::{OfTime, TemperatureOfTime};
 use crate::step::adjoint::{Direction, HeatChange, PerVariable};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real};
 use nalgebra::SVector;
 
 /// By how much all inputs change. Lists are empty where nothing of a kind changes.
@@ -295,9 +295,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let middle = old.time.value + S::from_f64(0.5) * h;
         let all = way.changes.iter().zip(&mut way.directions);
         for ((change, direction), heat) in all.zip(&mut way.heats) {
-            direction.new.clone_from(&direction.old);
             direction.right.fill([S::zero()]);
-            self.enter_anchors(made, change, direction);
+            let Direction {
+                old: from, new: to, ..
+            } = direction;
+            to.positions.copy_from_slice(&from.positions);
+            to.reservoirs.copy_from_slice(&from.reservoirs);
+            for &node in &way.anchors {
+                to.velocities[node * D..][..D].fill(S::zero());
+            }
+            self.move_anchors(made, change, direction);
             for (slot, _) in way.held.iter().enumerate().filter(|(_, is_held)| **is_held) {
                 direction.new.temperatures[slot] = S::zero();
             }
@@ -328,8 +335,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let node = self.loads.rockets[*place].line.node.index;
                 push(node, along * (h * by(middle)));
             }
-            for (node, &sum) in way.outline.sums.iter().enumerate() {
-                push(node, change.gravity * (h * sum));
+            if change
+                .gravity
+                .iter()
+                .any(|axis| !axis.equal(S::zero()).all())
+            {
+                for (node, &sum) in way.outline.sums.iter().enumerate() {
+                    push(node, change.gravity * (h * sum));
+                }
             }
             // Δv − h g, of nodes with a mass or beside one.
             let fall = |node: usize, mass: S| {
@@ -350,16 +363,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The new positions and velocities of anchors.
-    fn enter_anchors(
+    /// The new positions and velocities of anchors whose motion changes.
+    fn move_anchors(
         &self,
         (h, [old, new]): Made<'_, S>,
         change: &Change<D, S>,
         direction: &mut Direction<S>,
     ) {
-        for node in self.masses.anchors() {
-            direction.new.velocities[node * D..][..D].fill(S::zero());
-        }
         for (node, _) in &change.motions {
             let own = *node * D..(*node + 1) * D;
             direction.new.positions[own.clone()].copy_from_slice(&change.start.positions[own]);

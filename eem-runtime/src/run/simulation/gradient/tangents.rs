@@ -32,6 +32,7 @@ pub(super) struct Forward<const D: usize, S: Real> {
     pub(super) rockets: Vec<RocketStep<S, D>>,
     /// Whether thermostats hold the temperatures, by thermal slot.
     pub(super) held: Vec<bool>,
+    pub(super) anchors: Vec<usize>,
     /// The directions: all their inputs, their heat in the present step, and the changes of the state.
     pub(super) changes: Vec<Change<D, S>>,
     pub(super) heats: Vec<HeatChange<S>>,
@@ -229,9 +230,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let parameters = change.parameters.clone();
             tangents.direction(start, parameters, is_warmed || !change.ovens.is_empty())
         });
+        let heats = changes.iter().map(|change| {
+            let mut heat = change.heat.clone();
+            if !change.ovens.is_empty() {
+                let reservoirs = self.conduction.reservoirs.len();
+                heat.reservoirs.resize(reservoirs, S::zero());
+            }
+            heat
+        });
         Ok(Forward {
             directions: directions.collect(),
-            heats: changes.iter().map(|change| change.heat.clone()).collect(),
+            heats: heats.collect(),
+            anchors: self.masses.anchors().collect(),
             conduction: self.conduction.clone(),
             rockets: Vec::new(),
             held,
