@@ -1,4 +1,4 @@
-//! What gradients cost: the time of the adjoint over that of the run, in turn, the least of several.
+//! What gradients cost: the times of the adjoint and of three tangents over that of the run, in turn, the least of several.
 //!
 //! ```text
 //! cargo bench -p eem-benches --bench gradients --features gradients [-- NAME ...]
@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use eem::prelude::*;
-use eem::{History, Objective};
+use eem::{History, Input, Objective};
 use eem_testkit::scenes::{DoublePendulum, single_pendulum_scene};
 
 #[path = "networks/scenes.rs"]
@@ -28,9 +28,17 @@ mod solids;
 /// Runs of which the fastest counts.
 const REPEATS: usize = 5;
 
-/// A run of some steps without a history, one with it, and its gradient; the least times, s.
-fn times<const D: usize>(scene: &Scene<D>, scheme: Scheme, step: f64, steps: usize) -> [f64; 3] {
-    let mut least = [f64::INFINITY; 3];
+/// Three parameters of all elements of a model.
+type Parameters = (&'static str, [&'static str; 3]);
+
+/// A run of some steps without a history, one with it, its gradient, and its derivatives by three parameters; the least times, s.
+fn times<const D: usize>(
+    (scene, (model, names)): (&Scene<D>, Parameters),
+    scheme: Scheme,
+    step: f64,
+    steps: usize,
+) -> [f64; 4] {
+    let mut least = [f64::INFINITY; 4];
     for _ in 0..REPEATS {
         let mut note = |place: usize, start: Instant| {
             let time: &mut f64 = &mut least[place];
@@ -52,13 +60,25 @@ fn times<const D: usize>(scene: &Scene<D>, scheme: Scheme, step: f64, steps: usi
                 let energy = Objective::at_end(Quantity::KineticEnergy);
                 run.gradient(&energy).expect("a gradient");
                 note(2, start);
+                let elements: Vec<Element> = run.elements_of(model).collect();
+                let inputs = names.map(|name| Input::parameter_of(elements.clone(), name));
+                let start = Instant::now();
+                let kinetic = [("kinetic", Quantity::KineticEnergy)];
+                run.sensitivities(&inputs, kinetic).expect("tangents");
+                note(3, start);
             }
         }
     }
     least
 }
 
-fn print<const D: usize>(name: &str, scene: impl FnOnce() -> Scene<D>, step: f64, steps: usize) {
+fn print<const D: usize>(
+    name: &str,
+    parameters: Parameters,
+    scene: impl FnOnce() -> Scene<D>,
+    step: f64,
+    steps: usize,
+) {
     let names = std::env::args()
         .skip(1)
         .filter(|name| !name.starts_with("--"));
@@ -67,21 +87,30 @@ fn print<const D: usize>(name: &str, scene: impl FnOnce() -> Scene<D>, step: f64
     }
     let scene = scene();
     for scheme in [Scheme::EemTemperature, Scheme::EemEntropy] {
-        let [plain, kept, gradient] = times(&scene, scheme, step, steps);
+        let of = (&scene, parameters);
+        let [plain, kept, gradient, tangents] = times(of, scheme, step, steps);
         let per_step = 1e6 * plain / f64::from(u32::try_from(steps).unwrap_or(u32::MAX));
         println!(
-            "{name:<12} {scheme:<16} step {per_step:>11.2} µs   with history {:>5.2}   gradient {:>5.2}",
+            "{name:<12} {scheme:<16} step {per_step:>11.2} µs   with history {:>5.2}   gradient {:>5.2}   three tangents {:>5.2}",
             kept / plain,
-            gradient / plain
+            gradient / plain,
+            tangents / plain
         );
     }
 }
 
 fn main() {
-    print("single", || single_pendulum_scene().0, 0.1, 5000);
+    let visco = ("ThermoViscoElastic", ["k0", "eta0", "capacity"]);
+    let soft = (
+        "LogarithmicStiffness",
+        ["stiffness", "softening", "capacity"],
+    );
+    let rubber = ("SaintVenant", ["lame", "shear", "shear"]);
+    print("single", visco, || single_pendulum_scene().0, 0.1, 5000);
     let [_, krueger, log] = DoublePendulum::ALL;
-    print("krueger", || krueger.scene().0, 0.02, 2000);
-    print("log", || log.scene().0, 0.02, 2000);
-    print("lattice 100²", || networks::lattice(100, None), 0.01, 4);
-    print("cube 8³", || solids::cube(8), 0.01, 4);
+    print("krueger", soft, || krueger.scene().0, 0.02, 2000);
+    print("log", soft, || log.scene().0, 0.02, 2000);
+    let lattice = || networks::lattice(100, None);
+    print("lattice 100²", soft, lattice, 0.01, 4);
+    print("cube 8³", rubber, || solids::cube(8), 0.01, 4);
 }

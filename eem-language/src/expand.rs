@@ -40,7 +40,7 @@ pub(crate) fn expand(
 ) -> TokenStream {
     let header = Header::new(checked.original, checked.scalar);
     let inputs = Inputs::new(checked, &header.scalar);
-    let constants = constants::constants(checked, programs, &inputs);
+    let constants = constants::constants(checked, programs, &inputs, units);
     let points = points::points(programs, &inputs);
     let forms = forms::forms(programs, &inputs);
     let parameters = derivatives.map(|programs| parameters::parameters(programs, &inputs));

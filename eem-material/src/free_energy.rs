@@ -94,6 +94,8 @@ pub trait FreeEnergy<S: Scalar> {
     const MODEL: &'static str;
     /// The names of the parameters that the model uses.
     const PARAMETERS: &'static [&'static str];
+    /// Their units as written, `1` for none; empty unless the model has units.
+    const PARAMETER_UNITS: &'static [&'static str] = &[];
 
     /// `[S; P]`, an entry for each of the P [`PARAMETERS`](Self::PARAMETERS), in their order.
     type Parameters: Array<S>;

@@ -89,6 +89,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     const HAS_PARAMETER_DERIVATIVES: bool = M::HAS_PARAMETER_DERIVATIVES;
     const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
+    const PARAMETER_UNITS: &'static [&'static str] = M::PARAMETER_UNITS;
 
     type Parameters = M::Parameters;
     type Variables = M::Variables;

@@ -46,7 +46,7 @@
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
 //! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
 //! | find states at rest differently | `step/solver/rest.rs`; `run/equilibrium`: settings, thermal balance, names of free motions |
-//! | differentiate something else, or by something else | `run/gradient`, `run/simulation/gradient`, by inputs in `inputs.rs`; memory: `run/gradient/snapshots.rs`; equations of a step: `step/adjoint.rs`, `element/group/pull_back.rs` |
+//! | differentiate something else, or by something else | `run/gradient`, `run/simulation/gradient`, by inputs in `inputs.rs` (adjoint) and `directions.rs` (tangents); memory: `run/gradient/snapshots.rs`; equations of a step: `step/adjoint.rs`, `pull_back.rs` and `push_forward.rs` in `element/group` |
 //! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material` |
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
 //! | check a material before use | `domain` in `eem-material` |
@@ -86,7 +86,8 @@ pub use run::equilibrium::motion::{FreeMotion, MotionKind};
 pub use run::equilibrium::{Equilibrium, EquilibriumReport};
 #[cfg(feature = "gradients")]
 pub use run::gradient::{
-    error::GradientError, history::History, objective::Objective, result::Gradient,
+    error::GradientError, history::History, input::Input, objective::Objective, result::Gradient,
+    sensitivities::Sensitivities, series::Series,
 };
 pub use run::ledger::Ledger;
 pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};

@@ -10,7 +10,10 @@ use crate::support::{DoublePendulum, ThermoViscoElastic, single_pendulum_scene};
 
 mod inputs;
 mod storage;
+mod tangents;
 mod times;
+
+use tangents::assert_tangent;
 
 const FORMS: [Scheme; 2] = [Scheme::EemTemperature, Scheme::EemEntropy];
 
@@ -183,7 +186,9 @@ fn difference_by(
 fn gradients_are_differences_of_runs() {
     for scheme in FORMS {
         let (net, mut run) = start(&INPUTS, scheme);
-        let gradient = run.gradient(&objective(&net)).unwrap();
+        let objective = objective(&net);
+        let gradient = run.gradient(&objective).unwrap();
+        assert_tangent("net", &mut run, &gradient, &objective);
         let [anchor, bob, _] = net.nodes;
         let [voigt, two] = net.springs;
         let by = |element, name: &str| gradient.by_parameter(element, name).unwrap();
@@ -321,6 +326,7 @@ fn values_of_loads_have_derivatives() {
             + Objective::at_end(Quantity::Position(support))
             + Objective::at_end(Quantity::Temperature(free)).times(0.1);
         let gradient = run.gradient(&objective).unwrap();
+        assert_tangent("driven", &mut run, &gradient, &objective);
         let forces = gradient.by_force(bob).unwrap();
         let motions = gradient.by_motion(support).unwrap();
         let thermostat = gradient.by_thermostat(held).unwrap();
@@ -381,6 +387,10 @@ fn assert_energy_law<const D: usize>(what: &str, scene: &Scene<D>, step: f64, st
         let end = run.gradient(&energy).unwrap();
         let off = difference(&end, &start);
         assert!(off <= 1e-12, "{what}, {scheme}: {off:e}");
+        let energies = Objective::integral(Quantity::KineticEnergy)
+            + Objective::at_end(Quantity::TotalEnergy).times(0.1);
+        let gradient = run.gradient(&energies).unwrap();
+        assert_tangent(what, &mut run, &gradient, &energies);
         let size = start.numbers().into_iter().fold(0.0, f64::max) / step;
         let by_sizes = end.by_step_size().unwrap();
         assert_eq!(by_sizes.len(), steps);

@@ -8,6 +8,7 @@ use super::forms::{kept, kept_in_entropy_form};
 use super::inputs::Inputs;
 use crate::ast;
 use crate::checked::Checked;
+use crate::units::Units;
 
 // Expands to:
 //
@@ -18,6 +19,7 @@ pub(super) fn constants(
     checked: &Checked<'_>,
     programs: &Programs,
     inputs: &Inputs,
+    units: &Units,
 ) -> TokenStream {
     let types = types(programs, inputs);
     let (dashpots, thermal) = (Literal::usize_unsuffixed(inputs.dashpots), inputs.thermal);
@@ -28,6 +30,7 @@ pub(super) fn constants(
     });
     let name = ast::name(&checked.original.ident);
     let names = checked.parameters.iter().map(|p| &p.name);
+    let units = parameter_units(checked, units);
     let (scalar, parameters) = (&inputs.scalar, &inputs.parameters);
     let count = Literal::usize_unsuffixed(parameters.len());
     quote! {
@@ -38,6 +41,7 @@ pub(super) fn constants(
         #constant_capacity
         const MODEL: &'static __eem::core::primitive::str = #name;
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[#(#names),*];
+        #units
 
         #types
 
@@ -46,6 +50,20 @@ pub(super) fn constants(
             __parameters[__index]
         }
     }
+}
+
+/// Nothing for a model without units: that is the default.
+fn parameter_units(checked: &Checked<'_>, units: &Units) -> Option<TokenStream> {
+    let parameters = checked.parameters.iter();
+    let units: Vec<_> = parameters
+        .map(|parameter| units.of(parameter.origin))
+        .collect();
+    units.iter().any(Option::is_some).then(|| {
+        let units = units.into_iter().map(Option::unwrap_or_default);
+        quote! {
+            const PARAMETER_UNITS: &'static [&'static __eem::core::primitive::str] = &[#(#units),*];
+        }
+    })
 }
 
 /// Nothing for a spring: that is the default.

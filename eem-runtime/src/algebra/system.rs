@@ -11,6 +11,9 @@
 //! The [`Storage`] decides how entries are laid out and solved with. Another one is another variant there, with its `new`
 //! (from the pattern), `entries`, `position` and `solve`. One and two unknowns do without.
 
+#[cfg(feature = "gradients")]
+mod columns;
+
 #[cfg(feature = "sparse")]
 use core::marker::PhantomData;
 use core::mem;

@@ -32,12 +32,16 @@ mod kelvin_voigt;
 mod local;
 mod loose;
 mod member;
+#[cfg(feature = "gradients")]
+mod past;
 mod point;
 #[cfg(feature = "gradients")]
 mod point_step;
 mod pose;
 #[cfg(feature = "gradients")]
 mod pull_back;
+#[cfg(feature = "gradients")]
+mod push_forward;
 mod recounting;
 mod recovery;
 mod respond;
@@ -56,7 +60,9 @@ pub(crate) use explicit::{
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
 #[cfg(feature = "gradients")]
-pub(crate) use point_step::{Costate, PastStep, SeeParameters, StepWeights};
+pub(crate) use point_step::{
+    Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights,
+};
 #[cfg(feature = "gradients")]
 pub(crate) use terms::Terms;
 pub(crate) use view::{

@@ -1,5 +1,7 @@
 //! The handles of a scene that may be a copy of another one.
 
+#[cfg(feature = "gradients")]
+use super::handle::Reservoir;
 use super::handle::{Handle, Kind, Node, SceneId};
 
 /// A scene and its ancestors, of which it is a copy: their handles are valid in it if they are older than the copy.
@@ -69,6 +71,13 @@ impl Lineage {
     pub(crate) fn node(&self, index: usize) -> Node {
         let scene = self.giver(Kind::Node, index);
         Node { scene, index }
+    }
+
+    /// The handle of a reservoir.
+    #[cfg(feature = "gradients")]
+    pub(crate) fn reservoir(&self, index: usize) -> Reservoir {
+        let scene = self.giver(Kind::Reservoir, index);
+        Reservoir { scene, index }
     }
 
     /// The scene that created a handle.

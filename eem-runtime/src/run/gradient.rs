@@ -1,7 +1,12 @@
-//! Gradients of runs: what is differentiated, by what, and the results.
+//! Gradients and tangents of runs: what is differentiated, by what, and the results.
 
 pub(crate) mod error;
 pub(crate) mod history;
+pub(crate) mod input;
 pub(crate) mod objective;
 pub(crate) mod result;
+pub(crate) mod sensitivities;
+pub(crate) mod series;
 pub(crate) mod snapshots;
+pub(crate) mod times;
+pub(crate) mod units;

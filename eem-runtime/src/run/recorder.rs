@@ -5,6 +5,7 @@ mod csv;
 mod quantity;
 
 use core::ops::ControlFlow;
+use std::borrow::Cow;
 
 use thiserror::Error;
 
@@ -15,6 +16,8 @@ use crate::step::newton::StepReport;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
+#[cfg(feature = "gradients")]
+pub(crate) use quantity::axis_name;
 pub use quantity::{CustomQuantity, Quantity};
 
 /// The name of the first column.
@@ -70,20 +73,34 @@ pub struct Recorder<const D: usize, S: Real = f64> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     name: String,
-    unit: &'static str,
+    unit: Cow<'static, str>,
     values: Vec<f64>,
     /// Whether the values are whole numbers.
     is_count: bool,
 }
 
 impl Column {
-    const fn new(name: String, unit: &'static str, is_count: bool) -> Self {
+    fn new(name: String, unit: &'static str, is_count: bool) -> Self {
+        Self {
+            is_count,
+            ..Self::of(name, unit.into(), Vec::new())
+        }
+    }
+
+    /// A column of numbers.
+    pub(crate) const fn of(name: String, unit: Cow<'static, str>, values: Vec<f64>) -> Self {
         Self {
             name,
             unit,
-            values: Vec::new(),
-            is_count,
+            values,
+            is_count: false,
         }
+    }
+
+    /// Adds a value.
+    #[cfg(feature = "gradients")]
+    pub(crate) fn push(&mut self, value: f64) {
+        self.values.push(value);
     }
 
     /// The name: that of the quantity, for a vector with `_x`, `_y`, `_z`.
@@ -94,14 +111,14 @@ impl Column {
 
     /// The unit of the values; empty if there is none or it is unknown.
     #[must_use]
-    pub const fn unit(&self) -> &'static str {
-        self.unit
+    pub fn unit(&self) -> &str {
+        &self.unit
     }
 
     /// The name with the unit, if there is one: `q_x (m)`.
     #[must_use]
     pub fn head(&self) -> String {
-        match self.unit {
+        match self.unit() {
             "" => self.name.clone(),
             unit => format!("{} ({unit})", self.name),
         }

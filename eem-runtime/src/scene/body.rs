@@ -5,7 +5,7 @@ use crate::element::kinematics::Shape;
 #[cfg(feature = "gradients")]
 use eem_material::number::scalar::Real;
 #[cfg(feature = "gradients")]
-use eem_mesh::integrals::{self, Pairs};
+use eem_mesh::integrals;
 #[cfg(feature = "gradients")]
 use eem_mesh::per_node;
 use eem_mesh::{Mesh, MeshError, distance};
@@ -61,19 +61,23 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
         &self.nodes
     }
 
-    /// The masses of the pairs of nodes of each cell at unit density, with the indices of the nodes.
+    /// The masses of pairs of nodes at unit density, of one cell after the other, m³; the lower index comes first.
     #[cfg(feature = "gradients")]
-    pub(crate) fn masses_per_density<S: Real>(
-        &self,
-    ) -> impl Iterator<Item = (H::PerNode<usize>, Pairs<H, S, D>)> {
-        self.mesh.cells().iter().map(|cell| {
+    pub(crate) fn pair_masses<S: Real>(&self) -> impl Iterator<Item = ([usize; 2], S)> {
+        self.mesh.cells().iter().flat_map(|cell| {
             let places = self.mesh.nodes();
             let reference = per_node::<H, _, D>(|at| places[cell[at]].map(S::from_f64));
             let mut masses = integrals::masses::<H, S, D>(&reference, S::from_f64(self.thickness));
             if self.is_lumped {
                 integrals::lump::<H, S, D>(&mut masses);
             }
-            (per_node::<H, _, D>(|at| self.nodes[cell[at]].index), masses)
+            let nodes = per_node::<H, _, D>(|at| self.nodes[cell[at]].index);
+            let count = nodes.as_ref().len();
+            let pairs = (0..count).flat_map(|a| (0..=a).map(move |b| [a, b]));
+            pairs.map(move |[a, b]| {
+                let [i, j] = [nodes[a], nodes[b]];
+                ([i.min(j), i.max(j)], masses[a][b])
+            })
         })
     }
 

@@ -1,5 +1,5 @@
 //! The adjoint of a step of the energy–entropy–momentum forms: from the derivatives of a number by the new state to those by
-//! the old state, and the weights that give its derivatives by everything else.
+//! the old state, and the weights that give its derivatives by everything else. Its tangents are in `tangents.rs`.
 //!
 //! A step satisfies `R(x¹, x⁰) = 0` with
 //!
@@ -13,22 +13,25 @@
 //! With λ¹ the derivatives by x¹, `(∂R/∂x¹)ᵀ w = λ¹` and `λ⁰ = −(∂R/∂x⁰)ᵀ w`. As in a step, v¹ and the variables of a point are
 //! eliminated; what remains has the pattern of the system of a step.
 
+mod inertia;
 mod rockets;
+mod tangents;
 
-use core::array;
 use core::mem;
 
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::error::StateError;
-use crate::element::group::{Group, PastStep, SeeParameters, StepView};
+use crate::element::group::{Group, SeeParameters, StepBack, StepView};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use eem_material::number::scalar::Real;
 
-pub(crate) use crate::element::group::{Costate, StepWeights, Terms};
+pub(crate) use crate::element::group::{Direction, PastStep, PerVariable, StepWeights, Terms};
+use inertia::{Inertia, Moving};
 pub(crate) use rockets::RocketStep;
+pub(crate) use tangents::{HeatChange, Tangents};
 
 /// Why a step has no adjoint.
 pub(crate) enum NoAdjoint {
@@ -47,35 +50,17 @@ impl From<StateError> for NoAdjoint {
 /// The adjoint of one step after the other, with memory for all of them.
 #[derive(Debug)]
 pub(crate) struct Adjoint<S, const D: usize> {
-    nodes: Vec<Inertia<S, D>>,
-    pairs: Vec<CoupledInertia<S, D>>,
+    inertia: Inertia<S, D>,
     /// The interface temperatures of a step, and whether there are any.
     interface: InterfaceTemperatures<S>,
     is_coupled: bool,
     /// `M w_v`.
     momenta: Vec<S>,
     /// The derivatives by the present state, and those by the one after it.
-    pub(crate) costate: Costate<S>,
-    pub(crate) after: Costate<S>,
+    pub(crate) costate: PerVariable<S>,
+    pub(crate) after: PerVariable<S>,
     /// The weights of the last step.
     pub(crate) weights: StepWeights<S>,
-}
-
-/// A node that moves.
-#[derive(Clone, Copy, Debug)]
-struct Inertia<S, const D: usize> {
-    /// Its first coordinate and unknown, and its diagonal entries.
-    coordinate: usize,
-    unknown: usize,
-    diagonal: [usize; D],
-    mass: S,
-}
-
-/// The entries of a mass that couples two nodes, in both triangles.
-#[derive(Clone, Copy, Debug)]
-struct CoupledInertia<S, const D: usize> {
-    places: [[usize; D]; 2],
-    mass: S,
 }
 
 impl<S: Real, const D: usize> Adjoint<S, D> {
@@ -84,35 +69,13 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
         layout: &Layout,
         masses: &Masses<S>,
         system: &LinearSystem<S, 1>,
-        costate: Costate<S>,
+        costate: PerVariable<S>,
     ) -> Self {
         let zeros = |count| vec![S::zero(); count];
         let coordinates = costate.positions.len();
-        let place = |row: usize, column: usize| {
-            array::from_fn(|axis| system.place(Some(row + axis), Some(column + axis)))
-        };
-        let nodes = masses.iter().zip(&layout.nodes).enumerate();
-        let nodes = nodes.filter_map(|(node, (mass, unknown))| {
-            let unknown = (*unknown)?;
-            Some(Inertia {
-                coordinate: node * D,
-                unknown,
-                diagonal: place(unknown, unknown),
-                mass: mass?,
-            })
-        });
-        let pairs = masses.pairs().iter().filter_map(|pair| {
-            let [a, b] = pair.nodes().map(|node| layout.nodes[node]);
-            let (a, b) = (a?, b?);
-            Some(CoupledInertia {
-                places: [place(a, b), place(b, a)],
-                mass: pair.mass,
-            })
-        });
         let is_coupled = layout.coupled.iter().any(Option::is_some);
         Self {
-            nodes: nodes.collect(),
-            pairs: pairs.collect(),
+            inertia: Inertia::new(layout, masses, system),
             interface: InterfaceTemperatures::new(layout.thermal),
             is_coupled,
             momenta: zeros(coordinates),
@@ -140,40 +103,44 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
         see: &mut SeeParameters<'_, S>,
     ) -> Result<(), NoAdjoint> {
         mem::swap(&mut self.costate, &mut self.after);
-        let step = PastStep {
-            view,
-            new,
-            held,
+        let past = PastStep { view, new, held };
+        let step = StepBack {
+            past,
             by_new: &self.after,
         };
         let interface = &mut self.interface;
         if self.is_coupled {
             for group in &mut *groups {
-                group.find_interfaces(&step, interface)?;
+                group.find_interfaces(&past, interface)?;
             }
         }
-        add_inertia((&self.nodes, &self.pairs), view.step, &self.after, system);
+        let Inertia { nodes, .. } = &self.inertia;
+        self.inertia.start(view.step, system);
+        let per = S::from_f64(2.0) / view.step;
+        let (_, right) = system.parts();
+        for node in nodes {
+            for axis in 0..D {
+                let at = node.coordinate + axis;
+                right[node.unknown + axis][0] +=
+                    self.after.positions[at] + per * self.after.velocities[at];
+            }
+        }
         for group in &mut *groups {
             group.pull_back(&step, interface, system)?;
         }
         for rocket in rockets {
-            rocket.add_to(layout, system);
+            rocket.add_to(layout, true, system);
         }
         system.solve().map_err(|_| NoAdjoint::Singular)?;
         let solution = system.solution();
-        for node in &self.nodes {
+        for node in nodes {
             for axis in 0..D {
                 self.weights.motion[node.coordinate + axis] = solution[node.unknown + axis][0];
             }
         }
         let momenta = &mut self.momenta;
         view.masses.find_momenta(D, &self.weights.motion, momenta);
-        move_back(
-            &self.nodes,
-            view.step,
-            momenta,
-            (&self.after, &mut self.costate),
-        );
+        move_back(nodes, view.step, momenta, (&self.after, &mut self.costate));
         for anchors in &mut self.weights.anchors {
             anchors.fill(S::zero());
         }
@@ -189,37 +156,13 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
     }
 }
 
-/// Starts the system with inertia, and with the derivatives by positions and velocities.
-fn add_inertia<S: Real, const D: usize>(
-    (nodes, pairs): (&[Inertia<S, D>], &[CoupledInertia<S, D>]),
-    step: S,
-    after: &Costate<S>,
-    system: &mut LinearSystem<S, 1>,
-) {
-    system.clear();
-    let (values, right) = system.parts();
-    let per = S::from_f64(2.0) / step;
-    for node in nodes {
-        for (axis, &place) in node.diagonal.iter().enumerate() {
-            let at = node.coordinate + axis;
-            values[place] += per * node.mass;
-            right[node.unknown + axis][0] += after.positions[at] + per * after.velocities[at];
-        }
-    }
-    for pair in pairs {
-        for &place in pair.places.as_flattened() {
-            values[place] += per * pair.mass;
-        }
-    }
-}
-
 /// `λ_q⁰ = w_q = (2/h)(M w_v − λ_v)` and `λ_v⁰ = 2M w_v − λ_v` of the masses, given `M w_v`; anchors keep their sums, and have
 /// `M w_v` by their old velocities.
 fn move_back<S: Real, const D: usize>(
-    nodes: &[Inertia<S, D>],
+    nodes: &[Moving<S, D>],
     step: S,
     momenta: &[S],
-    (after, before): (&Costate<S>, &mut Costate<S>),
+    (after, before): (&PerVariable<S>, &mut PerVariable<S>),
 ) {
     before.reservoirs.copy_from_slice(&after.reservoirs);
     before.positions.copy_from_slice(&after.positions);

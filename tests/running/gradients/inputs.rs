@@ -4,7 +4,7 @@ use eem::kinematics::Quad4;
 use eem::prelude::*;
 use eem::{Gradient, History, Objective};
 
-use super::{FORMS, TWO, VOIGT};
+use super::{FORMS, TWO, VOIGT, assert_tangent};
 use crate::support::solids::Viscous;
 
 /// Checks derivatives by numbered inputs against differences of fourth order in changes of these sizes.
@@ -93,6 +93,7 @@ fn thrusts_and_ovens_have_derivatives() {
                 + Objective::integral(Quantity::TotalEnergy).times(0.01)
                 + Objective::at_end(Quantity::Temperature(flight.springs[1])).times(0.1);
             let gradient = flight.run.gradient(&objective).unwrap();
+            assert_tangent("flight", &mut flight.run, &gradient, &objective);
             (flight, gradient)
         };
         let (flight, found) = gradient(inputs);
@@ -183,6 +184,7 @@ fn shaken(
         + Objective::integral(Quantity::KineticEnergy).times(0.1)
         + Objective::at_end(Quantity::TotalEnergy).times(0.01);
     let gradient = run.gradient(&objective).unwrap();
+    assert_tangent("shaken", &mut run, &gradient, &objective);
     Shaken {
         body,
         wall,

@@ -2,10 +2,10 @@
 
 use eem::kinematics::Quad4;
 use eem::prelude::*;
-use eem::{Gradient, GradientError, History, Objective};
+use eem::{Gradient, GradientError, History, Input, Objective};
 
 use super::inputs::check;
-use super::{FORMS, INPUTS, TWO, VOIGT, net};
+use super::{FORMS, INPUTS, TWO, VOIGT, assert_tangent, net};
 use crate::support::single_pendulum_scene;
 use crate::support::solids::Viscous;
 
@@ -56,7 +56,9 @@ fn controlled(values: [f64; 11], scheme: Scheme) -> (Gradient<2>, [Node; 2], Ele
         + Objective::integral(Quantity::TotalEnergy).times(0.1)
         + Objective::time().times(3.0)
         + Objective::at_end(Quantity::Temperature(springs[1])).times(0.1);
-    (run.gradient(&objective).unwrap(), [bob, hook], springs[2])
+    let gradient = run.gradient(&objective).unwrap();
+    assert_tangent("controlled", &mut run, &gradient, &objective);
+    (gradient, [bob, hook], springs[2])
 }
 
 #[test]
@@ -171,16 +173,9 @@ fn sizes_of_steps_move_functions_of_time() {
     let sizes = [0.02, 0.03, 0.01];
     for scheme in FORMS {
         let (gradient, hook) = shaken(sizes, scheme);
-        let motion = gradient.by_motion(hook).unwrap();
-        let mut start = 0.0;
-        let mut found = [0.0; 3];
-        let kept = gradient.by_step_size_at_kept_loads();
-        for (found, &(end, kept)) in found.iter_mut().zip(kept) {
-            let share = |t: f64| ((t - start) / (end - start)).clamp(0.0, 1.0);
-            let moved = motion.iter().map(|(t, by)| by[0] * wall(*t)[1] * share(*t));
-            *found = kept + moved.sum::<f64>();
-            start = end;
-        }
+        let rate = Input::motion(hook, |t| [wall(t)[1], 0.0]);
+        let by = gradient.by_step_size_with(&[rate]).unwrap();
+        let found = [0, 1, 2].map(|step| by[step].1);
         check::<2, 3>(scheme.name(), found, (sizes, [1e-4; 3]), |sizes| {
             shaken(sizes, scheme).0.value()
         });

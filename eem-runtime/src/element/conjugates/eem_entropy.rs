@@ -114,6 +114,17 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     ) -> M::Parameters {
         model.entropy_form_adjoint(x0, x1, corners, weights)
     }
+
+    #[cfg(feature = "gradients")]
+    fn form_tangent(
+        self,
+        model: &M,
+        [x0, x1]: [&M::Variables; 2],
+        corners: &Self::Memory,
+        direction: &M::Parameters,
+    ) -> M::Response {
+        model.entropy_form_tangent(x0, x1, corners, direction)
+    }
 }
 
 /// The temperatures of all mixed states, by Newton's method in ln θ, from those of the last trial.

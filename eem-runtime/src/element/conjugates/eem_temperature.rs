@@ -72,4 +72,15 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     ) -> M::Parameters {
         model.temperature_form_adjoint(x0, x1, weights)
     }
+
+    #[cfg(feature = "gradients")]
+    fn form_tangent(
+        self,
+        model: &M,
+        [x0, x1]: [&M::Variables; 2],
+        (): &Self::Memory,
+        direction: &M::Parameters,
+    ) -> M::Response {
+        model.temperature_form_tangent(x0, x1, direction)
+    }
 }

@@ -162,6 +162,18 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     ) -> M::Parameters {
         M::Parameters::filled(S::from_f64(f64::NAN))
     }
+
+    /// The derivative of the response along a direction of the parameters, likewise.
+    #[cfg(feature = "gradients")]
+    fn form_tangent(
+        self,
+        _: &M,
+        _: [&M::Variables; 2],
+        _: &Self::Memory,
+        _direction: &M::Parameters,
+    ) -> M::Response {
+        M::Response::filled(S::from_f64(f64::NAN))
+    }
 }
 
 /// The old state of an element as its scheme sees it.

@@ -93,7 +93,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     /// `Σ κ (δΘ_partner − δΘ)`, W.
     #[inline]
-    fn heat(&self, solution: &[[S; 1]]) -> S {
+    pub(super) fn heat(&self, solution: &[[S; 1]]) -> S {
         let own = solution[self.unknown as usize][0];
         self.partners.iter().fold(S::zero(), |sum, partner| {
             sum + partner.conductance * (solution[partner.unknown as usize][0] - own)

@@ -7,7 +7,7 @@ use super::loose::LooseElements;
 use super::member::Member;
 use super::point::Point;
 #[cfg(feature = "gradients")]
-use super::point_step::{Costate, PastStep, SeeParameters, StepWeights};
+use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
 use super::share::Share;
 use super::site::{Contact, Site};
 use super::view::{Along, Old, Placed, Sites, StepView, Trial};
@@ -278,7 +278,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     #[cfg(feature = "gradients")]
     fn pull_back(
         &mut self,
-        step: &PastStep<'_, S>,
+        step: &StepBack<'_, S>,
         interface: &InterfaceTemperatures<S>,
         system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
@@ -288,13 +288,29 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     #[cfg(feature = "gradients")]
     fn recover(
         &mut self,
-        step: &PastStep<'_, S>,
+        step: &StepBack<'_, S>,
         interface: &InterfaceTemperatures<S>,
         solution: &[[S; 1]],
-        found: (&mut Costate<S>, &mut StepWeights<S>),
+        found: (&mut PerVariable<S>, &mut StepWeights<S>),
         see: &mut SeeParameters<'_, S>,
     ) {
         Self::recover(self, step, interface, solution, found, see);
+    }
+
+    #[cfg(feature = "gradients")]
+    fn push_forward(
+        &mut self,
+        step: &PastStep<'_, S>,
+        temperatures: (&InterfaceTemperatures<S>, &mut [S]),
+        system: &mut LinearSystem<S, 1>,
+        directions: &mut [Direction<S>],
+    ) -> Result<(), StateError> {
+        Self::push_forward(self, step, temperatures, system, directions)
+    }
+
+    #[cfg(feature = "gradients")]
+    fn follow(&self, directions: &mut [Direction<S>]) {
+        Self::follow(self, directions);
     }
 
     #[cfg(feature = "gradients")]

@@ -181,7 +181,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             if let Some(by_rate) = &by_rate {
                 point.warm_by_rates(view, by_rate);
             }
-            *heat = contact.map(|_| point.heat(trial, &form));
+            *heat = contact.map(|_| point.heat(&trial.interface, &form));
             if view.phase.moves() {
                 let form = (&form, by_rate.as_ref());
                 point.add_momentum(view.step, &pose, form, heat, &mut share.momentum);

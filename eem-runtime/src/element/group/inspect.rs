@@ -147,6 +147,22 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         M::PARAMETERS
     }
 
+    #[cfg(feature = "gradients")]
+    fn parameter_units(&self) -> &'static [&'static str] {
+        M::PARAMETER_UNITS
+    }
+
+    #[cfg(feature = "gradients")]
+    fn has_parameter_derivatives(&self) -> bool {
+        M::HAS_PARAMETER_DERIVATIVES
+    }
+
+    #[cfg(feature = "gradients")]
+    fn parameter(&self, place: usize, index: usize) -> S {
+        let (member, point) = self.at(place);
+        member.points.as_ref()[point].model.parameter(index)
+    }
+
     fn digest(&self, digest: &mut Digest) {
         for name in M::PARAMETERS {
             digest.bytes(name.as_bytes());

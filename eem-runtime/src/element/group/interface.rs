@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use super::explicit::stage::Stage;
 use super::explicit::view::{ClosingView, NodeStiffness};
 #[cfg(feature = "gradients")]
-use super::point_step::{Costate, PastStep, SeeParameters, StepWeights};
+use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
 use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 #[cfg(feature = "gradients")]
@@ -53,6 +53,24 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     #[cfg(feature = "gradients")]
     fn parameters(&self) -> &'static [&'static str] {
         &[]
+    }
+
+    /// Their units, if the model has units.
+    #[cfg(feature = "gradients")]
+    fn parameter_units(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Whether there are derivatives by them.
+    #[cfg(feature = "gradients")]
+    fn has_parameter_derivatives(&self) -> bool {
+        false
+    }
+
+    /// A parameter of the element at `place`.
+    #[cfg(feature = "gradients")]
+    fn parameter(&self, _place: usize, _index: usize) -> S {
+        S::zero()
     }
 
     /// The state indices of the internal variables of the element at `place`.
@@ -164,7 +182,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     #[cfg(feature = "gradients")]
     fn pull_back(
         &mut self,
-        _: &PastStep<'_, S>,
+        _: &StepBack<'_, S>,
         _: &InterfaceTemperatures<S>,
         _: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
@@ -176,13 +194,30 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     #[cfg(feature = "gradients")]
     fn recover(
         &mut self,
-        _: &PastStep<'_, S>,
+        _: &StepBack<'_, S>,
         _: &InterfaceTemperatures<S>,
         _solution: &[[S; 1]],
-        _found: (&mut Costate<S>, &mut StepWeights<S>),
+        _found: (&mut PerVariable<S>, &mut StepWeights<S>),
         _see: &mut SeeParameters<'_, S>,
     ) {
     }
+
+    /// Adds the tangent of a step that was made, local unknowns eliminated, to a system, and what changes with the old state, with
+    /// parameters and heat to the right-hand side of each direction; θ* of points is written by thermal slot.
+    #[cfg(feature = "gradients")]
+    fn push_forward(
+        &mut self,
+        _: &PastStep<'_, S>,
+        _: (&InterfaceTemperatures<S>, &mut [S]),
+        _: &mut LinearSystem<S, 1>,
+        _: &mut [Direction<S>],
+    ) -> Result<(), StateError> {
+        Ok(())
+    }
+
+    /// Finds the changes of the internal variables of the new state, given those of the positions and the solutions.
+    #[cfg(feature = "gradients")]
+    fn follow(&self, _: &mut [Direction<S>]) {}
 
     /// Passes the derivatives of the internal energy of every point by its parameters in a state to `see`.
     #[cfg(feature = "gradients")]

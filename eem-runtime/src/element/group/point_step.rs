@@ -1,4 +1,5 @@
-//! A step that was made, as its adjoint sees it: its states, derivatives by them, and the weights of its equations.
+//! A step that was made, as its adjoint and its tangents see it: its states, derivatives by them or of them, and the weights of
+//! its equations.
 
 use super::terms::Terms;
 use super::view::StepView;
@@ -7,19 +8,19 @@ use crate::element::layout::Layout;
 use crate::element::state::State;
 use eem_material::number::scalar::{Mask, Real};
 
-/// The derivatives of a number by a state, or by the conditions at the start.
+/// A number per variable of a state: the derivatives of something by the state, or those of the state by an input.
 #[derive(Clone, Debug)]
-pub(crate) struct Costate<S> {
-    /// By the positions and velocities of all nodes, anchors too; anchors have velocities only where masses couple them.
+pub(crate) struct PerVariable<S> {
+    /// Positions and velocities of all nodes, anchors too; anchors have velocities only where masses couple them.
     pub(crate) positions: Vec<S>,
     pub(crate) velocities: Vec<S>,
     pub(crate) viscous: Vec<S>,
     pub(crate) temperatures: Vec<S>,
-    /// By the entropies that reservoirs have received.
+    /// The entropies that reservoirs have received.
     pub(crate) reservoirs: Vec<S>,
 }
 
-impl<S: Real> Costate<S> {
+impl<S: Real> PerVariable<S> {
     /// Zero, for a scene with so many coordinates.
     pub(crate) fn zero(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
         let zeros = |count| vec![S::zero(); count];
@@ -58,7 +59,7 @@ impl<S: Real> Costate<S> {
     }
 }
 
-/// A step that was made, with the derivatives by its new state.
+/// A step that was made.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PastStep<'a, S> {
     /// Its size, its old state, and what does not change from step to step.
@@ -66,7 +67,29 @@ pub(crate) struct PastStep<'a, S> {
     pub(crate) new: &'a State<S>,
     /// Whether thermostats hold the temperatures, by thermal slot.
     pub(crate) held: &'a [bool],
-    pub(crate) by_new: &'a Costate<S>,
+}
+
+/// A step with the derivatives of a number by its new state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StepBack<'a, S> {
+    pub(crate) past: PastStep<'a, S>,
+    pub(crate) by_new: &'a PerVariable<S>,
+}
+
+/// A direction in which inputs change, in a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Direction<S> {
+    /// The changes of the old state and of the new one, of which those of anchors and of temperatures that are held are given.
+    pub(crate) old: PerVariable<S>,
+    pub(crate) new: PerVariable<S>,
+    /// Those of θ*, by thermal slot.
+    pub(crate) middle: Vec<S>,
+    /// Those of the parameters of elements; none of most.
+    pub(crate) parameters: Vec<Vec<S>>,
+    /// `[a, b]` for a change `a − b θ*` of the heat that a thermal slot receives, W, when the temperatures of elements stay.
+    pub(crate) heat: Vec<[S; 2]>,
+    /// The rows of the right-hand side, then of the solution.
+    pub(crate) right: Vec<[S; 1]>,
 }
 
 /// The weights w of the equations of a step.

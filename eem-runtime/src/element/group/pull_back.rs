@@ -9,10 +9,6 @@
 //! for u = (γ, θ). They have the form of the local equations of a step with numbers per measure, `h D*π·w_v`, and per
 //! interface temperature, `w_Θ`, and are eliminated like them. What is left of `wᵀ ∂R/∂x¹` is added transposed to the places
 //! of a step.
-//!
-//! The response `(f*, g*, θ*, Δs)` of a point is even in its two states, except Δs, which is odd. So its derivative by the
-//! old state is the tangent of the form from the new state to the old one, with the row of Δs negated. The same holds for the
-//! mean-value gradients of the measures.
 
 mod condensed;
 mod weights;
@@ -22,7 +18,7 @@ use super::element_group::ElementGroup;
 use super::evaluate::in_rounds;
 use super::member::Member;
 use super::point::temperature_in;
-use super::point_step::{Costate, PastStep, SeeParameters, StepWeights};
+use super::point_step::{PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
 use super::pose::Pose;
 use super::share::{Heat, Momentum, Share};
 use super::site::{Contact, Site};
@@ -64,7 +60,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Adds `(∂R/∂x¹)ᵀ` of a step and the right-hand side, local weights eliminated, to a system.
     pub(super) fn pull_back(
         &mut self,
-        step: &PastStep<'_, S>,
+        step: &StepBack<'_, S>,
         interface: &InterfaceTemperatures<S>,
         system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
@@ -90,15 +86,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// From the solution of that system to the derivatives by the old state and by the parameters.
     pub(super) fn recover(
         &mut self,
-        step: &PastStep<'_, S>,
+        step: &StepBack<'_, S>,
         interface: &InterfaceTemperatures<S>,
         solution: &[[S; 1]],
-        (by_old, weights): (&mut Costate<S>, &mut StepWeights<S>),
+        (by_old, weights): (&mut PerVariable<S>, &mut StepWeights<S>),
         see: &mut SeeParameters<'_, S>,
     ) {
+        let h = step.past.view.step;
         for member in &mut self.members {
             let w = member.site.motion_in(solution);
-            let arms = member.past_arms(step);
+            let arms = member.past_arms(&step.past);
             let is_held = member.site.is_mass.as_ref().contains(&false);
             let mut by_arms = [Arms::<K, S, D>::filled([S::zero(); D]); 2];
             for point in member.points.as_mut() {
@@ -114,10 +111,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 let of_point = point.weigh(&around, &ends, &w);
                 let by = point.by_old(&of_point.rho, &of_point.increments);
                 let back = point.ends_back(arms);
-                point.add_by_arms(&back, &by, &w, step.view.step, by_start);
+                point.add_by_arms(&back, &by, &w, h, by_start);
                 if is_held {
                     let by = point.by_new(&of_point.rho, &of_point.increments);
-                    point.add_by_arms(&ends, &by, &w, step.view.step, by_end);
+                    point.add_by_arms(&ends, &by, &w, h, by_end);
                 }
                 point.write(&by, &of_point, by_old, weights);
                 weights.by_size.add_all(&of_point.by_size);
@@ -150,38 +147,32 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// Its arms in both states.
-    #[inline]
-    fn past_arms(&self, step: &PastStep<'_, S>) -> [Arms<K, S, D>; 2] {
-        [step.view.state, step.new].map(|state| self.arms_in(state))
-    }
-
     /// The contribution of its points to the transposed system.
     #[inline]
     fn pull_back(
         &mut self,
         contacts: &[Contact<K, S, D>],
-        step: &PastStep<'_, S>,
+        step: &StepBack<'_, S>,
         interface: &InterfaceTemperatures<S>,
         share: &mut Share<K, S, D>,
     ) -> Result<(), StateError> {
-        let arms = self.past_arms(step);
+        let (past, arms) = (&step.past, self.past_arms(&step.past));
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
             let contact = point.contact_in(contacts);
             if contact.is_none() {
-                point.return_to(step, &arms)?;
+                point.return_to(past, &arms)?;
             }
-            let form = point.tangent_in(step.view.per_step)?;
+            let form = point.tangent_in(past.view.per_step)?;
             let reduced = point.condense_transposed(step, interface, &form, contact)?;
             let pose = Pose::new(
                 &point.kinematics,
                 point.scheme.placement(),
                 point.ends(arms),
             );
-            *heat = contact.map(|_| point.heat_transposed(step.view.step, &pose, &reduced));
+            *heat = contact.map(|_| point.heat_transposed(past.view.step, &pose, &reduced));
             point.add_transposed(
-                step.view.step,
+                past.view.step,
                 &pose,
                 (&form, &reduced),
                 &mut share.momentum,

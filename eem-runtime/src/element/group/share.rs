@@ -5,9 +5,9 @@ use super::arms::{add_scaled, scale};
 use super::point::Point;
 use super::pose::Pose;
 use super::site::{Contact, Site};
+use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::group::member::Member;
-use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures, Points};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
@@ -156,9 +156,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The equation `Θ − θ* = 0` of a point with an interface temperature.
     #[inline]
-    pub(super) fn heat(&self, trial: &Trial<S, D>, form: &Form<S, M>) -> Heat<K, S, D> {
+    pub(super) fn heat(
+        &self,
+        interface: &InterfaceTemperatures<S>,
+        form: &Form<S, M>,
+    ) -> Heat<K, S, D> {
         let row = self.condensed_row(Self::TEMPERATURE, form, true);
-        let interface = trial.interface.values()[self.slots().thermal.unwrap_or_default()];
+        let interface = interface.values()[self.slots().thermal.unwrap_or_default()];
         Heat {
             residual: row.value - interface,
             by_arm: self.by_arm(&row, S::one()),

@@ -141,6 +141,16 @@ pub enum GradientError {
         /// The time, s.
         time: f64,
     },
+    /// A gradient is not that of the run, or its digits are lost.
+    #[error(
+        "along a direction the objective changes by {} with the gradient and by {} with the run: the gradient is of another objective or history, a formula has a kink, or the motion is so sensitive that no digits are left", Readable(*adjoint), Readable(*tangent)
+    )]
+    Disagrees {
+        /// The change with the gradient.
+        adjoint: f64,
+        /// The change along the run.
+        tangent: f64,
+    },
     /// The linear system does not fit in memory, or a handle is of another scene.
     #[error(transparent)]
     Scene(#[from] SceneError),

@@ -108,6 +108,24 @@ impl<const D: usize, S: Real> Objective<D, S> {
         self.time *= factor;
         self
     }
+
+    /// Its unit; empty if it is not known, or terms have different ones.
+    pub(crate) fn unit(&self) -> String {
+        let of_time = (self.time != 0.0).then(|| "s".to_owned());
+        let units = self.terms.iter().map(|term| match term.when {
+            When::End | When::At(_) => term.quantity.unit().to_owned(),
+            When::Integral if term.quantity.unit().is_empty() => String::new(),
+            When::Integral => format!("{} s", term.quantity.unit()),
+            When::Misfit(_) => "1".to_owned(),
+        });
+        let mut units = units.chain(of_time);
+        let first = units.next().unwrap_or_default();
+        if units.all(|unit| unit == first) {
+            first
+        } else {
+            String::new()
+        }
+    }
 }
 
 impl<const D: usize, S: Real> Add for Objective<D, S> {

@@ -1,30 +1,39 @@
 //! The gradient of an objective.
 
 use core::fmt;
+use std::collections::BTreeSet;
 
 use nalgebra::SVector;
 
 use super::error::GradientError;
+use super::series::Series;
+use super::times::Timed;
 use crate::element::handle::{Element, Handle, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;
 use crate::element::lineage::Lineage;
+use crate::run::gradient::units::quotient;
+use crate::run::recorder::axis_name;
 use crate::scene::body::Body;
 use crate::scene::error::SceneError;
-use crate::step::adjoint::Costate;
+use crate::step::adjoint::PerVariable;
 use eem_material::number::scalar::Real;
 
 /// The value of an [`Objective`](crate::Objective) and its derivatives by all inputs of a run, each in the unit of the
 /// objective over that of the input.
 ///
-/// `Display` prints the value and the derivatives by the parameters of every element, a line each, and a note where derivatives grow
-/// by more than a million.
+/// `Display` prints the value and the derivatives by the parameters of every element, a line each with the unit, and a note where
+/// derivatives grow by more than a million; [`iter`](Self::iter) has all that are numbers.
 #[derive(Clone, Debug)]
 pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) scene: Lineage,
     pub(crate) value: f64,
+    /// That of the objective.
+    pub(crate) unit: String,
     pub(crate) growth: f64,
-    pub(crate) start: Costate<S>,
+    pub(crate) start: PerVariable<S>,
+    /// The nodes with a mass.
+    pub(crate) moving: Vec<usize>,
     pub(crate) masses: Vec<S>,
     /// By the masses that two nodes have in common, and by those of solids at anchors, in order.
     pub(crate) pairs: Vec<([usize; 2], S)>,
@@ -33,9 +42,10 @@ pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) reservoirs: Vec<S>,
     pub(crate) elements: Vec<OfElement<S>>,
     /// By the sizes of steps, at their ends, with the values of functions of time kept.
-    pub(crate) sizes: Series<S, S>,
-    /// A load that is a function of time.
-    pub(crate) timed: Option<String>,
+    pub(crate) sizes: Vec<(S, S)>,
+    /// The time at the start, s, and the loads that are functions of time.
+    pub(crate) started: S,
+    pub(crate) timed: Vec<Timed>,
     /// By thrusts of rockets, and by temperatures of ovens, in the middle of each step.
     pub(crate) thrusts: Vec<(usize, Series<S, S>)>,
     pub(crate) ovens: Vec<(usize, Series<S, S>)>,
@@ -45,8 +55,8 @@ pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) temperatures: Vec<(usize, Series<S, S>)>,
 }
 
-/// Derivatives by the values of a function of time, with the times, s.
-pub(crate) type Series<T, S> = Vec<(S, T)>;
+/// The name of an input, the derivative by it, and its unit.
+type Derivative = (String, f64, String);
 
 /// The growth from which it is noted.
 const NOTED: f64 = 1e6;
@@ -58,6 +68,9 @@ pub(crate) struct OfElement<S> {
     pub(crate) slots: Slots,
     pub(crate) dashpots: usize,
     pub(crate) names: &'static [&'static str],
+    /// None of a model without units.
+    pub(crate) units: &'static [&'static str],
+    pub(crate) viscous_unit: &'static str,
     pub(crate) values: Vec<S>,
 }
 
@@ -73,6 +86,98 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     #[must_use]
     pub const fn growth(&self) -> f64 {
         self.growth
+    }
+
+    /// Names, derivatives and their units of all inputs that are numbers: parameters of elements, masses, gravity, conductances,
+    /// temperatures of reservoirs, and positions, velocities, temperatures and viscous stretches at the start. Where a unit is not
+    /// known, it is empty.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::{History, Objective};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let stone = scene.mass(2.0, [0.0], [3.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
+    /// run.keep_history(History::default());
+    /// run.run_until(1.0)?;
+    /// let gradient = run.gradient(&Objective::at_end(Quantity::Position(stone)))?;
+    /// let found = gradient.iter().find(|(name, ..)| name == "velocity x of node 0");
+    /// assert_eq!(found, Some(("velocity x of node 0".to_owned(), 1.0, "m/(m/s)".to_owned())));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn iter(&self) -> impl Iterator<Item = Derivative> + '_ {
+        let paths = self.conductances.iter().enumerate();
+        let paths = paths
+            .map(|(at, &by)| self.named(format!("conductance of path of heat {at}"), by, "W/K"));
+        let reservoirs = self.reservoirs.iter().enumerate();
+        let reservoirs = reservoirs
+            .map(|(at, &by)| self.named(format!("temperature of reservoir {at}"), by, "K"));
+        let gravity = self.gravity.iter().enumerate();
+        let gravity = gravity
+            .map(|(axis, &by)| self.named(format!("gravity {}", axis_name(axis)), by, "m/s²"));
+        self.parameters()
+            .chain(self.own_masses())
+            .chain(gravity)
+            .chain(paths)
+            .chain(reservoirs)
+            .chain(self.at_nodes("position", &self.start.positions, "m"))
+            .chain(self.at_nodes("velocity", &self.start.velocities, "m/s"))
+            .chain(self.of_elements())
+    }
+
+    fn named(&self, name: String, by: S, unit: &str) -> Derivative {
+        (name, by.to_f64(), quotient(&self.unit, unit))
+    }
+
+    fn parameters(&self) -> impl Iterator<Item = Derivative> + '_ {
+        self.elements.iter().flat_map(move |own| {
+            let named = own.names.iter().zip(&own.values).enumerate();
+            named.map(move |(at, (name, &by))| {
+                let unit = own.units.get(at).copied().unwrap_or_default();
+                self.named(format!("{name} of {}", own.element), by, unit)
+            })
+        })
+    }
+
+    /// By the masses of nodes that have no other.
+    fn own_masses(&self) -> impl Iterator<Item = Derivative> + '_ {
+        let of_solids: BTreeSet<usize> = self.pairs.iter().flat_map(|(nodes, _)| *nodes).collect();
+        let moving = self
+            .moving
+            .iter()
+            .filter(move |node| !of_solids.contains(node));
+        moving.map(|&node| self.named(format!("mass of node {node}"), self.masses[node], "kg"))
+    }
+
+    /// By the components of vectors at nodes.
+    fn at_nodes<'a>(
+        &'a self,
+        what: &'a str,
+        by: &'a [S],
+        unit: &'a str,
+    ) -> impl Iterator<Item = Derivative> + 'a {
+        by.iter().enumerate().map(move |(at, &by)| {
+            let (node, axis) = (at / D, axis_name(at % D));
+            self.named(format!("{what} {axis} of node {node}"), by, unit)
+        })
+    }
+
+    /// By temperatures and viscous stretches at the start.
+    fn of_elements(&self) -> impl Iterator<Item = Derivative> + '_ {
+        self.elements.iter().flat_map(move |own| {
+            let slots = own.slots;
+            let temperature = slots.thermal.map(|slot| {
+                let by = self.start.temperatures[slot];
+                self.named(format!("temperature of {}", own.element), by, "K")
+            });
+            let dashpots = (0..own.dashpots).map(move |dashpot| {
+                let by = self.start.viscous[slots.viscous + dashpot];
+                let name = format!("viscous stretch {dashpot} of {}", own.element);
+                self.named(name, by, own.viscous_unit)
+            });
+            temperature.into_iter().chain(dashpots)
+        })
     }
 
     /// The derivative by a parameter of an element, with the name that its struct gives it: `stiffness`, or `mu[2]` in an
@@ -140,49 +245,15 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         for node in body.nodes() {
             self.own(node)?;
         }
-        for (nodes, masses) in body.masses_per_density::<S>() {
-            for (a, row) in masses.as_ref().iter().enumerate() {
-                for (b, &mass) in row.as_ref().iter().enumerate().take(a + 1) {
-                    let [i, j] = [nodes[a], nodes[b]];
-                    let key = [i.min(j), i.max(j)];
-                    let pair = self.pairs.binary_search_by_key(&key, |&(nodes, _)| nodes);
-                    sum += mass * pair.map_or(S::zero(), |at| self.pairs[at].1);
-                    if i == j {
-                        sum += mass * self.masses[i];
-                    }
-                }
+        for (nodes, mass) in body.pair_masses::<S>() {
+            let pair = self.pairs.binary_search_by_key(&nodes, |&(nodes, _)| nodes);
+            sum += mass * pair.map_or(S::zero(), |at| self.pairs[at].1);
+            let [i, j] = nodes;
+            if i == j {
+                sum += mass * self.masses[i];
             }
         }
         Ok(sum)
-    }
-
-    /// The derivatives by the sizes of the steps, with the times at their ends, s. Where a step ends at the jump of a load, the
-    /// derivative by the time of the jump is that by the size of the step before it less that by the size of the one after it.
-    ///
-    /// # Errors
-    ///
-    /// [`GradientError::NoTimeDerivative`] if the scene has a function of time.
-    pub fn by_step_size(&self) -> Result<&[(S, S)], GradientError> {
-        match &self.timed {
-            None => Ok(&self.sizes),
-            Some(load) => Err(GradientError::NoTimeDerivative { load: load.clone() }),
-        }
-    }
-
-    /// The same with the values of functions of time kept that each step had; all there is where these are constant in steps.
-    #[must_use]
-    pub fn by_step_size_at_kept_loads(&self) -> &[(S, S)] {
-        &self.sizes
-    }
-
-    /// The derivative by the time at the end, by the size of the last step; zero without a step.
-    ///
-    /// # Errors
-    ///
-    /// As [`by_step_size`](Self::by_step_size).
-    pub fn by_end_time(&self) -> Result<S, GradientError> {
-        let last = self.by_step_size()?.last();
-        Ok(last.map_or(S::zero(), |&(_, by)| by))
     }
 
     /// The derivative by the temperature of an element at the start.
@@ -241,13 +312,13 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         self.gravity
     }
 
-    /// The derivatives by the force on a mass in each step, with the time in its middle, s. Those by a parameter of a force are
-    /// `Σ dJ/df(t)·∂f/∂α(t)`.
+    /// The derivatives by the force on a mass in each step, with the time in its middle, s. That by a parameter of a force is found by
+    /// [`Series::contract`].
     ///
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if no force acts on it.
-    pub fn by_force(&self, node: Node) -> Result<&[(S, SVector<S, D>)], GradientError> {
+    pub fn by_force(&self, node: Node) -> Result<&Series<SVector<S, D>, S>, GradientError> {
         self.own(&node)?;
         series(&self.forces, node.index, || format!("{node} has no force"))
     }
@@ -258,7 +329,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if there is no such rocket.
-    pub fn by_thrust(&self, node: Node, rocket: usize) -> Result<&[(S, S)], GradientError> {
+    pub fn by_thrust(&self, node: Node, rocket: usize) -> Result<&Series<S, S>, GradientError> {
         self.own(&node)?;
         let mut own = self.thrusts.iter().filter(|(own, _)| *own == node.index);
         match own.nth(rocket) {
@@ -274,7 +345,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if the temperature is not a function of time.
-    pub fn by_oven(&self, oven: Reservoir) -> Result<&[(S, S)], GradientError> {
+    pub fn by_oven(&self, oven: Reservoir) -> Result<&Series<S, S>, GradientError> {
         self.own(&oven)?;
         series(&self.ovens, oven.index, || format!("{oven} is not an oven"))
     }
@@ -286,7 +357,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if it is not moved.
-    pub fn by_motion(&self, anchor: Node) -> Result<&[(S, SVector<S, D>)], GradientError> {
+    pub fn by_motion(&self, anchor: Node) -> Result<&Series<SVector<S, D>, S>, GradientError> {
         self.own(&anchor)?;
         series(&self.motions, anchor.index, || {
             format!("{anchor} is not moved")
@@ -298,7 +369,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] without a thermostat.
-    pub fn by_thermostat(&self, element: Element) -> Result<&[(S, S)], GradientError> {
+    pub fn by_thermostat(&self, element: Element) -> Result<&Series<S, S>, GradientError> {
         self.own(&element)?;
         series(&self.temperatures, element.index(), || {
             format!("{element} has no thermostat")
@@ -345,7 +416,7 @@ fn series<T, S>(
     all: &[(usize, Series<T, S>)],
     index: usize,
     why: impl FnOnce() -> String,
-) -> Result<&[(S, T)], GradientError> {
+) -> Result<&Series<T, S>, GradientError> {
     let mut own = all.iter().filter(|(own, _)| *own == index);
     match own.next() {
         Some((_, series)) => Ok(series),
@@ -359,19 +430,16 @@ fn vector<S: Real, const D: usize>(coordinates: &[S], node: Node) -> SVector<S, 
 
 impl<const D: usize, S: Real> fmt::Display for Gradient<D, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut lines = vec![("value".to_owned(), self.value)];
-        for own in &self.elements {
-            let named = own.names.iter().zip(&own.values);
-            lines.extend(named.map(|(name, value)| {
-                let by = format!("by {name} of {}", own.element);
-                (by, value.to_f64())
-            }));
-        }
-        let width = lines.iter().map(|(by, _)| by.chars().count()).max();
-        let width = width.unwrap_or(0);
-        for (by, value) in lines {
+        let value = ("value".to_owned(), self.value, self.unit.clone());
+        let lines: Vec<_> = [value].into_iter().chain(self.parameters()).collect();
+        let widest = |of: fn(&Derivative) -> &String| {
+            let widths = lines.iter().map(|line| of(line).chars().count());
+            widths.max().unwrap_or(0)
+        };
+        let [width, unit_width] = [widest(|(name, ..)| name), widest(|(.., unit)| unit)];
+        for (name, value, unit) in &lines {
             let value = format!("{value:.15e}");
-            writeln!(f, "| {by:<width$} | {value:<22} |")?;
+            writeln!(f, "| {name:<width$} | {value:<22} | {unit:<unit_width$} |")?;
         }
         if self.growth > NOTED {
             let digits = -(S::EPSILON.to_f64() * self.growth).log10();

@@ -151,6 +151,11 @@ impl<S: Real> Record<S> {
         self.all.as_ref()
     }
 
+    /// How many states to keep at a time when steps are made again from the first one on.
+    pub(crate) fn block(&self) -> usize {
+        self.limits.fit::<S>(self.len()).clamp(1, FIRST_STRIDE)
+    }
+
     /// The size of a step, s.
     pub(crate) fn size(&self, step: usize) -> S {
         self.sizes[step]

@@ -110,6 +110,12 @@ impl<const D: usize, S: Real> fmt::Debug for CustomQuantity<D, S> {
 /// Names of the axes in the columns.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// The name of an axis, from 0: a letter, or its number beyond the third.
+pub(crate) fn axis_name(index: usize) -> String {
+    let letter = AXES.get(index).copied();
+    letter.map_or_else(|| index.to_string(), str::to_owned)
+}
+
 impl<const D: usize, S: Real> Quantity<D, S> {
     /// A function of the simulation.
     pub fn custom(function: impl Fn(&Simulation<D, S>) -> S + Send + Sync + 'static) -> Self {
@@ -208,17 +214,14 @@ impl<const D: usize, S: Real> Quantity<D, S> {
     }
 
     /// The names of its columns.
-    pub(super) fn columns(&self, name: &str) -> Vec<String> {
+    pub(crate) fn columns(&self, name: &str) -> Vec<String> {
         let components = match self {
             Self::Position(_) | Self::Momentum(_) | Self::Velocity(_) | Self::LinearMomentum => D,
             Self::AngularMomentum if D > 2 => 3,
             _ => return vec![name.to_owned()],
         };
-        let axis = |index: usize| match AXES.get(index) {
-            Some(axis) => format!("{name}_{axis}"),
-            None => format!("{name}_{index}"),
-        };
-        (0..components).map(axis).collect()
+        let column = |index: usize| format!("{name}_{}", axis_name(index));
+        (0..components).map(column).collect()
     }
 
     /// An error unless the simulation has this quantity. Does not call functions.

@@ -1,8 +1,12 @@
 //! The gradient of a run: the adjoint of its steps, from the last to the first.
 
 mod again;
+mod checks;
+mod derivatives;
+mod directions;
 mod inputs;
 mod seeds;
+mod tangents;
 mod way;
 
 use core::mem;
@@ -18,12 +22,15 @@ use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::history::History;
 use crate::run::gradient::objective::Objective;
-use crate::run::gradient::result::{Gradient, OfElement, Series};
+use crate::run::gradient::result::{Gradient, OfElement};
+use crate::run::gradient::series::Series;
 use crate::run::gradient::snapshots::Record;
-use crate::scene::loads::{Course, Loads};
-use crate::step::adjoint::{Adjoint, Costate, NoAdjoint};
+use crate::run::gradient::times::Timed;
+use crate::scene::loads::Course;
+use crate::step::adjoint::{Adjoint, NoAdjoint, PerVariable};
 use crate::step::control::norm as norm_of;
 use crate::step::scheme::Scheme;
+use derivatives::Outline;
 use eem_material::number::scalar::{Mask, Real};
 use inputs::Made;
 use nalgebra::SVector;
@@ -148,15 +155,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Calls a function with the history, after which everything is as before.
-    fn on_history(
+    fn on_history<T>(
         &mut self,
-        act: impl FnOnce(&mut Self, &mut Record<S>) -> Result<Gradient<D, S>, GradientError>,
-    ) -> Result<Gradient<D, S>, GradientError> {
+        act: impl FnOnce(&mut Self, &mut Record<S>) -> Result<T, GradientError>,
+    ) -> Result<T, GradientError> {
         let Some(mut kept) = self.history.take() else {
             return Err(GradientError::NoHistory);
         };
         kept.return_to(self.time());
-        let checked = self.check_gradient(&kept);
+        let checked = self.check_history(&kept);
         let found = checked.and_then(|()| {
             if kept.all().is_some() {
                 act(self, &mut kept)
@@ -178,16 +185,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             mut found, adjoint, ..
         } = self.go_back(kept, objectives, usize::MAX)?;
         found.start = adjoint.costate;
+        if let Some((_, objective)) = objectives.first() {
+            found.unit = objective.unit();
+        }
         for (_, series) in found.forces.iter_mut().chain(&mut found.motions) {
-            series.reverse();
+            series.0.reverse();
         }
         let thrusts = found.thrusts.iter_mut().map(|(_, series)| series);
         let ovens = found.ovens.iter_mut().map(|(_, series)| series);
         let temperatures = found.temperatures.iter_mut().map(|(_, series)| series);
         for series in thrusts.chain(ovens).chain(temperatures) {
-            series.reverse();
+            series.0.reverse();
         }
         found.sizes.reverse();
+        if let Some(start) = kept.times().next() {
+            found.started = start;
+        }
         Ok(found)
     }
 
@@ -231,15 +244,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The way back, at its beginning.
     fn way_back(&mut self) -> Result<Way<D, S>, GradientError> {
-        let layout = self.numbering();
-        let mut found = self.no_gradient(&layout);
-        let costate = mem::replace(&mut found.start, Costate::zero(0, &layout, 0));
-        let mut held = vec![false; layout.thermal];
-        for (element, _) in &self.loads.temperatures {
-            if let Some(slot) = layout.elements[element.index()].thermal {
-                held[slot] = true;
-            }
-        }
+        let outline = self.outline();
+        let layout = &outline.layout;
+        let mut found = self.no_gradient(&outline);
+        let costate = mem::replace(&mut found.start, PerVariable::zero(0, layout, 0));
         let mut anchors = Vec::new();
         if self.masses.are_coupled() {
             let moved = self.loads.motions.iter().map(|(node, _)| node.index);
@@ -252,15 +260,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let system = newton.solver.tangent_mut();
         Ok(Way {
-            adjoint: Adjoint::new(&layout, &self.masses, system, costate),
+            adjoint: Adjoint::new(layout, &self.masses, system, costate),
             paths: self.conduction.path_ends(),
-            sums: self.masses.weights(),
             conduction: self.conduction.clone(),
             by_reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
             by_speeds: Vec::new(),
             rockets: Vec::new(),
-            layout,
-            held,
+            held: self.held(layout),
+            outline,
             anchors,
             by_size: S::zero(),
             last: None,
@@ -270,7 +277,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// From the derivatives by the new state of a step to those by its old one.
     fn reverse(&mut self, made: Made<'_, S>, way: &mut Way<D, S>) -> Result<(), GradientError> {
-        self.set_loads(made, way);
+        self.find_loads(made, &mut way.conduction, &mut way.rockets);
+        for (oven, _) in &self.loads.ovens {
+            // Its entropy is booked as heat after the step.
+            way.adjoint.costate.reservoirs[*oven] = S::zero();
+        }
         // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         let Stepper::Newton(newton) = &mut self.stepper else {
@@ -297,7 +308,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let solved = way.adjoint.step_back(
             (view, new, &way.held),
-            (&way.layout, &way.rockets),
+            (&way.outline.layout, &way.rockets),
             &mut newton.groups,
             newton.solver.tangent_mut(),
             see,
@@ -318,7 +329,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// An error unless all steps of the history have an adjoint.
-    fn check_gradient(&self, kept: &Record<S>) -> Result<(), GradientError> {
+    fn check_history(&self, kept: &Record<S>) -> Result<(), GradientError> {
         if S::LANES > 1 {
             let what = "several numbers in one";
             return Err(GradientError::NotDifferentiable { what });
@@ -342,7 +353,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// What a relative change of a state does to the objective, `|λ_q||q| + |λ_v||v| + |λ_γ||q| + |λ_θ||θ|`.
-    fn effect(&self, costate: &Costate<S>, state: &State<S>) -> f64 {
+    fn effect(&self, costate: &PerVariable<S>, state: &State<S>) -> f64 {
         let norm = |values: &[S]| norm_of(values.iter().copied()).to_f64();
         let masses = self.masses.iter().enumerate();
         let velocities = masses.flat_map(|(node, mass)| {
@@ -356,7 +367,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A gradient of zeros, with the names of all parameters.
-    fn no_gradient(&self, layout: &Layout) -> Gradient<D, S> {
+    fn no_gradient(&self, outline: &Outline<S>) -> Gradient<D, S> {
+        let layout = &outline.layout;
         let coordinates = self.masses.len() * D;
         let mut elements = Vec::with_capacity(self.places.len());
         for (index, &[group, at]) in self.places.iter().enumerate() {
@@ -368,28 +380,39 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 slots: layout.elements[index],
                 dashpots: self.shapes[group as usize].dashpots,
                 names,
+                units: of_group.parameter_units(),
+                viscous_unit: self.viscous_unit(group as usize),
                 values: vec![S::zero(); names.len()],
             });
         }
         Gradient {
             scene: self.scene.clone(),
             value: 0.0,
+            unit: String::new(),
             growth: 1.0,
-            start: Costate::zero(coordinates, layout, self.conduction.reservoirs.len()),
+            start: PerVariable::zero(coordinates, layout, self.conduction.reservoirs.len()),
+            moving: (0..self.masses.len())
+                .filter(|&node| self.masses.get(node).is_some())
+                .collect(),
             masses: vec![S::zero(); self.masses.len()],
-            pairs: self.mass_pairs(),
+            pairs: outline
+                .pairs
+                .iter()
+                .map(|&nodes| (nodes, S::zero()))
+                .collect(),
             gravity: SVector::from_element(S::zero()),
             conductances: vec![S::zero(); self.conduction.path_ends().len()],
             reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
             elements,
             sizes: Vec::new(),
+            started: self.time(),
             timed: self.timed(),
             forces: empty(self.loads.forces.iter().map(|(node, _)| node.index)),
             thrusts: self
                 .loads
                 .rockets
                 .iter()
-                .map(|rocket| (rocket.line.node.index, Vec::new()))
+                .map(|rocket| (rocket.line.node.index, Series(Vec::new())))
                 .collect(),
             ovens: empty(self.loads.ovens.iter().map(|&(index, _)| index)),
             motions: empty(self.loads.motions.iter().map(|(node, _)| node.index)),
@@ -397,48 +420,40 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The masses of pairs of nodes and of anchors, in order.
-    fn mass_pairs(&self) -> Vec<([usize; 2], S)> {
-        let pairs = self.masses.pairs().iter().chain(self.masses.held());
-        let mut pairs: Vec<_> = pairs.map(|pair| (pair.nodes(), S::zero())).collect();
-        pairs.sort_by_key(|&(nodes, _)| nodes);
-        pairs
+    /// Whether thermostats hold the temperatures, by thermal slot.
+    fn held(&self, layout: &Layout) -> Vec<bool> {
+        let mut held = vec![false; layout.thermal];
+        for (element, _) in &self.loads.temperatures {
+            if let Some(slot) = layout.elements[element.index()].thermal {
+                held[slot] = true;
+            }
+        }
+        held
     }
 
-    /// The first load that is a function of time.
-    fn timed(&self) -> Option<String> {
-        let Loads {
-            forces,
-            motions,
-            temperatures,
-            rockets,
-            ovens,
-            ..
-        } = &self.loads;
-        let forces = forces
-            .iter()
-            .filter(|(_, of)| matches!(of, Course::Function(_)));
-        let forces = forces.map(|(node, _)| format!("the force on {node}"));
-        let motions = motions
-            .iter()
-            .filter(|(_, of)| matches!(of, Course::Function(_)));
-        let motions = motions.map(|(node, _)| format!("the motion of {node}"));
-        let held = temperatures
-            .iter()
-            .filter(|(_, of)| matches!(of, Course::Function(_)));
-        let held = held.map(|(element, _)| format!("the temperature of {element}"));
-        let rockets = rockets
-            .iter()
-            .map(|rocket| format!("the thrust on {}", rocket.line.node));
-        let ovens = ovens
-            .iter()
-            .map(|(index, _)| format!("the temperature of reservoir {index}"));
+    /// The loads that are functions of time.
+    fn timed(&self) -> Vec<Timed> {
+        let loads = &self.loads;
+        let forces = loads.forces.iter();
+        let forces = forces.filter(|(_, of)| matches!(of, Course::Function(_)));
+        let motions = loads.motions.iter();
+        let motions = motions.filter(|(_, of)| matches!(of, Course::Function(_)));
+        let held = loads.temperatures.iter();
+        let held = held.filter(|(_, of)| matches!(of, Course::Function(_)));
+        let rockets = loads.rockets.iter().enumerate().map(|(place, rocket)| {
+            let node = rocket.line.node;
+            let before = loads.rockets[..place].iter();
+            let before = before.filter(|other| other.line.node.index == node.index);
+            Timed::Thrust(node, before.count())
+        });
+        let ovens = loads.ovens.iter();
         forces
-            .chain(motions)
-            .chain(held)
+            .map(|&(node, _)| Timed::Force(node))
+            .chain(motions.map(|&(node, _)| Timed::Motion(node)))
+            .chain(held.map(|&(element, _)| Timed::Thermostat(element)))
             .chain(rockets)
-            .chain(ovens)
-            .next()
+            .chain(ovens.map(|&(index, _)| Timed::Oven(self.scene.reservoir(index))))
+            .collect()
     }
 }
 
@@ -453,6 +468,6 @@ fn empty<T, S>(indices: impl Iterator<Item = usize>) -> Vec<(usize, Series<T, S>
     let indices: BTreeSet<usize> = indices.collect();
     indices
         .into_iter()
-        .map(|index| (index, Vec::new()))
+        .map(|index| (index, Series(Vec::new())))
         .collect()
 }

@@ -1,9 +1,9 @@
-//! Rockets in the adjoint of a step: `h F n(r_m)` in the momentum balance of the node that is pushed.
+//! Rockets in the adjoint and in the tangents of a step: `h F n(r_m)` in the momentum balance of the node that is pushed.
 
 use core::array;
 
 use crate::algebra::system::LinearSystem;
-use crate::element::group::{Costate, StepWeights, points};
+use crate::element::group::{Direction, PerVariable, StepWeights, points};
 use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
 use crate::element::state::State;
@@ -45,8 +45,13 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
         [(tail.index, -S::one()), (head.index, S::one())]
     }
 
-    /// Subtracts the transposed derivatives by the new state.
-    pub(super) fn add_to(&self, layout: &Layout, system: &mut LinearSystem<S, 1>) {
+    /// Subtracts the derivatives by the new state, in the places of the matrix or of the transposed one.
+    pub(super) fn add_to(
+        &self,
+        layout: &Layout,
+        is_transposed: bool,
+        system: &mut LinearSystem<S, 1>,
+    ) {
         let Some(pushed) = layout.nodes[self.line.node.index] else {
             return;
         };
@@ -56,8 +61,29 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
             };
             for (axis, turning) in self.turning.iter().enumerate() {
                 for (other, &turning) in turning.iter().enumerate() {
-                    let place = system.place(Some(first + other), Some(pushed + axis));
+                    let (row, column) = (Some(pushed + axis), Some(first + other));
+                    let place = if is_transposed {
+                        system.place(column, row)
+                    } else {
+                        system.place(row, column)
+                    };
                     system.parts().0[place] -= sign * turning;
+                }
+            }
+        }
+    }
+
+    /// Adds what changes with its line in both states to the right-hand side of a direction.
+    pub(super) fn push(&self, layout: &Layout, direction: &mut Direction<S>) {
+        let Some(pushed) = layout.nodes[self.line.node.index] else {
+            return;
+        };
+        for (end, sign) in self.ends() {
+            for (axis, turning) in self.turning.iter().enumerate() {
+                for (other, &turning) in turning.iter().enumerate() {
+                    let at = end * D + other;
+                    let moved = direction.old.positions[at] + direction.new.positions[at];
+                    direction.right[pushed + axis][0] += sign * turning * moved;
                 }
             }
         }
@@ -68,7 +94,7 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
     pub(super) fn subtract(
         &self,
         layout: &Layout,
-        by_old: &mut Costate<S>,
+        by_old: &mut PerVariable<S>,
         weights: &mut StepWeights<S>,
     ) {
         let node = self.line.node.index;

@@ -19,7 +19,7 @@ pub(crate) struct Bootstrap {
     pub(crate) estimates: Vec<Logs>,
     /// How many fits have not converged.
     pub(crate) failed: usize,
-    pub(crate) ensembles: usize,
+    pub(crate) points: usize,
     pub(crate) laws: Laws,
 }
 
@@ -30,7 +30,7 @@ impl Bootstrap {
         let mut bootstrap = Self {
             estimates: Vec::new(),
             failed: 0,
-            ensembles: 0,
+            points: 0,
             laws: Laws::NONE,
         };
         for (member, seed) in (0..members).zip(SEED..) {
@@ -42,7 +42,7 @@ impl Bootstrap {
             };
             let again = Fit::again(fresh, &fit.point)?;
             bootstrap.failed += usize::from(!again.converged);
-            bootstrap.ensembles += again.ensembles;
+            bootstrap.points += again.points;
             bootstrap.laws = bootstrap.laws.and(again.laws);
             bootstrap.estimates.push(again.point.logs);
             progress.advance(member + 1);

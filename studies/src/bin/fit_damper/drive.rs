@@ -1,7 +1,9 @@
 //! The model: the quarter car with a damper of three unknown numbers, driven over its track.
 
+use std::error::Error;
+
 use eem::prelude::*;
-use eem::{MemberError, MemberFailure};
+use eem::{History, Input, MemberError, MemberFailure};
 
 use super::car::{CLEARANCE, Car, DAMPER, Damper, car};
 use eem_studies::time_grid::TimeGrid;
@@ -11,9 +13,14 @@ pub(crate) const SCHEME: Scheme = Scheme::EemEntropy;
 
 /// What is recovered.
 pub(crate) const UNKNOWNS: [Unknown; 3] = [
-    unknown("stiffness μ", "stiffness μ (N/m)", DAMPER.mount),
-    unknown("viscosity η0", "viscosity η0 (N s/m)", DAMPER.eta0),
-    unknown("heat capacity c", "heat capacity c (J/K)", DAMPER.capacity),
+    unknown("stiffness μ", "stiffness μ (N/m)", "mount", DAMPER.mount),
+    unknown("viscosity η0", "viscosity η0 (N s/m)", "eta0", DAMPER.eta0),
+    unknown(
+        "heat capacity c",
+        "heat capacity c (J/K)",
+        "capacity",
+        DAMPER.capacity,
+    ),
 ];
 
 /// A number of the damper.
@@ -21,12 +28,24 @@ pub(crate) const UNKNOWNS: [Unknown; 3] = [
 pub(crate) struct Unknown {
     pub(crate) name: &'static str,
     pub(crate) label: &'static str,
+    /// Its field.
+    parameter: &'static str,
     /// What the recording is made with.
     pub(crate) truth: f64,
 }
 
-const fn unknown(name: &'static str, label: &'static str, truth: f64) -> Unknown {
-    Unknown { name, label, truth }
+const fn unknown(
+    name: &'static str,
+    label: &'static str,
+    parameter: &'static str,
+    truth: f64,
+) -> Unknown {
+    Unknown {
+        name,
+        label,
+        parameter,
+        truth,
+    }
 }
 
 /// Natural logarithms of the unknowns in the units of [`UNKNOWNS`]: all numbers are positive, and a change is
@@ -86,6 +105,32 @@ pub(crate) fn drive(grid: TimeGrid, dampers: &[Logs]) -> Vec<Result<Drive, Membe
     Ensemble::new(SCHEME, grid.step).run(dampers, build, |run, parts, logs| {
         observe(run, parts, logs, grid)
     })
+}
+
+/// A drive, and how its travel, m, and temperature, K, change with the logarithm of each unknown.
+pub(crate) fn follow(
+    grid: TimeGrid,
+    logs: &Logs,
+) -> Result<(Drive, [[Vec<f64>; 2]; 3]), Box<dyn Error + Send + Sync>> {
+    let (scene, damper) = build(logs);
+    let mut run = Simulation::new(scene, SCHEME, grid.step)?;
+    run.keep_history(History::default());
+    let drive = observe(&mut run, damper, logs, grid)?;
+    let inputs = UNKNOWNS.map(|unknown| Input::parameter(damper, unknown.parameter));
+    let sensors = [
+        ("travel", Quantity::Stretch(damper)),
+        ("temperature", Quantity::Temperature(damper)),
+    ];
+    let table = run.sensitivities(&inputs, sensors)?;
+    let changes = [0, 1, 2].map(|unknown| {
+        [0, 1].map(|sensor| {
+            let column = table.of(sensor, unknown).unwrap_or_default();
+            let recorded = column.iter().step_by(grid.stride).skip(1);
+            // ∂/∂ln p = p ∂/∂p
+            recorded.map(|by| logs[unknown].exp() * by).collect()
+        })
+    });
+    Ok((drive, changes))
 }
 
 /// The car at rest with this damper.

@@ -1,4 +1,4 @@
-//! Least squares: the optimiser, and what it asks for, which is one ensemble per point.
+//! Least squares: the optimiser, and what it asks for, which is one run with its tangents per point.
 
 use std::cell::RefCell;
 use std::error::Error;
@@ -13,10 +13,6 @@ use eem::nalgebra::Matrix3;
 use super::drive::{self, Drive, Laws, Logs};
 use super::recording::Recording;
 use eem_studies::time_grid::TimeGrid;
-
-/// The change of a logarithm by which the Jacobian's differences are formed. They are wrong by half of it, relative
-/// to the curvature, and by rounding of some 1e-13 over it.
-const DIFFERENCE: f64 = 1e-6;
 
 /// Steps of the optimiser; a dozen is usual.
 const MOST_STEPS: u64 = 60;
@@ -45,27 +41,14 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// Four runs in one ensemble: the point, and each unknown a little larger.
+    /// One run, and the derivatives of its steps.
     fn new(data: Data<'_>, logs: Logs, laws: &RefCell<Laws>) -> Result<Self, ArgminError> {
-        let mut members = [logs; 4];
-        for (unknown, member) in members[1..].iter_mut().enumerate() {
-            member[unknown] += DIFFERENCE;
-        }
-        let drives: Vec<Drive> = drive::drive(data.grid, &members)
-            .into_iter()
-            .collect::<Result<_, _>>()?;
-        for drive in &drives {
-            laws.replace_with(|worst| worst.and(drive.laws));
-        }
-        let residuals = data.recording.residuals(&drives[0]);
-        let jacobian = [1, 2, 3].map(|member| {
-            let moved = data.recording.residuals(&drives[member]);
-            let moved = moved.iter().zip(&residuals);
-            moved.map(|(b, a)| (b - a) / DIFFERENCE).collect()
-        });
+        let (drive, changes) = drive::follow(data.grid, &logs).map_err(ArgminError::from_boxed)?;
+        laws.replace_with(|worst| worst.and(drive.laws));
+        let jacobian = changes.map(|change| data.recording.in_deviations(&change));
         Ok(Self {
             logs,
-            drive: drives[0].clone(),
+            drive,
             jacobian,
         })
     }
@@ -87,7 +70,7 @@ struct Misfit<'a> {
     /// The last point that was asked for.
     point: RefCell<Option<Point>>,
     laws: RefCell<Laws>,
-    ensembles: RefCell<usize>,
+    points: RefCell<usize>,
 }
 
 impl Misfit<'_> {
@@ -100,7 +83,7 @@ impl Misfit<'_> {
         if let Some(point) = last.as_ref().filter(is_it) {
             return Ok(of(point));
         }
-        *self.ensembles.borrow_mut() += 1;
+        *self.points.borrow_mut() += 1;
         let point = last.insert(Point::new(self.data, wanted, &self.laws)?);
         Ok(of(point))
     }
@@ -197,8 +180,8 @@ pub(crate) struct Fit {
     /// Whether the optimiser says so.
     pub(crate) converged: bool,
     pub(crate) steps: u64,
-    /// Ensembles of four runs each.
-    pub(crate) ensembles: usize,
+    /// Points at which the car was driven, with tangents.
+    pub(crate) points: usize,
     /// Of all runs.
     pub(crate) laws: Laws,
 }
@@ -219,7 +202,7 @@ impl Fit {
             data,
             point: RefCell::new(point),
             laws: RefCell::new(Laws::NONE),
-            ensembles: RefCell::new(0),
+            points: RefCell::new(0),
         };
         let [radius, largest] = RADIUS;
         let region = TrustRegion::new(Steihaug::new().with_max_iters(20));
@@ -240,7 +223,7 @@ impl Fit {
             point,
             converged: state.get_termination_reason() == Some(&converged),
             steps: state.get_iter(),
-            ensembles: misfit.ensembles.into_inner(),
+            points: misfit.points.into_inner(),
             laws: misfit.laws.into_inner(),
         })
     }

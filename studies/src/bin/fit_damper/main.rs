@@ -18,7 +18,7 @@
 //!
 //! A sweep ([`eem_sweep`]) looks over a box in which each unknown is off by a factor of 4.5 at most. Its best member
 //! is the start of a fit; the optimiser asks for χ², its gradient Jᵀr and the matrix `JᵀJ` of Gauss and Newton, which
-//! is an [`Ensemble`](eem::Ensemble) of four runs at each point. The trust region with conjugate gradients in it
+//! is a run with three tangents ([`sensitivities`](eem::Simulation::sensitivities)) at each point. The trust region with conjugate gradients in it
 //! (Steihaug, SIAM J. Numer. Anal. 20 (1983) 626–637) is that of the crate `argmin`, which works on plain vectors:
 //! `levenberg-marquardt` would compile an older `nalgebra` beside ours. The ellipse of confidence is the covariance
 //! `(JᵀJ)⁻¹`; fits of fresh noise show whether it is right (the parametric bootstrap: Efron & Tibshirani, 1993, §6.5).
@@ -29,9 +29,9 @@
 //! What the example claims, and fails without: every run keeps energy minus work minus heat constant to rounding,
 //! and no step of any loses entropy; all fits converge. When the ride says something about all three unknowns: each
 //! is found within three standard deviations, what the fit leaves is noise, and fits of fresh noise scatter as the
-//! covariance says, within what so many of them can tell.
+//! covariance says, within what so many of them can tell. The derivatives at the fit are those of differences of runs.
 //!
-//! All cores work with `cargo run --release --features parallel -p eem-studies --bin fit_damper`.
+//! All cores work at the sweep with `cargo run --release --features parallel -p eem-studies --bin fit_damper`.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -141,6 +141,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     }
     let mut claims = Claims::default();
     check_laws(&found, &mut claims);
+    check_derivatives(&found, &mut claims)?;
     check_fit(&found, &mut claims);
     Ok(claims)
 }
@@ -179,6 +180,34 @@ fn check_laws(found: &Found<'_>, claims: &mut Claims) {
         Some(laws.entropy_loss),
         2.0 * f64::EPSILON,
     );
+}
+
+/// The derivatives of χ² at the fit, all three logarithms together, against a difference of runs.
+///
+/// With the change d of each logarithm it is wrong by d² of the third derivative, which is of the size of the second one, and by
+/// rounding of the runs, some 1e-13, over d.
+fn check_derivatives(found: &Found<'_>, claims: &mut Claims) -> Result<(), Box<dyn Error>> {
+    const CHANGE: f64 = 1e-4;
+    let point = &found.fit.point;
+    let moved = [CHANGE, -CHANGE].map(|change| point.logs.map(|log| log + change));
+    let runs: Result<Vec<_>, _> = drive::drive(found.data.grid, &moved).into_iter().collect();
+    let [up, down] = &runs?[..] else {
+        return Err("two runs were asked for".into());
+    };
+    let of = |drive| found.data.recording.residuals(drive);
+    let pairs = of(up).into_iter().zip(of(down)).enumerate();
+    let (mut off, mut size) = (0.0, 0.0);
+    for (at, (up, down)) in pairs {
+        let by: f64 = point.jacobian.iter().map(|column| column[at]).sum();
+        off += (by - (up - down) / (2.0 * CHANGE)).powi(2);
+        size += by.powi(2);
+    }
+    claims.at_most(
+        "what differences of runs are off the derivatives, as a share of them",
+        Some((off / size).sqrt()),
+        1e-6,
+    );
+    Ok(())
 }
 
 /// What was found, against the truth and against what the noise allows.

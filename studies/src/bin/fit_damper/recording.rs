@@ -51,10 +51,20 @@ impl Recording {
     /// Model minus recording in standard deviations of the noise, first of all displacements, then of all
     /// temperatures.
     pub(crate) fn residuals(&self, drive: &Drive) -> Vec<f64> {
-        let travel = drive.travel.iter().zip(&self.travel);
-        let temperature = drive.temperature.iter().zip(&self.temperature);
-        let travel = travel.map(|(model, seen)| (model - seen) / self.travel_noise);
-        let temperature = temperature.map(|(model, seen)| (model - seen) / TEMPERATURE_NOISE);
+        let off = |model: &[f64], seen: &[f64]| {
+            let pairs = model.iter().zip(seen);
+            pairs.map(|(model, seen)| model - seen).collect()
+        };
+        self.in_deviations(&[
+            off(&drive.travel, &self.travel),
+            off(&drive.temperature, &self.temperature),
+        ])
+    }
+
+    /// Differences of displacements and temperatures in standard deviations of the noise.
+    pub(crate) fn in_deviations(&self, [travel, temperature]: &[Vec<f64>; 2]) -> Vec<f64> {
+        let travel = travel.iter().map(|off| off / self.travel_noise);
+        let temperature = temperature.iter().map(|off| off / TEMPERATURE_NOISE);
         travel.chain(temperature).collect()
     }
 

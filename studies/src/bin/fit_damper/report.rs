@@ -55,14 +55,14 @@ pub(crate) fn print(
     data: Data<'_>,
 ) {
     say(format_args!(
-        "Fit: χ²/(n − 3) = {:.4}, n = {}, after {} steps of {} ensembles in all; {} fits of fresh noise, {} \
-         ensembles.\n",
+        "Fit: χ²/(n − 3) = {:.4}, n = {}, after {} steps with {} runs in all; {} fits of fresh noise, {} \
+         runs.\n",
         fit.misfit / super::freedom(data.recording),
         data.recording.len(),
         fit.steps,
-        fit.ensembles,
+        fit.points,
         bootstrap.estimates.len(),
-        bootstrap.ensembles,
+        bootstrap.points,
     ));
     let (linear, sampled) = (deviations(covariance), bootstrap.deviations());
     let mut table = table::headed([

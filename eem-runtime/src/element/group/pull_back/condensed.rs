@@ -1,16 +1,17 @@
 //! The transposed equations of a point, and their elimination.
 
 use crate::element::conduction::{InterfaceTemperatures, Partner};
-use crate::element::conjugates::{ElementScheme, Form, Start};
+use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, measures_in};
 use crate::element::group::eliminate::{LocalSystem, eliminate};
 use crate::element::group::point::{Point, temperature_in};
-use crate::element::group::point_step::PastStep;
+use crate::element::group::point_step::StepBack;
 use crate::element::group::pose::Pose;
 use crate::element::group::share::{Heat, Momentum};
 use crate::element::group::site::Contact;
-use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
+use crate::element::group::view::StepView;
+use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
@@ -26,74 +27,21 @@ pub(super) struct Reduced<K: Kinematics<S, D>, S: Real, const D: usize> {
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Takes over both states of a step.
-    #[inline]
-    pub(super) fn return_to(
-        &mut self,
-        step: &PastStep<'_, S>,
-        arms: &[Arms<K, S, D>; 2],
-    ) -> Result<(), StateError> {
-        let [r0, r1] = arms;
-        let x0 = self.variables_in(r0, step.view.state);
-        self.x = self.variables_in(r1, step.new);
-        self.start = Start {
-            x0,
-            old: C::old(&self.model, &x0, S::zero()),
-        };
-        let mut theta = S::one();
-        if let Some(slot) = self.slots().thermal {
-            theta = x0[Self::TEMPERATURE];
-            self.is_prescribed = step.held[slot];
-        }
-        self.memory = C::memory(theta);
-        C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
-            .map_err(|infeasible| infeasible.of(self.element))?;
-        for k in 0..M::DASHPOTS {
-            self.creep[k] = self.x[M::MEASURES + k] - x0[M::MEASURES + k];
-        }
-        for a in 0..Self::DRAGS {
-            self.drag.extension[a] = self.x[a] - x0[a];
-        }
-        Ok(())
-    }
-
-    /// Both states as its kinematics see them.
-    #[inline]
-    pub(super) fn ends(&self, arms: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
-        let measures = [&self.start.x0, &self.x].map(|x| measures_in::<K, S, D>(x));
-        Ends::new(&self.kinematics, arms, measures)
-    }
-
-    /// The same from the new state to the old one.
-    #[inline]
-    pub(super) fn ends_back(&self, [r0, r1]: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
-        let measures = [&self.x, &self.start.x0].map(|x| measures_in::<K, S, D>(x));
-        Ends::new(&self.kinematics, [r1, r0], measures)
-    }
-
-    /// Its response with tangent, including Kelvin–Voigt dashpots.
-    #[inline]
-    pub(super) fn tangent_in(&mut self, per_step: S) -> Result<Form<S, M>, StateError> {
-        let mut form = self
-            .scheme
-            .form(&self.model, &self.start, &self.x, &self.memory);
-        self.accept(per_step, &form, None)?;
-        self.response = form.0;
-        self.add_drag(per_step, &mut form);
-        Ok(form)
-    }
-
     /// `Σ λ_σ h κ_r/θ_r`.
     #[inline]
-    pub(super) fn of_reservoirs(&self, step: &PastStep<'_, S>) -> S {
+    pub(super) fn of_reservoirs(&self, step: &StepBack<'_, S>) -> S {
         let mut sum = S::zero();
         let Some(slot) = self.slots().thermal.filter(|_| self.meets_reservoirs) else {
             return sum;
         };
-        let conduction = step.view.conduction;
+        let StepView {
+            conduction,
+            step: h,
+            ..
+        } = step.past.view;
         for link in conduction.links(slot) {
             if let Partner::Reservoir(index) = link.partner {
-                let conducted = step.view.step * link.conductance;
+                let conducted = h * link.conductance;
                 sum += step.by_new.reservoirs[index] * conducted / conduction.reservoirs[index];
             }
         }
@@ -104,7 +52,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn condense_transposed(
         &mut self,
-        step: &PastStep<'_, S>,
+        step: &StepBack<'_, S>,
         interface: &InterfaceTemperatures<S>,
         form: &Form<S, M>,
         contact: Option<&Contact<K, S, D>>,
@@ -122,9 +70,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             return Ok(reduced);
         }
         let theta = temperature_in::<S, M>(response);
-        let flow = self.heat_flow(&step.view, contact, interface, theta);
+        let flow = self.heat_flow(&step.past.view, contact, interface, theta);
         let mut system = LocalSystem::<S, M>::empty(self.pivot_units(theta));
-        self.balances::<false>(&step.view, &flow, form, &mut system);
+        self.balances::<false>(&step.past.view, &flow, form, &mut system);
         let mut transposed = LocalSystem::<S, M>::empty(system.unit);
         let of_reservoirs = self.of_reservoirs(step);
         let Slots { viscous, thermal } = self.slots();

@@ -1,10 +1,10 @@
 //! The weights of the equations of a point, and the derivatives that follow from them.
 
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{ElementScheme, Start};
+use crate::element::conjugates::ElementScheme;
 use crate::element::group::arms::{add_scaled, measures_in};
 use crate::element::group::point::Point;
-use crate::element::group::point_step::{Costate, PastStep, StepWeights};
+use crate::element::group::point_step::{PerVariable, StepBack, StepWeights};
 use crate::element::group::site::Contact;
 use crate::element::group::terms::Terms;
 use crate::element::kinematics::{Arms, Ends, Kinematics};
@@ -14,7 +14,7 @@ use eem_material::number::scalar::Real;
 
 /// What the weights of a point depend on besides its own values.
 pub(super) struct Surroundings<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
-    pub(super) step: &'a PastStep<'a, S>,
+    pub(super) step: &'a StepBack<'a, S>,
     pub(super) interface: &'a InterfaceTemperatures<S>,
     pub(super) contact: Option<&'a Contact<K, S, D>>,
     /// `w_Θ`.
@@ -50,7 +50,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         ends: &Ends<K, S, D>,
         w: &Arms<K, S, D>,
     ) -> OfPoint<S, M> {
-        let (h, per_step) = (around.step.view.step, around.step.view.per_step);
+        let (h, per_step) = (around.step.past.view.step, around.step.past.view.per_step);
         let along = self.kinematics.discrete_rates(ends, w);
         let own = |u: usize| {
             let mut sum = self.condensed.constant.get(u);
@@ -110,7 +110,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             slope += by_eta * rate * rate;
         }
         if M::THERMAL {
-            let flow = self.heat_flow(&around.step.view, around.contact, around.interface, theta);
+            let flow = self.heat_flow(
+                &around.step.past.view,
+                around.contact,
+                around.interface,
+                theta,
+            );
             of.by_size.add(per_heat * flow.heat);
             of.by_size.add(-per_heat * heat);
             heat += flow.heat;
@@ -126,19 +131,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// The derivatives of `wᵀR` by the variables of the old state.
     #[inline]
     pub(super) fn by_old(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
-        let start = Start {
-            x0: self.x,
-            old: C::old(&self.model, &self.x, S::zero()),
-        };
-        let memory = C::exchanged(&self.memory);
-        let (_, tangent) = self
-            .scheme
-            .form(&self.model, &start, &self.start.x0, &memory);
-        let mut rho = *rho;
-        if M::THERMAL {
-            rho[Self::ENTROPY] = -rho[Self::ENTROPY];
-        }
-        pulled::<S, M>(&rho, &tangent, increments, -S::one())
+        pulled::<S, M>(rho, &self.slopes_by_old(), increments, -S::one())
     }
 
     /// The derivatives of `wᵀR` by the variables of the new state, without those by temperatures that are held.
@@ -174,7 +167,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         &self,
         by: &M::Variables,
         of: &OfPoint<S, M>,
-        by_old: &mut Costate<S>,
+        by_old: &mut PerVariable<S>,
         weights: &mut StepWeights<S>,
     ) {
         let Slots { viscous, thermal } = self.slots();

@@ -33,27 +33,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let pass = kept.next_pass(end);
             let [from, to] = pass.steps;
             if let Some(snapshot) = kept.at(from) {
-                self.state.copy_all_from(&snapshot.state);
-                self.stepper.restore(&snapshot.past, None);
+                self.return_to_state(snapshot);
             }
             let mut states = Kept::new(&self.state, to - from + 1);
-            for step in from..to {
-                let size = kept.size(step);
-                self.step_by(size)?;
-                if let Some(time) = kept.arrival(step + 1) {
-                    self.state.time = Sum::new(time);
-                }
+            self.make_again([from, to], kept, |state| {
                 if pass.keeps_all {
-                    states.keep(&self.state);
+                    states.keep(state);
                 }
-            }
+            })?;
             if !pass.keeps_all {
-                let (past, _) = self.stepper.past(&self.state);
-                kept.pass(Snapshot {
-                    index: to,
-                    state: State::clone(&self.state),
-                    past,
-                });
+                kept.pass(self.snapshot_of(to));
             } else if states.ends_in(last) {
                 return Ok(states);
             } else {
@@ -61,5 +50,38 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 return Err(GradientError::NotRepeatable { time });
             }
         }
+    }
+
+    /// The steps after so many up to so many, made again from the present state; each new state is passed to a function.
+    pub(super) fn make_again(
+        &mut self,
+        [from, to]: [usize; 2],
+        kept: &Record<S>,
+        mut see: impl FnMut(&State<S>),
+    ) -> Result<(), GradientError> {
+        for step in from..to {
+            self.step_by(kept.size(step))?;
+            if let Some(time) = kept.arrival(step + 1) {
+                self.state.time = Sum::new(time);
+            }
+            see(&self.state);
+        }
+        Ok(())
+    }
+
+    /// The present state, with what the next step depends on.
+    pub(super) fn snapshot_of(&self, index: usize) -> Snapshot<S> {
+        let (past, _) = self.stepper.past(&self.state);
+        Snapshot {
+            index,
+            state: State::clone(&self.state),
+            past,
+        }
+    }
+
+    /// Goes back to a state.
+    pub(super) fn return_to_state(&mut self, snapshot: &Snapshot<S>) {
+        self.state.copy_all_from(&snapshot.state);
+        self.stepper.restore(&snapshot.past, None);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::Simulation;
 use super::way::{Way, dot};
-use crate::element::conduction::Partner;
+use crate::element::conduction::{Conduction, Partner};
 use crate::element::state::State;
 use crate::scene::loads::Course;
 use crate::step::adjoint::RocketStep;
@@ -13,7 +13,7 @@ use nalgebra::SVector;
 pub(super) type Made<'a, S> = (S, [&'a State<S>; 2]);
 
 /// The cubic through four positions of a moved anchor, `q̇ = Σ weight (q_end − q_k)/(2h)`, at these thirds of the step.
-const CUBIC: [(f64, f64); 3] = [(2.0, 18.0), (1.0, -9.0), (0.0, 2.0)];
+pub(super) const CUBIC: [(f64, f64); 3] = [(2.0, 18.0), (1.0, -9.0), (0.0, 2.0)];
 
 fn vector<S: Real, const D: usize>(values: &[S], node: usize) -> SVector<S, D> {
     SVector::from_fn(|axis, _| values[node * D + axis])
@@ -21,15 +21,18 @@ fn vector<S: Real, const D: usize>(values: &[S], node: usize) -> SVector<S, D> {
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Finds the rockets of a step and the temperatures of ovens in it.
-    pub(super) fn set_loads(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
+    pub(super) fn find_loads(
+        &self,
+        (h, [old, new]): Made<'_, S>,
+        conduction: &mut Conduction<S>,
+        rockets: &mut Vec<RocketStep<S, D>>,
+    ) {
         let middle = old.time.value + S::from_f64(0.5) * h;
         for (index, temperature) in &self.loads.ovens {
-            way.conduction.reservoirs[*index] = temperature(middle);
-            // Its entropy is booked as heat after the step.
-            way.adjoint.costate.reservoirs[*index] = S::zero();
+            conduction.reservoirs[*index] = temperature(middle);
         }
-        way.rockets.clear();
-        way.rockets.extend(self.loads.rockets.iter().map(|rocket| {
+        rockets.clear();
+        rockets.extend(self.loads.rockets.iter().map(|rocket| {
             let impulse = h * (rocket.thrust)(middle);
             RocketStep::new(rocket.line, impulse, [old, new])
         }));
@@ -63,7 +66,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let Some(mass) = mass else { continue };
             let weight = vector::<S, D>(&weights.motion, node);
             found.masses[node] -= dot(&weight, &change(node, mass));
-            found.gravity += weight * (h * way.sums[node]);
+            found.gravity += weight * (h * way.outline.sums[node]);
         }
         for ([i, j], by) in &mut found.pairs {
             let [w_i, w_j] = [*i, *j].map(|node| vector::<S, D>(&weights.motion, node));
@@ -89,7 +92,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let middle = old.time.value + S::from_f64(0.5) * h;
         for (reservoir, series) in &mut found.ovens {
-            series.push((middle, by_reservoirs[*reservoir]));
+            series.0.push((middle, by_reservoirs[*reservoir]));
         }
         for (sum, &(slot, partner)) in found.conductances.iter_mut().zip(&way.paths) {
             *sum += match partner {
@@ -110,12 +113,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let middle = start + S::from_f64(0.5) * h;
         let (weights, found) = (&way.adjoint.weights, &mut way.found);
         for (node, series) in &mut found.forces {
-            series.push((middle, vector::<S, D>(&weights.motion, *node) * h));
+            series
+                .0
+                .push((middle, vector::<S, D>(&weights.motion, *node) * h));
         }
         let pushes = self.loads.rockets.iter().zip(&way.rockets);
         for ((_, series), (rocket, own)) in found.thrusts.iter_mut().zip(pushes) {
             let weight = vector::<S, D>(&weights.motion, rocket.line.node.index);
-            series.push((middle, dot(&weight, &own.direction.into()) * h));
+            series
+                .0
+                .push((middle, dot(&weight, &own.direction.into()) * h));
         }
         for (node, series) in &mut found.motions {
             let [mut by_old, mut by_new] =
@@ -127,20 +134,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     by_new += own;
                     if thirds > 0.0 {
                         let at = start + S::from_f64(thirds) * (h / S::from_f64(3.0));
-                        series.push((at, -own));
+                        series.0.push((at, -own));
                     } else {
                         by_old -= own;
                     }
                 }
             }
             if let Some(at_end) = at_end {
-                series[at_end].1 += by_new;
+                series.0[at_end].1 += by_new;
             }
-            series.push((start, by_old));
+            series.0.push((start, by_old));
         }
         for (element, series) in &mut found.temperatures {
-            if let Some(slot) = way.layout.elements[*element].thermal {
-                series.push((end, weights.held[slot]));
+            if let Some(slot) = way.outline.layout.elements[*element].thermal {
+                series.0.push((end, weights.held[slot]));
             }
         }
     }

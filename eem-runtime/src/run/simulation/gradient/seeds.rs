@@ -2,38 +2,51 @@
 
 use core::mem;
 
-use super::way::{Way, Weighted, add, dot};
-use crate::element::group::ElementGeneric;
-use crate::element::handle::{Element, Node};
+use super::derivatives::Of;
+use super::way::{Way, Weighted, add_to};
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::objective::{Term, When};
-use crate::run::gradient::result::Gradient;
 use crate::run::gradient::snapshots::Record;
 use crate::run::recorder::Quantity;
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
-use crate::step::adjoint::Costate;
+use crate::step::adjoint::PerVariable;
 use eem_material::number::scalar::{Real, is_positive};
 use nalgebra::SVector;
 
 /// What objectives ask of the states, from the last one on.
 pub(super) struct Seeds<'a, const D: usize, S: Real> {
-    terms: Vec<Asked<'a, D, S>>,
+    pub(super) terms: Vec<Asked<'a, D, S>>,
     /// The factor of the time at the end.
     time: f64,
     /// The value of the first objective, of the states that were seen.
     pub(super) value: f64,
 }
 
+/// What a quantity counts in a state: the derivative of the objective by it, its share in its own objective, and its value
+/// if that is an integral.
+pub(super) struct Weighed {
+    pub(super) weight: f64,
+    own: f64,
+    integrand: Option<f64>,
+}
+
 /// A quantity of an objective.
-struct Asked<'a, const D: usize, S: Real> {
+pub(super) struct Asked<'a, const D: usize, S: Real> {
     term: &'a Term<D, S>,
     /// That of the objective.
     factor: f64,
     /// Whether it is the first one.
     counts: bool,
     moments: Vec<Moment>,
+}
+
+impl<'a, const D: usize, S: Real> Asked<'a, D, S> {
+    /// The quantity and its component.
+    pub(super) const fn of(&self) -> (&'a Quantity<D, S>, usize) {
+        (&self.term.quantity, self.term.component)
+    }
 }
 
 /// A state at which a quantity counts.
@@ -67,6 +80,14 @@ impl<'a, const D: usize, S: Real> Seeds<'a, D, S> {
             }
         }
         Ok(Self { terms, time, value })
+    }
+
+    /// From the first state on.
+    pub(super) fn forwards(mut self) -> Self {
+        for asked in &mut self.terms {
+            asked.moments.reverse();
+        }
+        self
     }
 }
 
@@ -109,6 +130,49 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         refused.map_or(Ok(()), |error| Err(error.into()))
     }
 
+    /// What a quantity of an objective counts in the state after so many steps, if it does.
+    pub(super) fn weigh(
+        &mut self,
+        (steps, state): (usize, &mut State<S>),
+        kept: &Record<S>,
+        asked: &mut Asked<'_, D, S>,
+    ) -> Result<Option<Weighed>, GradientError> {
+        let (term, is_present) = (asked.term, steps == kept.len());
+        let factor = asked.factor * term.factor;
+        let mut found = Weighed {
+            weight: 0.0,
+            own: 0.0,
+            integrand: None,
+        };
+        let mut counts = false;
+        if matches!(term.when, When::Integral) {
+            let value = self.value_in((state, is_present), term)?;
+            (counts, found.integrand) = (true, Some(value));
+            let before = steps.checked_sub(1);
+            for step in before
+                .into_iter()
+                .chain((steps < kept.len()).then_some(steps))
+            {
+                let share = 0.5 * term.factor * kept.size(step).to_f64();
+                found.weight += asked.factor * share;
+                found.own += share * value;
+            }
+        }
+        while let Some(moment) = asked.moments.pop_if(|moment| moment.steps == steps) {
+            let value = self.value_in((state, is_present), term)?;
+            counts = true;
+            if let Some([datum, deviation]) = moment.record {
+                let misfit = (value - datum) / deviation;
+                found.weight += factor * misfit / deviation;
+                found.own += 0.5 * term.factor * misfit * misfit;
+            } else {
+                found.weight += factor;
+                found.own += term.factor * value;
+            }
+        }
+        Ok(counts.then_some(found))
+    }
+
     /// Adds the values and the derivatives of the quantities in the state after so many steps.
     pub(super) fn add_seeds(
         &mut self,
@@ -116,7 +180,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         (kept, seeds): (&Record<S>, &mut Seeds<'_, D, S>),
         way: &mut Way<D, S>,
     ) -> Result<(), GradientError> {
-        let place = |costate: &Costate<S>, node: usize| {
+        let place = |costate: &PerVariable<S>, node: usize| {
             SVector::<S, D>::from_fn(|axis, _| costate.positions[node * D + axis])
         };
         let motions = way.found.motions.iter();
@@ -124,240 +188,49 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .map(|&(node, _)| place(&way.adjoint.costate, node))
             .collect();
         way.by_size = S::from_f64(seeds.time);
-        let is_present = steps == kept.len();
         let mut sum = 0.0;
         for asked in &mut seeds.terms {
-            let (term, factor) = (asked.term, asked.factor * asked.term.factor);
-            let (mut weight, mut own, mut counts) = (0.0, 0.0, false);
-            if matches!(term.when, When::Integral) {
-                let value = self.value_in((state, is_present), term)?;
-                counts = true;
-                let half = 0.5 * term.factor;
-                if let Some(before) = steps.checked_sub(1) {
-                    let share = half * kept.size(before).to_f64();
-                    (weight, own) = (weight + share, own + share * value);
-                    way.by_size += S::from_f64(asked.factor * half * value);
+            let at = (steps, &mut *state);
+            let Some(weighed) = self.weigh(at, kept, asked)? else {
+                continue;
+            };
+            if let Some(value) = weighed.integrand {
+                let share = asked.factor * 0.5 * asked.term.factor * value;
+                if steps > 0 {
+                    way.by_size += S::from_f64(share);
                 }
-                if steps < kept.len() {
-                    let share = half * kept.size(steps).to_f64();
-                    (weight, own) = (weight + share, own + share * value);
-                    if let Some((_, by_size)) = way.found.sizes.last_mut() {
-                        *by_size += S::from_f64(asked.factor * half * value);
-                    }
-                }
-                weight *= asked.factor;
-            }
-            while let Some(moment) = asked.moments.pop_if(|moment| moment.steps == steps) {
-                let value = self.value_in((state, is_present), term)?;
-                counts = true;
-                if let Some([datum, deviation]) = moment.record {
-                    let misfit = (value - datum) / deviation;
-                    weight += factor * misfit / deviation;
-                    own += 0.5 * term.factor * misfit * misfit;
-                } else {
-                    weight += factor;
-                    own += term.factor * value;
+                if let Some((_, by_size)) = way.found.sizes.last_mut()
+                    && steps < kept.len()
+                {
+                    *by_size += S::from_f64(share);
                 }
             }
             if asked.counts {
-                sum += own;
+                sum += weighed.own;
             }
+            let Way {
+                outline,
+                adjoint,
+                found,
+                ..
+            } = way;
+            let see = &mut |of: Of<'_, S>, by| add_to((&mut adjoint.costate, found), of, by);
             // Also without weight: a quantity without derivatives is an error, whatever its value.
-            if counts {
-                self.add_seed((state, S::from_f64(weight)), term, way)?;
-            }
+            let weight = S::from_f64(weighed.weight);
+            self.see_derivatives((state, weight), asked.of(), outline, see)?;
         }
         seeds.value += sum;
         let time = state.time.value;
         let (costate, found) = (&way.adjoint.costate, &mut way.found);
         for ((node, series), before) in found.motions.iter_mut().zip(before) {
             let own = place(costate, *node) - before;
-            match series.last_mut() {
+            match series.0.last_mut() {
                 Some((_, last)) => *last += own,
-                None => series.push((time, own)),
+                None => series.0.push((time, own)),
             }
         }
         Ok(())
     }
-
-    /// The same of one quantity with a weight.
-    fn add_seed(
-        &mut self,
-        (state, weight): (&State<S>, S),
-        term: &Term<D, S>,
-        way: &mut Way<D, S>,
-    ) -> Result<(), GradientError> {
-        let (layout, found) = (&way.layout, &mut way.found);
-        let costate = &mut way.adjoint.costate;
-        let at = |node: &Node| node.index * D + term.component;
-        let velocities = |node: usize, mass: S| state.velocity::<D>(node, mass);
-        let slots = |element: &Element| layout.elements[element.index()];
-        match &term.quantity {
-            Quantity::Position(node) => costate.positions[at(node)] += weight,
-            Quantity::Velocity(node) if self.masses.get(node.index).is_some() => {
-                costate.velocities[at(node)] += weight;
-            }
-            Quantity::Momentum(node) if !self.masses.are_coupled() => {
-                if let Some(mass) = self.masses.get(node.index) {
-                    costate.velocities[at(node)] += weight * mass;
-                    found.masses[node.index] +=
-                        weight * velocities(node.index, mass)[term.component];
-                }
-            }
-            Quantity::Stretch(element) => {
-                let [group, place] = self.places[element.index()].map(|index| index as usize);
-                let &[a, b] = self.stepper.elements(group).nodes(place) else {
-                    return Err(no_derivative(&term.quantity));
-                };
-                let positions = state.positions.values();
-                let arm: SVector<S, D> = SVector::from_fn(|axis, _| {
-                    positions[b as usize * D + axis] - positions[a as usize * D + axis]
-                });
-                let length = arm.iter().fold(S::zero(), |sum, &x| sum + x * x).sqrt();
-                for axis in 0..D {
-                    let entry = weight * arm[axis] / length;
-                    costate.positions[b as usize * D + axis] += entry;
-                    costate.positions[a as usize * D + axis] -= entry;
-                }
-            }
-            Quantity::ViscousStretch(element, dashpot) => {
-                costate.viscous[slots(element).viscous + dashpot] += weight;
-            }
-            Quantity::Temperature(element) => {
-                if let Some(slot) = slots(element).thermal {
-                    costate.temperatures[slot] += weight;
-                }
-            }
-            Quantity::ReservoirEntropy(reservoir) => {
-                costate.reservoirs[reservoir.index] += weight;
-            }
-            Quantity::ReservoirHeat(reservoir) => {
-                let theta = self.conduction.reservoirs[reservoir.index];
-                costate.reservoirs[reservoir.index] += weight * theta;
-                let entropy = state.reservoir_entropies.values()[reservoir.index];
-                found.reservoirs[reservoir.index] += weight * entropy;
-            }
-            Quantity::KineticEnergy => self.add_kinetic((state, weight), (costate, found)),
-            Quantity::TotalEnergy => {
-                self.add_kinetic((state, weight), (costate, found));
-                self.add_potential((state, weight), &way.sums, (costate, found));
-                self.add_internal((state, weight), (costate, found));
-                for (index, &theta) in self.conduction.reservoirs.iter().enumerate() {
-                    costate.reservoirs[index] += weight * theta;
-                    found.reservoirs[index] += weight * state.reservoir_entropies.values()[index];
-                }
-            }
-            other => return Err(no_derivative(other)),
-        }
-        Ok(())
-    }
-
-    /// `½ vᵀ M v`.
-    fn add_kinetic(
-        &self,
-        (state, weight): (&State<S>, S),
-        (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
-    ) {
-        let momenta = state.momenta.values();
-        let half = S::from_f64(0.5);
-        for (node, mass) in self.masses.iter().enumerate() {
-            let Some(mass) = mass else { continue };
-            let velocity = state.velocity::<D>(node, mass);
-            for axis in 0..D {
-                costate.velocities[node * D + axis] += weight * momenta[node * D + axis];
-                found.masses[node] += weight * half * velocity[axis] * velocity[axis];
-            }
-        }
-        if !self.masses.are_coupled() {
-            return;
-        }
-        for (node, _) in &self.loads.motions {
-            for at in (0..D).map(|axis| node.index * D + axis) {
-                costate.velocities[at] += weight * momenta[at];
-            }
-        }
-        let velocity = |node: usize| SVector::from(state.velocity::<D>(node, S::one()));
-        for ([i, j], by) in &mut found.pairs {
-            let share = if i == j { half } else { S::one() };
-            *by += weight * share * dot(&velocity(*i), &velocity(*j));
-        }
-    }
-
-    /// `−Σ m g·q`, with the sums of the rows of the mass matrix.
-    fn add_potential(
-        &self,
-        (state, weight): (&State<S>, S),
-        sums: &[S],
-        (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
-    ) {
-        let positions = state.positions.values();
-        let place = |node: usize| SVector::<S, D>::from_fn(|axis, _| positions[node * D + axis]);
-        let gravity = self.loads.gravity;
-        for (node, &sum) in sums.iter().enumerate() {
-            for (axis, at) in (node * D..(node + 1) * D).enumerate() {
-                costate.positions[at] -= weight * sum * gravity[axis];
-            }
-            found.gravity -= place(node) * (weight * sum);
-            if self.masses.get(node).is_some() {
-                found.masses[node] -= weight * dot(&gravity, &place(node));
-            }
-        }
-        for ([i, j], by) in &mut found.pairs {
-            let mut own = place(*i);
-            if i != j {
-                own += place(*j);
-            }
-            *by -= weight * dot(&gravity, &own);
-        }
-    }
-
-    /// `Σ e` of all elements.
-    fn add_internal(
-        &mut self,
-        (state, weight): (&State<S>, S),
-        (costate, found): (&mut Costate<S>, &mut Gradient<D, S>),
-    ) {
-        // The elements are evaluated elsewhere than at the ends of their last step.
-        self.has_stepped = false;
-        let Stepper::Newton(newton) = &mut self.stepper else {
-            return;
-        };
-        for group in &mut newton.groups {
-            for slopes in group.elements_mut().generic_in(state) {
-                add_energy(&slopes, weight, costate);
-            }
-            group.energy_by_parameters(state, &mut |element, values| {
-                add(&mut found.elements[element.index()].values, weight, values);
-            });
-        }
-    }
-}
-
-/// Adds the derivatives of an internal energy at fixed temperature: `∂e = f ∂π − g ∂γ + θ ∂s`.
-fn add_energy<S: Real>(element: &ElementGeneric<S>, weight: S, costate: &mut Costate<S>) {
-    for &(at, force) in &element.forces {
-        costate.positions[at] += weight * force;
-    }
-    for &(slot, force, _) in &element.dashpots {
-        costate.viscous[slot] -= weight * force;
-    }
-    let (Some((_, theta)), Some(entropy)) = (element.temperature, &element.entropy) else {
-        return;
-    };
-    let weight = weight * theta;
-    for &(at, slope) in &entropy.by_position {
-        costate.positions[at] += weight * slope;
-    }
-    for &(slot, slope) in &entropy.by_viscous {
-        costate.viscous[slot] += weight * slope;
-    }
-    costate.temperatures[entropy.slot] += weight * entropy.by_temperature;
-}
-
-#[cold]
-fn no_derivative<const D: usize, S: Real>(quantity: &Quantity<D, S>) -> GradientError {
-    let quantity = quantity.kind();
-    GradientError::NoDerivative { quantity }
 }
 
 /// Roundings, in ε of the time, by which a time may differ from the end of its step: half a unit each of the number that was

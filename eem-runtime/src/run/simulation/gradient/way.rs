@@ -1,21 +1,19 @@
 //! What is carried back through a history.
 
+use super::derivatives::{Of, Outline};
 use crate::element::conduction::{Conduction, Partner};
-use crate::element::layout::Layout;
 use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::Gradient;
-use crate::step::adjoint::{Adjoint, RocketStep, Terms};
+use crate::step::adjoint::{Adjoint, PerVariable, RocketStep, Terms};
 use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
 /// The way back through a history.
 pub(super) struct Way<const D: usize, S: Real> {
-    pub(super) layout: Layout,
+    pub(super) outline: Outline<S>,
     /// With the temperatures of ovens in the present step.
     pub(super) conduction: Conduction<S>,
     pub(super) paths: Vec<(usize, Partner)>,
-    /// Sums of the rows of the mass matrix.
-    pub(super) sums: Vec<S>,
     /// Whether thermostats hold the temperatures, by thermal slot.
     pub(super) held: Vec<bool>,
     /// The anchors that masses couple with other nodes, and whether they are moved.
@@ -37,6 +35,26 @@ pub(super) struct Way<const D: usize, S: Real> {
 
 /// Objectives with factors. The value of the first one is that of the gradient.
 pub(super) type Weighted<'a, const D: usize, S> = &'a [(f64, &'a Objective<D, S>)];
+
+/// Adds a derivative to those by a state or, of an input, to the others.
+pub(super) fn add_to<const D: usize, S: Real>(
+    (costate, found): (&mut PerVariable<S>, &mut Gradient<D, S>),
+    of: Of<'_, S>,
+    by: S,
+) {
+    match of {
+        Of::Position(at) => costate.positions[at] += by,
+        Of::Velocity(at) => costate.velocities[at] += by,
+        Of::Viscous(slot) => costate.viscous[slot] += by,
+        Of::Temperature(slot) => costate.temperatures[slot] += by,
+        Of::Entropy(index) => costate.reservoirs[index] += by,
+        Of::Mass(node) => found.masses[node] += by,
+        Of::Pair(place) => found.pairs[place].1 += by,
+        Of::Gravity(axis) => found.gravity[axis] += by,
+        Of::Reservoir(index) => found.reservoirs[index] += by,
+        Of::Parameters(element, values) => add(&mut found.elements[element].values, by, values),
+    }
+}
 
 /// `sum + factor values`.
 pub(super) fn add<S: Real>(sum: &mut [S], factor: S, values: &[S]) {

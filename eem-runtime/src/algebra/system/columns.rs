@@ -1,0 +1,86 @@
+//! One matrix with any number of right-hand sides.
+
+use core::array;
+
+#[cfg(feature = "sparse")]
+use super::Stored;
+use super::{LinearSystem, MOST_FIXED, Storage, solve_fixed};
+use crate::algebra::lu::{self, Singular};
+use eem_material::number::scalar::Real;
+
+impl<S: Real> LinearSystem<S, 1> {
+    /// Overwrites right-hand sides with their solutions, except the scratch rows of anchors, by one elimination of A, which is then
+    /// zero; of a few unknowns by one for four of them.
+    pub(crate) fn solve_each<'a>(
+        &mut self,
+        columns: impl Iterator<Item = &'a mut Vec<[S; 1]>>,
+    ) -> Result<(), Singular> {
+        let n = self.unknowns;
+        let mut columns = columns.map(|column| &mut column[..n]);
+        let values = &mut self.values;
+        match &mut self.storage {
+            Storage::Fixed { .. } => solve_fixed_each(n, &mut values[..n * n], &mut columns)?,
+            Storage::Dense { pivots } => {
+                let values = &mut values[..n * n];
+                lu::factor(values, pivots)?;
+                columns.for_each(|column| lu::solve(values, pivots, column));
+                values.fill(S::zero());
+            }
+            #[cfg(feature = "sparse")]
+            Storage::Sparse(sparse) => {
+                let values = &mut values[..sparse.pattern().entries()];
+                let mut factored = sparse.factor::<Stored<S>>(values).map_err(|_| Singular)?;
+                columns.try_for_each(|column| {
+                    let solved = factored.solve(column);
+                    solved.map(drop).map_err(|_| Singular)
+                })?;
+                values.fill(S::zero());
+            }
+        }
+        self.is_clear = true;
+        Ok(())
+    }
+}
+
+/// Overwrites right-hand sides with their solutions, four at a time.
+fn solve_fixed_each<'a, S: Real>(
+    unknowns: usize,
+    values: &mut [S],
+    columns: &mut impl Iterator<Item = &'a mut [[S; 1]]>,
+) -> Result<(), Singular> {
+    const AT_ONCE: usize = 4;
+    let mut matrix = [S::zero(); MOST_FIXED * MOST_FIXED];
+    let matrix = &mut matrix[..values.len()];
+    matrix.copy_from_slice(values);
+    loop {
+        let mut some: [Option<&'a mut [[S; 1]]>; AT_ONCE] = array::from_fn(|_| columns.next());
+        if some[0].is_none() {
+            values.fill(S::zero());
+            return Ok(());
+        }
+        let mut right = [[S::zero(); AT_ONCE]; MOST_FIXED];
+        for (place, column) in some.iter().enumerate() {
+            for (row, value) in right
+                .iter_mut()
+                .zip(column.iter().flat_map(|own| own.iter()))
+            {
+                row[place] = value[0];
+            }
+        }
+        values.copy_from_slice(matrix);
+        let given = right;
+        match unknowns {
+            1 => lu::solve_one(values, &given, &mut right)?,
+            2 => lu::solve_two(values, &given, &mut right)?,
+            _ => solve_fixed(unknowns, values, &mut right[..unknowns])?,
+        }
+        for (place, column) in some.iter_mut().enumerate() {
+            for (row, value) in right
+                .iter()
+                .zip(column.iter_mut().flat_map(|own| own.iter_mut()))
+            {
+                value[0] = row[place];
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! An element in a step that was made, between states of a history.
+//!
+//! The response `(f*, g*, θ*, Δs)` of a point is even in its two states, except Δs, which is odd. So its derivative by the
+//! old state is the tangent of the form from the new state to the old one, with the row of Δs negated. The same holds for the
+//! mean-value gradients of the measures.
+
+use super::arms::measures_in;
+use super::member::Member;
+use super::point::Point;
+use super::point_step::PastStep;
+use crate::element::conjugates::{ElementScheme, Form, Start};
+use crate::element::error::StateError;
+use crate::element::kinematics::{Arms, Ends, Kinematics};
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
+{
+    /// Its arms in both states.
+    #[inline]
+    pub(super) fn past_arms(&self, step: &PastStep<'_, S>) -> [Arms<K, S, D>; 2] {
+        [step.view.state, step.new].map(|state| self.arms_in(state))
+    }
+}
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
+{
+    /// Takes over both states of a step.
+    #[inline]
+    pub(super) fn return_to(
+        &mut self,
+        step: &PastStep<'_, S>,
+        arms: &[Arms<K, S, D>; 2],
+    ) -> Result<(), StateError> {
+        let [r0, r1] = arms;
+        let x0 = self.variables_in(r0, step.view.state);
+        self.x = self.variables_in(r1, step.new);
+        self.start = Start {
+            x0,
+            old: C::old(&self.model, &x0, S::zero()),
+        };
+        let mut theta = S::one();
+        if let Some(slot) = self.slots().thermal {
+            theta = x0[Self::TEMPERATURE];
+            self.is_prescribed = step.held[slot];
+        }
+        self.memory = C::memory(theta);
+        C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
+            .map_err(|infeasible| infeasible.of(self.element))?;
+        for k in 0..M::DASHPOTS {
+            self.creep[k] = self.x[M::MEASURES + k] - x0[M::MEASURES + k];
+        }
+        for a in 0..Self::DRAGS {
+            self.drag.extension[a] = self.x[a] - x0[a];
+        }
+        Ok(())
+    }
+
+    /// Both states as its kinematics see them.
+    #[inline]
+    pub(super) fn ends(&self, arms: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
+        let measures = [&self.start.x0, &self.x].map(|x| measures_in::<K, S, D>(x));
+        Ends::new(&self.kinematics, arms, measures)
+    }
+
+    /// The same from the new state to the old one.
+    #[inline]
+    pub(super) fn ends_back(&self, [r0, r1]: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
+        let measures = [&self.x, &self.start.x0].map(|x| measures_in::<K, S, D>(x));
+        Ends::new(&self.kinematics, [r1, r0], measures)
+    }
+
+    /// Its response with tangent, including Kelvin–Voigt dashpots.
+    #[inline]
+    pub(super) fn tangent_in(&mut self, per_step: S) -> Result<Form<S, M>, StateError> {
+        let mut form = self
+            .scheme
+            .form(&self.model, &self.start, &self.x, &self.memory);
+        self.accept(per_step, &form, None)?;
+        self.response = form.0;
+        self.add_drag(per_step, &mut form);
+        Ok(form)
+    }
+
+    /// The derivatives of the response by the variables of the old state.
+    #[inline]
+    pub(super) fn slopes_by_old(&self) -> M::Tangent {
+        let start = Start {
+            x0: self.x,
+            old: C::old(&self.model, &self.x, S::zero()),
+        };
+        let memory = C::exchanged(&self.memory);
+        let (_, mut tangent) = self
+            .scheme
+            .form(&self.model, &start, &self.start.x0, &memory);
+        if M::THERMAL {
+            for slope in tangent[Self::ENTROPY].as_mut() {
+                *slope = -*slope;
+            }
+        }
+        tangent
+    }
+}

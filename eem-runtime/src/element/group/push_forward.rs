@@ -1,0 +1,167 @@
+//! The tangents of a step at its points: what of the local equations changes with the old state and the inputs, and its
+//! elimination.
+//!
+//! Along a direction in which old state and inputs change, the new state changes by
+//!
+//! ```text
+//! ∂R/∂x¹ dx¹ = −dR      dR = ∂R/∂x⁰ dx⁰ + ∂R/∂μ dμ
+//! ```
+//!
+//! which is an iteration of Newton's method with dR in place of the residual. Matrix, elimination of the local unknowns and
+//! assembly are those of a step; dR and the local unknowns are found for one direction after the other.
+
+mod changes;
+
+use super::arms::{along, dot};
+use super::element_group::ElementGroup;
+use super::member::Member;
+use super::point::temperature_in;
+use super::point_step::{Direction, PastStep};
+use super::pose::Pose;
+use super::share::Share;
+use super::site::{Contact, Site};
+use crate::algebra::system::LinearSystem;
+use crate::element::conduction::InterfaceTemperatures;
+use crate::element::conjugates::ElementScheme;
+use crate::element::error::StateError;
+use crate::element::group::arms::{add_scaled, points, scale};
+use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures};
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
+{
+    /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction, in
+    /// whose new state those of anchors and of temperatures that are held are given; the others move as in the old one.
+    pub(super) fn push_forward(
+        &mut self,
+        step: &PastStep<'_, S>,
+        (interface, temperatures): (&InterfaceTemperatures<S>, &mut [S]),
+        system: &mut LinearSystem<S, 1>,
+        directions: &mut [Direction<S>],
+    ) -> Result<(), StateError> {
+        let (values, right) = system.parts();
+        for member in &mut self.members {
+            let mut share = Share::<K, S, D>::none();
+            let mut by_old = None;
+            let arms = member.past_arms(step);
+            for (point, heat) in member.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
+                let contact = point.contact_in(&self.contacts);
+                if contact.is_none() {
+                    point.return_to(step, &arms)?;
+                }
+                let ends = point.ends(arms);
+                let pose = Pose::new(&point.kinematics, point.scheme.placement(), ends);
+                let ends = point.ends_back(arms);
+                let linear = point.linearize_past(step, interface, contact, (&pose, &ends))?;
+                *heat = contact.map(|_| point.heat(interface, &linear.form));
+                let form = (&linear.form, None);
+                point.add_momentum(step.view.step, &pose, form, heat, &mut share.momentum);
+                point.add_old_curvature(step.view.step, &ends, &mut by_old);
+                if let Some(slot) = point.slots().thermal {
+                    temperatures[slot] = temperature_in::<S, M>(&linear.form.0);
+                }
+                for direction in &mut *directions {
+                    let moved = member.site.changes_in(&direction.old.positions);
+                    let change =
+                        point.change(step, (interface, contact), &moved, &linear, direction);
+                    let forces = point.push(&linear, &change, contact, direction)?;
+                    let mut pull = pose.pull(&point.kinematics, point.scheme.placement(), &forces);
+                    scale::<K, S, D>(&mut pull, step.view.step);
+                    let right = direction.right.as_flattened_mut();
+                    member.site.subtract_arms(&pull, &member.site.rows, right);
+                }
+            }
+            member.add_share(&share, &self.contacts, (&mut *values, &mut *right));
+            for direction in &mut *directions {
+                member.add_motion(&share, by_old.as_ref(), &self.contacts, direction);
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds the changes of the internal variables and of θ*.
+    pub(super) fn follow(&self, directions: &mut [Direction<S>]) {
+        for member in &self.members {
+            for direction in &mut *directions {
+                let moved = member.site.changes_in(&direction.new.positions);
+                for point in member.points.as_ref() {
+                    point.follow(&moved, point.contact_in(&self.contacts), direction);
+                }
+            }
+        }
+    }
+}
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
+{
+    /// Adds what changes with the arms through the gradients at the old state, and all that changes with those at the new one.
+    fn add_motion(
+        &self,
+        share: &Share<K, S, D>,
+        by_old: Option<&Blocks<K, S, D>>,
+        contacts: &[Contact<K, S, D>],
+        direction: &mut Direction<S>,
+    ) {
+        let [old, new] =
+            [&direction.old, &direction.new].map(|own| self.site.changes_in(&own.positions));
+        let right = direction.right.as_flattened_mut();
+        for (heat, point) in share.heat.as_ref().iter().zip(self.points.as_ref()) {
+            if let (Some(heat), Some(contact)) = (heat, point.contact_in(contacts)) {
+                right[contact.unknown as usize] += along::<K, S, D>(&heat.by_arm, &new);
+            }
+        }
+        if let (Some(by_old), Some(momentum)) = (by_old, &share.momentum) {
+            let mut pull = applied::<K, S, D>(by_old, &old);
+            let by_new = applied::<K, S, D>(&momentum.blocks, &new);
+            add_scaled::<K, S, D>(&mut pull, S::one(), &by_new);
+            self.site.subtract_arms(&pull, &self.site.rows, right);
+        }
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// The changes of the arms, given those of all coordinates.
+    #[inline]
+    fn changes_in(&self, positions: &[S]) -> Arms<K, S, D> {
+        let at = points::<S, D>(positions);
+        let nodes = self.nodes.as_ref();
+        let first = at[nodes[0] as usize];
+        let mut arms = Arms::<K, S, D>::filled(first);
+        for (arm, &node) in arms.as_mut().iter_mut().zip(&nodes[1..]) {
+            for (arm, other) in arm.iter_mut().zip(at[node as usize]) {
+                *arm = other - *arm;
+            }
+        }
+        arms
+    }
+}
+
+/// The product of blocks with the changes of arms.
+#[inline]
+fn applied<K: Kinematics<S, D>, S: Real, const D: usize>(
+    blocks: &Blocks<K, S, D>,
+    arms: &Arms<K, S, D>,
+) -> Arms<K, S, D> {
+    let mut product = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (product, row) in product.as_mut().iter_mut().zip(blocks.as_ref()) {
+        for (block, arm) in row.as_ref().iter().zip(arms.as_ref()) {
+            for (sum, row) in product.iter_mut().zip(block) {
+                *sum += dot(row, arm);
+            }
+        }
+    }
+    product
+}
+
+/// Gradients of zeros.
+fn still<K: Kinematics<S, D>, S: Real, const D: usize>() -> Gradient<K, S, D> {
+    Gradient::<K, S, D>::filled(Arms::<K, S, D>::filled([S::zero(); D]))
+}
+
+/// Per measure, zeros.
+fn no_forces<K: Kinematics<S, D>, S: Real, const D: usize>() -> Measures<K, S, D> {
+    Measures::<K, S, D>::filled(S::zero())
+}

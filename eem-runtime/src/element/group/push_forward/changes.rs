@@ -1,0 +1,302 @@
+//! The changes of the equations of a point along a direction, and of its internal variables.
+
+use super::{no_forces, still};
+use crate::element::conduction::InterfaceTemperatures;
+use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::error::StateError;
+use crate::element::group::arms::along;
+use crate::element::group::eliminate::{LocalSystem, eliminate};
+use crate::element::group::point::{Point, temperature_in};
+use crate::element::group::point_step::{Direction, PastStep};
+use crate::element::group::pose::Pose;
+use crate::element::group::site::Contact;
+use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures};
+use crate::element::layout::Slots;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
+
+/// The derivatives of the equations of a point, the same for all directions.
+pub(super) struct Linearized<S: Real, M: Material<S>, G> {
+    /// With the forces of Kelvin–Voigt dashpots.
+    pub(super) form: Form<S, M>,
+    /// Of the response by the variables of the old state, and of its measures by the arms.
+    by_old: M::Tangent,
+    gradient: G,
+    /// Before the elimination.
+    local: LocalSystem<S, M>,
+}
+
+/// What changes of the equations of a point while its new variables stay: forces, local equations, θ*.
+pub(super) struct Change<S: Real, M: Material<S>> {
+    forces: M::Variables,
+    local: M::Variables,
+    theta: S,
+}
+
+/// The changes of viscosities with the parameters.
+struct Thinned<S: Real, M: Material<S>> {
+    viscosities: M::Viscosities,
+    drag: M::Drag,
+}
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
+{
+    /// Linearizes its equations at both states, which it has taken over, and eliminates its unknowns.
+    #[inline]
+    pub(super) fn linearize_past(
+        &mut self,
+        step: &PastStep<'_, S>,
+        interface: &InterfaceTemperatures<S>,
+        contact: Option<&Contact<K, S, D>>,
+        (pose, back): (&Pose<K, S, D>, &Ends<K, S, D>),
+    ) -> Result<Linearized<S, M, Gradient<K, S, D>>, StateError> {
+        let form = self.tangent_in(step.view.per_step)?;
+        self.sensitivity = pose.sensitivity;
+        self.slopes_of(&form);
+        let theta = temperature_in::<S, M>(&form.0);
+        let flow = self.heat_flow(&step.view, contact, interface, theta);
+        let mut local = LocalSystem::<S, M>::empty(self.pivot_units(theta));
+        self.balances::<false>(&step.view, &flow, &form, &mut local);
+        if Self::UNKNOWNS > 0 {
+            let mut solved = LocalSystem::<S, M> {
+                rows: local.rows,
+                by_heat: local.by_heat,
+                ..LocalSystem::empty(local.unit)
+            };
+            eliminate::<S, M, true>(&mut solved).map_err(|singular| self.unsolved(singular))?;
+            self.keep_solved(&solved, contact.is_some());
+        }
+        Ok(Linearized {
+            form,
+            by_old: self.slopes_by_old(),
+            gradient: self.kinematics.new_gradient(back),
+            local,
+        })
+    }
+
+    /// Keeps the derivatives of θ*.
+    fn slopes_of(&mut self, (_, tangent): &Form<S, M>) {
+        if M::THERMAL {
+            self.slopes[Self::TEMPERATURE] = tangent[Self::TEMPERATURE];
+        }
+    }
+
+    /// Adds the derivative of its impulses by the old arms at given forces.
+    #[inline]
+    pub(super) fn add_old_curvature(
+        &self,
+        step: S,
+        back: &Ends<K, S, D>,
+        sum: &mut Option<Blocks<K, S, D>>,
+    ) {
+        let mut forces = self.pulls();
+        for force in forces.as_mut() {
+            *force *= step;
+        }
+        let (kinematics, still) = (&self.kinematics, still::<K, S, D>());
+        match sum {
+            None => *sum = Some(kinematics.discrete_tangent(back, &forces, &still)),
+            Some(sum) => kinematics.add_discrete_tangent(back, &forces, &still, sum),
+        }
+    }
+
+    /// What changes of its equations along a direction in which its old arms change like this.
+    #[inline]
+    pub(super) fn change(
+        &self,
+        step: &PastStep<'_, S>,
+        (interface, contact): (&InterfaceTemperatures<S>, Option<&Contact<K, S, D>>),
+        moved: &Arms<K, S, D>,
+        linear: &Linearized<S, M, Gradient<K, S, D>>,
+        direction: &Direction<S>,
+    ) -> Change<S, M> {
+        let (h, per_step) = (step.view.step, step.view.per_step);
+        let Slots { viscous, thermal } = self.slots();
+        let mut x = M::Variables::filled(S::zero());
+        for a in 0..M::MEASURES {
+            x[a] = along::<K, S, D>(&linear.gradient[a], moved);
+        }
+        for k in 0..M::DASHPOTS {
+            x[M::MEASURES + k] = direction.old.viscous[viscous + k];
+        }
+        if let Some(slot) = thermal {
+            x[Self::TEMPERATURE] = direction.old.temperatures[slot];
+        }
+        let mut response = M::Response::filled(S::zero());
+        for (row, slopes) in linear.by_old.as_ref().iter().enumerate() {
+            response[row] = sum_of(slopes, &x);
+        }
+        let thinned = self.add_parameters(direction, &mut response);
+        let theta = temperature_in::<S, M>(&response);
+        let mut change = Change::<S, M> {
+            forces: M::Variables::filled(S::zero()),
+            local: M::Variables::filled(S::zero()),
+            theta,
+        };
+        for a in 0..M::MEASURES {
+            change.forces[a] = response[a];
+        }
+        let (mut heat, mut warmer) = (S::zero(), S::zero());
+        for k in 0..M::DASHPOTS {
+            let (at, eta) = (M::MEASURES + k, self.viscosities.0[k]);
+            let (rate, slower) = (self.creep[k] * per_step, -x[at] * per_step);
+            let thicker = self.viscosities.1[k] * theta + thinned.viscosities[k];
+            let force = thicker * rate + eta * slower;
+            change.local[k] = force - response[at];
+            heat += eta * rate * rate;
+            warmer += (force + eta * slower) * rate;
+        }
+        for a in 0..Self::DRAGS {
+            let eta = self.drag.viscosity.0[a];
+            let (rate, slower) = (self.drag.extension[a] * per_step, -x[a] * per_step);
+            let thicker = self.drag.viscosity.1[a] * theta + thinned.drag[a];
+            let force = thicker * rate + eta * slower;
+            change.forces[a] += force;
+            heat += eta * rate * rate;
+            warmer += (force + eta * slower) * rate;
+        }
+        let Some(slot) = thermal else {
+            return change;
+        };
+        change.local[M::DASHPOTS] = if self.is_prescribed {
+            -direction.new.temperatures[slot]
+        } else {
+            let own = self.temperature();
+            let per_theta = own.recip();
+            let flow = self.heat_flow(&step.view, contact, interface, own);
+            heat += flow.heat;
+            warmer -= flow.conductance * theta;
+            if let Some(&[given, per_degree]) = direction.heat.get(slot) {
+                warmer += given - per_degree * own;
+            }
+            response[Self::ENTROPY] - h * per_theta * (warmer - heat * per_theta * theta)
+        };
+        change
+    }
+
+    /// Adds the change of the response with the parameters; returns that of the viscosities.
+    #[inline]
+    fn add_parameters(
+        &self,
+        direction: &Direction<S>,
+        response: &mut M::Response,
+    ) -> Thinned<S, M> {
+        let mut thinned = Thinned::<S, M> {
+            viscosities: M::Viscosities::filled(S::zero()),
+            drag: M::Drag::filled(S::zero()),
+        };
+        let own = direction.parameters.get(self.element.index());
+        let Some(own) = own.filter(|own| !own.is_empty()) else {
+            return thinned;
+        };
+        let mut parameters = M::Parameters::filled(S::zero());
+        parameters.as_mut().copy_from_slice(own);
+        let x = [&self.start.x0, &self.x];
+        let by = (self.scheme).form_tangent(&self.model, x, &self.memory, &parameters);
+        for (sum, &by) in response.as_mut().iter_mut().zip(by.as_ref()) {
+            *sum += by;
+        }
+        let theta = self.temperature();
+        for k in 0..M::DASHPOTS {
+            let mut weights = M::Viscosities::filled(S::zero());
+            weights[k] = S::one();
+            let by = self.model.viscosity_adjoint(theta, &weights);
+            thinned.viscosities[k] = sum_of(&by, &parameters);
+        }
+        for a in 0..Self::DRAGS {
+            let mut weights = M::Drag::filled(S::zero());
+            weights[a] = S::one();
+            thinned.drag[a] = sum_of(&self.model.drag_adjoint(theta, &weights), &parameters);
+        }
+        thinned
+    }
+
+    /// Eliminates its unknowns: keeps their constants in the new state of the direction, and returns the change of the forces.
+    #[inline]
+    pub(super) fn push(
+        &self,
+        linear: &Linearized<S, M, Gradient<K, S, D>>,
+        change: &Change<S, M>,
+        contact: Option<&Contact<K, S, D>>,
+        direction: &mut Direction<S>,
+    ) -> Result<Measures<K, S, D>, StateError> {
+        let mut solved = LocalSystem::<S, M> {
+            constant: change.local,
+            rows: linear.local.rows,
+            ..LocalSystem::empty(linear.local.unit)
+        };
+        if Self::UNKNOWNS > 0 {
+            eliminate::<S, M, false>(&mut solved).map_err(|singular| self.unsolved(singular))?;
+        }
+        let condensed = |row: usize, value: S| {
+            let slopes = &linear.form.1[row];
+            (0..Self::UNKNOWNS).fold(value, |value, u| {
+                value - slopes[M::MEASURES + u] * solved.constant[u]
+            })
+        };
+        let mut forces = no_forces::<K, S, D>();
+        for a in 0..M::MEASURES {
+            forces[a] = condensed(a, change.forces[a]);
+        }
+        let Slots { viscous, thermal } = self.slots();
+        for k in 0..M::DASHPOTS {
+            direction.new.viscous[viscous + k] = solved.constant[k];
+        }
+        if let Some(slot) = thermal {
+            direction.new.temperatures[slot] = solved.constant[M::DASHPOTS];
+            direction.middle[slot] = change.theta;
+            if let Some(contact) = contact {
+                let theta = condensed(Self::TEMPERATURE, change.theta);
+                direction.right[contact.unknown as usize][0] += theta;
+            }
+        }
+        Ok(forces)
+    }
+
+    /// Finds the changes of its internal variables and of θ*, given that of its arms.
+    #[inline]
+    pub(super) fn follow(
+        &self,
+        moved: &Arms<K, S, D>,
+        contact: Option<&Contact<K, S, D>>,
+        direction: &mut Direction<S>,
+    ) {
+        if Self::UNKNOWNS == 0 {
+            return;
+        }
+        let mut x = M::Variables::filled(S::zero());
+        for a in 0..M::MEASURES {
+            x[a] = along::<K, S, D>(&self.sensitivity[a], moved);
+        }
+        let heat = contact.map_or(S::zero(), |contact| {
+            self.condensed.heat_factor * contact.heat(&direction.right)
+        });
+        let Slots { viscous, thermal } = self.slots();
+        for u in 0..Self::UNKNOWNS {
+            let place = match thermal.filter(|_| u == M::DASHPOTS) {
+                Some(slot) => &mut direction.new.temperatures[slot],
+                None => &mut direction.new.viscous[viscous + u],
+            };
+            let mut change = *place;
+            for a in 0..M::MEASURES {
+                change += self.condensed.by_measure[a].get(u) * x[a];
+            }
+            if contact.is_some() {
+                change += self.condensed.by_heat.get(u) * heat;
+            }
+            *place = -change;
+            x[M::MEASURES + u] = -change;
+        }
+        if let Some(slot) = thermal {
+            direction.middle[slot] += sum_of(&self.slopes[Self::TEMPERATURE], &x);
+        }
+    }
+}
+
+/// `Σ aᵢ bᵢ`.
+#[inline]
+fn sum_of<S: Real, A: Array<S>>(a: &A, b: &A) -> S {
+    let pairs = a.as_ref().iter().zip(b.as_ref());
+    pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+}

@@ -1,0 +1,229 @@
+//! What a run is differentiated by.
+
+use core::fmt;
+use std::sync::Arc;
+
+use nalgebra::SVector;
+
+use crate::element::handle::{Element, HeatPath, Node, Reservoir};
+use crate::element::kinematics::Shape;
+use crate::run::recorder::axis_name;
+use crate::scene::body::Body;
+use crate::scene::loads::{OfTime, TemperatureOfTime};
+use eem_material::number::scalar::Real;
+
+/// An input of a run, for [`Simulation::sensitivities`](crate::Simulation::sensitivities).
+///
+/// | | |
+/// |---|---|
+/// | [`parameter`](Self::parameter), [`parameter_of`](Self::parameter_of) | of the material of an element, or of several |
+/// | [`mass`](Self::mass), [`density`](Self::density), [`gravity`](Self::gravity) | |
+/// | [`conductance`](Self::conductance), [`reservoir_temperature`](Self::reservoir_temperature) | of conduction |
+/// | [`position`](Self::position), [`velocity`](Self::velocity), [`temperature`](Self::temperature), [`viscous_stretch`](Self::viscous_stretch) | at the start |
+/// | [`force`](Self::force), [`thrust`](Self::thrust), [`motion`](Self::motion), [`thermostat`](Self::thermostat), [`oven`](Self::oven) | a parameter α of a function of time, given its derivative by α |
+#[derive(Clone)]
+pub struct Input<const D: usize, S: Real = f64> {
+    pub(crate) of: InputOf<D, S>,
+    /// The name and the unit that were given.
+    pub(crate) named: Option<[String; 2]>,
+}
+
+/// A number as a function of time, s.
+type NumberOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
+
+/// The kinds of inputs.
+#[derive(Clone)]
+pub(crate) enum InputOf<const D: usize, S: Real> {
+    Parameter(Vec<Element>, String),
+    Mass(Node),
+    /// A node of the body, and the masses of pairs of nodes per density.
+    Density(Node, Vec<([usize; 2], S)>),
+    Gravity(usize),
+    Conductance(HeatPath),
+    Reservoir(Reservoir),
+    Position(Node, usize),
+    Velocity(Node, usize),
+    Temperature(Element),
+    ViscousStretch(Element, usize),
+    Force(Node, OfTime<S, D>),
+    Thrust(Node, usize, NumberOfTime<S>),
+    Motion(Node, OfTime<S, D>),
+    Thermostat(Element, TemperatureOfTime<S>),
+    Oven(Reservoir, TemperatureOfTime<S>),
+}
+
+impl<const D: usize, S: Real> Input<D, S> {
+    const fn new(of: InputOf<D, S>) -> Self {
+        Self { of, named: None }
+    }
+
+    /// A parameter of an element, with the name that its struct gives it: `stiffness`, or `mu[2]` in an array.
+    pub fn parameter(element: Element, name: impl Into<String>) -> Self {
+        Self::parameter_of([element], name)
+    }
+
+    /// A parameter that several elements of one model have in common, such as the points of a body.
+    pub fn parameter_of(
+        elements: impl IntoIterator<Item = Element>,
+        name: impl Into<String>,
+    ) -> Self {
+        let elements = elements.into_iter().collect();
+        Self::new(InputOf::Parameter(elements, name.into()))
+    }
+
+    /// A mass, whose velocity at the start is kept, kg.
+    #[must_use]
+    pub const fn mass(node: Node) -> Self {
+        Self::new(InputOf::Mass(node))
+    }
+
+    /// The density of a body, with its velocities at the start kept, kg/m³.
+    #[must_use]
+    pub fn density<H: Shape<D>>(body: &Body<H, D>) -> Self {
+        Self::new(InputOf::Density(
+            body.nodes()[0],
+            body.pair_masses().collect(),
+        ))
+    }
+
+    /// A component, from 0, of the acceleration of free fall, m/s².
+    #[must_use]
+    pub const fn gravity(axis: usize) -> Self {
+        Self::new(InputOf::Gravity(axis))
+    }
+
+    /// The conductance of a path of heat, W/K.
+    #[must_use]
+    pub const fn conductance(path: HeatPath) -> Self {
+        Self::new(InputOf::Conductance(path))
+    }
+
+    /// The temperature of a reservoir, K; of an oven one that is added to its function.
+    #[must_use]
+    pub const fn reservoir_temperature(reservoir: Reservoir) -> Self {
+        Self::new(InputOf::Reservoir(reservoir))
+    }
+
+    /// A component, from 0, of the position of a node at the start, m; of an anchor of its place, also while it is moved.
+    #[must_use]
+    pub const fn position(node: Node, axis: usize) -> Self {
+        Self::new(InputOf::Position(node, axis))
+    }
+
+    /// A component, from 0, of the velocity of a node at the start, m/s. Of anchors only those have one that move beside solids with
+    /// consistent mass.
+    #[must_use]
+    pub const fn velocity(node: Node, axis: usize) -> Self {
+        Self::new(InputOf::Velocity(node, axis))
+    }
+
+    /// The temperature of an element at the start, K.
+    #[must_use]
+    pub const fn temperature(element: Element) -> Self {
+        Self::new(InputOf::Temperature(element))
+    }
+
+    /// A viscous stretch, from 0, of an element at the start.
+    #[must_use]
+    pub const fn viscous_stretch(element: Element, dashpot: usize) -> Self {
+        Self::new(InputOf::ViscousStretch(element, dashpot))
+    }
+
+    /// A parameter α of the force on a mass, given `∂f/∂α` as a function of time.
+    pub fn force<V: Into<SVector<S, D>>>(
+        node: Node,
+        by: impl Fn(S) -> V + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(InputOf::Force(node, Arc::new(move |t| by(t).into())))
+    }
+
+    /// A parameter of a thrust, given `∂F/∂α`; of the rockets of a node in the order of their creation, from 0.
+    pub fn thrust(node: Node, rocket: usize, by: impl Fn(S) -> S + Send + Sync + 'static) -> Self {
+        Self::new(InputOf::Thrust(node, rocket, Arc::new(by)))
+    }
+
+    /// A parameter of the position of a moved anchor, given `∂X/∂α`. Beside a solid with consistent mass, a derivative of its velocity
+    /// at the start is an input of its own, [`velocity`](Self::velocity).
+    pub fn motion<V: Into<SVector<S, D>>>(
+        anchor: Node,
+        by: impl Fn(S) -> V + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(InputOf::Motion(anchor, Arc::new(move |t| by(t).into())))
+    }
+
+    /// A parameter of the temperature of a thermostat, given `∂θ/∂α`.
+    pub fn thermostat(element: Element, by: impl Fn(S) -> S + Send + Sync + 'static) -> Self {
+        Self::new(InputOf::Thermostat(element, Arc::new(by)))
+    }
+
+    /// A parameter of the temperature of an oven, given `∂θ/∂α`.
+    pub fn oven(oven: Reservoir, by: impl Fn(S) -> S + Send + Sync + 'static) -> Self {
+        Self::new(InputOf::Oven(oven, Arc::new(by)))
+    }
+
+    /// Gives it a name and a unit, for the columns of results; a parameter of a function of time has no unit otherwise.
+    #[must_use]
+    pub fn named(mut self, name: impl Into<String>, unit: impl Into<String>) -> Self {
+        self.named = Some([name.into(), unit.into()]);
+        self
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> String {
+        if let Some([name, _]) = &self.named {
+            return name.clone();
+        }
+        match &self.of {
+            InputOf::Parameter(elements, name) => match elements[..] {
+                [first] => format!("{name} of {first}"),
+                [first, ..] => format!("{name} of {first} and {} others", elements.len() - 1),
+                [] => format!("{name} of no element"),
+            },
+            InputOf::Mass(node) => format!("mass of {node}"),
+            InputOf::Density(..) => "density".to_owned(),
+            InputOf::Gravity(axis) => format!("gravity {}", axis_name(*axis)),
+            InputOf::Conductance(path) => format!("conductance of {path}"),
+            InputOf::Reservoir(reservoir) | InputOf::Oven(reservoir, _) => {
+                format!("temperature of {reservoir}")
+            }
+            InputOf::Position(node, axis) => format!("position {} of {node}", axis_name(*axis)),
+            InputOf::Velocity(node, axis) => format!("velocity {} of {node}", axis_name(*axis)),
+            InputOf::Temperature(element) | InputOf::Thermostat(element, _) => {
+                format!("temperature of {element}")
+            }
+            InputOf::ViscousStretch(element, dashpot) => {
+                format!("viscous stretch {dashpot} of {element}")
+            }
+            InputOf::Force(node, _) => format!("force on {node}"),
+            InputOf::Thrust(node, rocket, _) => format!("thrust {rocket} on {node}"),
+            InputOf::Motion(anchor, _) => format!("motion of {anchor}"),
+        }
+    }
+
+    /// Its unit, unless it depends on a material or was given.
+    pub(crate) const fn unit(&self) -> &'static str {
+        match &self.of {
+            InputOf::Mass(_) => "kg",
+            InputOf::Density(..) => "kg/m³",
+            InputOf::Gravity(_) => "m/s²",
+            InputOf::Conductance(_) => "W/K",
+            InputOf::Reservoir(_) | InputOf::Temperature(_) => "K",
+            InputOf::Position(..) => "m",
+            InputOf::Velocity(..) => "m/s",
+            InputOf::Parameter(..)
+            | InputOf::ViscousStretch(..)
+            | InputOf::Force(..)
+            | InputOf::Thrust(..)
+            | InputOf::Motion(..)
+            | InputOf::Thermostat(..)
+            | InputOf::Oven(..) => "",
+        }
+    }
+}
+
+impl<const D: usize, S: Real> fmt::Debug for Input<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Input").field(&self.name()).finish()
+    }
+}

@@ -1,0 +1,164 @@
+//! Derivatives by sizes of steps and by the time at the end, also where loads depend on time.
+
+use core::fmt;
+
+use super::error::GradientError;
+use super::input::{Input, InputOf};
+use super::result::Gradient;
+use crate::element::handle::{Element, Node, Reservoir};
+use eem_material::number::scalar::{Mask, Real};
+
+/// A load that is a function of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Timed {
+    Force(Node),
+    Motion(Node),
+    Thermostat(Element),
+    /// A rocket by its number among those of its node.
+    Thrust(Node, usize),
+    Oven(Reservoir),
+}
+
+impl fmt::Display for Timed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Force(node) => write!(f, "the force on {node}"),
+            Self::Motion(node) => write!(f, "the motion of {node}"),
+            Self::Thermostat(element) => write!(f, "the temperature of {element}"),
+            Self::Thrust(node, _) => write!(f, "the thrust on {node}"),
+            Self::Oven(reservoir) => write!(f, "the temperature of {reservoir}"),
+        }
+    }
+}
+
+impl Timed {
+    /// Whether an input is a parameter of this load.
+    fn has<const D: usize, S: Real>(self, input: &Input<D, S>) -> bool {
+        match (self, &input.of) {
+            (Self::Force(own), InputOf::Force(node, _))
+            | (Self::Motion(own), InputOf::Motion(node, _)) => own.index == node.index,
+            (Self::Thermostat(own), InputOf::Thermostat(element, _)) => {
+                own.index() == element.index()
+            }
+            (Self::Thrust(own, place), InputOf::Thrust(node, rocket, _)) => {
+                (own.index, place) == (node.index, *rocket)
+            }
+            (Self::Oven(own), InputOf::Oven(oven, _)) => own.index == oven.index,
+            _ => false,
+        }
+    }
+}
+
+impl<const D: usize, S: Real> Gradient<D, S> {
+    /// The derivatives by the sizes of the steps, with the times at their ends, s. Where a step ends at the jump of a load, the
+    /// derivative by the time of the jump is that by the size of the step before it less that by the size of the one after it.
+    ///
+    /// # Errors
+    ///
+    /// [`GradientError::NoTimeDerivative`] if the scene has a function of time; [`by_step_size_with`](Self::by_step_size_with) takes its
+    /// derivative.
+    pub fn by_step_size(&self) -> Result<&[(S, S)], GradientError> {
+        match self.timed.first() {
+            None => Ok(&self.sizes),
+            Some(load) => Err(no_derivative(*load)),
+        }
+    }
+
+    /// The same with the values of functions of time kept that each step had; all there is where these are constant in steps.
+    #[must_use]
+    pub fn by_step_size_at_kept_loads(&self) -> &[(S, S)] {
+        &self.sizes
+    }
+
+    /// The derivative by the time at the end, by the size of the last step; zero without a step.
+    ///
+    /// # Errors
+    ///
+    /// As [`by_step_size`](Self::by_step_size).
+    pub fn by_end_time(&self) -> Result<S, GradientError> {
+        let last = self.by_step_size()?.last();
+        Ok(last.map_or(S::zero(), |&(_, by)| by))
+    }
+
+    /// The derivatives by the sizes of the steps where loads are functions of time: a longer step moves all later values of a load,
+    /// and those in it by their share. For each function the derivative by the time is given, as that by a parameter:
+    /// [`Input::force`], [`Input::thrust`], [`Input::motion`], [`Input::thermostat`] or [`Input::oven`]. The last one is the derivative by
+    /// the time at the end.
+    ///
+    /// # Errors
+    ///
+    /// [`GradientError::NoTimeDerivative`] if that of a function is missing.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::{History, Input, Objective};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let stone = scene.mass(2.0, [0.0], [0.0]);
+    /// scene.force(stone, |t| [3.0 * t]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
+    /// run.keep_history(History::default());
+    /// run.run_until(1.0)?;
+    ///
+    /// // m v = ½ 3 T², and so v' = 3 T/m
+    /// let gradient = run.gradient(&Objective::at_end(Quantity::Velocity(stone)))?;
+    /// let sizes = gradient.by_step_size_with(&[Input::force(stone, |_| [3.0])])?;
+    /// assert_eq!(sizes.len(), 4);
+    /// assert!(sizes.iter().all(|(_, by)| (by - 1.5).abs() < 1e-14));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn by_step_size_with(&self, rates: &[Input<D, S>]) -> Result<Vec<(S, S)>, GradientError> {
+        let mut moved = Vec::new();
+        for &load in &self.timed {
+            let rate = rates.iter().find(|input| load.has(input));
+            let Some(rate) = rate else {
+                return Err(no_derivative(load));
+            };
+            self.add_moved(rate, &mut moved)?;
+        }
+        moved.sort_by(|(one, _), (other, _)| one.to_f64().total_cmp(&other.to_f64()));
+        let starts = [self.started]
+            .into_iter()
+            .chain(self.sizes.iter().map(|&(end, _)| end));
+        let starts: Vec<S> = starts.collect();
+        let mut found = self.sizes.clone();
+        let mut later = S::zero();
+        for (&start, (end, by)) in starts.iter().zip(&mut found).rev() {
+            while let Some((_, value)) = moved.pop_if(|(time, _)| end.at_most(*time).all()) {
+                later += value;
+            }
+            *by += later;
+            let within = moved
+                .iter()
+                .rev()
+                .take_while(|(time, _)| start.less(*time).all());
+            for &(time, value) in within {
+                *by += value * ((time - start) / (*end - start));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Adds the changes of the objective as the values of a load move in time, with their times.
+    fn add_moved(&self, rate: &Input<D, S>, moved: &mut Vec<(S, S)>) -> Result<(), GradientError> {
+        match &rate.of {
+            InputOf::Force(node, of) => moved.extend(self.by_force(*node)?.products(&**of)),
+            InputOf::Motion(node, of) => moved.extend(self.by_motion(*node)?.products(&**of)),
+            InputOf::Thrust(node, rocket, of) => {
+                moved.extend(self.by_thrust(*node, *rocket)?.products(&**of));
+            }
+            InputOf::Thermostat(element, of) => {
+                moved.extend(self.by_thermostat(*element)?.products(&**of));
+            }
+            InputOf::Oven(oven, of) => moved.extend(self.by_oven(*oven)?.products(&**of)),
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+#[cold]
+fn no_derivative(load: Timed) -> GradientError {
+    let load = load.to_string();
+    GradientError::NoTimeDerivative { load }
+}

@@ -1,0 +1,226 @@
+//! A check of a gradient: by the tangents of the same steps, in a direction in which all inputs change.
+
+use std::sync::Arc;
+
+use super::derivatives::Outline;
+use super::directions::Change;
+use super::seeds::Seeds;
+use super::tangents::Forward;
+use crate::element::state::State;
+use crate::run::gradient::error::GradientError;
+use crate::run::gradient::objective::Objective;
+use crate::run::gradient::result::Gradient;
+use crate::run::gradient::series::Series;
+use crate::run::simulation::Simulation;
+use crate::scene::error::SceneError;
+use eem_material::number::scalar::Real;
+use nalgebra::SVector;
+
+/// The same numbers in every check, and the change of the objective along them.
+struct Draw {
+    seed: u64,
+    change: f64,
+    /// `Σ |terms|` of it.
+    magnitude: f64,
+}
+
+impl Draw {
+    /// A change of an input between −1 and 1 of its size, given the derivative by it.
+    fn of<S: Real>(&mut self, by: S, size: S) -> S {
+        // Steele, Lea & Flood (2014), splitmix64.
+        self.seed = self.seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut bits = self.seed;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        let half = u32::try_from((bits ^ (bits >> 31)) >> 32).unwrap_or(0);
+        let unit = f64::from(half) / f64::from(u32::MAX);
+        let change = S::from_f64(2.0 * unit - 1.0) * size;
+        let term = (by * change).to_f64();
+        self.change += term;
+        self.magnitude += term.abs();
+        change
+    }
+
+    /// Changes of as many numbers.
+    fn all<S: Real>(&mut self, by: &[S], size: S) -> Vec<S> {
+        by.iter().map(|&by| self.of(by, size)).collect()
+    }
+
+    /// Changes of the values of a function of time.
+    fn values<S: Real>(&mut self, by: &Series<S, S>, size: S) -> Arc<dyn Fn(S) -> S + Send + Sync> {
+        let values = by.iter().map(|&(time, by)| (time, self.of(by, size)));
+        let values: Vec<(S, S)> = values.collect();
+        Arc::new(move |time| at(&values, time).unwrap_or(S::zero()))
+    }
+
+    /// The same of vectors.
+    fn vectors<S: Real, const D: usize>(
+        &mut self,
+        by: &Series<SVector<S, D>, S>,
+        size: S,
+    ) -> Arc<dyn Fn(S) -> SVector<S, D> + Send + Sync> {
+        let values = by
+            .iter()
+            .map(|(time, by)| (*time, by.map(|by| self.of(by, size))));
+        let values: Vec<_> = values.collect();
+        let still = SVector::from_element(S::zero());
+        Arc::new(move |time| at(&values, time).unwrap_or(still))
+    }
+}
+
+/// The value at one of the times, in order.
+fn at<T: Copy, S: Real>(values: &[(S, T)], time: S) -> Option<T> {
+    let time = time.to_f64();
+    let found = values.binary_search_by(|(own, _)| own.to_f64().total_cmp(&time));
+    found.ok().map(|place| values[place].1)
+}
+
+/// The largest magnitude, or one.
+fn size_of<S: Real>(values: impl IntoIterator<Item = S>) -> S {
+    let largest = values.into_iter().map(|value| value.to_f64().abs());
+    let largest = largest.fold(0.0, f64::max);
+    S::from_f64(if largest > 0.0 { largest } else { 1.0 })
+}
+
+/// # Gradients
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Checks a gradient of an objective by going through the history once more, from the first state to the last: the objective has to
+    /// change along the run, in a direction in which all inputs of the gradient change but the sizes of steps, as the gradient says.
+    ///
+    /// # Errors
+    ///
+    /// As [`gradient`](Self::gradient); [`GradientError::Disagrees`] if the two changes differ by more than `√ε`, 1.5·10⁻⁸, of the sum
+    /// of the magnitudes of the terms.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::{GradientError, History, Objective};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let stone = scene.mass(2.0, [0.0], [3.0]);
+    /// scene.set_gravity([-9.81]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01)?;
+    /// run.keep_history(History::default());
+    /// run.run_until(1.0)?;
+    ///
+    /// let height = Objective::at_end(Quantity::Position(stone));
+    /// let gradient = run.gradient(&height)?;
+    /// run.check_gradient(&gradient, &height)?;
+    /// let other = run.check_gradient(&gradient, &height.times(2.0));
+    /// assert!(matches!(other, Err(GradientError::Disagrees { .. })));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn check_gradient(
+        &mut self,
+        gradient: &Gradient<D, S>,
+        objective: &Objective<D, S>,
+    ) -> Result<(), GradientError> {
+        let [adjoint, tangent, magnitude] = self.changes_along(gradient, objective)?;
+        if (adjoint - tangent).abs() <= S::EPSILON.to_f64().sqrt() * magnitude {
+            return Ok(());
+        }
+        Err(GradientError::Disagrees { adjoint, tangent })
+    }
+
+    /// The change of the objective with the gradient and along the run, and the sum of the magnitudes of the terms of the former.
+    #[doc(hidden)]
+    pub fn changes_along(
+        &mut self,
+        gradient: &Gradient<D, S>,
+        objective: &Objective<D, S>,
+    ) -> Result<[f64; 3], GradientError> {
+        self.on_history(|run, kept| {
+            let outline = run.outline();
+            let (change, draw) = run.any_change(gradient, &outline)?;
+            let objectives = [(1.0, objective)];
+            let mut seeds = Seeds::new(kept, &objectives)?.forwards();
+            let mut tangent = [S::zero()];
+            let see = &mut |run: &mut Self,
+                            (steps, state): (usize, &mut State<S>),
+                            way: &Forward<D, S>| {
+                for asked in &mut seeds.terms {
+                    if let Some(weighed) = run.weigh((steps, &mut *state), kept, asked)? {
+                        let weighted = (&*state, S::from_f64(weighed.weight));
+                        run.add_rates(weighted, asked.of(), way, &mut tangent)?;
+                    }
+                }
+                Ok(())
+            };
+            run.go_forward(kept, vec![change], see)?;
+            Ok([draw.change, tangent[0].to_f64(), draw.magnitude])
+        })
+    }
+
+    /// All inputs change by a part of their size, and the objective as its gradient says.
+    fn any_change(
+        &self,
+        gradient: &Gradient<D, S>,
+        outline: &Outline<S>,
+    ) -> Result<(Change<D, S>, Draw), GradientError> {
+        if gradient.elements.len() != self.places.len()
+            || gradient.masses.len() != self.masses.len()
+        {
+            let handle = "the gradient".to_owned();
+            return Err(SceneError::ForeignHandle { handle }.into());
+        }
+        let mut draw = Draw {
+            seed: 1,
+            change: 0.0,
+            magnitude: 0.0,
+        };
+        let mut change = self.no_change(outline);
+        let state = &self.state;
+        let length = size_of(state.positions.values().iter().copied());
+        let masses = self.masses.iter().enumerate();
+        let speed = size_of(masses.flat_map(|(node, mass)| {
+            mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
+        }));
+        let warmth = size_of(state.temperatures.iter().copied());
+        let entropy = size_of(state.reservoir_entropies.values().iter().copied());
+        let (start, by) = (&mut change.start, &gradient.start);
+        start.positions = draw.all(&by.positions, length);
+        start.velocities = draw.all(&by.velocities, speed);
+        start.viscous = draw.all(&by.viscous, length);
+        start.temperatures = draw.all(&by.temperatures, warmth);
+        start.reservoirs = draw.all(&by.reservoirs, entropy);
+        self.drop_velocities(&mut change);
+        let mass = size_of(self.masses.iter().flatten());
+        change.masses = draw.all(&gradient.masses, mass);
+        let pairs: Vec<S> = gradient.pairs.iter().map(|&(_, by)| by).collect();
+        change.pairs = draw.all(&pairs, mass);
+        let gravity = size_of(self.loads.gravity.iter().copied());
+        change.gravity = gradient.gravity.map(|by| draw.of(by, gravity));
+        change.heat.conductances = draw.all(&gradient.conductances, S::one());
+        change.heat.reservoirs = draw.all(&gradient.reservoirs, warmth);
+        for (own, &[group, place]) in gradient.elements.iter().zip(&self.places) {
+            let group = self.stepper.elements(group as usize);
+            let mut values = Vec::new();
+            if group.has_parameter_derivatives() {
+                let all = own.values.iter().enumerate();
+                values.extend(all.map(|(index, &by)| {
+                    let size = size_of([group.parameter(place as usize, index)]);
+                    draw.of(by, size)
+                }));
+            }
+            change.parameters.push(values);
+        }
+        for (node, by) in &gradient.forces {
+            change.forces.push((*node, draw.vectors(by, S::one())));
+        }
+        for (place, (_, by)) in gradient.thrusts.iter().enumerate() {
+            change.thrusts.push((place, draw.values(by, S::one())));
+        }
+        for (node, by) in &gradient.motions {
+            change.motions.push((*node, draw.vectors(by, length)));
+        }
+        for (element, by) in &gradient.temperatures {
+            if let Some(slot) = outline.layout.elements[*element].thermal {
+                change.temperatures.push((slot, draw.values(by, warmth)));
+            }
+        }
+        for (oven, by) in &gradient.ovens {
+            change.ovens.push((*oven, draw.values(by, warmth)));
+        }
+        Ok((change, draw))
+    }
+}

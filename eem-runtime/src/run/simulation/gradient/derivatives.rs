@@ -1,0 +1,241 @@
+//! The derivatives of a quantity by a state and, at that state, by the inputs.
+
+use super::way::dot;
+use crate::element::group::ElementGeneric;
+use crate::element::handle::{Element, Node};
+use crate::element::layout::Layout;
+use crate::element::masses::MassPair;
+use crate::element::state::State;
+use crate::run::gradient::error::GradientError;
+use crate::run::recorder::Quantity;
+use crate::run::simulation::Simulation;
+use crate::run::simulation::stepper::Stepper;
+use eem_material::number::scalar::Real;
+use nalgebra::SVector;
+
+/// What a quantity depends on: coordinates, slots of a state and reservoirs, and inputs.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Of<'a, S> {
+    Position(usize),
+    Velocity(usize),
+    Viscous(usize),
+    Temperature(usize),
+    /// The entropy of a reservoir.
+    Entropy(usize),
+    /// The mass of a node, and the one with this place among those of pairs.
+    Mass(usize),
+    Pair(usize),
+    /// A component of gravity.
+    Gravity(usize),
+    /// The temperature of a reservoir.
+    Reservoir(usize),
+    /// The parameters of an element, with the derivative by each, to be multiplied.
+    Parameters(usize, &'a [S]),
+}
+
+/// What receives derivatives.
+type See<'a, S> = dyn FnMut(Of<'_, S>, S) + 'a;
+
+/// What derivatives refer to in all states.
+pub(super) struct Outline<S> {
+    pub(super) layout: Layout,
+    /// Sums of the rows of the mass matrix.
+    pub(super) sums: Vec<S>,
+    /// The nodes of the masses of pairs and of anchors, in order.
+    pub(super) pairs: Vec<[usize; 2]>,
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    pub(super) fn outline(&self) -> Outline<S> {
+        let pairs = self.masses.pairs().iter().chain(self.masses.held());
+        let mut pairs: Vec<_> = pairs.map(MassPair::nodes).collect();
+        pairs.sort_unstable();
+        Outline {
+            layout: self.numbering(),
+            sums: self.masses.weights(),
+            pairs,
+        }
+    }
+
+    /// Passes the derivatives of a component of a quantity in a state, times a weight, to a function.
+    pub(super) fn see_derivatives(
+        &mut self,
+        (state, weight): (&State<S>, S),
+        (quantity, component): (&Quantity<D, S>, usize),
+        outline: &Outline<S>,
+        see: &mut See<'_, S>,
+    ) -> Result<(), GradientError> {
+        let at = |node: &Node| node.index * D + component;
+        let slots = |element: &Element| outline.layout.elements[element.index()];
+        match quantity {
+            Quantity::Position(node) => see(Of::Position(at(node)), weight),
+            Quantity::Velocity(node) if self.masses.get(node.index).is_some() => {
+                see(Of::Velocity(at(node)), weight);
+            }
+            Quantity::Momentum(node) if !self.masses.are_coupled() => {
+                if let Some(mass) = self.masses.get(node.index) {
+                    see(Of::Velocity(at(node)), weight * mass);
+                    let velocity = state.velocity::<D>(node.index, mass)[component];
+                    see(Of::Mass(node.index), weight * velocity);
+                }
+            }
+            Quantity::Stretch(element) => {
+                let [group, place] = self.places[element.index()].map(|index| index as usize);
+                let &[a, b] = self.stepper.elements(group).nodes(place) else {
+                    return Err(no_derivative(quantity));
+                };
+                let positions = state.positions.values();
+                let arm: SVector<S, D> = SVector::from_fn(|axis, _| {
+                    positions[b as usize * D + axis] - positions[a as usize * D + axis]
+                });
+                let length = arm.iter().fold(S::zero(), |sum, &x| sum + x * x).sqrt();
+                for axis in 0..D {
+                    let entry = weight * arm[axis] / length;
+                    see(Of::Position(b as usize * D + axis), entry);
+                    see(Of::Position(a as usize * D + axis), -entry);
+                }
+            }
+            Quantity::ViscousStretch(element, dashpot) => {
+                see(Of::Viscous(slots(element).viscous + dashpot), weight);
+            }
+            Quantity::Temperature(element) => {
+                if let Some(slot) = slots(element).thermal {
+                    see(Of::Temperature(slot), weight);
+                }
+            }
+            Quantity::ReservoirEntropy(reservoir) => see(Of::Entropy(reservoir.index), weight),
+            Quantity::ReservoirHeat(reservoir) => {
+                self.see_heat((state, weight), reservoir.index, see);
+            }
+            Quantity::KineticEnergy => self.see_kinetic((state, weight), outline, see),
+            Quantity::TotalEnergy => {
+                self.see_kinetic((state, weight), outline, see);
+                self.see_potential((state, weight), outline, see);
+                self.see_internal((state, weight), see);
+                for index in 0..self.conduction.reservoirs.len() {
+                    self.see_heat((state, weight), index, see);
+                }
+            }
+            other => return Err(no_derivative(other)),
+        }
+        Ok(())
+    }
+
+    /// `θ_r σ_r`.
+    fn see_heat(&self, (state, weight): (&State<S>, S), index: usize, see: &mut See<'_, S>) {
+        let entropy = state.reservoir_entropies.values()[index];
+        see(
+            Of::Entropy(index),
+            weight * self.conduction.reservoirs[index],
+        );
+        see(Of::Reservoir(index), weight * entropy);
+    }
+
+    /// `½ vᵀ M v`.
+    fn see_kinetic(
+        &self,
+        (state, weight): (&State<S>, S),
+        outline: &Outline<S>,
+        see: &mut See<'_, S>,
+    ) {
+        let momenta = state.momenta.values();
+        let half = S::from_f64(0.5);
+        for (node, mass) in self.masses.iter().enumerate() {
+            let Some(mass) = mass else { continue };
+            let velocity = state.velocity::<D>(node, mass);
+            for (speed, at) in velocity.into_iter().zip(node * D..) {
+                see(Of::Velocity(at), weight * momenta[at]);
+                see(Of::Mass(node), weight * half * speed * speed);
+            }
+        }
+        if !self.masses.are_coupled() {
+            return;
+        }
+        for (node, _) in &self.loads.motions {
+            for at in (0..D).map(|axis| node.index * D + axis) {
+                see(Of::Velocity(at), weight * momenta[at]);
+            }
+        }
+        let velocity = |node: usize| SVector::from(state.velocity::<D>(node, S::one()));
+        for (place, &[i, j]) in outline.pairs.iter().enumerate() {
+            let share = if i == j { half } else { S::one() };
+            let by = share * dot(&velocity(i), &velocity(j));
+            see(Of::Pair(place), weight * by);
+        }
+    }
+
+    /// `−Σ m g·q`, with the sums of the rows of the mass matrix.
+    fn see_potential(
+        &self,
+        (state, weight): (&State<S>, S),
+        outline: &Outline<S>,
+        see: &mut See<'_, S>,
+    ) {
+        let positions = state.positions.values();
+        let place = |node: usize| SVector::<S, D>::from_fn(|axis, _| positions[node * D + axis]);
+        let gravity = self.loads.gravity;
+        for (node, &sum) in outline.sums.iter().enumerate() {
+            for (axis, at) in (node * D..(node + 1) * D).enumerate() {
+                see(Of::Position(at), -(weight * sum * gravity[axis]));
+                see(Of::Gravity(axis), -(positions[at] * (weight * sum)));
+            }
+            if self.masses.get(node).is_some() {
+                see(Of::Mass(node), -(weight * dot(&gravity, &place(node))));
+            }
+        }
+        for (at, &[i, j]) in outline.pairs.iter().enumerate() {
+            let mut own = place(i);
+            if i != j {
+                own += place(j);
+            }
+            see(Of::Pair(at), -(weight * dot(&gravity, &own)));
+        }
+    }
+
+    /// `Σ e` of all elements.
+    fn see_internal(&mut self, (state, weight): (&State<S>, S), see: &mut See<'_, S>) {
+        // The elements are evaluated elsewhere than at the ends of their last step.
+        self.has_stepped = false;
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return;
+        };
+        for group in &mut newton.groups {
+            for slopes in group.elements_mut().generic_in(state) {
+                see_energy(&slopes, weight, see);
+            }
+            group.energy_by_parameters(state, &mut |element, values| {
+                see(Of::Parameters(element.index(), values), weight);
+            });
+        }
+    }
+}
+
+/// The derivatives of an internal energy at fixed temperature: `∂e = f ∂π − g ∂γ + θ ∂s`.
+fn see_energy<S: Real>(element: &ElementGeneric<S>, weight: S, see: &mut See<'_, S>) {
+    for &(at, force) in &element.forces {
+        see(Of::Position(at), weight * force);
+    }
+    for &(slot, force, _) in &element.dashpots {
+        see(Of::Viscous(slot), -(weight * force));
+    }
+    let (Some((_, theta)), Some(entropy)) = (element.temperature, &element.entropy) else {
+        return;
+    };
+    let weight = weight * theta;
+    for &(at, slope) in &entropy.by_position {
+        see(Of::Position(at), weight * slope);
+    }
+    for &(slot, slope) in &entropy.by_viscous {
+        see(Of::Viscous(slot), weight * slope);
+    }
+    see(
+        Of::Temperature(entropy.slot),
+        weight * entropy.by_temperature,
+    );
+}
+
+#[cold]
+fn no_derivative<const D: usize, S: Real>(quantity: &Quantity<D, S>) -> GradientError {
+    let quantity = quantity.kind();
+    GradientError::NoDerivative { quantity }
+}

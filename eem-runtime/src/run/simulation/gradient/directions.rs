@@ -1,0 +1,435 @@
+//! Directions in which inputs change: from the inputs that users name to what changes in a step.
+
+use super::derivatives::{Of, Outline};
+use super::inputs::{CUBIC, Made};
+use super::tangents::Forward;
+use crate::element::handle::{Element, Handle, Node};
+use crate::run::gradient::error::GradientError;
+use crate::run::gradient::input::{Input, InputOf};
+use crate::run::simulation::Simulation;
+use crate::scene::error::SceneError;
+use crate::scene::loads::{OfTime, TemperatureOfTime};
+use crate::step::adjoint::{Direction, HeatChange, PerVariable};
+use eem_material::number::scalar::{Mask, Real};
+use nalgebra::SVector;
+
+/// By how much all inputs change. Lists are empty where nothing of a kind changes.
+pub(super) struct Change<const D: usize, S: Real> {
+    /// The state at the start, without functions of time.
+    pub(super) start: PerVariable<S>,
+    pub(super) parameters: Vec<Vec<S>>,
+    pub(super) masses: Vec<S>,
+    pub(super) pairs: Vec<S>,
+    pub(super) gravity: SVector<S, D>,
+    pub(super) heat: HeatChange<S>,
+    /// Functions of time by node, place of the rocket, node, thermal slot and reservoir.
+    pub(super) forces: Vec<(usize, OfTime<S, D>)>,
+    pub(super) thrusts: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(super) motions: Vec<(usize, OfTime<S, D>)>,
+    pub(super) temperatures: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(super) ovens: Vec<(usize, TemperatureOfTime<S>)>,
+}
+
+/// A list of zeros with one number that is not.
+fn one_of<S: Real>(count: usize, place: usize) -> Vec<S> {
+    let mut all = vec![S::zero(); count];
+    if let Some(own) = all.get_mut(place) {
+        *own = S::one();
+    }
+    all
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Nothing changes.
+    pub(super) fn no_change(&self, outline: &Outline<S>) -> Change<D, S> {
+        let reservoirs = self.conduction.reservoirs.len();
+        Change {
+            start: PerVariable::zero(self.masses.len() * D, &outline.layout, reservoirs),
+            parameters: Vec::new(),
+            masses: Vec::new(),
+            pairs: Vec::new(),
+            gravity: SVector::from_element(S::zero()),
+            heat: HeatChange {
+                conductances: Vec::new(),
+                reservoirs: Vec::new(),
+            },
+            forces: Vec::new(),
+            thrusts: Vec::new(),
+            motions: Vec::new(),
+            temperatures: Vec::new(),
+            ovens: Vec::new(),
+        }
+    }
+
+    /// An input changes by one.
+    pub(super) fn change_by(
+        &self,
+        input: &Input<D, S>,
+        outline: &Outline<S>,
+    ) -> Result<Change<D, S>, GradientError> {
+        let mut change = self.no_change(outline);
+        let component = |what: String, component: usize, components: usize| {
+            let error = GradientError::Component {
+                quantity: what,
+                component,
+                components,
+            };
+            if component < components {
+                Ok(())
+            } else {
+                Err(error)
+            }
+        };
+        match &input.of {
+            InputOf::Parameter(elements, name) => {
+                change.parameters = vec![Vec::new(); self.places.len()];
+                for &element in elements {
+                    change.parameters[element.index()] = self.parameter_of(element, name)?;
+                }
+            }
+            InputOf::Mass(node) => {
+                self.expect(node)?;
+                change.masses = one_of(self.masses.len(), node.index);
+            }
+            InputOf::Density(node, masses) => {
+                self.expect(node)?;
+                change.masses = vec![S::zero(); self.masses.len()];
+                change.pairs = vec![S::zero(); outline.pairs.len()];
+                for &([i, j], mass) in masses {
+                    if let Ok(place) = outline.pairs.binary_search(&[i, j]) {
+                        change.pairs[place] += mass;
+                    }
+                    if i == j {
+                        change.masses[i] += mass;
+                    }
+                }
+            }
+            &InputOf::Gravity(axis) => {
+                component("gravity".to_owned(), axis, D)?;
+                change.gravity[axis] = S::one();
+            }
+            InputOf::Conductance(path) => {
+                self.expect(path)?;
+                let paths = self.conduction.path_ends().len();
+                change.heat.conductances = one_of(paths, path.index);
+            }
+            InputOf::Reservoir(reservoir) => {
+                self.expect(reservoir)?;
+                let reservoirs = self.conduction.reservoirs.len();
+                change.heat.reservoirs = one_of(reservoirs, reservoir.index);
+            }
+            &InputOf::Position(node, axis) => {
+                self.expect(&node)?;
+                component(format!("the position of {node}"), axis, D)?;
+                change.start.positions[node.index * D + axis] = S::one();
+            }
+            &InputOf::Velocity(node, axis) => {
+                self.expect(&node)?;
+                component(format!("the velocity of {node}"), axis, D)?;
+                change.start.velocities[node.index * D + axis] = S::one();
+                self.drop_velocities(&mut change);
+            }
+            &InputOf::Temperature(element) => {
+                let slot = self.slot_of(element, outline)?;
+                change.start.temperatures[slot] = S::one();
+            }
+            &InputOf::ViscousStretch(element, dashpot) => {
+                self.expect(&element)?;
+                let [group, _] = self.places[element.index()];
+                let dashpots = self.shapes[group as usize].dashpots;
+                component(
+                    format!("the viscous stretch of {element}"),
+                    dashpot,
+                    dashpots,
+                )?;
+                let first = outline.layout.elements[element.index()].viscous;
+                change.start.viscous[first + dashpot] = S::one();
+            }
+            of => self.change_of_function(of, outline, &mut change)?,
+        }
+        Ok(change)
+    }
+
+    /// A parameter of a function of time changes by one.
+    fn change_of_function(
+        &self,
+        of: &InputOf<D, S>,
+        outline: &Outline<S>,
+        change: &mut Change<D, S>,
+    ) -> Result<(), GradientError> {
+        let none = |why: String| Err(GradientError::NoSeries { why });
+        match of {
+            InputOf::Force(node, by) => {
+                self.expect(node)?;
+                if !self
+                    .loads
+                    .forces
+                    .iter()
+                    .any(|(own, _)| own.index == node.index)
+                {
+                    return none(format!("{node} has no force"));
+                }
+                change.forces.push((node.index, by.clone()));
+            }
+            InputOf::Thrust(node, rocket, by) => {
+                self.expect(node)?;
+                let rockets = self.loads.rockets.iter().enumerate();
+                let mut own = rockets.filter(|(_, own)| own.line.node.index == node.index);
+                let Some((place, _)) = own.nth(*rocket) else {
+                    return none(format!("{node} has no rocket {rocket}"));
+                };
+                change.thrusts.push((place, by.clone()));
+            }
+            InputOf::Motion(node, by) => {
+                self.expect(node)?;
+                if !self.is_moved(*node) {
+                    return none(format!("{node} is not moved"));
+                }
+                change.motions.push((node.index, by.clone()));
+            }
+            InputOf::Thermostat(element, by) => {
+                let slot = self.slot_of(*element, outline)?;
+                let mut held = self.loads.temperatures.iter();
+                if !held.any(|(own, _)| own.index() == element.index()) {
+                    return none(format!("{element} has no thermostat"));
+                }
+                change.temperatures.push((slot, by.clone()));
+            }
+            InputOf::Oven(oven, by) => {
+                self.expect(oven)?;
+                let mut ovens = self.loads.ovens.iter();
+                if !ovens.any(|&(own, _)| own == oven.index) {
+                    return none(format!("{oven} is not an oven"));
+                }
+                change.ovens.push((oven.index, by.clone()));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn is_moved(&self, node: Node) -> bool {
+        let mut motions = self.loads.motions.iter();
+        motions.any(|(own, _)| own.index == node.index)
+    }
+
+    /// Anchors have no velocity at the start unless they are moved, where masses couple them with others.
+    pub(super) fn drop_velocities(&self, change: &mut Change<D, S>) {
+        for node in self.masses.anchors() {
+            let mut motions = self.loads.motions.iter();
+            let is_moved = motions.any(|(own, _)| own.index == node);
+            if !(self.masses.are_coupled() && is_moved) {
+                change.start.velocities[node * D..][..D].fill(S::zero());
+            }
+        }
+    }
+
+    fn expect<H: Handle>(&self, handle: &H) -> Result<(), GradientError> {
+        if self.scene.owns(handle) {
+            return Ok(());
+        }
+        let handle = handle.to_string();
+        Err(SceneError::ForeignHandle { handle }.into())
+    }
+
+    fn slot_of(&self, element: Element, outline: &Outline<S>) -> Result<usize, GradientError> {
+        self.expect(&element)?;
+        let slot = outline.layout.elements[element.index()].thermal;
+        slot.ok_or_else(|| SceneError::NotThermal { element }.into())
+    }
+
+    /// A parameter of an element changes by one.
+    fn parameter_of(&self, element: Element, name: &str) -> Result<Vec<S>, GradientError> {
+        self.expect(&element)?;
+        let [group, _] = self.places[element.index()];
+        let group = self.stepper.elements(group as usize);
+        let known = group.parameters();
+        let model = element.model();
+        let Some(place) = known.iter().position(|own| *own == name) else {
+            return Err(GradientError::UnknownParameter {
+                name: name.to_owned(),
+                model,
+                known: known.to_vec(),
+            });
+        };
+        if !group.has_parameter_derivatives() {
+            return Err(GradientError::NoParameterDerivatives { model });
+        }
+        Ok(one_of(known.len(), place))
+    }
+
+    /// The unit of an input; empty if it is not known.
+    pub(super) fn unit_of(&self, input: &Input<D, S>) -> String {
+        if let Some([_, unit]) = &input.named {
+            return unit.clone();
+        }
+        let group_of = |element: &Element| self.places[element.index()][0] as usize;
+        match &input.of {
+            InputOf::Parameter(elements, name) => {
+                let group = elements
+                    .first()
+                    .map(|own| self.stepper.elements(group_of(own)));
+                let found = group.and_then(|group| {
+                    let place = group.parameters().iter().position(|own| *own == name)?;
+                    group.parameter_units().get(place)
+                });
+                found.copied().unwrap_or_default().to_owned()
+            }
+            InputOf::ViscousStretch(element, _) => self.viscous_unit(group_of(element)).to_owned(),
+            _ => input.unit().to_owned(),
+        }
+    }
+
+    /// The unit of the viscous stretches of a group.
+    pub(super) fn viscous_unit(&self, group: usize) -> &'static str {
+        match self.shapes[group].viscous_unit {
+            "" => "1",
+            unit => unit,
+        }
+    }
+
+    /// What changes in a step from outside: the new state of anchors and of temperatures that are held, the heat of paths, and the
+    /// momentum balances of masses with their loads.
+    pub(super) fn enter(&self, made: Made<'_, S>, way: &mut Forward<D, S>) {
+        let (h, [old, new]) = made;
+        let middle = old.time.value + S::from_f64(0.5) * h;
+        let all = way.changes.iter().zip(&mut way.directions);
+        for ((change, direction), heat) in all.zip(&mut way.heats) {
+            direction.right.fill([S::zero()]);
+            let Direction {
+                old: from, new: to, ..
+            } = direction;
+            to.positions.copy_from_slice(&from.positions);
+            to.reservoirs.copy_from_slice(&from.reservoirs);
+            for &node in &way.anchors {
+                to.velocities[node * D..][..D].fill(S::zero());
+            }
+            self.move_anchors(made, change, direction);
+            for (slot, _) in way.held.iter().enumerate().filter(|(_, is_held)| **is_held) {
+                direction.new.temperatures[slot] = S::zero();
+            }
+            for (slot, by) in &change.temperatures {
+                direction.new.temperatures[*slot] += by(new.time.value);
+            }
+            heat.clone_from(&change.heat);
+            if !change.ovens.is_empty() {
+                heat.reservoirs
+                    .resize(self.conduction.reservoirs.len(), S::zero());
+            }
+            for (oven, by) in &change.ovens {
+                heat.reservoirs[*oven] += by(middle);
+            }
+            let rows = &way.outline.layout.nodes;
+            let mut push = |node: usize, force: SVector<S, D>| {
+                if let Some(row) = rows[node] {
+                    for axis in 0..D {
+                        direction.right[row + axis][0] += force[axis];
+                    }
+                }
+            };
+            for (node, by) in &change.forces {
+                push(*node, by(middle) * h);
+            }
+            for (place, by) in &change.thrusts {
+                let along: SVector<S, D> = way.rockets[*place].direction.into();
+                let node = self.loads.rockets[*place].line.node.index;
+                push(node, along * (h * by(middle)));
+            }
+            if change
+                .gravity
+                .iter()
+                .any(|axis| !axis.equal(S::zero()).all())
+            {
+                for (node, &sum) in way.outline.sums.iter().enumerate() {
+                    push(node, change.gravity * (h * sum));
+                }
+            }
+            // Δv − h g, of nodes with a mass or beside one.
+            let fall = |node: usize, mass: S| {
+                let [old, new] = [old, new].map(|state| state.velocity::<D>(node, mass));
+                SVector::<S, D>::from_fn(|axis, _| {
+                    new[axis] - old[axis] - h * self.loads.gravity[axis]
+                })
+            };
+            for (node, &by) in change.masses.iter().enumerate() {
+                if let Some(mass) = self.masses.get(node) {
+                    push(node, fall(node, mass) * -by);
+                }
+            }
+            for (&[i, j], &by) in way.outline.pairs.iter().zip(&change.pairs) {
+                push(i, fall(j, S::one()) * -by);
+                push(j, fall(i, S::one()) * -by);
+            }
+        }
+    }
+
+    /// The new positions and velocities of anchors whose motion changes.
+    fn move_anchors(
+        &self,
+        (h, [old, new]): Made<'_, S>,
+        change: &Change<D, S>,
+        direction: &mut Direction<S>,
+    ) {
+        for (node, _) in &change.motions {
+            let own = *node * D..(*node + 1) * D;
+            direction.new.positions[own.clone()].copy_from_slice(&change.start.positions[own]);
+        }
+        let start = old.time.value;
+        for (node, by) in &change.motions {
+            let end = by(new.time.value);
+            let mut speed = SVector::<S, D>::from_element(S::zero());
+            if self.masses.are_coupled() {
+                for (thirds, weight) in CUBIC {
+                    let at = start + S::from_f64(thirds) * (h / S::from_f64(3.0));
+                    speed += (end - by(at)) * (S::from_f64(0.5 * weight) / h);
+                }
+            }
+            for (axis, at) in (*node * D..).take(D).enumerate() {
+                direction.new.positions[at] += end[axis];
+                direction.new.velocities[at] += speed[axis];
+            }
+        }
+    }
+}
+
+impl<const D: usize, S: Real> Change<D, S> {
+    /// The change of the state at the start, of which functions of time are a part.
+    pub(super) fn start_at(&self, time: S) -> PerVariable<S> {
+        let mut start = self.start.clone();
+        for (node, by) in &self.motions {
+            let own = by(time);
+            for (axis, at) in (*node * D..).take(D).enumerate() {
+                start.positions[at] += own[axis];
+            }
+        }
+        start
+    }
+}
+
+/// The product of the derivative by something with its change in a direction.
+pub(super) fn along<const D: usize, S: Real>(
+    (change, state): (&Change<D, S>, &PerVariable<S>),
+    of: Of<'_, S>,
+    by: S,
+) -> S {
+    let input = |all: &[S], at: usize| all.get(at).copied().unwrap_or(S::zero());
+    by * match of {
+        Of::Position(at) => state.positions[at],
+        Of::Velocity(at) => state.velocities[at],
+        Of::Viscous(slot) => state.viscous[slot],
+        Of::Temperature(slot) => state.temperatures[slot],
+        Of::Entropy(index) => state.reservoirs[index],
+        Of::Mass(node) => input(&change.masses, node),
+        Of::Pair(place) => input(&change.pairs, place),
+        Of::Gravity(axis) => change.gravity[axis],
+        Of::Reservoir(index) => input(&change.heat.reservoirs, index),
+        Of::Parameters(element, values) => {
+            let own = change
+                .parameters
+                .get(element)
+                .map_or(&[][..], Vec::as_slice);
+            let pairs = own.iter().zip(values);
+            pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+        }
+    }
+}

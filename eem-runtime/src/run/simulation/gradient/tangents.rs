@@ -1,0 +1,303 @@
+//! The tangents of a run: the steps of a history once more, from the first to the last, with the changes of all states.
+
+use core::mem;
+use std::borrow::Cow;
+
+use super::derivatives::{Of, Outline};
+use super::directions::{Change, along};
+use super::inputs::Made;
+use super::no_adjoint;
+use crate::element::conduction::Conduction;
+use crate::element::group::StepView;
+use crate::element::phase::Phase;
+use crate::element::state::State;
+use crate::run::gradient::error::GradientError;
+use crate::run::gradient::history::Kept;
+use crate::run::gradient::input::Input;
+use crate::run::gradient::sensitivities::Sensitivities;
+use crate::run::gradient::snapshots::Record;
+use crate::run::gradient::units::quotient;
+use crate::run::recorder::{Column, Quantity};
+use crate::run::simulation::Simulation;
+use crate::run::simulation::stepper::Stepper;
+use crate::step::adjoint::{Direction, HeatChange, NoAdjoint, PastStep, RocketStep, Tangents};
+use eem_material::number::scalar::Real;
+
+/// The way forward through a history.
+pub(super) struct Forward<const D: usize, S: Real> {
+    pub(super) outline: Outline<S>,
+    /// With the temperatures of ovens in the present step.
+    conduction: Conduction<S>,
+    /// The rockets in the present step.
+    pub(super) rockets: Vec<RocketStep<S, D>>,
+    /// Whether thermostats hold the temperatures, by thermal slot.
+    pub(super) held: Vec<bool>,
+    pub(super) anchors: Vec<usize>,
+    /// The directions: all their inputs, their heat in the present step, and the changes of the state.
+    pub(super) changes: Vec<Change<D, S>>,
+    pub(super) heats: Vec<HeatChange<S>>,
+    pub(super) directions: Vec<Direction<S>>,
+    tangents: Tangents<S, D>,
+}
+
+/// What is done with every state of a history: the number of steps before it, and itself.
+type Visit<'a, const D: usize, S> = dyn FnMut(
+        &mut Simulation<D, S>,
+        (usize, &mut State<S>),
+        &Forward<D, S>,
+    ) -> Result<(), GradientError>
+    + 'a;
+
+/// # Gradients
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The derivatives of quantities by some inputs in all states since [`keep_history`](Self::keep_history): a table with the
+    /// time and a column for each quantity and input, `z by stiffness of element 0 (Spring)`; of a vector for each component.
+    ///
+    /// They are those of the steps that were made, as in a [`gradient`](Self::gradient): there one number is differentiated by all
+    /// inputs, here any number of quantities at all times by a few inputs, of which each takes a part of the time of the run.
+    ///
+    /// # Errors
+    ///
+    /// As [`gradient`](Self::gradient); [`GradientError::UnknownParameter`], [`GradientError::NoParameterDerivatives`],
+    /// [`GradientError::NoSeries`], [`GradientError::Component`] or [`GradientError::Scene`] for inputs that the scene does not have.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::{History, Input};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let stone = scene.mass(2.0, [0.0], [3.0]);
+    /// scene.force(stone, |t| [4.0 * t]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01)?;
+    /// run.keep_history(History::default());
+    /// run.run_until(1.0)?;
+    ///
+    /// // q = 3t + a t³/6m with a = 4 N/s
+    /// let slope = Input::force(stone, |t| [t]).named("a", "N/s");
+    /// let inputs = [Input::mass(stone), slope, Input::velocity(stone, 0)];
+    /// let table = run.sensitivities(&inputs, [("q", Quantity::Position(stone))])?;
+    /// let names: Vec<String> = table.columns().iter().map(|column| column.head()).collect();
+    /// let expected = ["time (s)", "q by mass of node 0 (m/kg)", "q by a (m/(N/s))", "q by velocity x of node 0 (m/(m/s))"];
+    /// assert_eq!(names, expected);
+    /// for (input, by) in [-1.0 / 6.0, 1.0 / 12.0, 1.0].into_iter().enumerate() {
+    ///     let last = table.of(0, input).and_then(|column| column.last());
+    ///     assert!(last.is_some_and(|last| (last - by).abs() < 1e-5));
+    /// }
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn sensitivities<N: Into<String>>(
+        &mut self,
+        inputs: &[Input<D, S>],
+        quantities: impl IntoIterator<Item = (N, Quantity<D, S>)>,
+    ) -> Result<Sensitivities, GradientError> {
+        let mut asked = Vec::new();
+        let mut columns = vec![Column::of(
+            "time".to_owned(),
+            Cow::Borrowed("s"),
+            Vec::new(),
+        )];
+        for (name, quantity) in quantities {
+            quantity.present(self)?;
+            for name in quantity.columns(&name.into()) {
+                for input in inputs {
+                    let unit = quotient(quantity.unit(), &self.unit_of(input));
+                    let name = format!("{name} by {}", input.name());
+                    columns.push(Column::of(name, unit.into(), Vec::new()));
+                }
+            }
+            asked.push(quantity);
+        }
+        self.on_history(|run, kept| {
+            let outline = run.outline();
+            let changes = inputs.iter().map(|input| run.change_by(input, &outline));
+            let changes = changes.collect::<Result<_, _>>()?;
+            let mut sums = vec![S::zero(); inputs.len()];
+            let see = &mut |run: &mut Self, at: (usize, &mut State<S>), way: &Forward<D, S>| {
+                let mut places = columns.iter_mut();
+                if let Some(time) = places.next() {
+                    time.push(at.1.time.value.to_f64());
+                }
+                for quantity in &asked {
+                    for component in 0..quantity.columns("").len() {
+                        sums.fill(S::zero());
+                        let of = (quantity, component);
+                        run.add_rates((at.1, S::one()), of, way, &mut sums)?;
+                        for (&sum, column) in sums.iter().zip(&mut places) {
+                            column.push(sum.to_f64());
+                        }
+                    }
+                }
+                Ok(())
+            };
+            run.go_forward(kept, changes, see)
+        })?;
+        Ok(Sensitivities {
+            columns,
+            inputs: inputs.len(),
+        })
+    }
+
+    /// Adds the changes of a component of a quantity in a state, times a weight, in each direction.
+    pub(super) fn add_rates(
+        &mut self,
+        weighted: (&State<S>, S),
+        of: (&Quantity<D, S>, usize),
+        way: &Forward<D, S>,
+        sums: &mut [S],
+    ) -> Result<(), GradientError> {
+        let see = &mut |of: Of<'_, S>, by: S| {
+            let directions = way.changes.iter().zip(&way.directions);
+            for (sum, (change, direction)) in sums.iter_mut().zip(directions) {
+                *sum += along((change, &direction.old), of, by);
+            }
+        };
+        self.see_derivatives(weighted, of, &way.outline, see)
+    }
+
+    /// Goes through a history, with the changes of its states in some directions.
+    pub(super) fn go_forward(
+        &mut self,
+        kept: &Record<S>,
+        changes: Vec<Change<D, S>>,
+        see: &mut Visit<'_, D, S>,
+    ) -> Result<(), GradientError> {
+        let last = State::clone(&self.state);
+        let mut ends = [(); 2].map(|()| last.clone());
+        if let Some(all) = kept.all() {
+            all.load::<D>(0, &self.masses, &mut ends[1]);
+            let mut way = self.way_forward(&ends[1], changes)?;
+            see(self, (0, &mut ends[1]), &way)?;
+            return self.follow(kept, (0, all), &mut ends, &mut way, see);
+        }
+        let mut from = 0;
+        let Some(mut here) = kept.at(from).cloned() else {
+            return Err(GradientError::NoHistory);
+        };
+        ends[1] = here.state.clone();
+        let mut way = self.way_forward(&ends[1], changes)?;
+        see(self, (0, &mut ends[1]), &way)?;
+        while from < kept.len() {
+            self.return_to_state(&here);
+            let to = kept.len().min(from + kept.block());
+            let mut states = Kept::new(&self.state, to - from + 1);
+            self.make_again([from, to], kept, |state| states.keep(state))?;
+            here = self.snapshot_of(to);
+            if to == kept.len() && !states.ends_in(&last) {
+                let time = last.time.value.to_f64();
+                return Err(GradientError::NotRepeatable { time });
+            }
+            self.follow(kept, (from, &states), &mut ends, &mut way, see)?;
+            from = to;
+        }
+        Ok(())
+    }
+
+    /// The same through some steps after so many, with their states.
+    fn follow(
+        &mut self,
+        kept: &Record<S>,
+        (from, states): (usize, &Kept<S>),
+        [old, new]: &mut [State<S>; 2],
+        way: &mut Forward<D, S>,
+        see: &mut Visit<'_, D, S>,
+    ) -> Result<(), GradientError> {
+        for at in 0..states.len() {
+            mem::swap(old, new);
+            states.load::<D>(at + 1, &self.masses, new);
+            self.push((kept.size(from + at), [old, new]), way)?;
+            see(self, (from + at + 1, new), way)?;
+        }
+        Ok(())
+    }
+
+    /// The way forward, at its beginning.
+    fn way_forward(
+        &mut self,
+        start: &State<S>,
+        changes: Vec<Change<D, S>>,
+    ) -> Result<Forward<D, S>, GradientError> {
+        let outline = self.outline();
+        let held = self.held(&outline.layout);
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return Err(no_adjoint(self.in_use, self.time()));
+        };
+        let system = newton.solver.tangent_mut();
+        let tangents = Tangents::new(&outline.layout, &self.masses, &self.conduction, system);
+        let directions = changes.iter().map(|change| {
+            let heat = &change.heat;
+            let is_warmed = !(heat.conductances.is_empty() && heat.reservoirs.is_empty());
+            let start = change.start_at(start.time.value);
+            let parameters = change.parameters.clone();
+            tangents.direction(start, parameters, is_warmed || !change.ovens.is_empty())
+        });
+        let heats = changes.iter().map(|change| {
+            let mut heat = change.heat.clone();
+            if !change.ovens.is_empty() {
+                let reservoirs = self.conduction.reservoirs.len();
+                heat.reservoirs.resize(reservoirs, S::zero());
+            }
+            heat
+        });
+        Ok(Forward {
+            directions: directions.collect(),
+            heats: heats.collect(),
+            anchors: self.masses.anchors().collect(),
+            conduction: self.conduction.clone(),
+            rockets: Vec::new(),
+            held,
+            outline,
+            changes,
+            tangents,
+        })
+    }
+
+    /// From the changes of the old state of a step to those of its new one.
+    fn push(&mut self, made: Made<'_, S>, way: &mut Forward<D, S>) -> Result<(), GradientError> {
+        self.find_loads(made, &mut way.conduction, &mut way.rockets);
+        self.enter(made, way);
+        // The elements are evaluated elsewhere than at the ends of their last step.
+        self.has_stepped = false;
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return Ok(());
+        };
+        let (step, [old, new]) = made;
+        let view = StepView {
+            phase: Phase::Whole,
+            step,
+            per_step: step.recip(),
+            state: old,
+            conduction: &way.conduction,
+            loads: &newton.loads,
+            stages: &[],
+            masses: &self.masses,
+        };
+        let past = PastStep {
+            view,
+            new,
+            held: &way.held,
+        };
+        let solved = way.tangents.step_forward(
+            &past,
+            (&way.outline.layout, &way.rockets),
+            &mut newton.groups,
+            newton.solver.tangent_mut(),
+            (&mut way.directions, &way.heats),
+        );
+        let time = new.time.value.to_f64();
+        solved.map_err(|error| match error {
+            NoAdjoint::Singular => GradientError::Singular { time },
+            NoAdjoint::State(error) => error.into(),
+        })?;
+        for direction in &mut way.directions {
+            for (oven, _) in &self.loads.ovens {
+                // Its entropy is booked as heat after the step.
+                direction.new.reservoirs[*oven] = S::zero();
+            }
+            mem::swap(&mut direction.old, &mut direction.new);
+            if !direction.old.is_finite() {
+                return Err(GradientError::NotFinite { time });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,79 @@
+//! Inertia in the systems of a step that was made.
+
+use core::array;
+
+use crate::algebra::system::LinearSystem;
+use crate::element::layout::Layout;
+use crate::element::masses::Masses;
+use eem_material::number::scalar::Real;
+
+/// The masses with their places in the system.
+#[derive(Debug)]
+pub(super) struct Inertia<S, const D: usize> {
+    pub(super) nodes: Vec<Moving<S, D>>,
+    pairs: Vec<Coupling<S, D>>,
+}
+
+/// A node that moves.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moving<S, const D: usize> {
+    /// Its first coordinate and unknown, and its diagonal entries.
+    pub(super) coordinate: usize,
+    pub(super) unknown: usize,
+    diagonal: [usize; D],
+    pub(super) mass: S,
+}
+
+/// The entries of a mass that couples two nodes, in both triangles.
+#[derive(Clone, Copy, Debug)]
+struct Coupling<S, const D: usize> {
+    places: [[usize; D]; 2],
+    mass: S,
+}
+
+impl<S: Real, const D: usize> Inertia<S, D> {
+    pub(super) fn new(layout: &Layout, masses: &Masses<S>, system: &LinearSystem<S, 1>) -> Self {
+        let place = |row: usize, column: usize| {
+            array::from_fn(|axis| system.place(Some(row + axis), Some(column + axis)))
+        };
+        let nodes = masses.iter().zip(&layout.nodes).enumerate();
+        let nodes = nodes.filter_map(|(node, (mass, unknown))| {
+            let unknown = (*unknown)?;
+            Some(Moving {
+                coordinate: node * D,
+                unknown,
+                diagonal: place(unknown, unknown),
+                mass: mass?,
+            })
+        });
+        let pairs = masses.pairs().iter().filter_map(|pair| {
+            let [a, b] = pair.nodes().map(|node| layout.nodes[node]);
+            let (a, b) = (a?, b?);
+            Some(Coupling {
+                places: [place(a, b), place(b, a)],
+                mass: pair.mass,
+            })
+        });
+        Self {
+            nodes: nodes.collect(),
+            pairs: pairs.collect(),
+        }
+    }
+
+    /// Starts a system with `2M/h`.
+    pub(super) fn start(&self, step: S, system: &mut LinearSystem<S, 1>) {
+        system.clear();
+        let (values, _) = system.parts();
+        let per = S::from_f64(2.0) / step;
+        for node in &self.nodes {
+            for &place in &node.diagonal {
+                values[place] += per * node.mass;
+            }
+        }
+        for pair in &self.pairs {
+            for &place in pair.places.as_flattened() {
+                values[place] += per * pair.mass;
+            }
+        }
+    }
+}

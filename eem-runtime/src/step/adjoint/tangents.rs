@@ -1,0 +1,229 @@
+//! The tangents of a step: by how much its new state changes when the old one and the inputs change, in several directions.
+//!
+//! `(∂R/∂x¹) dx¹ = −(∂R/∂x⁰) dx⁰ − (∂R/∂μ) dμ` with the equations R of `adjoint.rs`. The unknowns are the changes of positions
+//! beyond those of the old state, and the changes of interface temperatures; there is one elimination for all directions.
+
+use crate::algebra::system::LinearSystem;
+use crate::element::conduction::{Conduction, InterfaceTemperatures, Partner};
+use crate::element::group::{Direction, Group, PastStep, PerVariable};
+use crate::element::layout::Layout;
+use crate::element::masses::Masses;
+use crate::step::adjoint::inertia::Inertia;
+use crate::step::adjoint::{NoAdjoint, RocketStep};
+use eem_material::number::scalar::Real;
+
+/// The tangents of one step after the other, with memory for all of them.
+#[derive(Debug)]
+pub(crate) struct Tangents<S, const D: usize> {
+    inertia: Inertia<S, D>,
+    /// The interface temperatures of a step, and whether there are any.
+    interface: InterfaceTemperatures<S>,
+    is_coupled: bool,
+    /// θ*, by thermal slot.
+    temperatures: Vec<S>,
+    /// The slot at which each path of heat begins, and its partner.
+    paths: Vec<(usize, Partner)>,
+    /// `M` times velocities.
+    velocities: Vec<S>,
+    momenta: Vec<S>,
+    rows: usize,
+}
+
+/// The changes of conductances of all paths, and of temperatures of all reservoirs; empty where none changes.
+#[derive(Clone, Debug)]
+pub(crate) struct HeatChange<S> {
+    pub(crate) conductances: Vec<S>,
+    pub(crate) reservoirs: Vec<S>,
+}
+
+impl<S: Real, const D: usize> Tangents<S, D> {
+    pub(crate) fn new(
+        layout: &Layout,
+        masses: &Masses<S>,
+        conduction: &Conduction<S>,
+        system: &LinearSystem<S, 1>,
+    ) -> Self {
+        let zeros = |count| vec![S::zero(); count];
+        Self {
+            inertia: Inertia::new(layout, masses, system),
+            interface: InterfaceTemperatures::new(layout.thermal),
+            is_coupled: layout.coupled.iter().any(Option::is_some),
+            temperatures: vec![S::one(); layout.thermal],
+            paths: conduction.path_ends(),
+            velocities: zeros(masses.len() * D),
+            momenta: zeros(masses.len() * D),
+            rows: system.right().len(),
+        }
+    }
+
+    /// A direction that begins with a change of the state.
+    pub(crate) fn direction(
+        &self,
+        start: PerVariable<S>,
+        parameters: Vec<Vec<S>>,
+        has_heat: bool,
+    ) -> Direction<S> {
+        let slots = self.temperatures.len();
+        Direction {
+            old: start.clone(),
+            new: start,
+            middle: vec![S::zero(); slots],
+            parameters,
+            heat: vec![[S::zero(); 2]; if has_heat { slots } else { 0 }],
+            right: vec![[S::zero()]; self.rows],
+        }
+    }
+
+    /// From the old state of a step to its new one. Of the new one, positions and velocities of anchors and temperatures that are held
+    /// are given; of the right-hand side what changes with masses and loads.
+    pub(crate) fn step_forward(
+        &mut self,
+        past: &PastStep<'_, S>,
+        (layout, rockets): (&Layout, &[RocketStep<S, D>]),
+        groups: &mut [Box<dyn Group<S, D>>],
+        system: &mut LinearSystem<S, 1>,
+        (directions, heats): (&mut [Direction<S>], &[HeatChange<S>]),
+    ) -> Result<(), NoAdjoint> {
+        let view = &past.view;
+        if self.is_coupled {
+            for group in &mut *groups {
+                group.find_interfaces(past, &mut self.interface)?;
+            }
+        }
+        for (direction, of) in directions.iter_mut().zip(heats) {
+            self.conduct(view.conduction, of, direction);
+            self.push_inertia(view.masses, direction);
+        }
+        self.inertia.start(view.step, system);
+        for group in &mut *groups {
+            let temperatures = (&self.interface, &mut self.temperatures[..]);
+            group.push_forward(past, temperatures, system, directions)?;
+        }
+        for rocket in rockets {
+            rocket.add_to(layout, false, system);
+            for direction in &mut *directions {
+                rocket.push(layout, direction);
+            }
+        }
+        let columns = directions.iter_mut().map(|direction| &mut direction.right);
+        system
+            .solve_each(columns)
+            .map_err(|_| NoAdjoint::Singular)?;
+        for direction in &mut *directions {
+            self.move_on(view.step, direction);
+        }
+        for group in &*groups {
+            group.follow(directions);
+        }
+        for (direction, of) in directions.iter_mut().zip(heats) {
+            self.book(view.step, view.conduction, of, direction);
+        }
+        Ok(())
+    }
+
+    /// The heat of paths whose conductances and reservoirs change, at the temperatures there are.
+    fn conduct(
+        &self,
+        conduction: &Conduction<S>,
+        of: &HeatChange<S>,
+        direction: &mut Direction<S>,
+    ) {
+        if direction.heat.is_empty() {
+            return;
+        }
+        direction.heat.fill([S::zero(); 2]);
+        for (&by, &(slot, partner)) in of.conductances.iter().zip(&self.paths) {
+            match partner {
+                Partner::Slot(other) => {
+                    let flow = by * self.interface.drop(slot, other);
+                    direction.heat[slot][0] += flow;
+                    direction.heat[other][0] -= flow;
+                }
+                Partner::Reservoir(at) => {
+                    direction.heat[slot][0] += by * conduction.reservoirs[at];
+                    direction.heat[slot][1] += by;
+                }
+            }
+        }
+        for (slot, heat) in direction.heat.iter_mut().enumerate() {
+            for link in conduction.links(slot) {
+                if let Partner::Reservoir(at) = link.partner {
+                    let warmer = of.reservoirs.get(at).copied();
+                    heat[0] += link.conductance * warmer.unwrap_or(S::zero());
+                }
+            }
+        }
+    }
+
+    /// `M Δv = (2/h) M Δq − 2 M v⁰` of masses; the velocities of anchors are given.
+    fn push_inertia(&mut self, masses: &Masses<S>, direction: &mut Direction<S>) {
+        let Direction {
+            old, new, right, ..
+        } = direction;
+        let [v0, v1] = [&old.velocities, &new.velocities];
+        if !masses.are_coupled() {
+            for node in &self.inertia.nodes {
+                for axis in 0..D {
+                    let speed = v0[node.coordinate + axis];
+                    right[node.unknown + axis][0] += node.mass * (speed + speed);
+                }
+            }
+            return;
+        }
+        for (node, mass) in masses.iter().enumerate() {
+            for at in (node * D..).take(D) {
+                let rest = if mass.is_some() { -v0[at] } else { v1[at] };
+                self.velocities[at] = v0[at] - rest;
+            }
+        }
+        masses.find_momenta(D, &self.velocities, &mut self.momenta);
+        for node in &self.inertia.nodes {
+            for axis in 0..D {
+                right[node.unknown + axis][0] += self.momenta[node.coordinate + axis];
+            }
+        }
+    }
+
+    /// `q¹` and `v¹ = (2/h) Δq − v⁰` of masses.
+    fn move_on(&self, step: S, direction: &mut Direction<S>) {
+        let Direction {
+            old, new, right, ..
+        } = direction;
+        let per = S::from_f64(2.0) / step;
+        for node in &self.inertia.nodes {
+            for axis in 0..D {
+                let at = node.coordinate + axis;
+                let moved = right[node.unknown + axis][0];
+                new.positions[at] = old.positions[at] + moved;
+                new.velocities[at] = per * moved - old.velocities[at];
+            }
+        }
+    }
+
+    /// The entropies of reservoirs, `Δσ = (h/θ_r) Σ κ (θ* − θ_r)`.
+    fn book(
+        &self,
+        step: S,
+        conduction: &Conduction<S>,
+        of: &HeatChange<S>,
+        direction: &mut Direction<S>,
+    ) {
+        for (slot, &theta) in self.temperatures.iter().enumerate() {
+            for link in conduction.links(slot) {
+                if let Partner::Reservoir(at) = link.partner {
+                    let outer = conduction.reservoirs[at];
+                    let warmer = of.reservoirs.get(at).copied().unwrap_or(S::zero());
+                    let change = direction.middle[slot] - warmer * (theta / outer);
+                    direction.new.reservoirs[at] += step * link.conductance * change / outer;
+                }
+            }
+        }
+        for (&by, &(slot, partner)) in of.conductances.iter().zip(&self.paths) {
+            if let Partner::Reservoir(at) = partner {
+                let outer = conduction.reservoirs[at];
+                let drop = self.temperatures[slot] - outer;
+                direction.new.reservoirs[at] += step * by * drop / outer;
+            }
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! Tangents of runs against gradients.
+
+use eem::prelude::*;
+use eem::{Gradient, GradientError, History, Input, Objective};
+
+use super::{FORMS, INPUTS, objective, start};
+
+/// Along a direction of all inputs the objective changes as its gradient says.
+pub(super) fn assert_tangent<const D: usize>(
+    what: &str,
+    run: &mut Simulation<D>,
+    gradient: &Gradient<D>,
+    objective: &Objective<D>,
+) {
+    let [adjoint, tangent, size] = run.changes_along(gradient, objective).unwrap();
+    let off = (adjoint - tangent).abs() / size;
+    if std::env::var_os("SHOW").is_some() {
+        println!("{what}: {adjoint} {tangent}, {off:e}");
+    }
+    assert!(off <= 1e-11, "{what}: {adjoint} {tangent}, {off:e}");
+    run.check_gradient(gradient, objective).unwrap();
+}
+
+/// An input with the derivative of an objective by it.
+type Pair = (Input<2>, f64);
+
+/// Columns of a table against the gradient of the same quantity at the end.
+fn assert_columns(run: &mut Simulation<2>, of: Quantity<2>, pairs: Vec<Pair>) {
+    let (inputs, expected): (Vec<_>, Vec<_>) = pairs.into_iter().unzip();
+    let table = run.sensitivities(&inputs, [("g", of)]).unwrap();
+    for (at, expected) in expected.into_iter().enumerate() {
+        let got = *table.of(0, at).unwrap().last().unwrap();
+        let off = (got - expected).abs();
+        let input = inputs[at].name();
+        assert!(
+            off <= 1e-11 * expected.abs().max(1e-3),
+            "{input}: {got} {expected}"
+        );
+    }
+}
+
+#[test]
+fn every_input_has_a_column() {
+    for scheme in FORMS {
+        let (net, mut run) = start(&INPUTS, scheme);
+        let [anchor, bob, tail] = net.nodes;
+        let [voigt, two] = net.springs;
+        let of = || Quantity::Temperature(two);
+        let gradient = run.gradient(&Objective::at_end(of())).unwrap();
+        let mut pairs: Vec<Pair> = Vec::new();
+        for (element, names) in [
+            (
+                voigt,
+                &["k", "length", "beta", "capacity", "eta", "activation"][..],
+            ),
+            (two, &["stiffness", "a", "mu1", "eta1", "mu2", "eta2"]),
+        ] {
+            for &name in names {
+                let by = gradient.by_parameter(element, name).unwrap();
+                pairs.push((Input::parameter(element, name), by));
+            }
+            pairs.push((
+                Input::temperature(element),
+                gradient.by_temperature(element).unwrap(),
+            ));
+        }
+        for axis in 0..2 {
+            for node in [anchor, bob, tail] {
+                let by = gradient.by_position(node).unwrap()[axis];
+                pairs.push((Input::position(node, axis), by));
+                let by = gradient.by_velocity(node).unwrap()[axis];
+                pairs.push((Input::velocity(node, axis), by));
+            }
+            pairs.push((Input::gravity(axis), gradient.by_gravity()[axis]));
+            let by = gradient.by_viscous_stretch(two, axis).unwrap();
+            pairs.push((Input::viscous_stretch(two, axis), by));
+            let path = net.paths[axis];
+            pairs.push((
+                Input::conductance(path),
+                gradient.by_conductance(path).unwrap(),
+            ));
+            let mass = [bob, tail][axis];
+            pairs.push((Input::mass(mass), gradient.by_mass(mass).unwrap()));
+        }
+        let air = gradient.by_reservoir_temperature(net.air).unwrap();
+        pairs.push((Input::reservoir_temperature(net.air), air));
+        let force = gradient.by_force(tail).unwrap();
+        let by_phase = force.iter().map(|(t, by)| by[0] * t.cos()).sum();
+        pairs.push((Input::force(tail, |t: f64| [t.cos(), 0.0]), by_phase));
+        assert_columns(&mut run, of(), pairs);
+    }
+}
+
+#[test]
+fn tables_have_the_columns_of_a_recorder() {
+    let (net, mut run) = start(&INPUTS, Scheme::EemEntropy);
+    let [_, bob, tail] = net.nodes;
+    let inputs = [
+        Input::mass(bob),
+        Input::force(tail, |_| [1.0, 0.0]).named("push", "N"),
+    ];
+    let quantities = || {
+        [
+            ("q", Quantity::Position(bob)),
+            ("v", Quantity::Velocity(tail)),
+        ]
+    };
+    let table = run.sensitivities(&inputs, quantities()).unwrap();
+    let heads: Vec<String> = table.columns().iter().map(eem::Column::head).collect();
+    let expected = [
+        "time (s)",
+        "q_x by mass of node 1 (m/kg)",
+        "q_x by push (m/N)",
+        "q_y by mass of node 1 (m/kg)",
+        "q_y by push (m/N)",
+        "v_x by mass of node 1 ((m/s)/kg)",
+        "v_x by push ((m/s)/N)",
+        "v_y by mass of node 1 ((m/s)/kg)",
+        "v_y by push ((m/s)/N)",
+    ];
+    assert_eq!(heads, expected);
+    assert_eq!(table.times().len(), 17);
+    assert_eq!(table.column("v_y by push"), table.of(3, 1));
+    assert!(table.of(3, 2).is_none() && table.of(4, 0).is_none());
+    // Rows in the middle are ends of shorter runs.
+    let before = run.checkpoint();
+    let middle = Objective::at(0.2, Quantity::Velocity(tail)).component(1);
+    let by = run.gradient(&middle).unwrap().by_mass(bob).unwrap();
+    let row = table
+        .times()
+        .iter()
+        .position(|t| (t - 0.2).abs() < 1e-12)
+        .unwrap();
+    let got = table.of(3, 0).unwrap()[row];
+    assert!((got - by).abs() <= 1e-11 * by.abs(), "{got} {by}");
+    assert_eq!(run.checkpoint(), before);
+}
+
+#[test]
+fn tangents_have_the_same_bits_when_steps_are_made_again() {
+    for scheme in FORMS {
+        let table = |history| {
+            let net = super::net(&INPUTS);
+            let mut run = Simulation::new(net.scene.clone(), scheme, 0.025).unwrap();
+            run.control_steps(Tolerance::new(1e-3)).unwrap();
+            run.keep_history(history);
+            run.run_until(0.4).unwrap();
+            let before = run.checkpoint();
+            let inputs = [Input::parameter(net.springs[0], "eta"), Input::gravity(1)];
+            let table = run
+                .sensitivities(&inputs, [("e", Quantity::TotalEnergy)])
+                .unwrap();
+            assert_eq!(run.checkpoint(), before);
+            table
+        };
+        let all = table(History::default());
+        assert!(all.times().len() > 20);
+        for history in [
+            History::snapshots(200),
+            History::snapshots(12),
+            History::bytes(12_000),
+        ] {
+            assert_eq!(table(history), all);
+        }
+    }
+}
+
+#[test]
+fn a_gradient_of_something_else_disagrees() {
+    let (net, mut run) = start(&INPUTS, Scheme::EemTemperature);
+    let gradient = run.gradient(&objective(&net)).unwrap();
+    run.check_gradient(&gradient, &objective(&net)).unwrap();
+    let other =
+        objective(&net) + Objective::at_end(Quantity::Temperature(net.springs[1])).times(1e-4);
+    let error = run.check_gradient(&gradient, &other).unwrap_err();
+    assert!(matches!(error, GradientError::Disagrees { adjoint, tangent } if adjoint != tangent));
+    let scene = crate::support::single_pendulum_scene().0;
+    let mut small = Simulation::new(scene, Scheme::EemTemperature, 0.1).unwrap();
+    small.keep_history(History::default());
+    let energy = Objective::at_end(Quantity::TotalEnergy);
+    let foreign = small.check_gradient(&gradient, &energy).unwrap_err();
+    assert!(foreign.to_string().contains("another scene"), "{foreign}");
+}
+
+#[test]
+fn inputs_that_are_not_there_are_errors() {
+    let (net, mut run) = start(&INPUTS, Scheme::EemEntropy);
+    let [anchor, bob, tail] = net.nodes;
+    let [voigt, two] = net.springs;
+    let foreign = crate::support::single_pendulum_scene::<f64>().1;
+    for (input, expected) in [
+        (Input::parameter(voigt, "stiffness"), "it has k, length"),
+        (Input::mass(foreign), "another scene"),
+        (Input::gravity(2), "component 2"),
+        (Input::position(bob, 3), "component 3"),
+        (Input::viscous_stretch(two, 2), "component 2"),
+        (Input::force(bob, |_| [1.0, 0.0]), "has no force"),
+        (Input::thrust(bob, 0, |_| 1.0), "has no rocket 0"),
+        (Input::motion(anchor, |_| [1.0, 0.0]), "is not moved"),
+        (Input::thermostat(voigt, |_| 1.0), "has no thermostat"),
+        (Input::oven(net.air, |_| 1.0), "is not an oven"),
+    ] {
+        let quantity = || Quantity::Position(tail);
+        let error = run
+            .sensitivities(&[input], [("q", quantity())])
+            .unwrap_err();
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    let none = run.sensitivities(&[Input::mass(bob)], [("n", Quantity::NewtonIterations)]);
+    assert!(matches!(none, Err(GradientError::NoDerivative { .. })));
+}
