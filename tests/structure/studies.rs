@@ -75,7 +75,10 @@ fn runs(name: &str) -> &'static [&'static [&'static str]] {
             &["--end", "1", "--members", "8", "--fits", "2"],
         ],
         "l_block" | "rubber_bearing" => &[&["--end", "1"]],
-        "satellite" => &[&["--end", "1"], &["--end", "0.4", "--aim", "1"]],
+        "satellite" => &[
+            &["--end", "1"],
+            &["--end", "0.4", "--aim", "1", "--iterations", "2"],
+        ],
         "sweep" => &[&["--end", "2", "run"]],
         _ => &[&["--end", "2"]],
     }

@@ -112,6 +112,9 @@ struct Options {
     /// Finds the thrust that turns it by this angle and leaves it at rest, instead of comparing schemes.
     #[arg(long, value_name = "DEGREES", conflicts_with = "no_stop")]
     aim: Option<f64>,
+    /// Most iterations of the optimiser, with `--aim`.
+    #[arg(long, value_name = "N", default_value_t = 30, requires = "aim")]
+    iterations: u64,
     #[command(flatten)]
     common: CommandLine,
 }
@@ -141,6 +144,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
                 scheme,
                 angle,
                 grid,
+                iterations: options.iterations,
             },
             directory,
         );

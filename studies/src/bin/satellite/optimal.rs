@@ -5,7 +5,7 @@
 //! ```
 //!
 //! with the positions q of two nodes of the body and of the tips of both panels, their places d in a body that is turned and
-//! stiff, and the kinetic energy K. One gradient of the run is the derivative by all 40 values; L-BFGS of the crate
+//! stiff, and the kinetic energy K. One gradient of the run is the derivative by all 40 values, checked along the run; L-BFGS of the crate
 //! `argmin` finds the least J from the thrust that would do for a stiff satellite: +F, then −F.
 
 use std::cell::RefCell;
@@ -41,9 +41,8 @@ const FORCE: f64 = 10.0;
 /// Moment of inertia of the satellite about the axis of the hinges as if it were stiff, kg m².
 const INERTIA: f64 = 144.0;
 
-/// Runs that may be made, steps of the optimiser, and by how much J must fall.
+/// In how many runs J must fall by how much.
 const MOST_RUNS: usize = 40;
-const MOST_STEPS: u64 = 30;
 const FALL: f64 = 100.0;
 
 /// Runs are so long for the fall to be claimed, s.
@@ -57,6 +56,8 @@ pub(crate) struct Aim {
     /// By how much it is to turn, rad.
     pub(crate) angle: f64,
     pub(crate) grid: TimeGrid,
+    /// Most iterations of the optimiser.
+    pub(crate) iterations: u64,
 }
 
 /// A thrust and what follows from it.
@@ -116,11 +117,12 @@ impl Aim {
         let name = self.scheme.name();
         let record = simulate::record_with(name, &mut run, &watched, self.grid, further)?;
         let found = run.gradient(&objective)?;
+        run.check_gradient(&found, &objective)?;
         let share = 1.0 / (VALUES as f64 * FORCE * FORCE);
         let effort = 0.5 * share * thrust.iter().map(|f| f * f).sum::<f64>();
         let mut gradient: Vec<f64> = thrust.iter().map(|f| share * f).collect();
         for node in rockets {
-            for &(time, by_thrust) in found.by_thrust(node, 0)? {
+            for &(time, by_thrust) in found.by_thrust(node, 0)?.iter() {
                 gradient[value_at(time, held)] += by_thrust;
             }
         }
@@ -219,7 +221,7 @@ pub(crate) fn run(aim: Aim, directory: Option<&Path>) -> Result<Claims, Box<dyn 
     let search = LBFGS::new(MoreThuenteLineSearch::new(), 10);
     let executor = Executor::new(&runs, search);
     executor
-        .configure(|state| state.param(start).max_iters(MOST_STEPS))
+        .configure(|state| state.param(start).max_iters(aim.iterations))
         .run()?;
     let mut made = runs.made.into_inner();
     made.truncate(MOST_RUNS);
