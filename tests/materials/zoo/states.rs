@@ -1,6 +1,7 @@
 //! States and steps at which specimens are examined.
 
 use eem::invert;
+use eem_testkit::length::at_length;
 
 use crate::zoo::specimen::Specimen;
 
@@ -28,9 +29,10 @@ pub(crate) fn around(specimen: &dyn Specimen) -> Vec<Vec<f64>> {
 
 /// Pairs of an old and a new state.
 pub(crate) fn steps(specimen: &dyn Specimen) -> Vec<[Vec<f64>; 2]> {
-    INCREMENTS
-        .map(|increment| step(specimen, increment))
-        .to_vec()
+    let increments = INCREMENTS.iter().step_by(at_length(1, 2));
+    increments
+        .map(|&increment| step(specimen, increment))
+        .collect()
 }
 
 /// A step of one size.
