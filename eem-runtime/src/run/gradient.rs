@@ -8,5 +8,6 @@ pub(crate) mod result;
 pub(crate) mod sensitivities;
 pub(crate) mod series;
 pub(crate) mod snapshots;
+pub(crate) mod timed;
 pub(crate) mod times;
 pub(crate) mod units;

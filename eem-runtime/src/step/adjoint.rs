@@ -13,6 +13,7 @@
 //! With λ¹ the derivatives by x¹, `(∂R/∂x¹)ᵀ w = λ¹` and `λ⁰ = −(∂R/∂x⁰)ᵀ w`. As in a step, v¹ and the variables of a point are
 //! eliminated; what remains has the pattern of the system of a step.
 
+mod error;
 mod inertia;
 mod rockets;
 mod tangents;
@@ -21,7 +22,6 @@ use core::mem;
 
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::error::StateError;
 use crate::element::group::{Group, SeeParameters, StepBack, StepView};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
@@ -29,23 +29,10 @@ use crate::element::state::State;
 use eem_material::number::scalar::Real;
 
 pub(crate) use crate::element::group::{Direction, PastStep, PerVariable, StepWeights, Terms};
+pub(crate) use error::NoAdjoint;
 use inertia::{Inertia, Moving};
 pub(crate) use rockets::RocketStep;
 pub(crate) use tangents::{HeatChange, Tangents};
-
-/// Why a step has no adjoint.
-pub(crate) enum NoAdjoint {
-    /// Its equations do not determine the new state.
-    Singular,
-    /// An element cannot be in one of the states.
-    State(StateError),
-}
-
-impl From<StateError> for NoAdjoint {
-    fn from(error: StateError) -> Self {
-        Self::State(error)
-    }
-}
 
 /// The adjoint of one step after the other, with memory for all of them.
 #[derive(Debug)]

@@ -209,3 +209,43 @@ fn inputs_that_are_not_there_are_errors() {
     let none = run.sensitivities(&[Input::mass(bob)], [("n", Quantity::NewtonIterations)]);
     assert!(matches!(none, Err(GradientError::NoDerivative { .. })));
 }
+
+#[test]
+fn derivatives_have_names_and_units() {
+    let (scene, bob, spring, air) = crate::support::single_pendulum_scene();
+    let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.1).unwrap();
+    run.keep_history(History::default());
+    run.run_until(1.0).unwrap();
+    let warm = Objective::at_end(Quantity::Temperature(spring));
+    let gradient = run.gradient(&warm).unwrap();
+    let shown = gradient.to_string();
+    for (name, unit) in [("k0", "K/(N m)"), ("ratio", "K"), ("theta_ref", "1")] {
+        let line = shown.lines().find(|line| {
+            let start = format!("| {name} of element 0 (ThermoViscoElastic) ");
+            line.starts_with(&start)
+        });
+        let last = line.unwrap().trim_end_matches([' ', '|']);
+        assert!(last.ends_with(&format!("| {unit}")), "{last}");
+    }
+    let by = |name: &str| {
+        let mut all = gradient.iter();
+        all.find(|(own, ..)| own == name).unwrap()
+    };
+    let (_, value, unit) = by("temperature of reservoir 0");
+    let expected = gradient.by_reservoir_temperature(air).unwrap();
+    assert_eq!((value, unit.as_str()), (expected, "1"));
+    let (_, value, unit) = by("velocity y of node 1");
+    let expected = gradient.by_velocity(bob).unwrap()[1];
+    assert_eq!((value, unit.as_str()), (expected, "K/(m/s)"));
+    assert_eq!(by("mass of node 1").2, "K/kg");
+    assert_eq!(
+        by("viscous stretch 0 of element 0 (ThermoViscoElastic)").2,
+        "K/m"
+    );
+    // Sums of different quantities have no unit, squares of misfits the unit 1.
+    let mixed = run.gradient(&(warm + Objective::time())).unwrap();
+    assert!(mixed.iter().all(|(.., unit)| unit.is_empty()));
+    let misfit = Objective::misfit(Quantity::Temperature(spring), [[1.0, 350.0, 0.5]]);
+    let misfit = run.gradient(&misfit).unwrap();
+    assert!(misfit.iter().any(|(.., unit)| unit == "1/kg"));
+}

@@ -7,7 +7,7 @@ use nalgebra::SVector;
 
 use super::error::GradientError;
 use super::series::Series;
-use super::times::Timed;
+use super::timed::Timed;
 use crate::element::handle::{Element, Handle, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;

@@ -1,9 +1,11 @@
 //! The gradient of a run: the adjoint of its steps, from the last to the first.
 
 mod again;
+mod change;
 mod checks;
 mod derivatives;
 mod directions;
+mod forward;
 mod inputs;
 mod seeds;
 mod tangents;
@@ -25,7 +27,7 @@ use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::{Gradient, OfElement};
 use crate::run::gradient::series::Series;
 use crate::run::gradient::snapshots::Record;
-use crate::run::gradient::times::Timed;
+use crate::run::gradient::timed::Timed;
 use crate::scene::loads::Course;
 use crate::step::adjoint::{Adjoint, NoAdjoint, PerVariable};
 use crate::step::control::norm as norm_of;

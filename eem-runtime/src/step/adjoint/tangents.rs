@@ -8,8 +8,9 @@ use crate::element::conduction::{Conduction, InterfaceTemperatures, Partner};
 use crate::element::group::{Direction, Group, PastStep, PerVariable};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
+use crate::step::adjoint::error::NoAdjoint;
 use crate::step::adjoint::inertia::Inertia;
-use crate::step::adjoint::{NoAdjoint, RocketStep};
+use crate::step::adjoint::rockets::RocketStep;
 use eem_material::number::scalar::Real;
 
 /// The tangents of one step after the other, with memory for all of them.

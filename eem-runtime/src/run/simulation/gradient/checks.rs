@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use super::change::Change;
 use super::derivatives::Outline;
-use super::directions::Change;
+use super::forward::Forward;
 use super::seeds::Seeds;
-use super::tangents::Forward;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::objective::Objective;

@@ -1,6 +1,5 @@
 //! The derivatives of a quantity by a state and, at that state, by the inputs.
 
-use super::way::dot;
 use crate::element::group::ElementGeneric;
 use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
@@ -238,4 +237,10 @@ fn see_energy<S: Real>(element: &ElementGeneric<S>, weight: S, see: &mut See<'_,
 fn no_derivative<const D: usize, S: Real>(quantity: &Quantity<D, S>) -> GradientError {
     let quantity = quantity.kind();
     GradientError::NoDerivative { quantity }
+}
+
+/// The product of two vectors.
+pub(super) fn dot<S: Real, const D: usize>(one: &SVector<S, D>, other: &SVector<S, D>) -> S {
+    let pairs = one.iter().zip(other);
+    pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
 }

@@ -1,7 +1,8 @@
 //! The derivatives of a step by its inputs, from the weights of its equations.
 
 use super::super::Simulation;
-use super::way::{Way, dot};
+use super::derivatives::dot;
+use super::way::Way;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::state::State;
 use crate::scene::loads::Course;

@@ -3,11 +3,11 @@
 use core::mem;
 use std::borrow::Cow;
 
-use super::derivatives::{Of, Outline};
-use super::directions::{Change, along};
+use super::change::{Change, along};
+use super::derivatives::Of;
+use super::forward::Forward;
 use super::inputs::Made;
 use super::no_adjoint;
-use crate::element::conduction::Conduction;
 use crate::element::group::StepView;
 use crate::element::phase::Phase;
 use crate::element::state::State;
@@ -20,25 +20,8 @@ use crate::run::gradient::units::quotient;
 use crate::run::recorder::{Column, Quantity};
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
-use crate::step::adjoint::{Direction, HeatChange, NoAdjoint, PastStep, RocketStep, Tangents};
+use crate::step::adjoint::{NoAdjoint, PastStep, Tangents};
 use eem_material::number::scalar::Real;
-
-/// The way forward through a history.
-pub(super) struct Forward<const D: usize, S: Real> {
-    pub(super) outline: Outline<S>,
-    /// With the temperatures of ovens in the present step.
-    conduction: Conduction<S>,
-    /// The rockets in the present step.
-    pub(super) rockets: Vec<RocketStep<S, D>>,
-    /// Whether thermostats hold the temperatures, by thermal slot.
-    pub(super) held: Vec<bool>,
-    pub(super) anchors: Vec<usize>,
-    /// The directions: all their inputs, their heat in the present step, and the changes of the state.
-    pub(super) changes: Vec<Change<D, S>>,
-    pub(super) heats: Vec<HeatChange<S>>,
-    pub(super) directions: Vec<Direction<S>>,
-    tangents: Tangents<S, D>,
-}
 
 /// What is done with every state of a history: the number of steps before it, and itself.
 type Visit<'a, const D: usize, S> = dyn FnMut(

@@ -62,9 +62,3 @@ pub(super) fn add<S: Real>(sum: &mut [S], factor: S, values: &[S]) {
         *sum += factor * value;
     }
 }
-
-/// The product of two vectors.
-pub(super) fn dot<S: Real, const D: usize>(one: &SVector<S, D>, other: &SVector<S, D>) -> S {
-    let pairs = one.iter().zip(other);
-    pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
-}

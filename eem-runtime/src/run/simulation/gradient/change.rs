@@ -1,0 +1,66 @@
+//! A direction: by how much inputs change.
+
+use super::derivatives::Of;
+use crate::scene::loads::{OfTime, TemperatureOfTime};
+use crate::step::adjoint::{HeatChange, PerVariable};
+use eem_material::number::scalar::Real;
+use nalgebra::SVector;
+
+/// By how much all inputs change. Lists are empty where nothing of a kind changes.
+pub(super) struct Change<const D: usize, S: Real> {
+    /// The state at the start, without functions of time.
+    pub(super) start: PerVariable<S>,
+    pub(super) parameters: Vec<Vec<S>>,
+    pub(super) masses: Vec<S>,
+    pub(super) pairs: Vec<S>,
+    pub(super) gravity: SVector<S, D>,
+    pub(super) heat: HeatChange<S>,
+    /// Functions of time by node, place of the rocket, node, thermal slot and reservoir.
+    pub(super) forces: Vec<(usize, OfTime<S, D>)>,
+    pub(super) thrusts: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(super) motions: Vec<(usize, OfTime<S, D>)>,
+    pub(super) temperatures: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(super) ovens: Vec<(usize, TemperatureOfTime<S>)>,
+}
+
+impl<const D: usize, S: Real> Change<D, S> {
+    /// The change of the state at the start, of which functions of time are a part.
+    pub(super) fn start_at(&self, time: S) -> PerVariable<S> {
+        let mut start = self.start.clone();
+        for (node, by) in &self.motions {
+            let own = by(time);
+            for (axis, at) in (*node * D..).take(D).enumerate() {
+                start.positions[at] += own[axis];
+            }
+        }
+        start
+    }
+}
+
+/// The product of the derivative by something with its change in a direction.
+pub(super) fn along<const D: usize, S: Real>(
+    (change, state): (&Change<D, S>, &PerVariable<S>),
+    of: Of<'_, S>,
+    by: S,
+) -> S {
+    let input = |all: &[S], at: usize| all.get(at).copied().unwrap_or(S::zero());
+    by * match of {
+        Of::Position(at) => state.positions[at],
+        Of::Velocity(at) => state.velocities[at],
+        Of::Viscous(slot) => state.viscous[slot],
+        Of::Temperature(slot) => state.temperatures[slot],
+        Of::Entropy(index) => state.reservoirs[index],
+        Of::Mass(node) => input(&change.masses, node),
+        Of::Pair(place) => input(&change.pairs, place),
+        Of::Gravity(axis) => change.gravity[axis],
+        Of::Reservoir(index) => input(&change.heat.reservoirs, index),
+        Of::Parameters(element, values) => {
+            let own = change
+                .parameters
+                .get(element)
+                .map_or(&[][..], Vec::as_slice);
+            let pairs = own.iter().zip(values);
+            pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+        }
+    }
+}
