@@ -45,10 +45,9 @@ pub(crate) trait AnyRun: Send {
     fn stretch(&self, element: Element) -> Result<f64, SceneError>;
     fn force(&self, element: Element) -> Result<f64, SceneError>;
     fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<f64, SceneError>;
-    /// Cauchy's stress, Green and Lagrange's strain and the viscous strain of a point of a solid, by rows.
+    /// Cauchy's stress, and Green and Lagrange's strain, of a point of a solid, by rows.
     fn stress(&self, point: Element) -> Result<[f64; 9], SceneError>;
     fn strain(&self, point: Element) -> Result<[f64; 9], SceneError>;
-    fn viscous_strain(&self, point: Element) -> Result<[f64; 9], SceneError>;
     /// The entries of the ledger in the order of [`LEDGER`](crate::record::LEDGER), and both momenta.
     fn add_ledger(&self, to: &mut Vec<f64>);
     fn worst_step(&self) -> Option<&StepReport<f64>>;
@@ -150,10 +149,6 @@ impl<const D: usize> AnyRun for Simulation<D> {
 
     fn strain(&self, point: Element) -> Result<[f64; 9], SceneError> {
         Ok(by_rows(&self.solid_state(point)?.strain))
-    }
-
-    fn viscous_strain(&self, point: Element) -> Result<[f64; 9], SceneError> {
-        Ok(by_rows(&self.viscous_strain(point)?))
     }
 
     fn add_ledger(&self, to: &mut Vec<f64>) {

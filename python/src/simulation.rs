@@ -137,14 +137,9 @@ impl Simulation {
         self.tensors(points, |run, point| run.stress(point))
     }
 
-    /// Green and Lagrange's strain ½ (FᵀF − 1) at points of solids: `(3, 3)` of one, `(n, 3, 3)` of several.
+    /// Green and Lagrange's strain `½ (FᵀF − 1)` at points of solids: `(3, 3)` of one, `(n, 3, 3)` of several.
     fn strain<'py>(&self, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         self.tensors(points, |run, point| run.strain(point))
-    }
-
-    /// The viscous strain Γ at points of solids: `(3, 3)` of one, `(n, 3, 3)` of several.
-    fn viscous_strain<'py>(&self, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        self.tensors(points, |run, point| run.viscous_strain(point))
     }
 
     /// Energies, entropies and momenta of the present state, by name.

@@ -38,12 +38,8 @@ pub enum Refused {
 }
 
 /// The laws that there are, for messages.
-pub const SHAPES: &str = if cfg!(feature = "all") {
-    "a solid made of texts has two or three of `StrainTrace`, `StrainSquare`, `Dilatation` and `FibreStrain`, and a temperature or none; or \
-     two of them, two invariants of a viscous strain and a temperature"
-} else {
-    "this package was built for solids with two strains and a temperature"
-};
+pub const SHAPES: &str = "a solid made of texts has two of the strains `StrainTrace`, `StrainSquare`, `Dilatation` and \
+    `FibreStrain`, with a temperature or without";
 
 /// A law as a material of the first of these types that fits.
 macro_rules! first_of {
@@ -88,10 +84,7 @@ macro_rules! solids {
                     add,
                     [
                         solid!(strains: 2),
-                        solid!(strains: 3),
                         solid!(strains: 2, temperature: 1),
-                        solid!(strains: 3, temperature: 1),
-                        solid!(strains: 2, invariants: 2, temperature: 1),
                     ]
                 );
                 #[cfg(not(feature = "all"))]
