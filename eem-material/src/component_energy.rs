@@ -115,6 +115,10 @@ impl<
         self.material.parameter_count()
     }
 
+    fn parameter_names(&self) -> &'static [&'static str] {
+        self.material.parameter_names()
+    }
+
     #[inline]
     fn has_constant_capacity(&self) -> bool {
         self.material.has_constant_capacity()

@@ -97,7 +97,8 @@ pub trait FreeEnergy<S: Scalar> {
     /// Their units as written, `1` for none; empty unless the model has units.
     const PARAMETER_UNITS: &'static [&'static str] = &[];
 
-    /// `[S; P]`, an entry for each of the P [`PARAMETERS`](Self::PARAMETERS), in their order.
+    /// `[S; P]`, an entry for each of the P [`PARAMETERS`](Self::PARAMETERS), in their order; where these are known only when a
+    /// program runs, as many as there may be, of which those of [`parameter_names`](Self::parameter_names) count.
     type Parameters: Array<S>;
     /// `[S; N]`, the variables.
     type Variables: Array<S>;
@@ -139,6 +140,12 @@ pub trait FreeEnergy<S: Scalar> {
     #[inline]
     fn parameter_count(&self) -> usize {
         Self::PARAMETERS.len()
+    }
+
+    /// The names of the parameters by which there are derivatives: [`PARAMETERS`](Self::PARAMETERS), unless they are known only
+    /// when a program runs.
+    fn parameter_names(&self) -> &'static [&'static str] {
+        Self::PARAMETERS
     }
 
     /// [`HAS_CONSTANT_CAPACITY`](Self::HAS_CONSTANT_CAPACITY), unless it is known only when a program runs.

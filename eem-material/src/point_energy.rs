@@ -122,6 +122,10 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         self.density.parameter_count()
     }
 
+    fn parameter_names(&self) -> &'static [&'static str] {
+        self.density.parameter_names()
+    }
+
     #[inline]
     fn has_constant_capacity(&self) -> bool {
         self.density.has_constant_capacity()

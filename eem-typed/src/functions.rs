@@ -1,16 +1,21 @@
 //! All functions of a law as tapes, for one scalar.
 
+mod by_parameters;
 mod staged;
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
+use eem_language::text::Compiled;
 use eem_material::Joint;
 use eem_material::number::scalar::Scalar;
 use eem_runtime::Strain;
 use eem_symbolic::{Program, Programs, Value};
 
 use crate::error::LawError;
+use crate::names;
 use crate::tape::{Tape, Wanted, fold};
+pub(crate) use by_parameters::{ByParameters, MOST_PARAMETERS};
 pub(crate) use staged::{Form, KEPT, Staged};
 use staged::{kept, state_inputs};
 
@@ -43,14 +48,17 @@ pub(crate) struct Functions<S> {
     pub(crate) entropy_form: Form<S>,
     pub(crate) mixed_states: Option<Staged<S>>,
     pub(crate) temperature_form: Option<Form<S>>,
+    compiled: Arc<Compiled>,
+    /// Made when they are asked for; nothing if they cannot be.
+    by_parameters: OnceLock<Option<ByParameters<S>>>,
 }
 
 impl<S: Scalar> Functions<S> {
-    /// The tapes of these programs, with so many variables and responses.
+    /// The tapes of the programs of these texts, with so many variables and responses.
     pub(crate) fn new(
         (name, kind): (&'static &'static str, u64),
         (strains, joints): (Box<[Strain]>, Box<[Joint]>),
-        programs: &Programs,
+        (compiled, programs): (&Arc<Compiled>, &Programs),
         parameters: Vec<S>,
         [variables, responses]: [usize; 2],
     ) -> Result<Self, LawError> {
@@ -105,7 +113,31 @@ impl<S: Scalar> Functions<S> {
             mixed_states,
             temperature_form: temperature_form.transpose()?,
             parameters: parameters.into(),
+            compiled: Arc::clone(compiled),
+            by_parameters: OnceLock::new(),
         })
+    }
+
+    /// The derivatives by the parameters; nothing with too many parameters, too long formulas or too large factors.
+    pub(crate) fn by_parameters(&self) -> Option<&ByParameters<S>> {
+        let make = || {
+            if self.parameters.len() > MOST_PARAMETERS {
+                return None;
+            }
+            let programs = self.compiled.parameter_programs().ok()?;
+            ByParameters::new(programs, &self.parameters).ok()
+        };
+        self.by_parameters.get_or_init(make).as_ref()
+    }
+
+    /// The names of the parameters by which there are derivatives.
+    pub(crate) fn parameter_names(&self) -> &'static [&'static str] {
+        let model = self.compiled.model();
+        let parameters = model.parameters.iter().take(MOST_PARAMETERS);
+        let names: Vec<_> = parameters
+            .map(|&parameter| model.graph.name(parameter))
+            .collect();
+        names::list(&names)
     }
 }
 

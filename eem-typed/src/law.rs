@@ -338,7 +338,8 @@ impl Law {
         let sizes = [variables, variables + usize::from(shape.thermal)];
         let identity = (self.name, self.kind());
         let measures = (self.strains(), self.joints());
-        let functions = Functions::new(identity, measures, programs, parameters, sizes)?;
+        let texts = (&self.compiled, programs);
+        let functions = Functions::new(identity, measures, texts, parameters, sizes)?;
         let functions = Arc::new(functions);
         made.push(Box::new(Arc::clone(&functions)));
         Ok(functions)

@@ -40,6 +40,7 @@
 //! | change which operations are joined, or how registers are given | `tape/lower.rs`, `tape/allocate.rs` |
 //! | change what is kept of the old state | `functions/staged.rs` |
 //! | evaluate several springs at a time | `run_rows` in `tape.rs`, `typed/rows.rs`; the caller is `element/group/by_rows.rs` in `eem-runtime` |
+//! | change derivatives by parameters | `functions/by_parameters.rs`, their names in `names.rs`; programs are made at the first derivative |
 //! | add a shape | the table of springs, and `solid!`, in `shapes.rs`; what a type says of its law: `shape.rs` |
 
 mod error;

@@ -1,4 +1,4 @@
-//! Names of laws, which handles of elements keep as long as the program runs.
+//! Names of laws and of their parameters, which are kept as long as the program runs.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -39,4 +39,28 @@ pub(crate) fn name(text: &str) -> Result<&'static &'static str, LawError> {
     let name: &'static &'static str = Box::leak(Box::new(kept));
     names.insert(kept, name);
     Ok(name)
+}
+
+/// Bytes that all lists of names may take.
+const BYTES: usize = 4 << 20;
+
+/// A list of names, kept until the program ends: the same for the same names. Nothing if the program has used too many others.
+pub(crate) fn list(names: &[&str]) -> &'static [&'static str] {
+    static LISTS: Mutex<(usize, BTreeMap<String, &'static [&'static str]>)> =
+        Mutex::new((0, BTreeMap::new()));
+    let mut lists = LISTS.lock().unwrap_or_else(PoisonError::into_inner);
+    let (bytes, lists) = &mut *lists;
+    let text = names.join(" ");
+    if let Some(known) = lists.get(&text) {
+        return known;
+    }
+    let more = 2 * text.len() + names.len() * size_of::<&str>();
+    if *bytes + more > BYTES {
+        return &[];
+    }
+    *bytes += more;
+    let kept = names.iter().map(|&name| &*Box::leak(Box::from(name)));
+    let kept: &'static [&'static str] = Box::leak(kept.collect());
+    lists.insert(text, kept);
+    kept
 }

@@ -14,7 +14,7 @@ use eem_material::number::scalar::Scalar;
 use crate::error::LawError;
 use allocate::{Allocated, allocate};
 pub(crate) use fold::fold;
-use instruction::{Instruction, Register};
+use instruction::{File, Instruction, Register};
 pub(crate) use lower::Wanted;
 
 /// Files of registers that a tape may use: powers of two, so that no index is beyond the end.
@@ -150,9 +150,7 @@ impl<S: Scalar> Tape<S> {
             }
             debug_assert_eq!(registers.len(), 0, "an input is missing");
         }
-        for instruction in &self.instructions {
-            instruction.execute(&mut file);
-        }
+        self.execute(&mut file);
         for (element, result) in results.iter_mut().enumerate() {
             let mut outputs = self.outputs.iter();
             for part in parts(result) {
@@ -160,6 +158,14 @@ impl<S: Scalar> Tape<S> {
                     *number = file[usize::from(output) & (P - 1)][element / B][element % B];
                 }
             }
+        }
+    }
+
+    /// Executes the instructions. It is large, and compiled once for each size of the file, not for every caller.
+    #[inline(never)]
+    fn execute<const P: usize, const B: usize, const Q: usize>(&self, file: &mut File<S, B, Q, P>) {
+        for instruction in &self.instructions {
+            instruction.execute(file);
         }
     }
 }

@@ -5,13 +5,14 @@ mod strains;
 
 use core::cell::OnceCell;
 use core::marker::PhantomData;
+use core::slice;
 use std::sync::Arc;
 
-use eem_material::free_energy::{Caloric, FreeEnergy, Rates, Rows};
+use eem_material::free_energy::{Array, Caloric, FreeEnergy, Rates, Rows};
 use eem_material::number::scalar::Scalar;
 use eem_runtime::Strain;
 
-use crate::functions::{Functions, KEPT};
+use crate::functions::{ByParameters, Functions, KEPT, MOST_PARAMETERS};
 use crate::names::NAMELESS;
 use crate::shape::{Measures, Shape};
 use crate::tape::Tape;
@@ -122,6 +123,36 @@ impl<
         number[0]
     }
 
+    /// A derivative by parameters, or along them: NaN if there are none, zero of what is not there.
+    fn derivative<const I: usize, A: Array<S>>(
+        &self,
+        tape: impl Fn(&ByParameters<S>) -> Option<&Tape<S>>,
+        inputs: [&[S]; I],
+    ) -> A {
+        let Some(all) = self.functions.by_parameters() else {
+            return A::filled(S::from_f64(f64::NAN));
+        };
+        let mut found = A::filled(S::zero());
+        if let Some(tape) = tape(all) {
+            tape.run(inputs, [found.as_mut()]);
+        }
+        found
+    }
+
+    /// The parameters that there are.
+    fn own<'a>(&self, direction: &'a [S; MOST_PARAMETERS]) -> &'a [S] {
+        &direction[..self.functions.parameters.len()]
+    }
+
+    /// The temperature as an input of viscosities, which have none without one.
+    fn temperature_input(theta: &S) -> &[S] {
+        if Self::THERMAL {
+            slice::from_ref(theta)
+        } else {
+            &[]
+        }
+    }
+
     /// Forces, heat capacity and slopes, and then other results.
     fn rates_of<const I: usize>(
         tape: &Tape<S>,
@@ -152,10 +183,11 @@ impl<
     const PER_VOLUME: bool = H::AT_POINT[0] > 0;
     const ROWS: Option<Rows<S, Self>> = Some(Self::rows());
     const MODEL: &'static str = NAMELESS;
+    const HAS_PARAMETER_DERIVATIVES: bool = true;
     /// Names are those of the law.
     const PARAMETERS: &'static [&'static str] = &[];
 
-    type Parameters = [S; 0];
+    type Parameters = [S; MOST_PARAMETERS];
     type Variables = [S; N];
     type Hessian = [[S; N]; N];
     type Viscosities = [S; V];
@@ -180,6 +212,10 @@ impl<
 
     fn parameter_count(&self) -> usize {
         self.functions.parameters.len()
+    }
+
+    fn parameter_names(&self) -> &'static [&'static str] {
+        self.functions.parameter_names()
     }
 
     fn has_constant_capacity(&self) -> bool {
@@ -283,7 +319,7 @@ impl<
     fn viscosity(&self, theta: S) -> ([S; V], [S; V]) {
         let (mut eta, mut slope) = ([S::zero(); V], [S::zero(); V]);
         if let Some(tape) = &self.functions.viscosity {
-            let theta = if Self::THERMAL { &[theta][..] } else { &[] };
+            let theta = Self::temperature_input(&theta);
             tape.run([theta], [&mut eta, &mut slope]);
         }
         (eta, slope)
@@ -292,7 +328,7 @@ impl<
     fn drag(&self, theta: S) -> ([S; D], [S; D]) {
         let (mut eta, mut slope) = ([S::zero(); D], [S::zero(); D]);
         if let Some(tape) = &self.functions.drag {
-            let theta = if Self::THERMAL { &[theta][..] } else { &[] };
+            let theta = Self::temperature_input(&theta);
             tape.run([theta], [&mut eta, &mut slope]);
         }
         (eta, slope)
@@ -376,6 +412,80 @@ impl<
         let old = &old[..form.staged.old.results()];
         form.response.run([old, x1], [&mut response]);
         response
+    }
+
+    fn temperature_form_adjoint(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        weights: &[S; R],
+    ) -> [S; MOST_PARAMETERS] {
+        if !Self::THERMAL {
+            return self.entropy_form_adjoint(x0, x1, &[S::zero(); C], weights);
+        }
+        self.derivative(
+            |all| all.temperature_form_adjoint.as_ref(),
+            [x0, x1, weights],
+        )
+    }
+
+    fn temperature_form_tangent(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        direction: &[S; MOST_PARAMETERS],
+    ) -> [S; R] {
+        if !Self::THERMAL {
+            return self.entropy_form_tangent(x0, x1, &[S::zero(); C], direction);
+        }
+        self.derivative(
+            |all| all.temperature_form_tangent.as_ref(),
+            [x0, x1, self.own(direction)],
+        )
+    }
+
+    fn entropy_form_adjoint(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        corners: &[S; C],
+        weights: &[S; R],
+    ) -> [S; MOST_PARAMETERS] {
+        self.derivative(
+            |all| Some(&all.entropy_form_adjoint),
+            [x0, x1, corners, weights],
+        )
+    }
+
+    fn entropy_form_tangent(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        corners: &[S; C],
+        direction: &[S; MOST_PARAMETERS],
+    ) -> [S; R] {
+        self.derivative(
+            |all| Some(&all.entropy_form_tangent),
+            [x0, x1, corners, self.own(direction)],
+        )
+    }
+
+    fn gradient_adjoint(&self, x: &[S; N], weights: &[S; N]) -> [S; MOST_PARAMETERS] {
+        self.derivative(|all| Some(&all.gradient_adjoint), [x, weights])
+    }
+
+    fn energy_by_parameters(&self, x: &[S; N]) -> [S; MOST_PARAMETERS] {
+        self.derivative(|all| Some(&all.energy), [x])
+    }
+
+    fn viscosity_adjoint(&self, theta: S, weights: &[S; V]) -> [S; MOST_PARAMETERS] {
+        let inputs = [Self::temperature_input(&theta), weights];
+        self.derivative(|all| all.viscosity_adjoint.as_ref(), inputs)
+    }
+
+    fn drag_adjoint(&self, theta: S, weights: &[S; D]) -> [S; MOST_PARAMETERS] {
+        let inputs = [Self::temperature_input(&theta), weights];
+        self.derivative(|all| all.drag_adjoint.as_ref(), inputs)
     }
 }
 

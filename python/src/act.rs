@@ -38,6 +38,21 @@ pub(crate) enum Act {
         /// Those of all dashpots of the first spring, of the second, and so on; or none.
         viscous_stretches: Vec<f64>,
     },
+    /// A solid of the material with this index; cells one after the other.
+    Solid {
+        material: usize,
+        positions: Vec<f64>,
+        cells: Indices,
+        bulk: Bulk,
+        /// Those of all nodes, or none.
+        velocities: Vec<f64>,
+        /// Those of all points, or none.
+        temperatures: Vec<f64>,
+    },
+    /// Nodes that are held where they are.
+    Fixed {
+        nodes: Indices,
+    },
     Temperatures {
         elements: Indices,
         values: Vec<f64>,
@@ -76,6 +91,19 @@ pub(crate) enum Act {
         time: f64,
     },
     Rest(Rest),
+}
+
+/// The properties of a solid besides its material and its mesh.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Bulk {
+    pub(crate) density: f64,
+    /// In the plane.
+    pub(crate) thickness: f64,
+    pub(crate) conductivity: Option<f64>,
+    /// Directions one after the other.
+    pub(crate) fibres: Vec<f64>,
+    pub(crate) lumped: bool,
+    pub(crate) allow_skew_cells: bool,
 }
 
 /// How masses move at the start.

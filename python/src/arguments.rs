@@ -1,10 +1,12 @@
 //! Arguments of calls to scenes as acts.
 
+use std::ops::Range;
+
 use pyo3::prelude::*;
 
-use crate::act::{Act, Course, Speed};
+use crate::act::{Act, Bulk, Course, Partner, Speed};
 use crate::built::dashpots;
-use crate::handle::{Kind, Node, indices};
+use crate::handle::{Element, Kind, Node, Reservoir, ReservoirArray, indices};
 use crate::material::Material;
 use crate::world::World;
 use crate::{error, input};
@@ -62,6 +64,101 @@ impl World {
             viscous_stretches,
         })?;
         Ok(first)
+    }
+
+    /// Adds a solid and returns the numbers of its nodes and points, and its cells in numbers of nodes of the scene.
+    pub(crate) fn solid(
+        &mut self,
+        material: &Bound<'_, Material>,
+        [positions, cells]: [&Bound<'_, PyAny>; 2],
+        bulk: Bulk,
+        [temperature, velocity]: [Option<&Bound<'_, PyAny>>; 2],
+    ) -> PyResult<(Range<usize>, Range<usize>, Vec<usize>)> {
+        let dim = self.dim;
+        let positions = input::rows(positions, dim, "positions")?;
+        let count = positions.len() / dim;
+        let cells = input::indices(cells, 1 << dim, "cells")?;
+        let velocities = velocity.map(|given| input::vectors(given, [count, dim], "the velocity"));
+        let temperatures = temperature.map(|given| {
+            // As many points as corners, or one for all.
+            input::numbers(given, cells.len(), "the temperature")
+        });
+        let counts = self.lineage.counts;
+        let first = counts[Kind::Node as usize];
+        let own: Vec<_> = cells.iter().map(|&node| first + node).collect();
+        let material = self.material(material);
+        self.act(Act::Solid {
+            material,
+            positions,
+            cells,
+            bulk,
+            velocities: velocities.transpose()?.unwrap_or_default(),
+            temperatures: temperatures.transpose()?.unwrap_or_default(),
+        })?;
+        let range = |kind: Kind| counts[kind as usize]..self.lineage.counts[kind as usize];
+        Ok((range(Kind::Node), range(Kind::Element), own))
+    }
+
+    /// The properties of a solid: density, thickness, conductivity, fibres.
+    pub(crate) fn bulk(&self, given: [Option<&Bound<'_, PyAny>>; 4]) -> PyResult<Bulk> {
+        let [density, thickness, conductivity, fibres] = given;
+        if thickness.is_some() && self.dim != 2 {
+            return Err(error::scene("only a solid in the plane has a thickness"));
+        }
+        let number = |given: Option<&Bound<'_, PyAny>>, what: &str| {
+            given.map(|given| input::number(given, what)).transpose()
+        };
+        let fibres = fibres.map(|given| input::rows(given, self.dim, "fibres"));
+        Ok(Bulk {
+            density: number(density, "the density")?.unwrap_or(f64::NAN),
+            thickness: number(thickness, "the thickness")?.unwrap_or(1.0),
+            conductivity: number(conductivity, "the conductivity")?,
+            fibres: fibres.transpose()?.unwrap_or_default(),
+            lumped: false,
+            allow_skew_cells: false,
+        })
+    }
+
+    /// Adds paths of heat and returns their numbers, and whether one was given.
+    pub(crate) fn paths(
+        &mut self,
+        springs: &Bound<'_, PyAny>,
+        partners: &Bound<'_, PyAny>,
+        conductance: &Bound<'_, PyAny>,
+    ) -> PyResult<(Range<usize>, bool)> {
+        let (elements, is_one) = indices::<Element>(springs, &self.lineage)?;
+        let count = elements.len();
+        let is_reservoir =
+            partners.is_instance_of::<Reservoir>() || partners.is_instance_of::<ReservoirArray>();
+        let (partners, is_common) = if is_reservoir {
+            let (all, is_common) = indices::<Reservoir>(partners, &self.lineage)?;
+            (all.into_iter().map(Partner::Reservoir).collect(), is_common)
+        } else {
+            let (all, is_common) = indices::<Element>(partners, &self.lineage)?;
+            (
+                all.into_iter().map(Partner::Element).collect::<Vec<_>>(),
+                is_common,
+            )
+        };
+        let partners = if is_common {
+            vec![partners[0]; count]
+        } else {
+            partners
+        };
+        if partners.len() != count {
+            let other = partners.len();
+            return Err(error::scene(format!(
+                "{count} springs have {other} partners: give one, or one for each"
+            )));
+        }
+        let conductances = input::numbers(conductance, count, "the conductance")?;
+        let first = self.lineage.counts[Kind::HeatPath as usize];
+        self.act(Act::Paths {
+            elements,
+            partners,
+            conductances,
+        })?;
+        Ok((first..first + count, is_one))
     }
 
     /// A quantity that is a number or a function of time.

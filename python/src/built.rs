@@ -2,12 +2,13 @@
 
 use eem::typed::{Law, LawError};
 use eem::{
-    Element, Equilibrium, EquilibriumError, EquilibriumReport, HeatPartner, HeatPath, Node,
+    Bulk, Element, Equilibrium, EquilibriumError, EquilibriumReport, HeatPartner, HeatPath, Node,
     RefusedScene, Reservoir, Scene, SceneError, Scheme, Simulation,
 };
+use eem_solids::{Refused, Solids};
 use eem_springs::Springs;
 
-use crate::act::{Act, Course, Partner, Rest, Speed};
+use crate::act::{self, Act, Course, Partner, Rest, Speed};
 use crate::function::Function;
 use crate::handle::Counts;
 use crate::run::AnyRun;
@@ -23,9 +24,31 @@ pub(crate) struct Parts {
     pub(crate) dashpots: Vec<usize>,
     /// Whether each element has a temperature.
     pub(crate) thermal: Vec<bool>,
+    /// The indices of their laws.
+    pub(crate) laws: Vec<usize>,
+    /// Whether each is a spring; the others are points of solids.
+    pub(crate) springs: Vec<bool>,
+    /// Whether a dashpot has no temperature, so that its heat is lost.
+    pub(crate) loses_heat: bool,
 }
 
 impl Parts {
+    /// Points of solids.
+    pub(crate) fn points(&self) -> usize {
+        self.springs.iter().filter(|&&is_spring| !is_spring).count()
+    }
+
+    fn element(&mut self, element: Element, index: usize, law: &Law) {
+        let model = law.compiled().model();
+        let is_damped = model.drag.is_some() || !model.dashpots.is_empty();
+        self.loses_heat |= is_damped && model.temperature.is_none();
+        self.elements.push(element);
+        self.dashpots.push(model.dashpots.len());
+        self.thermal.push(model.temperature.is_some());
+        self.laws.push(index);
+        self.springs.push(law.compiled().strains().is_empty());
+    }
+
     pub(crate) fn counts(&self) -> Counts {
         [
             self.nodes.len(),
@@ -46,6 +69,7 @@ pub(crate) struct Context {
 /// Why an act was refused.
 pub(crate) enum Refusal {
     Law(LawError),
+    Solid(Refused),
     Rest(EquilibriumError),
 }
 
@@ -74,7 +98,7 @@ pub(crate) struct Built<const D: usize> {
 
 impl<const D: usize> Built<D>
 where
-    Scene<D>: Springs,
+    Scene<D>: Springs + Solids<D>,
 {
     pub(crate) fn new() -> Self {
         Self {
@@ -123,7 +147,9 @@ where
                     }
                 }
             }
-            Act::Springs { material, .. } => return self.springs(act, &context.laws[*material]),
+            Act::Springs { .. } => return self.springs(act, context),
+            Act::Solid { .. } => return self.solid(act, context),
+            Act::Fixed { nodes } => nodes.iter().for_each(|&node| scene.fix(parts.nodes[node])),
             Act::Temperatures { elements, values } => {
                 for (&element, &value) in elements.iter().zip(values) {
                     scene.set_temperature(parts.elements[element], value);
@@ -168,19 +194,20 @@ where
         Ok(())
     }
 
-    fn springs(&mut self, act: &Act, law: &Law) -> Result<(), Refusal> {
+    fn springs(&mut self, act: &Act, context: &Context) -> Result<(), Refusal> {
         let Act::Springs {
+            material,
             pairs,
             temperatures,
             viscous_stretches,
-            ..
         } = act
         else {
             return Ok(());
         };
         let Self { scene, parts } = self;
+        let law = &context.laws[*material];
+        law.check_spring()?;
         let dashpots = dashpots(law);
-        let is_thermal = law.compiled().model().temperature.is_some();
         for (index, &[first, second]) in pairs.iter().enumerate() {
             let nodes = [parts.nodes[first], parts.nodes[second]];
             let element = scene.add_spring(law, nodes)?;
@@ -193,9 +220,39 @@ where
                     scene.set_viscous_stretch(element, dashpot, stretch);
                 }
             }
-            parts.elements.push(element);
-            parts.dashpots.push(dashpots);
-            parts.thermal.push(is_thermal);
+            parts.element(element, *material, law);
+        }
+        Ok(())
+    }
+
+    fn solid(&mut self, act: &Act, context: &Context) -> Result<(), Refusal> {
+        let Act::Solid {
+            material,
+            positions,
+            cells,
+            bulk,
+            velocities,
+            temperatures,
+        } = act
+        else {
+            return Ok(());
+        };
+        let Self { scene, parts } = self;
+        let law = &context.laws[*material];
+        let places = vectors(positions).collect();
+        let section = (as_bulk(bulk), bulk.thickness);
+        let (nodes, points) = scene
+            .add_solid(law, places, cells, section)
+            .map_err(Refusal::Solid)?;
+        for (&node, velocity) in nodes.iter().zip(vectors(velocities)) {
+            scene.set_velocity(node, velocity);
+        }
+        for (&point, &temperature) in points.iter().zip(temperatures) {
+            scene.set_temperature(point, temperature);
+        }
+        parts.nodes.extend(nodes);
+        for point in points {
+            parts.element(point, *material, law);
         }
         Ok(())
     }
@@ -271,7 +328,7 @@ where
 
 impl<const D: usize> AnyScene for Built<D>
 where
-    Scene<D>: Springs,
+    Scene<D>: Springs + Solids<D>,
 {
     fn parts(&self) -> &Parts {
         &self.parts
@@ -298,6 +355,24 @@ where
         let refused = |refused: RefusedScene<D>| refused.errors().to_vec();
         Ok(Box::new(run.map_err(refused)?))
     }
+}
+
+/// The properties of a solid as the library takes them.
+fn as_bulk<const D: usize>(given: &act::Bulk) -> Bulk<D> {
+    let mut bulk = Bulk::new(given.density);
+    if let Some(conductivity) = given.conductivity {
+        bulk = bulk.conductivity(conductivity);
+    }
+    for fibre in vectors(&given.fibres) {
+        bulk = bulk.fibre(fibre);
+    }
+    if given.lumped {
+        bulk = bulk.lumped();
+    }
+    if given.allow_skew_cells {
+        bulk = bulk.allow_skew_cells();
+    }
+    bulk
 }
 
 /// The number of dashpots in series.

@@ -7,6 +7,7 @@ use std::thread;
 
 use eem::typed::LawError;
 use eem::{Ensemble, MemberFailure, RunEnd, Scene, Scheme, Tolerance};
+use eem_solids::Solids;
 use eem_springs::Springs;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -52,7 +53,7 @@ impl Plan<'_> {
 
     fn run<const D: usize>(&self) -> Vec<Result<Rows, MemberFailure>>
     where
-        Scene<D>: Springs,
+        Scene<D>: Springs + Solids<D>,
     {
         let ensemble = Ensemble::new(self.scheme, self.step).threads(self.threads);
         let ensemble = ensemble.watch(|_, _| {
@@ -73,10 +74,8 @@ impl Plan<'_> {
                 }
             },
             |run, parts, _| {
-                let parts: Parts = parts.map_err(|refusal| match refusal {
-                    Refusal::Law(error) => MemberFailure::other(Raised(error::law(error))),
-                    Refusal::Rest(error) => MemberFailure::other(Raised(error::equilibrium(error))),
-                })?;
+                let raised = |refusal| MemberFailure::other(Raised(error::refusal(refusal)));
+                let parts: Parts = parts.map_err(raised)?;
                 if let Some(tolerance) = self.tolerance {
                     run.control_steps(tolerance)?;
                 }
@@ -126,21 +125,7 @@ impl<'a> Request<'a> {
         until: Option<f64>,
         times: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let times = match (until, times) {
-            (Some(until), None) => vec![until],
-            (None, Some(times)) => {
-                let array = input::array(times, "times")?;
-                if array.shape.len() != 1 || array.values.is_empty() {
-                    return Err(error::scene("times are a list of at least one number"));
-                }
-                array.values
-            }
-            _ => {
-                return Err(error::scene(
-                    "give the end `until`, or the `times` of the states",
-                ));
-            }
-        };
+        let times = input::times(until, times)?;
         let mut columns = Vec::new();
         for (material, values) in vary {
             let material = material.cast::<Material>()?;

@@ -1,10 +1,13 @@
 //! Errors of the library as exceptions of the package, which are classes of `eem._errors`.
 
 use eem::typed::{Fault, Faults, LawError};
-use eem::{EquilibriumError, MemberFailure, SceneError, StepError, StepFailure};
+use eem::{EquilibriumError, GradientError, MemberFailure, SceneError, StepError, StepFailure};
+use eem_solids::{Refused, SHAPES};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+
+use crate::built::Refusal;
 
 /// An exception of this class with attributes.
 fn new(
@@ -62,7 +65,7 @@ pub(crate) fn step(error: &StepError, record: Option<Py<PyAny>>) -> PyErr {
         attributes.set_item("time", error.time)?;
         attributes.set_item("step", error.step)?;
         attributes.set_item("shorter", error.shorter)?;
-        attributes.set_item("failure", name(&error.failure))?;
+        attributes.set_item("failure", variant(&error.failure))?;
         let newton = error.history.iter().map(|one| (one.residual, one.update));
         attributes.set_item("newton", newton.collect::<Vec<_>>())?;
         if let StepFailure::LawNotKept {
@@ -77,9 +80,34 @@ pub(crate) fn step(error: &StepError, record: Option<Py<PyAny>>) -> PyErr {
     })
 }
 
-/// `NotConverged`: the name of a failure.
-fn name(failure: &StepFailure) -> String {
-    let shown = format!("{failure:?}");
+/// A `GradientError`, or the error of a scene or a step.
+pub(crate) fn gradient(error: GradientError) -> PyErr {
+    let reason = variant(&error);
+    match error {
+        GradientError::Scene(error) => of_scene(error),
+        GradientError::Step(error) => step(&error, None),
+        error => {
+            let message = error.to_string().replace("History::bytes", "bytes=");
+            let message = message.replace("`run_at` makes", "`run(times=...)` makes");
+            new("GradientError", message, |attributes| {
+                attributes.set_item("reason", reason)
+            })
+        }
+    }
+}
+
+/// The `GradientError` of an energy of which the lost heat is a part.
+pub(crate) fn lost_heat() -> PyErr {
+    let message = "there are no derivatives of the energy where dashpots without a temperature lose heat: give their free energies \
+                   a `Temperature`, or take kinetic_energy";
+    new("GradientError", message.to_owned(), |attributes| {
+        attributes.set_item("reason", "NoDerivative")
+    })
+}
+
+/// `NotConverged`: the name of a variant.
+fn variant(one: &impl std::fmt::Debug) -> String {
+    let shown = format!("{one:?}");
     let name = shown.split(|c: char| !c.is_alphanumeric()).next();
     name.unwrap_or_default().to_owned()
 }
@@ -135,9 +163,26 @@ fn list<'py>(py: Python<'py>, faults: &[Fault]) -> PyResult<Bound<'py, PyList>> 
     PyList::new(py, all.collect::<PyResult<Vec<_>>>()?)
 }
 
+/// Why an act was refused.
+pub(crate) fn refusal(refusal: Refusal) -> PyErr {
+    match refusal {
+        Refusal::Law(error) | Refusal::Solid(Refused::Law(error)) => law(error),
+        Refusal::Rest(error) => equilibrium(error),
+        Refusal::Solid(Refused::Shape) => {
+            material(format!("no solid is of this material: {SHAPES}"))
+        }
+        Refusal::Solid(Refused::Mesh(error)) => scene(error.to_string()),
+        Refusal::Solid(Refused::Line) => scene("a solid needs a scene in two or three dimensions"),
+    }
+}
+
 pub(crate) fn law(error: LawError) -> PyErr {
     match error {
         LawError::Programs(all) => faults(&all),
+        LawError::Solid => material(
+            "the free energy is per volume, that of a solid: a spring has a `Stretch`; use Scene.solid"
+                .to_owned(),
+        ),
         error => material(error.to_string()),
     }
 }

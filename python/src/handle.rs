@@ -132,6 +132,38 @@ impl Lineage {
     fn node(&self, node: &Node) -> PyResult<usize> {
         self.index(Kind::Node, node.id())
     }
+
+    /// The index of a node, or those of several as int64; the same for others below.
+    fn nodes<'py>(&self, given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        places::<Node>(given, self)
+    }
+
+    fn elements<'py>(&self, given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        places::<Element>(given, self)
+    }
+
+    fn reservoirs<'py>(&self, given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        places::<Reservoir>(given, self)
+    }
+
+    fn paths<'py>(&self, given: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        places::<HeatPath>(given, self)
+    }
+}
+
+/// The index of one handle, or those of several.
+fn places<'py, H: Handle>(
+    given: &Bound<'py, PyAny>,
+    lineage: &Lineage,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (indices, is_one) = indices::<H>(given, lineage)?;
+    let indices = indices.into_iter().map(|index| index.cast_signed() as i64);
+    let array = PyArray1::from_iter(given.py(), indices);
+    if is_one {
+        array.get_item(0)
+    } else {
+        Ok(array.into_any())
+    }
 }
 
 /// A handle of one kind.

@@ -79,6 +79,47 @@ pub(crate) fn number(given: &Bound<'_, PyAny>, what: &str) -> PyResult<f64> {
     }
 }
 
+/// The end of a run, or the times of its states.
+pub(crate) fn times(until: Option<f64>, times: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
+    match (until, times) {
+        (Some(until), None) => Ok(vec![until]),
+        (None, Some(times)) => {
+            let array = array(times, "times")?;
+            if array.shape.len() != 1 || array.values.is_empty() {
+                return Err(error::scene("times are a list of at least one number"));
+            }
+            Ok(array.values)
+        }
+        _ => Err(error::scene(
+            "give the end `until`, or the `times` of the states",
+        )),
+    }
+}
+
+/// Rows of this many indices, `(n, length)`, which are whole numbers from 0 on.
+pub(crate) fn indices(given: &Bound<'_, PyAny>, length: usize, what: &str) -> PyResult<Vec<usize>> {
+    let py = given.py();
+    let whole = [("casting", "same_kind")].into_py_dict(py)?;
+    let array = py.import("numpy")?.call_method1("asarray", (given,))?;
+    let array = array.call_method("astype", ("int64",), Some(&whole))?;
+    let array = py
+        .import("numpy")?
+        .call_method1("ascontiguousarray", (array,))?;
+    let array: PyReadonlyArrayDyn<'_, i64> = array.extract()?;
+    match array.shape() {
+        [_, columns] if *columns == length => {}
+        shape => return refuse(what, shape, &format!("(n, {length})")),
+    }
+    let all = array.as_slice()?.iter().enumerate();
+    all.map(|(place, &index)| {
+        usize::try_from(index).map_err(|_| {
+            let at = placed(place, array.shape());
+            error::scene(format!("{what}{at} is {index}, it is counted from 0"))
+        })
+    })
+    .collect()
+}
+
 /// As many vectors as there are, `(n, length)`.
 pub(crate) fn rows(given: &Bound<'_, PyAny>, length: usize, what: &str) -> PyResult<Vec<f64>> {
     let array = array(given, what)?;

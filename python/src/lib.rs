@@ -6,8 +6,9 @@
 //! | add a quantity of runs | `run.rs`, `simulation.rs`; `record.rs` and `python/eem/_record.py` to record it |
 //! | change how arrays are taken | `input.rs` |
 //! | change handles | `handle.rs` |
+//! | add a quantity that has derivatives, or an input they are by | `gradient.rs`, `python/eem/_gradient.py` |
 //! | change exceptions | `error.rs`, `python/eem/_errors.py` |
-//! | compile springs differently | `springs` |
+//! | compile springs and solids differently, or other shapes of them | `springs`, `solids` |
 
 mod act;
 mod arguments;
@@ -15,6 +16,7 @@ mod built;
 mod ensemble;
 mod error;
 mod function;
+mod gradient;
 mod handle;
 mod input;
 mod material;
@@ -51,4 +53,12 @@ mod _eem {
     /// The names of the scalar entries of a ledger.
     #[pymodule_export]
     const LEDGER: [&str; crate::record::LEDGER.len()] = crate::record::LEDGER;
+
+    /// Whether all shapes of springs and solids were compiled.
+    #[pymodule_export]
+    const ALL_SHAPES: bool = cfg!(feature = "all");
+
+    /// The names of the quantities that have derivatives.
+    #[pymodule_export]
+    const QUANTITIES: [&str; crate::gradient::QUANTITIES.len()] = crate::gradient::QUANTITIES;
 }

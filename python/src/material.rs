@@ -1,6 +1,6 @@
 //! `eem.Material`: a free energy as text, with values for its parameters.
 
-use eem::typed::{Law, Source, compile};
+use eem::typed::{Law, LawError, Source, compile};
 use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -11,7 +11,8 @@ use crate::{error, input};
 /// A material: its Helmholtz free energy ψ as text, viscosities, and values of its parameters, with units or without.
 ///
 /// The arguments of ψ have roles: `Stretch` is the length of the spring in m, `Viscous` the extension of a dashpot in
-/// series, `Temperature` in K. A viscosity is given for each dashpot in series by its name, or for the stretch, which is
+/// series, `Temperature` in K. ψ of a solid is per volume, in J/m³, and has strains: `StrainTrace`, `StrainSquare`,
+/// `Dilatation`. A viscosity is given for each dashpot in series by its name, or for the stretch, which is
 /// a dashpot beside the spring. A parameter is a number, a list of numbers (`k[0]` in the text), or a pair of these and a
 /// unit; if one has a unit, all have one, and the units of the formulas are checked.
 ///
@@ -125,8 +126,10 @@ impl Material {
         let law = py.detach(|| {
             let compiled = compile(source).map_err(|faults| error::faults(&faults))?;
             let law = Law::new(compiled, &as_refs(values)).map_err(error::law)?;
-            // There are no solids of texts here yet.
-            law.check_spring().map_err(error::law)?;
+            match law.check_spring() {
+                Ok(()) | Err(LawError::Solid) => {}
+                Err(error) => return Err(error::law(error)),
+            }
             match name {
                 Some(name) => law.named(name).map_err(error::law),
                 None => Ok(law),

@@ -46,6 +46,8 @@ pub(crate) struct Wanted {
     pub(crate) every: Option<usize>,
     /// Stretches and forces of all springs, too.
     pub(crate) forces: bool,
+    /// States at the given times only.
+    pub(crate) at_times: bool,
 }
 
 /// Rows that grow while a run goes on.
@@ -86,8 +88,14 @@ impl Rows {
                 self.viscous.push(run.viscous_stretch(element, dashpot)?);
             }
             if forces {
-                self.stretches.push(run.stretch(element)?);
-                self.forces.push(run.force(element)?);
+                let is_spring = parts.springs[index];
+                let [stretch, force] = if is_spring {
+                    [run.stretch(element)?, run.force(element)?]
+                } else {
+                    [f64::NAN; 2]
+                };
+                self.stretches.push(stretch);
+                self.forces.push(force);
             }
         }
         run.add_ledger(&mut self.ledger);

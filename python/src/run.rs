@@ -3,10 +3,15 @@
 use std::ops::ControlFlow;
 
 use eem::{
-    Checkpoint, Element, Node, RestoreError, RunEnd, SceneError, Scheme, Simulation, StepError,
-    StepReport, StepStatistics, Tolerance,
+    Checkpoint, Element, GradientError, History, Node, RestoreError, RunEnd, SceneError, Scheme,
+    Simulation, StepError, StepReport, StepStatistics, Tolerance,
 };
 
+use eem::nalgebra::Matrix3;
+use eem::typed::Law;
+
+use crate::built::Parts;
+use crate::gradient::{Found, Term, gradient};
 use crate::record::entries;
 
 /// Sees a run after each step.
@@ -40,6 +45,9 @@ pub(crate) trait AnyRun: Send {
     fn stretch(&self, element: Element) -> Result<f64, SceneError>;
     fn force(&self, element: Element) -> Result<f64, SceneError>;
     fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<f64, SceneError>;
+    /// Cauchy's stress, and Green and Lagrange's strain, of a point of a solid, by rows.
+    fn stress(&self, point: Element) -> Result<[f64; 9], SceneError>;
+    fn strain(&self, point: Element) -> Result<[f64; 9], SceneError>;
     /// The entries of the ledger in the order of [`LEDGER`](crate::record::LEDGER), and both momenta.
     fn add_ledger(&self, to: &mut Vec<f64>);
     fn worst_step(&self) -> Option<&StepReport<f64>>;
@@ -53,6 +61,13 @@ pub(crate) trait AnyRun: Send {
     fn checkpoint(&self) -> Checkpoint;
     fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError>;
     fn with_scheme(self: Box<Self>, scheme: Scheme) -> Result<Box<dyn AnyRun>, Unchanged>;
+    fn keep_history(&mut self, history: History);
+    fn gradient(
+        &mut self,
+        terms: &[Term],
+        parts: &Parts,
+        laws: &[Law],
+    ) -> Result<Found, GradientError>;
 }
 
 impl<const D: usize> AnyRun for Simulation<D> {
@@ -128,6 +143,14 @@ impl<const D: usize> AnyRun for Simulation<D> {
         self.viscous_stretch(element, dashpot)
     }
 
+    fn stress(&self, point: Element) -> Result<[f64; 9], SceneError> {
+        Ok(by_rows(&self.solid_state(point)?.stress))
+    }
+
+    fn strain(&self, point: Element) -> Result<[f64; 9], SceneError> {
+        Ok(by_rows(&self.solid_state(point)?.strain))
+    }
+
     fn add_ledger(&self, to: &mut Vec<f64>) {
         let ledger = self.ledger();
         to.extend(entries(&ledger));
@@ -184,6 +207,23 @@ impl<const D: usize> AnyRun for Simulation<D> {
             }
         }
     }
+
+    fn keep_history(&mut self, history: History) {
+        self.keep_history(history);
+    }
+
+    fn gradient(
+        &mut self,
+        terms: &[Term],
+        parts: &Parts,
+        laws: &[Law],
+    ) -> Result<Found, GradientError> {
+        gradient(self, terms, parts, laws)
+    }
+}
+
+fn by_rows(tensor: &Matrix3<f64>) -> [f64; 9] {
+    std::array::from_fn(|entry| tensor[(entry / 3, entry % 3)])
 }
 
 /// A vector whose length was checked.

@@ -2,11 +2,12 @@
 
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyType};
 
-use crate::act::{Act, Course, Partner, Rest};
+use crate::act::{Act, Bulk, Course, Rest};
 use crate::ensemble::Request;
 use crate::handle::{
     Element, ElementArray, HeatPath, HeatPathArray, Kind, Lineage, Node, NodeArray, Reservoir,
@@ -76,14 +77,14 @@ impl PyScene {
         Ok(NodeArray::of(own, 0..counts[Kind::Node as usize]))
     }
 
-    /// All springs.
+    /// All springs, and points of solids.
     #[getter]
     fn elements(&self) -> PyResult<ElementArray> {
         let Lineage { own, counts, .. } = self.world()?.lineage;
         Ok(ElementArray::of(own, 0..counts[Kind::Element as usize]))
     }
 
-    /// The materials of its springs.
+    /// The materials of its springs and solids.
     #[getter]
     fn materials<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         PyList::new(py, self.world()?.materials.iter().map(|one| one.bind(py)))
@@ -198,7 +199,69 @@ impl PyScene {
         Ok(ElementArray::of(world.lineage.own, first..first + count))
     }
 
-    /// The temperatures of springs at the start, K.
+    /// A solid of a material whose ψ is per volume, with a mesh: positions of its nodes, m, `(n, dim)`, and the nodes of its
+    /// cells, `(m, 4)` in the plane, counterclockwise, or `(m, 8)` in space, the lower four counterclockwise seen from above,
+    /// then the upper four.
+    ///
+    /// Density in kg/m³; thickness of a plane one in m; `conductivity` in W/(m K), without which its points are insulated; `fibres`
+    /// are the directions of its fibre strains, `(fibres, dim)`; the mass is consistent unless it is `lumped`. The temperature at
+    /// the start is one for all points, or `(points,)`; the velocity one for all nodes, or `(n, dim)`.
+    ///
+    /// It returns an `eem.Solid` with its `nodes`, its `points` with a temperature each, cell by cell, and its `cells` in numbers
+    /// of nodes of the scene.
+    #[pyo3(signature = (
+        material, positions, cells, *, density, thickness=None, conductivity=None, fibres=None, lumped=false,
+        allow_skew_cells=false, temperature=None, velocity=None
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+    fn solid(
+        &self,
+        py: Python<'_>,
+        material: &Bound<'_, Material>,
+        positions: &Bound<'_, PyAny>,
+        cells: &Bound<'_, PyAny>,
+        density: &Bound<'_, PyAny>,
+        thickness: Option<&Bound<'_, PyAny>>,
+        conductivity: Option<&Bound<'_, PyAny>>,
+        fibres: Option<&Bound<'_, PyAny>>,
+        lumped: bool,
+        allow_skew_cells: bool,
+        temperature: Option<&Bound<'_, PyAny>>,
+        velocity: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Py<PyAny>> {
+        let mut world = self.world()?;
+        let dim = world.dim;
+        let bulk = world.bulk([Some(density), thickness, conductivity, fibres])?;
+        let bulk = Bulk {
+            lumped,
+            allow_skew_cells,
+            ..bulk
+        };
+        let mesh = [positions, cells];
+        let (nodes, points, cells) = world.solid(material, mesh, bulk, [temperature, velocity])?;
+        let own = world.lineage.own;
+        drop(world);
+        let class = py.import("eem._solid")?.getattr("Solid")?;
+        let columns = if dim == 2 { 4 } else { 8 };
+        let rows = cells.len() / columns;
+        let cells = cells.into_iter().map(|node| node.cast_signed() as i64);
+        let cells = PyArray1::from_iter(py, cells).reshape([rows, columns])?;
+        let made = class.call1((
+            NodeArray::of(own, nodes),
+            ElementArray::of(own, points),
+            cells,
+        ))?;
+        Ok(made.unbind())
+    }
+
+    /// Holds nodes of solids where they are; `move_anchor` moves them then.
+    fn fix(&self, nodes: &Bound<'_, PyAny>) -> PyResult<()> {
+        let mut world = self.world()?;
+        let (nodes, _) = indices::<Node>(nodes, &world.lineage)?;
+        world.act(Act::Fixed { nodes })
+    }
+
+    /// The temperatures of springs and of points of solids at the start, K.
     fn set_temperature(
         &self,
         springs: &Bound<'_, PyAny>,
@@ -251,44 +314,12 @@ impl PyScene {
         conductance: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let mut world = self.world()?;
-        let (elements, is_one) = indices::<Element>(springs, &world.lineage)?;
-        let count = elements.len();
-        let is_reservoir =
-            partners.is_instance_of::<Reservoir>() || partners.is_instance_of::<ReservoirArray>();
-        let (partners, is_common) = if is_reservoir {
-            let (all, is_common) = indices::<Reservoir>(partners, &world.lineage)?;
-            (all.into_iter().map(Partner::Reservoir).collect(), is_common)
-        } else {
-            let (all, is_common) = indices::<Element>(partners, &world.lineage)?;
-            (
-                all.into_iter().map(Partner::Element).collect::<Vec<_>>(),
-                is_common,
-            )
-        };
-        let partners = if is_common {
-            vec![partners[0]; count]
-        } else {
-            partners
-        };
-        if partners.len() != count {
-            let other = partners.len();
-            return Err(error::scene(format!(
-                "{count} springs have {other} partners: give one, or one for each"
-            )));
-        }
-        let conductances = input::numbers(conductance, count, "the conductance")?;
-        let first = world.lineage.counts[Kind::HeatPath as usize];
-        world.act(Act::Paths {
-            elements,
-            partners,
-            conductances,
-        })?;
+        let (all, is_one) = world.paths(springs, partners, conductance)?;
         let own = world.lineage.own;
-        let all = HeatPathArray::of(own, first..first + count);
         Ok(if is_one {
-            Bound::new(py, HeatPath::of(own, first))?.into_any()
+            Bound::new(py, HeatPath::of(own, all.start))?.into_any()
         } else {
-            Bound::new(py, all)?.into_any()
+            Bound::new(py, HeatPathArray::of(own, all))?.into_any()
         })
     }
 
@@ -456,10 +487,16 @@ impl PyScene {
 
     fn __repr__(&self) -> PyResult<String> {
         let world = self.world()?;
-        let [nodes, springs, reservoirs, paths] = world.lineage.counts;
-        let dim = world.dim;
+        let [nodes, elements, reservoirs, paths] = world.lineage.counts;
+        let points = world.scene.parts().points();
+        let (dim, springs) = (world.dim, elements - points);
+        let points = if points > 0 {
+            format!(", points={points}")
+        } else {
+            String::new()
+        };
         Ok(format!(
-            "Scene(dim={dim}, nodes={nodes}, springs={springs}, reservoirs={reservoirs}, paths={paths})"
+            "Scene(dim={dim}, nodes={nodes}, springs={springs}{points}, reservoirs={reservoirs}, paths={paths})"
         ))
     }
 }

@@ -1,23 +1,27 @@
 //! Runs: `eem.Simulation`.
 
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+mod access;
 
-use eem::{Checkpoint, RunEnd, SceneError, Scheme, Tolerance};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
+use std::sync::{Arc, Mutex};
+
+use eem::{Checkpoint, History};
+use numpy::{PyArray1, PyArray2};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
+use access::{Ended, interrupted};
+
 use crate::built::Parts;
 use crate::function::take_raised;
-use crate::handle::{Element, Kind, Node};
+use crate::handle::{Element, Node};
 use crate::record::{Rows, Wanted, ledger, record};
 use crate::report::Report;
-use crate::run::{AnyRun, Stop};
+use crate::run::AnyRun;
 use crate::setting::scheme;
 use crate::watch::Watch;
 use crate::world::{State, World};
-use crate::{error, input, setting};
+use crate::{error, gradient, input, setting};
 
 /// A run of a scene, made by `Scene.simulate`. It is pickled and copied with all bits.
 #[pyclass(frozen, module = "eem")]
@@ -31,157 +35,8 @@ pub(crate) struct Simulation {
     step: f64,
 }
 
-/// A run that nobody else steps.
-struct Locked<'a>(MutexGuard<'a, Option<Box<dyn AnyRun>>>);
-
-impl Locked<'_> {
-    fn run(&mut self) -> PyResult<&mut Box<dyn AnyRun>> {
-        self.0.as_mut().ok_or_else(interrupted)
-    }
-}
-
-fn interrupted() -> PyErr {
-    PyRuntimeError::new_err("a panic has interrupted this simulation: start it again")
-}
-
-impl Simulation {
-    pub(crate) fn new(world: World, scheme: Scheme, step: f64) -> PyResult<Self> {
-        let run = world.start(scheme, step)?;
-        Ok(Self {
-            run: Mutex::new(Some(run)),
-            parts: Arc::new(world.scene.parts().clone()),
-            world,
-            step,
-        })
-    }
-
-    /// Controls the steps.
-    pub(crate) fn control(&self, tolerance: Tolerance<f64>) -> PyResult<()> {
-        self.ask(|run| run.control_steps(tolerance))
-    }
-
-    /// An error while another thread steps it.
-    fn lock(&self) -> PyResult<Locked<'_>> {
-        match self.run.try_lock() {
-            Ok(guard) => Ok(Locked(guard)),
-            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
-                "the simulation is running, in another thread or in this call",
-            )),
-            Err(TryLockError::Poisoned(_)) => Err(interrupted()),
-        }
-    }
-
-    /// Asks the run for something.
-    fn ask<T>(
-        &self,
-        question: impl FnOnce(&mut dyn AnyRun) -> Result<T, SceneError>,
-    ) -> PyResult<T> {
-        question(&mut **self.lock()?.run()?).map_err(error::of_scene)
-    }
-
-    fn ask_element(
-        &self,
-        element: &Element,
-        question: impl FnOnce(&dyn AnyRun, eem::Element) -> Result<f64, SceneError>,
-    ) -> PyResult<f64> {
-        let element = self.element(element)?;
-        self.ask(|run| question(run, element))
-    }
-
-    fn element(&self, element: &Element) -> PyResult<eem::Element> {
-        let index = self.world.lineage.index(Kind::Element, element.id())?;
-        Ok(self.parts.elements[index])
-    }
-
-    fn node(&self, node: &Node) -> PyResult<eem::Node> {
-        let index = self.world.lineage.index(Kind::Node, node.id())?;
-        Ok(self.parts.nodes[index])
-    }
-
-    fn vector<'py>(
-        &self,
-        py: Python<'py>,
-        node: &Node,
-        add: impl FnOnce(&dyn AnyRun, eem::Node, &mut Vec<f64>) -> Result<(), SceneError>,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let node = self.node(node)?;
-        let mut vector = Vec::with_capacity(self.world.dim);
-        self.ask(|run| add(run, node, &mut vector))?;
-        Ok(PyArray1::from_vec(py, vector))
-    }
-
-    fn vectors<'py>(
-        &self,
-        py: Python<'py>,
-        add: impl Fn(&dyn AnyRun, eem::Node, &mut Vec<f64>) -> Result<(), SceneError>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let (dim, nodes) = (self.world.dim, &self.parts.nodes);
-        let mut vectors = Vec::with_capacity(dim * nodes.len());
-        self.ask(|run| {
-            nodes
-                .iter()
-                .try_for_each(|&node| add(run, node, &mut vectors))
-        })?;
-        PyArray1::from_vec(py, vectors).reshape([nodes.len(), dim])
-    }
-
-    /// Runs without the interpreter, and says how it ended and what a signal raised.
-    fn advance(
-        &self,
-        until: f64,
-        wanted: Wanted,
-        (rows, mut watch): (&mut Rows, Watch),
-    ) -> PyResult<Ended> {
-        let mut guard = self.lock()?;
-        let run = guard.run()?;
-        _ = take_raised();
-        let parts = &*self.parts;
-        rows.add(&**run, parts, wanted.forces)
-            .map_err(error::of_scene)?;
-        let mut steps = 0_usize;
-        let mut is_recorded = true;
-        let ended = run.run_until(until, &mut |run, report| {
-            steps += 1;
-            if let Some(every) = wanted.every {
-                rows.add_report(report);
-                is_recorded = steps.is_multiple_of(every);
-                if is_recorded {
-                    rows.add(run, parts, wanted.forces)?;
-                }
-            } else {
-                is_recorded = false;
-            }
-            Ok(watch.look())
-        });
-        if !is_recorded {
-            rows.add(&**run, parts, wanted.forces)
-                .map_err(error::of_scene)?;
-        }
-        if let Some(signal) = watch.signal {
-            return Ok(Ended::Signal(signal));
-        }
-        Ok(match ended {
-            Ok(RunEnd::Reached) => Ended::Reached,
-            Ok(RunEnd::Stopped | RunEnd::Event(_)) => return Err(interrupted()),
-            Err(Stop::Scene(error)) => return Err(error::of_scene(error)),
-            Err(Stop::Step(error)) => match take_raised() {
-                Some(raised) => return Err(raised),
-                None => Ended::Failed(Box::new(error)),
-            },
-        })
-    }
-}
-
 /// What a pickle contains: the scene, the scheme, the step and a checkpoint.
 type Resumed = (State, &'static str, f64, String);
-
-/// How a run ended.
-enum Ended {
-    Reached,
-    /// With what the handler of a signal raised.
-    Signal(PyErr),
-    Failed(Box<eem::StepError>),
-}
 
 #[pymethods]
 impl Simulation {
@@ -277,6 +132,16 @@ impl Simulation {
         })
     }
 
+    /// Cauchy's stress at points of solids, Pa, without that of dashpots beside: `(3, 3)` of one, `(n, 3, 3)` of several.
+    fn stress<'py>(&self, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.tensors(points, |run, point| run.stress(point))
+    }
+
+    /// Green and Lagrange's strain `½ (FᵀF − 1)` at points of solids: `(3, 3)` of one, `(n, 3, 3)` of several.
+    fn strain<'py>(&self, points: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        self.tensors(points, |run, point| run.strain(point))
+    }
+
     /// Energies, entropies and momenta of the present state, by name.
     fn ledger(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         ledger(py, &**self.lock()?.run()?)
@@ -300,15 +165,20 @@ impl Simulation {
     }
 
     /// Steps until a time, s, which is met exactly, and returns a record with the present state and that of every k-th step,
-    /// or only of the last one with `every=None`; with the lengths and forces of springs if `forces` is set.
+    /// or only of the last one with `every=None`; with the lengths and forces of springs if `forces` is set. With a list of
+    /// `times` instead, steps end at each of them, and the record has the states there.
     ///
     /// Other threads of Python go on meanwhile. Ctrl-C ends it after a step and returns the record so far, whose `end` is
     /// then `"interrupted"`. A `StepError` has the record so far.
-    #[pyo3(signature = (until, *, every=Some(1), forces=false), text_signature = "($self, until, *, every=1, forces=False)")]
+    #[pyo3(
+        signature = (until=None, *, times=None, every=Some(1), forces=false),
+        text_signature = "($self, until=None, *, times=None, every=1, forces=False)"
+    )]
     fn run(
         &self,
         py: Python<'_>,
-        until: f64,
+        until: Option<f64>,
+        times: Option<&Bound<'_, PyAny>>,
         every: Option<usize>,
         forces: bool,
     ) -> PyResult<Py<PyAny>> {
@@ -316,10 +186,16 @@ impl Simulation {
             let message = "every is 0, it must be a positive number of steps, or None";
             return Err(PyValueError::new_err(message));
         }
+        let at_times = times.is_some();
+        let times = input::times(until, times)?;
+        let wanted = Wanted {
+            every,
+            forces,
+            at_times,
+        };
         let mut rows = Rows::default();
-        let wanted = Wanted { every, forces };
         let watch = Watch::new(py)?;
-        let ended = py.detach(|| self.advance(until, wanted, (&mut rows, watch)))?;
+        let ended = py.detach(|| self.advance(&times, wanted, (&mut rows, watch)))?;
         let end = match ended {
             Ended::Reached => "reached",
             Ended::Signal(_) => "interrupted",
@@ -381,6 +257,54 @@ impl Simulation {
         counts.set_item("rejected_by_law", statistics.rejected_by_law)?;
         counts.set_item("changes_of_scheme", statistics.changes_of_scheme)?;
         Ok(Some(counts))
+    }
+
+    /// Keeps the states of all further steps, for `gradient`. It changes no bit of the run.
+    ///
+    /// They take at most so many bytes, 2**30 if nothing is given. Of a longer history some states are kept, and the steps between
+    /// them are made again when a gradient is asked for; `snapshots` says how many are kept. Copies and pickles of the
+    /// simulation have no history.
+    #[pyo3(signature = (*, bytes=None, snapshots=None))]
+    fn keep_history(&self, bytes: Option<usize>, snapshots: Option<usize>) -> PyResult<()> {
+        let history = match (bytes, snapshots) {
+            (None, None) => History::default(),
+            (Some(bytes), None) => History::bytes(bytes),
+            (None, Some(snapshots)) => History::snapshots(snapshots),
+            (Some(_), Some(_)) => {
+                let message = "bytes and snapshots are given: give one of them";
+                return Err(PyValueError::new_err(message));
+            }
+        };
+        self.ask(|run| {
+            run.keep_history(history);
+            Ok(())
+        })
+    }
+
+    /// The derivatives of an `Objective` by all inputs of the run since `keep_history`, as an `eem.Gradient`: exact to rounding,
+    /// for less than the cost of the run. Schemes are `"eem-temperature"` and `"eem-entropy"`.
+    ///
+    /// >>> import eem
+    /// >>> scene = eem.Scene(dim=1)
+    /// >>> hooke = eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=4.0)
+    /// >>> mass = scene.mass(1.0, [1.1])
+    /// >>> spring = scene.spring(hooke, [scene.anchor([0.0]), mass])
+    /// >>> run = scene.simulate("eem-temperature", step=0.001)
+    /// >>> run.keep_history()
+    /// >>> record = run.run(until=1.0)
+    /// >>> gradient = run.gradient(eem.Objective.at_end("position", mass))
+    /// >>> round(gradient.by_parameter(spring, "k"), 6)  # -0.1 sin(2)/4
+    /// -0.022732
+    fn gradient(&self, py: Python<'_>, objective: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
+        let (world, parts) = (&self.world, &*self.parts);
+        let terms = gradient::terms(objective, (&world.lineage, parts, world.dim))?;
+        let found = py.detach(|| {
+            let mut guard = self.lock()?;
+            _ = take_raised();
+            let found = guard.run()?.gradient(&terms, parts, &world.context.laws);
+            found.map_err(|error| take_raised().unwrap_or_else(|| error::gradient(error)))
+        })?;
+        found.into_python(py, world, parts)
     }
 
     /// The force on a mass, N, from now on.

@@ -6,7 +6,7 @@ use eem::{EquilibriumReport, Scheme};
 use pyo3::prelude::*;
 
 use crate::act::{Act, Rest};
-use crate::built::{AnyScene, Built, Context, Refusal};
+use crate::built::{AnyScene, Built, Context};
 use crate::error;
 use crate::function::{Function, take_raised};
 use crate::handle::Lineage;
@@ -51,8 +51,7 @@ impl World {
         let applied = self.scene.apply(&act, &self.context);
         let wrong = match applied {
             Ok(()) => self.scene.errors().first().cloned().map(error::of_scene),
-            Err(Refusal::Law(error)) => Some(error::law(error)),
-            Err(Refusal::Rest(error)) => Some(error::equilibrium(error)),
+            Err(refusal) => Some(error::refusal(refusal)),
         };
         let Some(wrong) = wrong else {
             Arc::make_mut(&mut self.acts).push(act);
@@ -70,10 +69,7 @@ impl World {
         for act in self.acts.iter() {
             self.scene
                 .apply(act, &self.context)
-                .map_err(|refusal| match refusal {
-                    Refusal::Law(error) => error::law(error),
-                    Refusal::Rest(error) => error::equilibrium(error),
-                })?;
+                .map_err(error::refusal)?;
         }
         Ok(())
     }

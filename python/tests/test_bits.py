@@ -9,9 +9,9 @@ import eem
 import numpy as np
 import pytest
 
-from conftest import Pendulum
+from conftest import Pendulum, block
 
-STORED = Path(__file__).parent / "pendulum.txt"
+STORED = Path(__file__).parent / "bits.txt"
 
 
 def bits(values):
@@ -29,29 +29,53 @@ def fingerprint():
 
 
 def reference():
-    """What `springs/src/bin/reference.rs` prints: now if `EEM_REFERENCE` names the program, else what is stored."""
+    """What `reference` prints: now if `EEM_REFERENCE` names the program, else what is stored."""
     if program := os.environ.get("EEM_REFERENCE"):
         return subprocess.run([program, "bits"], check=True, capture_output=True, text=True).stdout
     return STORED.read_text()
 
 
-def test_states_have_the_bits_of_the_library(rubber):
+def rows(scene):
+    """The bits of a scene by scheme and step."""
     first, *lines = reference().splitlines()
     if first.split()[1] != fingerprint():
         assert "EEM_REFERENCE" not in os.environ
         pytest.skip("not compared: stored with another library of elementary functions")
-    rows = {}
+    found = {}
     for line in lines:
-        scheme, step, *values = line.split()
-        rows.setdefault(scheme, {})[int(step)] = values
-    assert set(rows) == {"eem-temperature", "eem-entropy", "eem-entropy-4", "eem-explicit", "midpoint"}
-    for scheme, expected in rows.items():
+        name, scheme, step, *values = line.split()
+        if name == scene:
+            found.setdefault(scheme, {})[int(step)] = values
+    return found
+
+
+def compare(scene, schemes, run):
+    expected = rows(scene)
+    assert set(expected) == schemes
+    for scheme, steps in expected.items():
+        q, theta = run(scheme)
+        assert sorted(steps) == list(range(10, 101, 10))
+        for step, values in steps.items():
+            assert bits([*q[step], theta[step]]) == values, (scheme, step)
+
+
+def test_states_have_the_bits_of_the_library(rubber):
+    def run(scheme):
         pendulum = Pendulum(rubber)
         record = pendulum.scene.simulate(scheme, step=0.01).run(until=1.0)
-        q, theta = record.position(pendulum.bob), record.temperature(pendulum.spring)
-        assert sorted(expected) == list(range(10, 101, 10))
-        for step, values in expected.items():
-            assert bits([*q[step], theta[step]]) == values, (scheme, step)
+        return record.position(pendulum.bob), record.temperature(pendulum.spring)
+
+    compare("pendulum", {"eem-temperature", "eem-entropy", "eem-entropy-4", "eem-explicit", "midpoint"}, run)
+
+
+def test_solids_have_the_bits_of_the_library(metal):
+    def run(scheme):
+        scene = eem.Scene(dim=2)
+        plate = block(scene, metal, [3, 2], conductivity=5.0, thickness=0.5)
+        record = scene.simulate(scheme, step=0.01).run(until=1.0)
+        return record.position(plate.nodes[-1]), record.temperature(plate.points[-1])
+
+    compare("plate", {"eem-temperature", "eem-entropy", "eem-entropy-4"}, run)
 
 
 def test_steps_one_by_one_are_those_of_a_run(pendulum):

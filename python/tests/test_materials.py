@@ -117,8 +117,11 @@ def test_text_is_no_value():
 
 
 def test_what_springs_cannot_be():
+    strain = eem.Material("|e: StrainTrace| k * e.powi(2)", k=1.0)
+    scene = eem.Scene(dim=1)
     with pytest.raises(eem.MaterialError, match="per volume"):
-        eem.Material("|e: StrainTrace| k * e.powi(2)", k=1.0)
+        scene.spring(strain, [scene.anchor([0.0]), scene.anchor([1.0])])
+    assert strain.psi([[0.5]]) == [0.25]
     names = "abcd"
     psi = "|x: Stretch, " + ", ".join(f"{name}: Viscous" for name in names) + "| "
     psi += " + ".join(f"(x - {name}).powi(2)" for name in names)

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use eem_symbolic::{Model, Programs};
+use eem_symbolic::{Model, ParameterPrograms, Programs};
 
 use super::fault::{Fault, Faults};
 use super::source::Source;
@@ -57,6 +57,7 @@ pub struct Compiled {
     joints: Vec<Joint>,
     /// Nothing if a number in them does not fit.
     programs: OnceLock<Option<Programs>>,
+    parameter_programs: OnceLock<Option<ParameterPrograms>>,
     /// What is said in that case.
     too_large: Faults,
     warnings: Vec<Fault>,
@@ -78,6 +79,7 @@ impl Compiled {
             strains,
             joints,
             programs: OnceLock::new(),
+            parameter_programs: OnceLock::new(),
             too_large,
             warnings: warnings.0,
         }
@@ -201,6 +203,32 @@ impl Compiled {
         };
         let programs = self.programs.get_or_init(|| on_deep_stack(make));
         programs.as_ref().ok_or_else(|| self.too_large.clone())
+    }
+
+    /// The programs of the derivatives by the parameters, which are made at the first call: the same that the derive prints.
+    ///
+    /// # Errors
+    ///
+    /// As [`programs`](Self::programs).
+    ///
+    /// ```
+    /// use eem_language::text::{Source, compile};
+    /// use eem_symbolic::F64;
+    ///
+    /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
+    /// let compiled = compile(&source).unwrap();
+    /// let by_k = &compiled.parameter_programs().unwrap().energy_by_parameters;
+    /// // k, lambda
+    /// assert_eq!(by_k.interpret(&F64, &[100.0, 1.5]), [0.125]);
+    /// ```
+    pub fn parameter_programs(&self) -> Result<&ParameterPrograms, Faults> {
+        let programs = self.programs()?;
+        let make = || {
+            let derivatives = self.model.parameter_programs(programs);
+            derivatives.verify().is_ok().then_some(derivatives)
+        };
+        let derivatives = self.parameter_programs.get_or_init(|| on_deep_stack(make));
+        derivatives.as_ref().ok_or_else(|| self.too_large.clone())
     }
 
     /// What is accepted and loses digits, in the order of the source.

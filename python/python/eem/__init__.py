@@ -16,6 +16,7 @@ True
 """
 
 from eem._eem import (
+    ALL_SHAPES,
     Element,
     ElementArray,
     HeatPath,
@@ -35,14 +36,18 @@ from eem._errors import (
     EemError,
     EquilibriumError,
     Fault,
+    GradientError,
     MaterialError,
     SceneError,
     StepError,
 )
 from eem._formulas import Argument, Formula
+from eem._gradient import Gradient, Objective
 from eem._record import EnsembleRecord, Record
+from eem._solid import Solid
 
 __all__ = [
+    "ALL_SHAPES",
     "Argument",
     "CheckpointError",
     "EemError",
@@ -52,18 +57,22 @@ __all__ = [
     "EquilibriumError",
     "Fault",
     "Formula",
+    "Gradient",
+    "GradientError",
     "HeatPath",
     "HeatPathArray",
     "Material",
     "MaterialError",
     "Node",
     "NodeArray",
+    "Objective",
     "Record",
     "Reservoir",
     "ReservoirArray",
     "Scene",
     "SceneError",
     "Simulation",
+    "Solid",
     "StepError",
     "StepReport",
     "__version__",

@@ -101,6 +101,17 @@ class StepError(EemError, RuntimeError):
         self.record = record
 
 
+class GradientError(EemError, RuntimeError):
+    """A run or a quantity without derivatives. The simulation is as it was."""
+
+    #: why: ``"NoHistory"``, ``"NoAdjoint"``, ``"NotAnEndOfStep"``, …
+    reason: str
+
+    def __init__(self, message: str = "", *, reason: str = "") -> None:
+        super().__init__(message)
+        self.reason = reason
+
+
 class EquilibriumError(EemError, RuntimeError):
     """No stable state at rest was found. The scene is as it was."""
 

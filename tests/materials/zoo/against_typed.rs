@@ -51,7 +51,58 @@ fn flat<S: Real, A: Array<S>>(arrays: &[A]) -> Vec<u64> {
 pub(crate) fn everything<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
     let mut all = of_state(model, at);
     all.extend(of_step(model, at));
+    #[cfg(feature = "gradients")]
+    all.extend(by_parameters(model, at));
     all
+}
+
+/// The derivatives by the parameters that there are: an array of a law has more room.
+#[cfg(feature = "gradients")]
+fn by_parameters<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
+    assert!(M::HAS_PARAMETER_DERIVATIVES);
+    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<S, M::Variables>(x));
+    let corners: M::Corners = array(&at.corners);
+    let count = model.parameter_names().len();
+    assert_eq!(count, model.parameter_count());
+    let seed: Vec<f64> = (0..64_u8)
+        .map(|k| (1.0 + 2.0 * f64::from(k)).sin())
+        .collect();
+    let own = |found: M::Parameters| bits(found.as_ref()[..count].iter().copied());
+    let (weights, along) = (array(&seed), array(&seed));
+    let theta = x1[M::Variables::LEN - 1];
+    let names = model.parameter_names().iter().flat_map(|name| name.bytes());
+    vec![
+        ("parameter_names", names.map(u64::from).collect()),
+        (
+            "temperature_form_adjoint",
+            own(model.temperature_form_adjoint(&x0, &x1, &weights)),
+        ),
+        (
+            "temperature_form_tangent",
+            flat(&[model.temperature_form_tangent(&x0, &x1, &along)]),
+        ),
+        (
+            "entropy_form_adjoint",
+            own(model.entropy_form_adjoint(&x0, &x1, &corners, &weights)),
+        ),
+        (
+            "entropy_form_tangent",
+            flat(&[model.entropy_form_tangent(&x0, &x1, &corners, &along)]),
+        ),
+        (
+            "gradient_adjoint",
+            own(model.gradient_adjoint(&x1, &array(&seed))),
+        ),
+        ("energy_by_parameters", own(model.energy_by_parameters(&x1))),
+        (
+            "viscosity_adjoint",
+            own(model.viscosity_adjoint(theta, &array(&seed))),
+        ),
+        (
+            "drag_adjoint",
+            own(model.drag_adjoint(theta, &array(&seed))),
+        ),
+    ]
 }
 
 fn of_state<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {

@@ -144,7 +144,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     #[cfg(feature = "gradients")]
     fn parameters(&self) -> &'static [&'static str] {
-        M::PARAMETERS
+        // Elements of a group are of one kind.
+        let first = self.points().next();
+        first.map_or(M::PARAMETERS, |point| point.model.parameter_names())
     }
 
     #[cfg(feature = "gradients")]

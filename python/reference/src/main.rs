@@ -1,7 +1,7 @@
-//! The pendulum of the tests of the package, run by the library without Python.
+//! The pendulum and the plate of the tests of the package, run by the library without Python.
 //!
 //! ```text
-//! reference bits        bits of positions and temperatures; tests/pendulum.txt is what it prints
+//! reference bits        bits of positions and temperatures; tests/bits.txt is what it prints
 //! reference steps       seconds for 100 000 steps
 //! reference ensemble    seconds for 1 000 pendulums with 1 000 steps each
 //! ```
@@ -11,6 +11,7 @@ use std::time::Instant;
 
 use eem::prelude::*;
 use eem::typed::{Law, Source, compile};
+use eem_solids::Solids;
 use eem_springs::Springs;
 
 /// The parameters of rubber with their units and values.
@@ -52,6 +53,44 @@ fn pendulum(law: &Law) -> Result<(Scene<2>, Node, Element), Box<dyn Error>> {
     Ok((scene, bob, spring))
 }
 
+/// The parameters of a thermoelastic solid.
+const METAL: [(&str, &str, f64); 5] = [
+    ("lame", "Pa", 2000.0),
+    ("mu", "Pa", 1000.0),
+    ("beta", "Pa/K", 3.0),
+    ("c", "J/(K m^3)", 100.0),
+    ("t0", "K", 300.0),
+];
+
+/// A plate of six cells that tumbles and conducts, held at no node; with its last node and point.
+fn plate() -> Result<(Scene<2>, Node, Element), Box<dyn Error>> {
+    let source = Source::new(
+        "|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
+            0.5 * lame * e1.powi(2) + mu * e2 - beta * (theta - t0) * e1
+                + c * (theta - t0 - theta * ln(theta / t0))
+        }",
+    );
+    let source = METAL.iter().fold(source, |source, (name, unit, _)| {
+        source.parameter(*name, Some(unit))
+    });
+    let values = METAL.map(|(name, _, value)| (name, value));
+    let law = Law::new(compile(&source)?, &values)?;
+    let mut scene = Scene::<2>::new();
+    let mesh = Mesh::<Quad4, 2>::block([3, 2], [[0.0, 3.0], [0.0, 2.0]])?;
+    let cells = mesh.cells().concat();
+    let bulk = Bulk::new(10.0).conductivity(5.0);
+    let (nodes, points) = scene
+        .add_solid(&law, mesh.nodes().to_vec(), &cells, (bulk, 0.5))
+        .map_err(|refused| format!("{refused:?}"))?;
+    for (&node, &[x, y]) in nodes.iter().zip(mesh.nodes()) {
+        scene.set_velocity(node, [0.25 * x - 2.0 * y, 2.0 * x]);
+    }
+    for (index, &point) in (0_u8..).zip(&points) {
+        scene.set_temperature(point, 300.0 + f64::from(index));
+    }
+    Ok((scene, nodes[nodes.len() - 1], points[points.len() - 1]))
+}
+
 /// A number that tells elementary functions apart whose last bits differ.
 fn fingerprint() -> Result<u64, Box<dyn Error>> {
     let arguments: Vec<_> = (1..=1000).map(|k| 0.1 * f64::from(k)).collect();
@@ -65,7 +104,28 @@ fn fingerprint() -> Result<u64, Box<dyn Error>> {
     Ok(all)
 }
 
-/// Every tenth of 100 steps with five schemes.
+/// Prints every tenth of 100 steps.
+fn print(
+    name: &str,
+    scheme: Scheme,
+    (scene, node, element): (Scene<2>, Node, Element),
+) -> Result<(), Box<dyn Error>> {
+    let mut run = Simulation::new(scene, scheme, 0.01)?;
+    for step in 1..=100 {
+        run.step()?;
+        if step % 10 == 0 {
+            let q = run.position(node)?.map(f64::to_bits);
+            let theta = run.temperature(element)?.to_bits();
+            println!(
+                "{name} {scheme} {step} {:016x} {:016x} {theta:016x}",
+                q[0], q[1]
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The pendulum with five schemes, and the plate with three.
 fn bits() -> Result<(), Box<dyn Error>> {
     println!("functions {:016x}", fingerprint()?);
     let law = rubber()?;
@@ -76,16 +136,14 @@ fn bits() -> Result<(), Box<dyn Error>> {
         Scheme::EemExplicit,
         Scheme::Midpoint,
     ] {
-        let (scene, bob, spring) = pendulum(&law)?;
-        let mut run = Simulation::new(scene, scheme, 0.01)?;
-        for step in 1..=100 {
-            run.step()?;
-            if step % 10 == 0 {
-                let q = run.position(bob)?.map(f64::to_bits);
-                let theta = run.temperature(spring)?.to_bits();
-                println!("{scheme} {step} {:016x} {:016x} {theta:016x}", q[0], q[1]);
-            }
-        }
+        print("pendulum", scheme, pendulum(&law)?)?;
+    }
+    for scheme in [
+        Scheme::EemTemperature,
+        Scheme::EemEntropy,
+        Scheme::EemEntropy4,
+    ] {
+        print("plate", scheme, plate()?)?;
     }
     Ok(())
 }

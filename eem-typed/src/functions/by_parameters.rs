@@ -1,0 +1,44 @@
+//! The derivatives of a law by its parameters as tapes.
+
+use eem_material::number::scalar::Scalar;
+use eem_symbolic::{ParameterPrograms, Program};
+
+use super::whole;
+use crate::error::LawError;
+use crate::tape::Tape;
+
+/// How many parameters a law with derivatives by them may have: their number is known only when a program runs, the size of an
+/// array of derivatives when it is compiled.
+pub(crate) const MOST_PARAMETERS: usize = 64;
+
+/// The tapes of [`ParameterPrograms`], for fixed values of the parameters.
+#[derive(Debug)]
+pub(crate) struct ByParameters<S> {
+    /// None without a temperature, here and below.
+    pub(crate) temperature_form_adjoint: Option<Tape<S>>,
+    pub(crate) temperature_form_tangent: Option<Tape<S>>,
+    pub(crate) entropy_form_adjoint: Tape<S>,
+    pub(crate) entropy_form_tangent: Tape<S>,
+    pub(crate) gradient_adjoint: Tape<S>,
+    pub(crate) energy: Tape<S>,
+    pub(crate) viscosity_adjoint: Option<Tape<S>>,
+    pub(crate) drag_adjoint: Option<Tape<S>>,
+}
+
+impl<S: Scalar> ByParameters<S> {
+    /// The tapes of these programs.
+    pub(super) fn new(programs: &ParameterPrograms, parameters: &[S]) -> Result<Self, LawError> {
+        let one = |program: &Program| whole(program, parameters);
+        let sometimes = |program: &Option<Program>| program.as_ref().map(one).transpose();
+        Ok(Self {
+            temperature_form_adjoint: sometimes(&programs.temperature_form_adjoint)?,
+            temperature_form_tangent: sometimes(&programs.temperature_form_tangent)?,
+            entropy_form_adjoint: one(&programs.entropy_form_adjoint)?,
+            entropy_form_tangent: one(&programs.entropy_form_tangent)?,
+            gradient_adjoint: one(&programs.gradient_adjoint)?,
+            energy: one(&programs.energy_by_parameters)?,
+            viscosity_adjoint: sometimes(&programs.viscosity_adjoint)?,
+            drag_adjoint: sometimes(&programs.drag_adjoint)?,
+        })
+    }
+}
