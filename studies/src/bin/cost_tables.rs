@@ -125,7 +125,7 @@ fn iterations(progress: &mut Progress) -> Found<()> {
         table.add_row([case, unknowns.to_string(), format!("{:.2} ms", 1e3 * time)]);
         progress.advance(1);
     };
-    let scene = satellite::satellite(satellite::Axis::Z, false)?.scene;
+    let scene = satellite::satellite(satellite::Axis::Z, |t| satellite::thrust(t, false))?.scene;
     add(
         "satellite".to_owned(),
         per_iteration(scene, satellite::STEP)?,

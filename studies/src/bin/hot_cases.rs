@@ -108,7 +108,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         Case::EntropySingle => single(EemEntropy, 0.01),
         Case::EntropyLog => double(&Double::LOG, EemEntropy, 0.01),
         Case::Satellite => {
-            let scene = satellite::satellite(satellite::Axis::Z, false)?.scene;
+            let scene =
+                satellite::satellite(satellite::Axis::Z, |t| satellite::thrust(t, false))?.scene;
             go(
                 scene,
                 EemTemperature,

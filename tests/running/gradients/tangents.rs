@@ -173,7 +173,7 @@ fn a_gradient_of_something_else_disagrees() {
     let other =
         objective(&net) + Objective::at_end(Quantity::Temperature(net.springs[1])).times(1e-4);
     let error = run.check_gradient(&gradient, &other).unwrap_err();
-    assert!(matches!(error, GradientError::Disagrees { adjoint, tangent } if adjoint != tangent));
+    assert!(matches!(error, GradientError::Disagrees { .. }));
     let scene = crate::support::single_pendulum_scene().0;
     let mut small = Simulation::new(scene, Scheme::EemTemperature, 0.1).unwrap();
     small.keep_history(History::default());

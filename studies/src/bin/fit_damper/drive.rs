@@ -107,11 +107,14 @@ pub(crate) fn drive(grid: TimeGrid, dampers: &[Logs]) -> Vec<Result<Drive, Membe
     })
 }
 
+/// How travel and temperature change with each unknown.
+type Changes = [[Vec<f64>; 2]; 3];
+
 /// A drive, and how its travel, m, and temperature, K, change with the logarithm of each unknown.
 pub(crate) fn follow(
     grid: TimeGrid,
     logs: &Logs,
-) -> Result<(Drive, [[Vec<f64>; 2]; 3]), Box<dyn Error + Send + Sync>> {
+) -> Result<(Drive, Changes), Box<dyn Error + Send + Sync>> {
     let (scene, damper) = build(logs);
     let mut run = Simulation::new(scene, SCHEME, grid.step)?;
     run.keep_history(History::default());

@@ -31,7 +31,7 @@ use super::scene::{self, Axis, Satellite, satellite};
 use super::{ATTITUDE, watched};
 
 /// Values of the thrust.
-const VALUES: usize = 40;
+const VALUES: u8 = 40;
 
 /// What positions (m), the kinetic energy (J) and the thrust (N) may be off by: 0.05° of the body, and hardly any thrust.
 const LENGTH: f64 = 5e-4;
@@ -81,7 +81,7 @@ struct Runs {
 impl Aim {
     /// How long each value of the thrust is held, s.
     fn held(self) -> f64 {
-        self.grid.end() / VALUES as f64
+        self.grid.end() / f64::from(VALUES)
     }
 
     /// +F for the first half of the time, −F for the second, which turns what is stiff by the angle: `F (T/2)² = I α` with arms
@@ -118,7 +118,7 @@ impl Aim {
         let record = simulate::record_with(name, &mut run, &watched, self.grid, further)?;
         let found = run.gradient(&objective)?;
         run.check_gradient(&found, &objective)?;
-        let share = 1.0 / (VALUES as f64 * FORCE * FORCE);
+        let share = 1.0 / (f64::from(VALUES) * FORCE * FORCE);
         let effort = 0.5 * share * thrust.iter().map(|f| f * f).sum::<f64>();
         let mut gradient: Vec<f64> = thrust.iter().map(|f| share * f).collect();
         for node in rockets {
@@ -143,7 +143,7 @@ fn value_at(time: f64, held: f64) -> usize {
         reason = "times are not negative, and there are 40 values"
     )]
     let value = (time / held) as usize;
-    value.min(VALUES - 1)
+    value.min(usize::from(VALUES) - 1)
 }
 
 /// Two nodes of the body and the tips of the panels.
