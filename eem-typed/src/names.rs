@@ -54,7 +54,7 @@ pub(crate) fn list(names: &[&str]) -> &'static [&'static str] {
     if let Some(known) = lists.get(&text) {
         return known;
     }
-    let more = 2 * text.len() + names.len() * size_of::<&str>();
+    let more = 2 * text.len() + size_of_val(names);
     if *bytes + more > BYTES {
         return &[];
     }
