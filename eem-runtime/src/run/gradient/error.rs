@@ -77,6 +77,35 @@ pub enum GradientError {
         /// The quantity.
         quantity: String,
     },
+    /// The total energy counts heat that elements without a temperature have lost, which has no derivatives here.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::{GradientError, History, Objective};
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 1.0).powi(2))]
+    /// #[viscosity(lambda = 0.3)]
+    /// struct Damper { k: f64 }
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    /// scene.spring(Damper { k: 4.0 }, ends);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.keep_history(History::default());
+    /// run.run_until(1.0)?;
+    /// let total = run.gradient(&Objective::at_end(Quantity::TotalEnergy));
+    /// assert!(matches!(total, Err(GradientError::LostHeat { .. })));
+    /// run.gradient(&Objective::at_end(Quantity::KineticEnergy))?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[error(
+        "the total energy counts {} J of heat that dashpots of elements without a temperature have lost, which has no derivatives; give these elements a temperature, or take the kinetic energy", Readable(*heat)
+    )]
+    LostHeat {
+        /// The heat, J.
+        heat: f64,
+    },
     /// A quantity has no such component.
     #[error(
         "{quantity} has {components} components, and component {component} was asked for; count from 0"
@@ -91,7 +120,7 @@ pub enum GradientError {
     },
     /// The material has no derivatives by its parameters.
     #[error(
-        "`{model}` has no derivatives by its parameters; derive its free energy with the feature `gradients`"
+        "`{model}` has no derivatives by its parameters; derive its free energy with the feature `gradients`; a text has them by 64 parameters at most"
     )]
     NoParameterDerivatives {
         /// The name of the model.

@@ -42,6 +42,8 @@ pub(super) struct Outline<S> {
     pub(super) sums: Vec<S>,
     /// The nodes of the masses of pairs and of anchors, in order.
     pub(super) pairs: Vec<[usize; 2]>,
+    /// What elements without a temperature have lost until the end, J.
+    lost_heat: S,
 }
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -53,6 +55,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             layout: self.numbering(),
             sums: self.masses.weights(),
             pairs,
+            lost_heat: self.state.dissipated.value,
         }
     }
 
@@ -108,6 +111,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             Quantity::KineticEnergy => self.see_kinetic((state, weight), outline, see),
             Quantity::TotalEnergy => {
+                if outline.lost_heat != S::zero() {
+                    let heat = outline.lost_heat.to_f64();
+                    return Err(GradientError::LostHeat { heat });
+                }
                 self.see_kinetic((state, weight), outline, see);
                 self.see_potential((state, weight), outline, see);
                 self.see_internal((state, weight), see);
