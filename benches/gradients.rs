@@ -113,4 +113,5 @@ fn main() {
     let lattice = || networks::lattice(100, None);
     print("lattice 100²", soft, lattice, 0.01, 4);
     print("cube 8³", rubber, || solids::cube(8), 0.01, 4);
+    print("cube 20³", rubber, || solids::cube(20), 0.01, 2);
 }

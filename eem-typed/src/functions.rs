@@ -3,7 +3,6 @@
 mod by_parameters;
 mod staged;
 
-use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use eem_language::text::Compiled;
@@ -14,10 +13,10 @@ use eem_symbolic::{Program, Programs, Value};
 
 use crate::error::LawError;
 use crate::names;
-use crate::tape::{Tape, Wanted, fold};
+use crate::tape::Tape;
 pub(crate) use by_parameters::{ByParameters, MOST_PARAMETERS};
 pub(crate) use staged::{Form, KEPT, Staged};
-use staged::{kept, state_inputs};
+use staged::{kept, of_state};
 
 /// The functions of [`FreeEnergy`](eem_material::FreeEnergy).
 #[derive(Debug)]
@@ -62,7 +61,7 @@ impl<S: Scalar> Functions<S> {
         parameters: Vec<S>,
         [variables, responses]: [usize; 2],
     ) -> Result<Self, LawError> {
-        let of_state = |program: &Program| whole(program, &parameters);
+        let of_state = |program: &Program| of_state(program, &parameters);
         let sometimes = |program: &Option<Program>| program.as_ref().map(of_state).transpose();
         let is_thermal = programs.caloric.is_some();
         let at_temperature = |program: &Program| {
@@ -139,16 +138,4 @@ impl<S: Scalar> Functions<S> {
             .collect();
         names::list(&names)
     }
-}
-
-/// The tape of a program whose inputs are the parameters and one state.
-fn whole<S: Scalar>(program: &Program, parameters: &[S]) -> Result<Tape<S>, LawError> {
-    let known: BTreeMap<Value, usize> = state_inputs(program, parameters.len()).collect();
-    Tape::new(&Wanted {
-        program,
-        folded: &fold(program, parameters),
-        known,
-        inputs: program.inputs.len() - parameters.len(),
-        outputs: &program.outputs,
-    })
 }

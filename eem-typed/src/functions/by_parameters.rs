@@ -3,7 +3,7 @@
 use eem_material::number::scalar::Scalar;
 use eem_symbolic::{ParameterPrograms, Program};
 
-use super::whole;
+use super::staged::of_state;
 use crate::error::LawError;
 use crate::tape::Tape;
 
@@ -28,7 +28,7 @@ pub(crate) struct ByParameters<S> {
 impl<S: Scalar> ByParameters<S> {
     /// The tapes of these programs.
     pub(super) fn new(programs: &ParameterPrograms, parameters: &[S]) -> Result<Self, LawError> {
-        let one = |program: &Program| whole(program, parameters);
+        let one = |program: &Program| of_state(program, parameters);
         let sometimes = |program: &Option<Program>| program.as_ref().map(one).transpose();
         Ok(Self {
             temperature_form_adjoint: sometimes(&programs.temperature_form_adjoint)?,

@@ -1,4 +1,4 @@
-//! Functions in two parts: what is known before an iteration, and the rest.
+//! Tapes of programs: of one state, and in two parts, what is known before an iteration and the rest.
 
 use std::collections::BTreeMap;
 
@@ -149,4 +149,19 @@ impl Places {
         let kept = values.filter_map(|value| Some((value, *self.kept.get(&origin(value)?)?)));
         kept.chain(new).collect()
     }
+}
+
+/// The tape of a program whose inputs are the parameters and one state.
+pub(super) fn of_state<S: Scalar>(
+    program: &Program,
+    parameters: &[S],
+) -> Result<Tape<S>, LawError> {
+    let known: BTreeMap<Value, usize> = state_inputs(program, parameters.len()).collect();
+    Tape::new(&Wanted {
+        program,
+        folded: &fold(program, parameters),
+        known,
+        inputs: program.inputs.len() - parameters.len(),
+        outputs: &program.outputs,
+    })
 }
