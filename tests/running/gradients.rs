@@ -504,6 +504,13 @@ fn what_has_no_gradient_is_an_error() {
     assert!(
         matches!(never, GradientError::NotAnEndOfStep { nearest, .. } if (nearest - 0.2).abs() < 1e-12)
     );
+    let never = error(
+        &mut run,
+        Objective::at(f64::INFINITY, Quantity::TotalEnergy),
+    );
+    assert!(matches!(never, GradientError::NotAnEndOfStep { .. }));
+    let infinite = error(&mut run, Objective::time().times(f64::INFINITY));
+    assert!(matches!(infinite, GradientError::NotFinite { .. }));
     let none = error(&mut run, at_end(Quantity::NewtonIterations));
     assert!(
         none.to_string().contains("`Quantity::NewtonIterations`"),

@@ -121,3 +121,25 @@ fn values_that_controllers_have_set_need_all_states() {
     let some = end(History::snapshots(10));
     assert!(matches!(some, Err(GradientError::NotRepeatable { .. })));
 }
+
+#[test]
+fn energies_beside_an_oven_have_the_same_derivatives_from_snapshots() {
+    let gradient = |history| {
+        let (mut scene, _, spring, _) = single_pendulum_scene();
+        let oven = scene.oven(|t: f64| 290.0 + 5.0 * t);
+        scene.conduct(spring, oven, 1.0);
+        let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.1).unwrap();
+        run.keep_history(history);
+        run.run_until(1.0).unwrap();
+        let at_end = [[run.time(), 0.0, 1.0]];
+        let objective = Objective::integral(Quantity::TotalEnergy)
+            + Objective::misfit(Quantity::TotalEnergy, at_end);
+        let gradient = run.gradient(&objective).unwrap();
+        run.check_gradient(&gradient, &objective).unwrap();
+        bits(&gradient)
+    };
+    assert_eq!(
+        gradient(History::default()),
+        gradient(History::snapshots(3))
+    );
+}

@@ -165,7 +165,7 @@ pub enum GradientError {
         time: f64,
     },
     /// A derivative is infinite or not a number.
-    #[error("a derivative is not finite at t = {} s: a formula has a kink or a pole there", Readable(*time))]
+    #[error("a derivative or the objective is not finite at t = {} s: a formula has a kink or a pole there, or a number of the objective or of an input is out of range", Readable(*time))]
     NotFinite {
         /// The time, s.
         time: f64,

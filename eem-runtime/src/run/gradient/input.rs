@@ -110,8 +110,7 @@ impl<const D: usize, S: Real> Input<D, S> {
         Self::new(InputOf::Position(node, axis))
     }
 
-    /// A component, from 0, of the velocity of a node at the start, m/s. Of anchors only those have one that move beside solids with
-    /// consistent mass.
+    /// A component, from 0, of the velocity of a node at the start, m/s. Of anchors only those have one that move beside solids.
     #[must_use]
     pub const fn velocity(node: Node, axis: usize) -> Self {
         Self::new(InputOf::Velocity(node, axis))
@@ -142,7 +141,7 @@ impl<const D: usize, S: Real> Input<D, S> {
         Self::new(InputOf::Thrust(node, rocket, Arc::new(by)))
     }
 
-    /// A parameter of the position of a moved anchor, given `∂X/∂α`. Beside a solid with consistent mass, a derivative of its velocity
+    /// A parameter of the position of a moved anchor, given `∂X/∂α`. Beside a solid, a derivative of its velocity
     /// at the start is an input of its own, [`velocity`](Self::velocity).
     pub fn motion<V: Into<SVector<S, D>>>(
         anchor: Node,

@@ -213,8 +213,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Ok(vector(&self.start.positions, node))
     }
 
-    /// The derivative by the velocity of a node at the start. Of anchors only those have one that move beside solids with
-    /// consistent mass; there it belongs to the motion at the start, besides [`by_motion`](Self::by_motion).
+    /// The derivative by the velocity of a node at the start. Of anchors only those have one that move beside solids;
+    /// there it belongs to the motion at the start, besides [`by_motion`](Self::by_motion).
     ///
     /// # Errors
     ///
@@ -351,7 +351,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     }
 
     /// The derivatives by the position of a moved anchor at the ends of all steps, with their times, s. Their sum is
-    /// [`by_position`](Self::by_position). Beside solids with consistent mass positions at the thirds of steps count too, from which
+    /// [`by_position`](Self::by_position). Beside solids positions at the thirds of steps count too, from which
     /// its velocity is found, and that at the start, see [`by_velocity`](Self::by_velocity).
     ///
     /// # Errors

@@ -239,6 +239,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             end = first;
         }
+        if !seeds.value.is_finite() {
+            let time = kept.time().to_f64();
+            return Err(GradientError::NotFinite { time });
+        }
         way.found.value = seeds.value;
         way.found.growth = if at_end > 0.0 { largest / at_end } else { 1.0 };
         Ok(way)

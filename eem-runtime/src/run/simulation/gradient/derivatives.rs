@@ -127,8 +127,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// `θ_r σ_r`.
+    /// `θ_r σ_r`, of an oven nothing: what it gives is booked as heat after each step.
     fn see_heat(&self, (state, weight): (&State<S>, S), index: usize, see: &mut See<'_, S>) {
+        if self.loads.ovens.iter().any(|&(oven, _)| oven == index) {
+            return;
+        }
         let entropy = state.reservoir_entropies.values()[index];
         see(
             Of::Entropy(index),

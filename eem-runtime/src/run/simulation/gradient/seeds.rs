@@ -92,13 +92,9 @@ impl<'a, const D: usize, S: Real> Seeds<'a, D, S> {
 }
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// A quantity in a state of the history, whose energies are not known unless it is the present one.
-    fn value_in(
-        &mut self,
-        (state, is_present): (&mut State<S>, bool),
-        term: &Term<D, S>,
-    ) -> Result<f64, GradientError> {
-        if !is_present && matches!(term.quantity, Quantity::TotalEnergy) {
+    /// A quantity in a state of the history, whose energies are not known.
+    fn value_in(&mut self, state: &mut State<S>, term: &Term<D, S>) -> Result<f64, GradientError> {
+        if matches!(term.quantity, Quantity::TotalEnergy) {
             self.find_energies(state)?;
         }
         mem::swap(&mut *self.state, state);
@@ -137,7 +133,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         kept: &Record<S>,
         asked: &mut Asked<'_, D, S>,
     ) -> Result<Option<Weighed>, GradientError> {
-        let (term, is_present) = (asked.term, steps == kept.len());
+        let term = asked.term;
         let factor = asked.factor * term.factor;
         let mut found = Weighed {
             weight: 0.0,
@@ -146,7 +142,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let mut counts = false;
         if matches!(term.when, When::Integral) {
-            let value = self.value_in((state, is_present), term)?;
+            let value = self.value_in(state, term)?;
             (counts, found.integrand) = (true, Some(value));
             let before = steps.checked_sub(1);
             for step in before
@@ -159,7 +155,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
         }
         while let Some(moment) = asked.moments.pop_if(|moment| moment.steps == steps) {
-            let value = self.value_in((state, is_present), term)?;
+            let value = self.value_in(state, term)?;
             counts = true;
             if let Some([datum, deviation]) = moment.record {
                 let misfit = (value - datum) / deviation;
@@ -265,7 +261,8 @@ fn moments<S: Real>(kept: &Record<S>, when: &When) -> Result<Vec<Moment>, Gradie
         while let Some(next) = times.next_if(|&(_, next)| nearer(next, near)) {
             (steps, near) = next;
         }
-        let is_there = (near - time).abs() <= ROUNDINGS * S::EPSILON.to_f64() * time.abs();
+        let is_there =
+            time.is_finite() && (near - time).abs() <= ROUNDINGS * S::EPSILON.to_f64() * time.abs();
         if !is_there {
             let nearest = near;
             return Err(GradientError::NotAnEndOfStep { time, nearest });
