@@ -60,7 +60,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// let inputs = [Input::mass(stone), slope, Input::velocity(stone, 0)];
     /// let table = run.sensitivities(&inputs, [("q", Quantity::Position(stone))])?;
     /// let names: Vec<String> = table.columns().iter().map(|column| column.head()).collect();
-    /// let expected = ["time (s)", "q by mass of node 0 (m/kg)", "q by a (m/(N/s))", "q by velocity x of node 0 (m/(m/s))"];
+    /// let expected = ["time (s)", "q_x by mass of node 0 (m/kg)", "q_x by a (m/(N/s))", "q_x by velocity x of node 0 (m/(m/s))"];
     /// assert_eq!(names, expected);
     /// for (input, by) in [-1.0 / 6.0, 1.0 / 12.0, 1.0].into_iter().enumerate() {
     ///     let last = table.of(0, input).and_then(|column| column.last());
