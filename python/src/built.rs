@@ -28,8 +28,6 @@ pub(crate) struct Parts {
     pub(crate) laws: Vec<usize>,
     /// Whether each is a spring; the others are points of solids.
     pub(crate) springs: Vec<bool>,
-    /// Whether a dashpot has no temperature, so that its heat is lost.
-    pub(crate) loses_heat: bool,
 }
 
 impl Parts {
@@ -40,8 +38,6 @@ impl Parts {
 
     fn element(&mut self, element: Element, index: usize, law: &Law) {
         let model = law.compiled().model();
-        let is_damped = model.drag.is_some() || !model.dashpots.is_empty();
-        self.loses_heat |= is_damped && model.temperature.is_none();
         self.elements.push(element);
         self.dashpots.push(model.dashpots.len());
         self.thermal.push(model.temperature.is_some());

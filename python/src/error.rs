@@ -96,15 +96,6 @@ pub(crate) fn gradient(error: GradientError) -> PyErr {
     }
 }
 
-/// The `GradientError` of an energy of which the lost heat is a part.
-pub(crate) fn lost_heat() -> PyErr {
-    let message = "there are no derivatives of the energy where dashpots without a temperature lose heat: give their free energies \
-                   a `Temperature`, or take kinetic_energy";
-    new("GradientError", message.to_owned(), |attributes| {
-        attributes.set_item("reason", "NoDerivative")
-    })
-}
-
 /// `NotConverged`: the name of a variant.
 fn variant(one: &impl std::fmt::Debug) -> String {
     let shown = format!("{one:?}");

@@ -117,8 +117,6 @@ fn subject(
         "reservoir_entropy" => Subject::ReservoirEntropy(reservoir()?),
         "reservoir_heat" => Subject::ReservoirHeat(reservoir()?),
         "kinetic_energy" => Subject::KineticEnergy,
-        // The library has the derivatives of all of it but the lost heat.
-        _ if parts.loses_heat => return Err(error::lost_heat()),
         _ => Subject::Energy,
     })
 }
