@@ -1,8 +1,11 @@
 //! Any texts as a model: there are programs, or faults with places in the texts.
 
+mod answers;
+
 use eem_language::text::{Compiled, Fault, Faults, Part, Source, compile};
 
 use crate::expressions::decode;
+use answers::check_answer;
 
 /// Bytes beyond this are ignored: longer texts are refused.
 const LONGEST: usize = 70_000;
@@ -23,21 +26,7 @@ pub fn text(data: &[u8]) {
     };
     let source = source(&text, usize::from(kind / 2 % 4));
     let answer = compile(&source);
-    match &answer {
-        Ok(compiled) => {
-            check_all(&source, compiled.warnings());
-            if text.len() <= LONGEST_WITH_PROGRAMS {
-                match compiled.programs() {
-                    Ok(programs) => programs.verify().expect("valid programs"),
-                    Err(faults) => check_all(&source, faults.all()),
-                }
-            }
-        }
-        Err(faults) => {
-            assert_ne!(faults.all(), [], "no model and no fault: {source:?}");
-            check_all(&source, faults.all());
-        }
-    }
+    check_answer(&source, &answer, text.len() <= LONGEST_WITH_PROGRAMS);
     assert_eq!(
         said(&answer),
         said(&compile(&source)),
@@ -64,28 +53,4 @@ fn source(text: &str, viscosities: usize) -> Source {
         source = source.parameter(name, parts.next().filter(|unit| !unit.is_empty()));
     }
     source
-}
-
-fn check_all(source: &Source, faults: &[Fault]) {
-    for fault in faults {
-        check(source, fault);
-    }
-}
-
-/// The place of a fault is in its part, and can be drawn.
-fn check(source: &Source, fault: &Fault) {
-    let text = match &fault.part {
-        Part::FreeEnergy => Some(source.free_energy()),
-        Part::Dashpot(name) | Part::Parameter(name) => Some(name.as_str()),
-        // Several may have one name.
-        Part::Viscosity(_) | Part::Unit(_) => None,
-    };
-    if let Some(text) = text {
-        let line = text.split('\n').nth(fault.line - 1);
-        let line = line.unwrap_or_else(|| panic!("{fault:?} in {source:?}"));
-        let last = fault.column - 1 + fault.width;
-        assert!(last <= line.chars().count() + 1, "{fault:?} in {source:?}");
-    }
-    let lines = fault.to_string().lines().count();
-    assert!(lines >= 6, "{fault}");
 }
