@@ -11,7 +11,7 @@ use eem_studies::statistics::{Statistics, TIME_TOLERANCE, momentum_change};
 use eem_studies::{table, terminal};
 
 /// What the exact schemes may be off by: energy, J, and angular momentum between the firings, relative to itself.
-pub(crate) const ENERGY_DEFECT: f64 = 1e-10;
+const ENERGY_DEFECT: f64 = 1e-10;
 const MOMENTUM_DEFECT: f64 = 1e-14;
 
 /// By how much other schemes are off at the end, if they reach it, J.
@@ -71,6 +71,17 @@ fn momentum_defect(run: &Record) -> Option<f64> {
     Some(change / size)
 }
 
+/// The first and the second law, for a run to the end.
+pub(crate) fn keeps_both_laws(run: &Record, claims: &mut Claims) {
+    claims.reaches_the_end(run);
+    claims.keeps_the_first_law(run, ENERGY_DEFECT);
+    claims.at_least(
+        &format!("{}: the smallest entropy increment (J/K)", run.scheme),
+        Statistics::of(run).entropy_increment,
+        0.0,
+    );
+}
+
 /// The laws, for the schemes that promise them, and that others break them.
 pub(crate) fn check(run: &Record, case: Case, claims: &mut Claims) {
     let is_claimed = STEPS
@@ -81,13 +92,7 @@ pub(crate) fn check(run: &Record, case: Case, claims: &mut Claims) {
     }
     let scheme = &run.scheme;
     if scheme.starts_with("eem-") {
-        claims.reaches_the_end(run);
-        claims.keeps_the_first_law(run, ENERGY_DEFECT);
-        claims.at_least(
-            &format!("{scheme}: the smallest entropy increment (J/K)"),
-            Statistics::of(run).entropy_increment,
-            0.0,
-        );
+        keeps_both_laws(run, claims);
         if let Some(defect) = momentum_defect(run) {
             claims.at_most(
                 &format!("{scheme}: the relative change of angular momentum between the firings"),
