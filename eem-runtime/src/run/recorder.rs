@@ -97,6 +97,12 @@ impl Column {
         }
     }
 
+    /// The values of the one with this name.
+    pub(crate) fn find<'a>(columns: &'a [Self], name: &str) -> Option<&'a [f64]> {
+        let mut columns = columns.iter();
+        Some(columns.find(|column| column.name == name)?.values())
+    }
+
     /// Adds a value.
     #[cfg(feature = "gradients")]
     pub(crate) fn push(&mut self, value: f64) {
@@ -280,8 +286,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     /// The values of the column with this name.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let mut columns = self.columns.iter();
-        Some(columns.find(|column| column.name == name)?.values())
+        Column::find(&self.columns, name)
     }
 
     /// The number of rows.

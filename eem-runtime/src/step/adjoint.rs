@@ -22,10 +22,9 @@ use core::mem;
 
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::group::{Group, SeeParameters, StepBack, StepView};
+use crate::element::group::{Group, SeeParameters, StepBack};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
-use crate::element::state::State;
 use eem_material::number::scalar::Real;
 
 pub(crate) use crate::element::group::{Direction, PastStep, PerVariable, StepWeights, Terms};
@@ -83,22 +82,22 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
     /// element in the step are passed to `see`.
     pub(crate) fn step_back(
         &mut self,
-        (view, new, held): (StepView<'_, S>, &State<S>, &[bool]),
+        past: &PastStep<'_, S>,
         (layout, rockets): (&Layout, &[RocketStep<S, D>]),
         groups: &mut [Box<dyn Group<S, D>>],
         system: &mut LinearSystem<S, 1>,
         see: &mut SeeParameters<'_, S>,
     ) -> Result<(), NoAdjoint> {
         mem::swap(&mut self.costate, &mut self.after);
-        let past = PastStep { view, new, held };
+        let view = &past.view;
         let step = StepBack {
-            past,
+            past: *past,
             by_new: &self.after,
         };
         let interface = &mut self.interface;
         if self.is_coupled {
             for group in &mut *groups {
-                group.find_interfaces(&past, interface)?;
+                group.find_interfaces(past, interface)?;
             }
         }
         let Inertia { nodes, .. } = &self.inertia;

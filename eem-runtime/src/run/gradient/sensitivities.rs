@@ -29,9 +29,7 @@ impl Sensitivities {
     /// The values of the column with this name, `z by stiffness of element 0 (Spring)`.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
-        let mut columns = self.columns.iter();
-        let own = columns.find(|column| column.name() == name);
-        own.map(Column::values)
+        Column::find(&self.columns, name)
     }
 
     /// The derivatives of a component by an input, both counted from 0: components in the order of the quantities that were asked for,

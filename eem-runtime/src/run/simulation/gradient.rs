@@ -16,7 +16,9 @@ use std::collections::BTreeSet;
 
 use super::Simulation;
 use super::stepper::Stepper;
-use crate::element::group::StepView;
+use crate::algebra::system::LinearSystem;
+use crate::element::conduction::Conduction;
+use crate::element::group::{Group, StepView};
 use crate::element::handle::Element;
 use crate::element::layout::Layout;
 use crate::element::phase::Phase;
@@ -29,7 +31,7 @@ use crate::run::gradient::series::Series;
 use crate::run::gradient::snapshots::Record;
 use crate::run::gradient::timed::Timed;
 use crate::scene::loads::Course;
-use crate::step::adjoint::{Adjoint, NoAdjoint, PerVariable};
+use crate::step::adjoint::{Adjoint, NoAdjoint, PastStep, PerVariable};
 use crate::step::control::norm as norm_of;
 use crate::step::scheme::Scheme;
 use derivatives::Outline;
@@ -288,23 +290,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Its entropy is booked as heat after the step.
             way.adjoint.costate.reservoirs[*oven] = S::zero();
         }
-        // The elements are evaluated elsewhere than at the ends of their last step.
-        self.has_stepped = false;
-        let Stepper::Newton(newton) = &mut self.stepper else {
-            return Ok(());
-        };
-        let (step, [old, new]) = made;
-        let view = StepView {
-            phase: Phase::Whole,
-            step,
-            per_step: step.recip(),
-            state: old,
-            conduction: &way.conduction,
-            loads: &newton.loads,
-            stages: &[],
-            masses: &self.masses,
-        };
-        let found = &mut way.found;
+        let (adjoint, found) = (&mut way.adjoint, &mut way.found);
+        let loaded = (&way.outline.layout, &way.rockets[..]);
         let see = &mut |element: Element, values: &[S]| {
             add(
                 &mut found.elements[element.index()].values,
@@ -312,19 +299,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 values,
             );
         };
-        let solved = way.adjoint.step_back(
-            (view, new, &way.held),
-            (&way.outline.layout, &way.rockets),
-            &mut newton.groups,
-            newton.solver.tangent_mut(),
-            see,
-        );
-        let time = new.time.value.to_f64();
-        solved.map_err(|error| match error {
-            NoAdjoint::Singular => GradientError::Singular { time },
-            NoAdjoint::State(error) => error.into(),
-        })?;
+        self.differentiate(
+            made,
+            (&way.conduction, &way.held),
+            |past, groups, system| adjoint.step_back(past, loaded, groups, system, see),
+        )?;
         if !way.adjoint.costate.is_finite() {
+            let time = made.1[1].time.value.to_f64();
             return Err(GradientError::NotFinite { time });
         }
         Self::find_by_speeds(way);
@@ -332,6 +313,42 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.add_series(made, way);
         self.add_size(made, way);
         Ok(())
+    }
+
+    /// Passes a step that was made, the elements and the system to its adjoint or its tangents.
+    fn differentiate(
+        &mut self,
+        (step, [old, new]): Made<'_, S>,
+        (conduction, held): (&Conduction<S>, &[bool]),
+        by: impl FnOnce(
+            &PastStep<'_, S>,
+            &mut [Box<dyn Group<S, D>>],
+            &mut LinearSystem<S, 1>,
+        ) -> Result<(), NoAdjoint>,
+    ) -> Result<(), GradientError> {
+        // The elements are evaluated elsewhere than at the ends of their last step.
+        self.has_stepped = false;
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return Ok(());
+        };
+        let view = StepView {
+            phase: Phase::Whole,
+            step,
+            per_step: step.recip(),
+            state: old,
+            conduction,
+            loads: &newton.loads,
+            stages: &[],
+            masses: &self.masses,
+        };
+        let past = PastStep { view, new, held };
+        let found = by(&past, &mut newton.groups, newton.solver.tangent_mut());
+        found.map_err(|error| match error {
+            NoAdjoint::Singular => GradientError::Singular {
+                time: new.time.value.to_f64(),
+            },
+            NoAdjoint::State(error) => error.into(),
+        })
     }
 
     /// An error unless all steps of the history have an adjoint.

@@ -127,9 +127,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
+    pub(super) fn is_oven(&self, index: usize) -> bool {
+        self.loads.ovens.iter().any(|&(own, _)| own == index)
+    }
+
     /// `θ_r σ_r`, of an oven nothing: what it gives is booked as heat after each step.
     fn see_heat(&self, (state, weight): (&State<S>, S), index: usize, see: &mut See<'_, S>) {
-        if self.loads.ovens.iter().any(|&(oven, _)| oven == index) {
+        if self.is_oven(index) {
             return;
         }
         let entropy = state.reservoir_entropies.values()[index];

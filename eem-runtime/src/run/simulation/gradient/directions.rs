@@ -4,7 +4,7 @@ use super::change::Change;
 use super::derivatives::Outline;
 use super::forward::Forward;
 use super::inputs::{CUBIC, Made};
-use crate::element::handle::{Element, Handle, Node};
+use crate::element::handle::{Element, Handle};
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::input::{Input, InputOf};
 use crate::run::simulation::Simulation;
@@ -165,7 +165,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             InputOf::Motion(node, by) => {
                 self.expect(node)?;
-                if !self.is_moved(*node) {
+                if !self.is_moved(node.index) {
                     return none(format!("{node} is not moved"));
                 }
                 change.motions.push((node.index, by.clone()));
@@ -180,10 +180,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             InputOf::Oven(oven, by) => {
                 self.expect(oven)?;
-                let mut ovens = self.loads.ovens.iter();
-                if !ovens.any(|&(own, _)| own == oven.index) {
+                if !self.is_oven(oven.index) {
                     return none(format!("{oven} is not an oven"));
                 }
+                let reservoirs = self.conduction.reservoirs.len();
+                change.heat.reservoirs = vec![S::zero(); reservoirs];
                 change.ovens.push((oven.index, by.clone()));
             }
             _ => {}
@@ -191,17 +192,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    fn is_moved(&self, node: Node) -> bool {
+    fn is_moved(&self, node: usize) -> bool {
         let mut motions = self.loads.motions.iter();
-        motions.any(|(own, _)| own.index == node.index)
+        motions.any(|(own, _)| own.index == node)
     }
 
     /// Anchors have no velocity at the start unless they are moved, where masses couple them with others.
     pub(super) fn drop_velocities(&self, change: &mut Change<D, S>) {
         for node in self.masses.anchors() {
-            let mut motions = self.loads.motions.iter();
-            let is_moved = motions.any(|(own, _)| own.index == node);
-            if !(self.masses.are_coupled() && is_moved) {
+            if !(self.masses.are_coupled() && self.is_moved(node)) {
                 change.start.velocities[node * D..][..D].fill(S::zero());
             }
         }
@@ -295,10 +294,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 direction.new.temperatures[*slot] += by(new.time.value);
             }
             heat.clone_from(&change.heat);
-            if !change.ovens.is_empty() {
-                heat.reservoirs
-                    .resize(self.conduction.reservoirs.len(), S::zero());
-            }
             for (oven, by) in &change.ovens {
                 heat.reservoirs[*oven] += by(middle);
             }
@@ -327,21 +322,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     push(node, change.gravity * (h * sum));
                 }
             }
-            // Δv − h g, of nodes with a mass or beside one.
-            let fall = |node: usize, mass: S| {
-                let [old, new] = [old, new].map(|state| state.velocity::<D>(node, mass));
-                SVector::<S, D>::from_fn(|axis, _| {
-                    new[axis] - old[axis] - h * self.loads.gravity[axis]
-                })
-            };
             for (node, &by) in change.masses.iter().enumerate() {
                 if let Some(mass) = self.masses.get(node) {
-                    push(node, fall(node, mass) * -by);
+                    push(node, self.pushed(made, node, mass) * -by);
                 }
             }
             for (&[i, j], &by) in way.outline.pairs.iter().zip(&change.pairs) {
-                push(i, fall(j, S::one()) * -by);
-                push(j, fall(i, S::one()) * -by);
+                push(i, self.pushed(made, j, S::one()) * -by);
+                push(j, self.pushed(made, i, S::one()) * -by);
             }
         }
     }

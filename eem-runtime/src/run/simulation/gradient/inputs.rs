@@ -55,23 +55,26 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
+    /// `Δv − h g` of a node with a mass or beside one: what forces do per mass.
+    pub(super) fn pushed(&self, (h, states): Made<'_, S>, node: usize, mass: S) -> SVector<S, D> {
+        let [old, new] = states.map(|state| state.velocity::<D>(node, mass));
+        SVector::from_fn(|axis, _| new[axis] - old[axis] - h * self.loads.gravity[axis])
+    }
+
     /// By masses, gravity, conductances and temperatures of reservoirs.
-    pub(super) fn add_step(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
+    pub(super) fn add_step(&self, made: Made<'_, S>, way: &mut Way<D, S>) {
+        let (h, [old, _]) = made;
         let (weights, found) = (&way.adjoint.weights, &mut way.found);
-        // Δv − h g, of nodes with a mass or beside one.
-        let change = |node: usize, mass: S| {
-            let [old, new] = [old, new].map(|state| state.velocity::<D>(node, mass));
-            SVector::<S, D>::from_fn(|axis, _| new[axis] - old[axis] - h * self.loads.gravity[axis])
-        };
         for (node, mass) in self.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
             let weight = vector::<S, D>(&weights.motion, node);
-            found.masses[node] -= dot(&weight, &change(node, mass));
+            found.masses[node] -= dot(&weight, &self.pushed(made, node, mass));
             found.gravity += weight * (h * way.outline.sums[node]);
         }
         for ([i, j], by) in &mut found.pairs {
             let [w_i, w_j] = [*i, *j].map(|node| vector::<S, D>(&weights.motion, node));
-            *by -= dot(&w_i, &change(*j, S::one())) + dot(&w_j, &change(*i, S::one()));
+            let [of_i, of_j] = [*i, *j].map(|node| self.pushed(made, node, S::one()));
+            *by -= dot(&w_i, &of_j) + dot(&w_j, &of_i);
         }
         let theta = &weights.temperatures;
         let per_theta = |slot: usize| weights.entropies[slot] / theta[slot];

@@ -8,8 +8,6 @@ use super::derivatives::Of;
 use super::forward::Forward;
 use super::inputs::Made;
 use super::no_adjoint;
-use crate::element::group::StepView;
-use crate::element::phase::Phase;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::history::Kept;
@@ -20,7 +18,7 @@ use crate::run::gradient::units::quotient;
 use crate::run::recorder::{Column, Quantity};
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
-use crate::step::adjoint::{NoAdjoint, PastStep, Tangents};
+use crate::step::adjoint::Tangents;
 use eem_material::number::scalar::Real;
 
 /// What is done with every state of a history: the number of steps before it, and itself.
@@ -211,19 +209,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let is_warmed = !(heat.conductances.is_empty() && heat.reservoirs.is_empty());
             let start = change.start_at(start.time.value);
             let parameters = change.parameters.clone();
-            tangents.direction(start, parameters, is_warmed || !change.ovens.is_empty())
-        });
-        let heats = changes.iter().map(|change| {
-            let mut heat = change.heat.clone();
-            if !change.ovens.is_empty() {
-                let reservoirs = self.conduction.reservoirs.len();
-                heat.reservoirs.resize(reservoirs, S::zero());
-            }
-            heat
+            tangents.direction(start, parameters, is_warmed)
         });
         Ok(Forward {
             directions: directions.collect(),
-            heats: heats.collect(),
+            heats: changes.iter().map(|change| change.heat.clone()).collect(),
             anchors: self.masses.anchors().collect(),
             conduction: self.conduction.clone(),
             rockets: Vec::new(),
@@ -238,39 +228,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn push(&mut self, made: Made<'_, S>, way: &mut Forward<D, S>) -> Result<(), GradientError> {
         self.find_loads(made, &mut way.conduction, &mut way.rockets);
         self.enter(made, way);
-        // The elements are evaluated elsewhere than at the ends of their last step.
-        self.has_stepped = false;
-        let Stepper::Newton(newton) = &mut self.stepper else {
-            return Ok(());
-        };
-        let (step, [old, new]) = made;
-        let view = StepView {
-            phase: Phase::Whole,
-            step,
-            per_step: step.recip(),
-            state: old,
-            conduction: &way.conduction,
-            loads: &newton.loads,
-            stages: &[],
-            masses: &self.masses,
-        };
-        let past = PastStep {
-            view,
-            new,
-            held: &way.held,
-        };
-        let solved = way.tangents.step_forward(
-            &past,
-            (&way.outline.layout, &way.rockets),
-            &mut newton.groups,
-            newton.solver.tangent_mut(),
-            (&mut way.directions, &way.heats),
-        );
-        let time = new.time.value.to_f64();
-        solved.map_err(|error| match error {
-            NoAdjoint::Singular => GradientError::Singular { time },
-            NoAdjoint::State(error) => error.into(),
-        })?;
+        let (tangents, directions) = (&mut way.tangents, &mut way.directions);
+        let loaded = (&way.outline.layout, &way.rockets[..]);
+        self.differentiate(
+            made,
+            (&way.conduction, &way.held),
+            |past, groups, system| {
+                tangents.step_forward(past, loaded, groups, system, (directions, &way.heats))
+            },
+        )?;
+        let time = made.1[1].time.value.to_f64();
         for direction in &mut way.directions {
             for (oven, _) in &self.loads.ovens {
                 // Its entropy is booked as heat after the step.
