@@ -32,8 +32,8 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>
 {
-    /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction, in
-    /// whose new state those of anchors and of temperatures that are held are given; the others move as in the old one.
+    /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction. In its new
+    /// state anchors and held temperatures have their changes already, and masses those of the old state.
     pub(super) fn push_forward(
         &mut self,
         step: &PastStep<'_, S>,

@@ -84,8 +84,8 @@ fn size_of<S: Real>(values: impl IntoIterator<Item = S>) -> S {
 
 /// # Gradients
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Checks a gradient of an objective by going through the history once more, from the first state to the last: the objective has to
-    /// change along the run, in a direction in which all inputs of the gradient change but the sizes of steps, as the gradient says.
+    /// Checks a gradient of an objective by the tangents of the same steps, from the first to the last. All inputs but the sizes of steps
+    /// change at once; the objective has to change by what the gradient says.
     ///
     /// # Errors
     ///
