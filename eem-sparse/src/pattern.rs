@@ -213,6 +213,26 @@ impl Pattern {
         Some((block * length + row % length) * length + column % length)
     }
 
+    /// The entries of a row, each as its place in an array of values and its column; columns ascend.
+    ///
+    /// ```
+    /// let pattern = eem_sparse::Pattern::new(3, |pair| pair(0, 2));
+    /// assert_eq!(pattern.entries_of(2).collect::<Vec<_>>(), [(3, 0), (4, 2)]);
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If there is no such row.
+    pub fn entries_of(&self, row: usize) -> impl Iterator<Item = (usize, usize)> {
+        let length = self.length;
+        let node = row / length;
+        let blocks = self.blocks(node).zip(self.row(node));
+        blocks.flat_map(move |(block, &column)| {
+            let position = (block * length + row % length) * length;
+            (0..length).map(move |at| (position + at, column as usize * length + at))
+        })
+    }
+
     /// Number of nodes, which is that of block rows.
     pub(crate) fn nodes(&self) -> usize {
         self.starts.len() - 1

@@ -406,6 +406,9 @@ fn the_gradient_of_the_energy_is_kept() {
     for case in DoublePendulum::ALL {
         assert_energy_law(case.name, &case.scene().0, case.step, 20);
     }
+    // Roundings of momenta must not be multiplied by 2/h in every step.
+    let [.., log] = DoublePendulum::ALL;
+    assert_energy_law("short steps", &log.scene().0, 1e-5, 500);
     let mut scene = Scene::<3>::new();
     let nodes = [[0.0; 3], [1.2, 0.1, 0.0], [1.9, 0.8, 0.3]];
     let nodes = nodes.map(|at| scene.mass(1.0, at, [0.1, at[0], -at[1]]));

@@ -11,7 +11,14 @@
 //! ```
 //!
 //! With λ¹ the derivatives by x¹, `(∂R/∂x¹)ᵀ w = λ¹` and `λ⁰ = −(∂R/∂x⁰)ᵀ w`. As in a step, v¹ and the variables of a point are
-//! eliminated; what remains has the pattern of the system of a step.
+//! eliminated; what remains has the pattern of the system of a step,
+//!
+//! ```text
+//! ((2/h) M + K)ᵀ w = b + (2/h) λ_v
+//! ```
+//!
+//! From step to step w changes by O(h), and `M w − λ_v` is as small. To keep their digits, which `2/h` needs, the unknowns are the
+//! differences from the w of the last step, and `λ_v − M w` is carried on by `M` times these.
 
 mod error;
 mod inertia;
@@ -22,14 +29,14 @@ use core::mem;
 
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::group::{Group, SeeParameters, StepBack};
+use crate::element::group::{Group, SeeParameters, StepBack, StepView};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use eem_material::number::scalar::Real;
 
 pub(crate) use crate::element::group::{Direction, PastStep, PerVariable, StepWeights, Terms};
 pub(crate) use error::NoAdjoint;
-use inertia::{Inertia, Moving};
+use inertia::Inertia;
 pub(crate) use rockets::RocketStep;
 pub(crate) use tangents::{HeatChange, Tangents};
 
@@ -40,8 +47,11 @@ pub(crate) struct Adjoint<S, const D: usize> {
     /// The interface temperatures of a step, and whether there are any.
     interface: InterfaceTemperatures<S>,
     is_coupled: bool,
-    /// `M w_v`.
-    momenta: Vec<S>,
+    /// `w_v` of the last step by unknown, 0 for those that are not of positions.
+    last: Vec<[S; 1]>,
+    /// What the last step has changed of `M w_v`, and `λ_v − M w_v` with the present λ.
+    changes: Vec<S>,
+    rests: Vec<S>,
     /// The derivatives by the present state, and those by the one after it.
     pub(crate) costate: PerVariable<S>,
     pub(crate) after: PerVariable<S>,
@@ -64,7 +74,9 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
             inertia: Inertia::new(layout, masses, system),
             interface: InterfaceTemperatures::new(layout.thermal),
             is_coupled,
-            momenta: zeros(coordinates),
+            last: vec![[S::zero()]; system.right().len()],
+            changes: zeros(coordinates),
+            rests: costate.velocities.clone(),
             weights: StepWeights {
                 motion: zeros(coordinates),
                 entropies: zeros(layout.thermal),
@@ -90,75 +102,96 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
     ) -> Result<(), NoAdjoint> {
         mem::swap(&mut self.costate, &mut self.after);
         let view = &past.view;
-        let step = StepBack {
-            past: *past,
-            by_new: &self.after,
-        };
-        let interface = &mut self.interface;
         if self.is_coupled {
             for group in &mut *groups {
-                group.find_interfaces(past, interface)?;
+                group.find_interfaces(past, &mut self.interface)?;
             }
         }
-        let Inertia { nodes, .. } = &self.inertia;
-        self.inertia.start(view.step, system);
-        let per = S::from_f64(2.0) / view.step;
-        let (_, right) = system.parts();
-        for node in nodes {
-            for axis in 0..D {
-                let at = node.coordinate + axis;
-                right[node.unknown + axis][0] +=
-                    self.after.positions[at] + per * self.after.velocities[at];
-            }
-        }
+        system.clear();
+        let by_new = &self.after;
+        let step = StepBack {
+            past: *past,
+            by_new,
+        };
         for group in &mut *groups {
-            group.pull_back(&step, interface, system)?;
+            group.pull_back(&step, &self.interface, system)?;
         }
         for rocket in rockets {
             rocket.add_to(layout, true, system);
         }
-        system.solve().map_err(|_| NoAdjoint::Singular)?;
+        system.subtract_product(&self.last);
+        self.inertia.add_to(view.step, system);
+        self.find_weights(view, system)?;
         let solution = system.solution();
-        for node in nodes {
-            for axis in 0..D {
-                self.weights.motion[node.coordinate + axis] = solution[node.unknown + axis][0];
-            }
-        }
-        let momenta = &mut self.momenta;
-        view.masses.find_momenta(D, &self.weights.motion, momenta);
-        move_back(nodes, view.step, momenta, (&self.after, &mut self.costate));
         for anchors in &mut self.weights.anchors {
             anchors.fill(S::zero());
         }
         self.weights.by_size = Terms::none();
+        let by_new = &self.after;
+        let step = StepBack {
+            past: *past,
+            by_new,
+        };
         for group in groups {
             let found = (&mut self.costate, &mut self.weights);
-            group.recover(&step, interface, solution, found, see);
+            group.recover(&step, &self.interface, solution, found, see);
         }
         for rocket in rockets {
             rocket.subtract(layout, &mut self.costate, &mut self.weights);
         }
         Ok(())
     }
-}
 
-/// `λ_q⁰ = w_q = (2/h)(M w_v − λ_v)` and `λ_v⁰ = 2M w_v − λ_v` of the masses, given `M w_v`; anchors keep their sums, and have
-/// `M w_v` by their old velocities.
-fn move_back<S: Real, const D: usize>(
-    nodes: &[Moving<S, D>],
-    step: S,
-    momenta: &[S],
-    (after, before): (&PerVariable<S>, &mut PerVariable<S>),
-) {
-    before.reservoirs.copy_from_slice(&after.reservoirs);
-    before.positions.copy_from_slice(&after.positions);
-    before.velocities.copy_from_slice(momenta);
-    let per = S::from_f64(2.0) / step;
-    for node in nodes {
-        for at in (node.coordinate..).take(D) {
-            let rest = momenta[at] - after.velocities[at];
-            before.positions[at] = per * rest;
-            before.velocities[at] = momenta[at] + rest;
+    /// Adds a derivative of the objective by a velocity in the present state.
+    pub(crate) fn add_by_velocity(&mut self, at: usize, by: S) {
+        self.costate.velocities[at] += by;
+        self.rests[at] += by;
+    }
+
+    /// Solves the system of a step, and moves the masses back:
+    /// `λ_q⁰ = w_q = (2/h)(M w_v − λ_v)`, `λ_v⁰ = 2M w_v − λ_v`. Anchors keep their sums, and have `M w_v` by their old velocities.
+    fn find_weights(
+        &mut self,
+        view: &StepView<'_, S>,
+        system: &mut LinearSystem<S, 1>,
+    ) -> Result<(), NoAdjoint> {
+        let Inertia { nodes, .. } = &self.inertia;
+        let per = S::from_f64(2.0) / view.step;
+        let (_, right) = system.parts();
+        let (after, rests) = (&self.after, &mut self.rests);
+        for node in nodes {
+            for (at, unknown) in (node.coordinate..).zip(node.unknown..).take(D) {
+                right[unknown][0] += after.positions[at] + per * rests[at];
+            }
         }
+        system.solve().map_err(|_| NoAdjoint::Singular)?;
+        let motion = &mut self.weights.motion;
+        motion.fill(S::zero());
+        let solution = system.solution_mut();
+        for node in nodes {
+            for (at, unknown) in (node.coordinate..).zip(node.unknown..).take(D) {
+                motion[at] = solution[unknown][0];
+                solution[unknown][0] += self.last[unknown][0];
+                self.last[unknown] = solution[unknown];
+            }
+        }
+        view.masses.find_momenta(D, motion, &mut self.changes);
+        for node in nodes {
+            for (at, unknown) in (node.coordinate..).zip(node.unknown..).take(D) {
+                motion[at] = solution[unknown][0];
+            }
+        }
+        let before = &mut self.costate;
+        before.reservoirs.copy_from_slice(&after.reservoirs);
+        before.positions.copy_from_slice(&after.positions);
+        view.masses.find_momenta(D, motion, &mut before.velocities);
+        for node in nodes {
+            for at in (node.coordinate..).take(D) {
+                rests[at] = self.changes[at] - rests[at];
+                before.positions[at] = per * rests[at];
+                before.velocities[at] += rests[at];
+            }
+        }
+        Ok(())
     }
 }

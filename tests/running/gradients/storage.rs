@@ -1,7 +1,7 @@
 //! Histories in limited memory.
 
 use core::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use eem::prelude::*;
 use eem::{Gradient, GradientError, History, Objective};
@@ -82,6 +82,38 @@ fn long_runs_need_little_memory() {
     let error = gradient(History::bytes(40_000)).unwrap_err();
     let fewer = |most: &usize| *most < 5000;
     assert!(matches!(&error, GradientError::HistoryTooLarge { most } if fewer(most)));
+}
+
+#[test]
+fn steps_are_made_again_as_often_as_room_is_missing() {
+    static CALLS: AtomicUsize = AtomicUsize::new(0);
+    const STEPS: usize = 64;
+    let calls = |history: History| {
+        let mut scene = Scene::<1>::new();
+        let mass = scene.mass(1.0, [0.0], [0.0]);
+        scene.force(mass, |t| {
+            CALLS.fetch_add(1, Ordering::Relaxed);
+            [t]
+        });
+        let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+        run.keep_history(history);
+        let count = || CALLS.swap(0, Ordering::Relaxed);
+        count();
+        for _ in 0..STEPS {
+            run.step().unwrap();
+        }
+        let steps = count();
+        let velocity = Objective::at_end(Quantity::Velocity(mass));
+        run.gradient(&velocity).unwrap();
+        (count(), steps / STEPS)
+    };
+    let (all, per_step) = calls(History::default());
+    // The run keeps every state, every second one, every fourth one; from each on, steps are made again once more up to the
+    // last one of them.
+    for (snapshots, expected) in [(64, 64), (40, 64 + 32), (20, 64 + 3 * 16)] {
+        let again = (calls(History::snapshots(snapshots)).0 - all) / per_step;
+        assert_eq!(again, expected, "{snapshots} snapshots");
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! One matrix with any number of right-hand sides.
+//! One matrix with any number of right-hand sides, and its products.
 
 use core::array;
 
@@ -9,6 +9,27 @@ use crate::algebra::lu::{self, Singular};
 use eem_material::number::scalar::Real;
 
 impl<S: Real> LinearSystem<S, 1> {
+    /// `B − A x` instead of B.
+    pub(crate) fn subtract_product(&mut self, x: &[[S; 1]]) {
+        let n = self.unknowns;
+        let values = &self.values;
+        let rows = self.right[..n].iter_mut().enumerate();
+        #[cfg(feature = "sparse")]
+        if let Storage::Sparse(sparse) = &self.storage {
+            for (row, [right]) in rows {
+                for (place, column) in sparse.pattern().entries_of(row) {
+                    *right -= values[place] * x[column][0];
+                }
+            }
+            return;
+        }
+        for (row, [right]) in rows {
+            for (&value, [x]) in values[row * n..].iter().zip(&x[..n]) {
+                *right -= value * *x;
+            }
+        }
+    }
+
     /// Overwrites right-hand sides with their solutions, except the scratch rows of anchors, by one elimination of A, which is then
     /// zero; of a few unknowns by one for four of them.
     pub(crate) fn solve_each<'a>(

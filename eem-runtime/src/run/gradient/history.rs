@@ -29,7 +29,7 @@ impl Default for History {
 }
 
 impl History {
-    /// So many bytes; 2³⁰ by default. Three quarters are for states, of which one takes the bytes of its time, positions,
+    /// So many bytes; 2³⁰ by default. Half of them are for states, of which one takes the bytes of its time, positions,
     /// velocities, viscous stretches and temperatures, and for the sizes of steps, 8 bytes each.
     #[must_use]
     pub const fn bytes(bytes: usize) -> Self {

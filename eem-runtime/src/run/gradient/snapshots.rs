@@ -21,8 +21,8 @@ use eem_material::number::scalar::{Mask, Real};
 /// How often a step is made again, at most, before the pass that keeps states.
 const MOST_PASSES: usize = 3;
 
-/// The share of the memory for snapshots, which are several times as large as states.
-const SHARE_OF_SNAPSHOTS: usize = 4;
+/// The share of the memory for snapshots. With c of them and n states, c n steps are made again once: most where both take the same.
+const SHARE_OF_SNAPSHOTS: usize = 2;
 
 /// The distance of the first snapshots where there is memory for many states: copying them costs little there.
 const FIRST_STRIDE: usize = 64;
@@ -334,7 +334,10 @@ impl<S: Real> Record<S> {
             let mut passes = 1..=MOST_PASSES;
             let within = |passes: usize| reach(free, passes).saturating_mul(states);
             if let Some(passes) = passes.find(|&passes| steps <= within(passes)) {
-                let first = within(passes - 1).min(steps - 1);
+                // As few as reach leaves, since they are made again once more: what is left of whole parts.
+                let part = within(passes - 1);
+                let least = steps.saturating_sub(reach(free - 1, passes).saturating_mul(states));
+                let first = ((steps - 1) % part + 1).max(least);
                 return Pass {
                     steps: [start, start + first],
                     keeps_all: false,

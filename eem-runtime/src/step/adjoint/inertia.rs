@@ -60,9 +60,8 @@ impl<S: Real, const D: usize> Inertia<S, D> {
         }
     }
 
-    /// Starts a system with `2M/h`.
-    pub(super) fn start(&self, step: S, system: &mut LinearSystem<S, 1>) {
-        system.clear();
+    /// Adds `2M/h` to a matrix.
+    pub(super) fn add_to(&self, step: S, system: &mut LinearSystem<S, 1>) {
         let (values, _) = system.parts();
         let per = S::from_f64(2.0) / step;
         for node in &self.nodes {

@@ -95,7 +95,8 @@ impl<S: Real, const D: usize> Tangents<S, D> {
             self.conduct(view.conduction, of, direction);
             self.push_inertia(view.masses, direction);
         }
-        self.inertia.start(view.step, system);
+        system.clear();
+        self.inertia.add_to(view.step, system);
         for group in &mut *groups {
             let temperatures = (&self.interface, &mut self.temperatures[..]);
             group.push_forward(past, temperatures, system, directions)?;

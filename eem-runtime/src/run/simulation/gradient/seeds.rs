@@ -210,7 +210,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 found,
                 ..
             } = way;
-            let see = &mut |of: Of<'_, S>, by| add_to((&mut adjoint.costate, found), of, by);
+            let see = &mut |of: Of<'_, S>, by| add_to((&mut *adjoint, found), of, by);
             // Also without weight: a quantity without derivatives is an error, whatever its value.
             let weight = S::from_f64(weighed.weight);
             self.see_derivatives((state, weight), asked.of(), outline, see)?;

@@ -4,7 +4,7 @@ use super::derivatives::{Of, Outline};
 use crate::element::conduction::{Conduction, Partner};
 use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::Gradient;
-use crate::step::adjoint::{Adjoint, PerVariable, RocketStep, Terms};
+use crate::step::adjoint::{Adjoint, RocketStep, Terms};
 use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
@@ -38,13 +38,14 @@ pub(super) type Weighted<'a, const D: usize, S> = &'a [(f64, &'a Objective<D, S>
 
 /// Adds a derivative to those by a state or, of an input, to the others.
 pub(super) fn add_to<const D: usize, S: Real>(
-    (costate, found): (&mut PerVariable<S>, &mut Gradient<D, S>),
+    (adjoint, found): (&mut Adjoint<S, D>, &mut Gradient<D, S>),
     of: Of<'_, S>,
     by: S,
 ) {
+    let costate = &mut adjoint.costate;
     match of {
         Of::Position(at) => costate.positions[at] += by,
-        Of::Velocity(at) => costate.velocities[at] += by,
+        Of::Velocity(at) => adjoint.add_by_velocity(at, by),
         Of::Viscous(slot) => costate.viscous[slot] += by,
         Of::Temperature(slot) => costate.temperatures[slot] += by,
         Of::Entropy(index) => costate.reservoirs[index] += by,
