@@ -1,7 +1,8 @@
 //! Histories in limited memory.
 
 use core::ops::ControlFlow;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use eem::prelude::*;
 use eem::{Gradient, GradientError, History, Objective};
@@ -135,6 +136,28 @@ fn steps_that_end_elsewhere_when_made_again_are_an_error() {
         "{error:?}"
     );
     assert_eq!(run.checkpoint(), before);
+}
+
+#[test]
+fn a_panic_of_a_load_leaves_the_history() {
+    static PANICS: AtomicBool = AtomicBool::new(false);
+    let mut scene = Scene::<1>::new();
+    let mass = scene.mass(1.0, [0.0], [0.0]);
+    scene.force(mass, |t| {
+        assert!(!PANICS.load(Ordering::Relaxed), "no force");
+        [t]
+    });
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+    run.keep_history(History::snapshots(3));
+    run.run_until(1.0).unwrap();
+    let place = Objective::at_end(Quantity::Position(mass));
+    let expected = bits(&run.gradient(&place).unwrap());
+    let before = run.checkpoint();
+    PANICS.store(true, Ordering::Relaxed);
+    assert!(catch_unwind(AssertUnwindSafe(|| run.gradient(&place))).is_err());
+    PANICS.store(false, Ordering::Relaxed);
+    assert_eq!(before, run.checkpoint());
+    assert_eq!(expected, bits(&run.gradient(&place).unwrap()));
 }
 
 #[test]

@@ -266,6 +266,20 @@ fn times_without_derivatives_are_errors() {
         Err(GradientError::NoTimeDerivative { .. })
     ));
     assert_eq!(gradient.by_step_size_at_kept_loads().len(), 4);
+
+    let mut scene = Scene::<1>::new();
+    let mass = scene.mass(1.0, [0.5], [0.0]);
+    scene.force(mass, |t| [t]);
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.5).unwrap();
+    run.keep_history(History::default());
+    run.run_until(1.0).unwrap();
+    let place = Objective::at_end(Quantity::Position(mass));
+    let gradient = run.gradient(&place).unwrap();
+    let sizes = gradient.by_step_size_with(&[Input::force(mass, |t| [1.0 / (t - 0.75)])]);
+    assert!(
+        matches!(sizes, Err(GradientError::NotFinite { .. })),
+        "{sizes:?}"
+    );
 }
 
 #[test]

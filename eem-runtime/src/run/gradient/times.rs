@@ -44,7 +44,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     ///
     /// # Errors
     ///
-    /// [`GradientError::NoTimeDerivative`] if that of a function is missing.
+    /// [`GradientError::NoTimeDerivative`] if that of a function is missing; [`GradientError::NotFinite`] if it is not finite.
     ///
     /// ```
     /// use eem::prelude::*;
@@ -93,7 +93,10 @@ impl<const D: usize, S: Real> Gradient<D, S> {
                 *by += value * ((time - start) / (*end - start));
             }
         }
-        Ok(found)
+        match found.iter().find(|(_, by)| !by.to_f64().is_finite()) {
+            Some((end, _)) => Err(GradientError::NotFinite { time: end.to_f64() }),
+            None => Ok(found),
+        }
     }
 
     /// Adds the changes of the objective as the values of a load move in time, with their times.

@@ -15,6 +15,7 @@ use core::mem;
 use std::collections::BTreeSet;
 
 use super::Simulation;
+use super::guard::Guard;
 use super::stepper::Stepper;
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::Conduction;
@@ -163,21 +164,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         &mut self,
         act: impl FnOnce(&mut Self, &mut Record<S>) -> Result<T, GradientError>,
     ) -> Result<T, GradientError> {
-        let Some(mut kept) = self.history.take() else {
+        let taken = self.history.take();
+        // Also after a panic of a user's function.
+        let mut guard = Guard::new((self, taken), |(run, taken)| {
+            if let Some(kept) = taken {
+                kept.forget_passing();
+            }
+            run.history = taken.take();
+        });
+        let (run, taken) = &mut guard.value;
+        let Some(kept) = taken else {
             return Err(GradientError::NoHistory);
         };
-        kept.return_to(self.time());
-        let checked = self.check_history(&kept);
-        let found = checked.and_then(|()| {
-            if kept.all().is_some() {
-                act(self, &mut kept)
-            } else {
-                self.with_steps_again(|run| act(run, &mut kept))
-            }
-        });
-        kept.forget_passing();
-        self.history = Some(kept);
-        found
+        kept.return_to(run.time());
+        run.check_history(kept)?;
+        if kept.all().is_some() {
+            act(run, kept)
+        } else {
+            run.with_steps_again(|run| act(run, kept))
+        }
     }
 
     fn gradient_of(
