@@ -236,6 +236,20 @@ impl<const D: usize> Drawing<D> {
         })
     }
 
+    /// All velocities by a factor, and all masses by another.
+    pub(crate) fn scale(&mut self, [velocities, masses]: [f64; 2]) {
+        for node in &mut self.nodes {
+            node.velocity = node.velocity.map(|speed| velocities * speed);
+            node.mass = node.mass.map(|mass| masses * mass);
+        }
+    }
+
+    /// Velocities and masses of all nodes; none of anchors.
+    pub(crate) fn moving(&self) -> impl Iterator<Item = Option<([f64; D], f64)>> + '_ {
+        let nodes = self.nodes.iter();
+        nodes.map(|node| node.mass.map(|mass| (node.velocity, mass)))
+    }
+
     /// The scene.
     pub(crate) fn world(&self) -> World<D> {
         let mut world = World::new();

@@ -167,6 +167,11 @@ impl<const D: usize> World<D> {
         ))
     }
 
+    /// All nodes, in the order in which they were added.
+    pub(crate) fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
     fn index(&self, node: Node) -> usize {
         let place = self.nodes.iter().position(|own| *own == node);
         place.expect("a node of this scene")

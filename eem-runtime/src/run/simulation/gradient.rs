@@ -10,6 +10,7 @@ mod inputs;
 mod seeds;
 mod tangents;
 mod way;
+mod zeros;
 
 use core::mem;
 use std::collections::BTreeSet;
@@ -27,18 +28,13 @@ use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::history::History;
 use crate::run::gradient::objective::Objective;
-use crate::run::gradient::result::{Gradient, OfElement};
-use crate::run::gradient::series::Series;
+use crate::run::gradient::result::Gradient;
 use crate::run::gradient::snapshots::Record;
-use crate::run::gradient::timed::Timed;
-use crate::scene::loads::Course;
 use crate::step::adjoint::{Adjoint, NoAdjoint, PastStep, PerVariable};
 use crate::step::control::norm as norm_of;
 use crate::step::scheme::Scheme;
-use derivatives::Outline;
 use eem_material::number::scalar::{Mask, Real};
 use inputs::Made;
-use nalgebra::SVector;
 use seeds::Seeds;
 use way::{Way, Weighted, add};
 
@@ -394,60 +390,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             + norm(&costate.temperatures) * norm(&state.temperatures)
     }
 
-    /// A gradient of zeros, with the names of all parameters.
-    fn no_gradient(&self, outline: &Outline<S>) -> Gradient<D, S> {
-        let layout = &outline.layout;
-        let coordinates = self.masses.len() * D;
-        let mut elements = Vec::with_capacity(self.places.len());
-        for (index, &[group, at]) in self.places.iter().enumerate() {
-            let of_group = self.stepper.elements(group as usize);
-            let element = of_group.handle(at as usize);
-            let names = of_group.parameters();
-            elements.push(OfElement {
-                element,
-                slots: layout.elements[index],
-                dashpots: self.shapes[group as usize].dashpots,
-                names,
-                units: of_group.parameter_units(),
-                viscous_unit: self.viscous_unit(group as usize),
-                values: vec![S::zero(); names.len()],
-            });
-        }
-        Gradient {
-            scene: self.scene.clone(),
-            value: 0.0,
-            unit: String::new(),
-            growth: 1.0,
-            start: PerVariable::zero(coordinates, layout, self.conduction.reservoirs.len()),
-            moving: (0..self.masses.len())
-                .filter(|&node| self.masses.get(node).is_some())
-                .collect(),
-            masses: vec![S::zero(); self.masses.len()],
-            pairs: outline
-                .pairs
-                .iter()
-                .map(|&nodes| (nodes, S::zero()))
-                .collect(),
-            gravity: SVector::from_element(S::zero()),
-            conductances: vec![S::zero(); self.conduction.path_ends().len()],
-            reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
-            elements,
-            sizes: Vec::new(),
-            started: self.time(),
-            timed: self.timed(),
-            forces: empty(self.loads.forces.iter().map(|(node, _)| node.index)),
-            thrusts: self
-                .loads
-                .rockets
-                .iter()
-                .map(|rocket| (rocket.line.node.index, Series(Vec::new())))
-                .collect(),
-            ovens: empty(self.loads.ovens.iter().map(|&(index, _)| index)),
-            motions: empty(self.loads.motions.iter().map(|(node, _)| node.index)),
-            temperatures: empty(self.loads.temperatures.iter().map(|(own, _)| own.index())),
-        }
-    }
-
     /// Whether thermostats hold the temperatures, by thermal slot.
     fn held(&self, layout: &Layout) -> Vec<bool> {
         let mut held = vec![false; layout.thermal];
@@ -458,44 +400,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         held
     }
-
-    /// The loads that are functions of time.
-    fn timed(&self) -> Vec<Timed> {
-        let loads = &self.loads;
-        let forces = loads.forces.iter();
-        let forces = forces.filter(|(_, of)| matches!(of, Course::Function(_)));
-        let motions = loads.motions.iter();
-        let motions = motions.filter(|(_, of)| matches!(of, Course::Function(_)));
-        let held = loads.temperatures.iter();
-        let held = held.filter(|(_, of)| matches!(of, Course::Function(_)));
-        let rockets = loads.rockets.iter().enumerate().map(|(place, rocket)| {
-            let node = rocket.line.node;
-            let before = loads.rockets[..place].iter();
-            let before = before.filter(|other| other.line.node.index == node.index);
-            Timed::Thrust(node, before.count())
-        });
-        let ovens = loads.ovens.iter();
-        forces
-            .map(|&(node, _)| Timed::Force(node))
-            .chain(motions.map(|&(node, _)| Timed::Motion(node)))
-            .chain(held.map(|&(element, _)| Timed::Thermostat(element)))
-            .chain(rockets)
-            .chain(ovens.map(|&(index, _)| Timed::Oven(self.scene.reservoir(index))))
-            .collect()
-    }
 }
 
 #[cold]
 fn no_adjoint<S: Real>(scheme: Scheme, time: S) -> GradientError {
     let (scheme, time) = (scheme.name(), time.to_f64());
     GradientError::NoAdjoint { scheme, time }
-}
-
-/// Series for these indices, each once.
-fn empty<T, S>(indices: impl Iterator<Item = usize>) -> Vec<(usize, Series<T, S>)> {
-    let indices: BTreeSet<usize> = indices.collect();
-    indices
-        .into_iter()
-        .map(|index| (index, Series(Vec::new())))
-        .collect()
 }
