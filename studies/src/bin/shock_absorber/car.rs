@@ -22,7 +22,7 @@ pub(crate) const BODY: f64 = 300.0;
 pub(crate) const WHEEL: f64 = 0.15 * BODY;
 
 /// Stiffness of suspension spring and tyre, N/m.
-const SUSPENSION: f64 = 63.3 * BODY;
+pub(crate) const SUSPENSION: f64 = 63.3 * BODY;
 pub(crate) const TYRE: f64 = 653.0 * BODY;
 
 /// Height of the wheel's centre above the road and of the body above that, at rest, m. The
@@ -93,6 +93,11 @@ impl Damper {
         self.eta0 * (self.a * (1.0 / theta - 1.0 / self.theta_ref)).exp()
     }
 
+    /// What the suspension spring carries of the body beside it, N.
+    pub(crate) fn load_beside(&self) -> f64 {
+        BODY * GRAVITY - self.gas_force * WINTER / self.theta_ref
+    }
+
     /// The same damper with the viscosity that it has now, whatever its temperature will be.
     pub(crate) fn frozen(self, theta: f64) -> Self {
         let eta0 = self.viscosity(theta);
@@ -118,10 +123,14 @@ pub(crate) struct Car {
 
 /// The quarter car with this damper, at rest on the track.
 pub(crate) fn car(damper: Damper) -> Car {
-    let gas_force = damper.gas_force * WINTER / damper.theta_ref;
+    car_on(SUSPENSION, damper)
+}
+
+/// The same on a suspension spring of this stiffness, N/m, as long as the body then needs to rest where it does.
+pub(crate) fn car_on(stiffness: f64, damper: Damper) -> Car {
     let spring = Spring {
-        stiffness: SUSPENSION,
-        natural_length: CLEARANCE + (BODY * GRAVITY - gas_force) / SUSPENSION,
+        stiffness,
+        natural_length: CLEARANCE + damper.load_beside() / stiffness,
     };
     let tyre = Spring {
         stiffness: TYRE,
