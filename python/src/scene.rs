@@ -436,10 +436,10 @@ impl PyScene {
 
     /// Runs this scene for so many seconds with each of the schemes, with each of the steps, s, and with step control at each of the
     /// tolerances, and returns an `eem.StudyReport`: what each costs, and how far its end is from that of two independent references.
+    /// Schemes with others each are a dictionary: `{"gauss-4": {"steps": [0.1, 0.05]}, "eem-explicit": {"tolerances": [1e-3]}}`.
     ///
-    /// `report.recommend(accuracy)` says what to take; the report prints a recommendation for each of `accuracies`, 1e-2, 1e-4 and
-    /// 1e-6 if none are given. Each setting is timed `repeats` times; the steps of the references become at most `refinement` times
-    /// smaller than the smallest. Ctrl-C ends it after the run that is under way, with `KeyboardInterrupt`.
+    /// The report recommends a setting for each of `accuracies`, 1e-2, 1e-4 and 1e-6 if none are given. Each setting is timed `repeats`
+    /// times; the steps of the references become at most `refinement` times smaller. Ctrl-C ends it after the run under way.
     ///
     /// >>> import eem
     /// >>> hooke = eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=20.0)

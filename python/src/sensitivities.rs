@@ -2,6 +2,7 @@
 
 use eem::{Column, Element, HeatPath, Input, Node, Reservoir, Sensitivities};
 use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyString, PyTuple};
 
@@ -50,8 +51,12 @@ type Parsed<'py> = (
 
 impl Given {
     fn of(input: &Bound<'_, PyAny>, world: &World, parts: &Parts) -> PyResult<Self> {
-        let (kind, of, name, index, function, named): Parsed<'_> =
-            input.getattr("_given")?.extract()?;
+        let Ok(given) = input.getattr("_given") else {
+            let kind = input.get_type().name()?;
+            let message = format!("an eem.Input is expected, not {kind}");
+            return Err(PyTypeError::new_err(message));
+        };
+        let (kind, of, name, index, function, named): Parsed<'_> = given.extract()?;
         let lineage = &world.lineage;
         let node = || Ok::<_, PyErr>(parts.nodes[one::<handle::Node>(&of, lineage)?]);
         let element = || Ok::<_, PyErr>(parts.elements[one::<handle::Element>(&of, lineage)?]);
@@ -156,6 +161,23 @@ fn parameter(
     Ok(By::Parameter(elements.collect(), [name, unit]))
 }
 
+/// The kind of a quantity, its handle or None, and a dashpot.
+fn parsed<'py>(given: &Bound<'py, PyAny>) -> PyResult<(String, Bound<'py, PyAny>, usize)> {
+    let nothing = given.py().None().into_bound(given.py());
+    if given.is_instance_of::<PyString>() {
+        return Ok((given.extract()?, nothing, 0));
+    }
+    let given = given.cast::<PyTuple>()?;
+    match given.len() {
+        1 => Ok((given.get_item(0)?.extract()?, nothing, 0)),
+        2 => {
+            let (kind, of) = given.extract()?;
+            Ok((kind, of, 0))
+        }
+        _ => given.extract(),
+    }
+}
+
 /// What is to be differentiated by what.
 pub(crate) struct Asked {
     pub(crate) inputs: Vec<Given>,
@@ -165,29 +187,23 @@ pub(crate) struct Asked {
 impl Asked {
     /// Of `eem.Input`s, and quantities by name: `"energy"`, or a tuple with a handle, and the number of a dashpot.
     pub(crate) fn of(
-        inputs: &Bound<'_, PyAny>,
+        inputs: &Bound<'_, PyList>,
         quantities: &Bound<'_, PyDict>,
         (world, parts): (&World, &Parts),
     ) -> PyResult<Self> {
-        let inputs = inputs
-            .try_iter()?
-            .map(|input| Given::of(&input?, world, parts))
-            .collect::<PyResult<_>>()?;
+        let inputs = inputs.iter();
+        let inputs = inputs.map(|input| Given::of(&input, world, parts));
         let quantity = |(name, given): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-            let given = if given.is_instance_of::<PyString>() {
-                PyTuple::new(given.py(), [given])?
-            } else {
-                given.cast_into::<PyTuple>()?
-            };
-            let item = |place: usize| given.get_item(place).ok();
-            let of = item(1).unwrap_or_else(|| given.py().None().into_bound(given.py()));
-            let dashpot = item(2).map_or(Ok(0), |dashpot| dashpot.extract())?;
-            let kind: String = given.get_item(0)?.extract()?;
+            let (kind, of, dashpot) = parsed(&given).map_err(|_| {
+                PyTypeError::new_err(format!(
+                    "{name}: a quantity is \"energy\", (\"position\", node) or (\"viscous_stretch\", spring, dashpot), not {given}"
+                ))
+            })?;
             let subject = subject((&kind, &of, dashpot), &world.lineage, parts)?;
             Ok((name.extract()?, subject))
         };
         Ok(Self {
-            inputs,
+            inputs: inputs.collect::<PyResult<_>>()?,
             quantities: quantities.iter().map(quantity).collect::<PyResult<_>>()?,
         })
     }
@@ -196,7 +212,7 @@ impl Asked {
     pub(crate) fn into_python(
         self,
         py: Python<'_>,
-        inputs: &Bound<'_, PyAny>,
+        inputs: &Bound<'_, PyList>,
         found: &Sensitivities,
         dim: usize,
     ) -> PyResult<Py<PyAny>> {

@@ -8,7 +8,7 @@ use eem::{Checkpoint, History};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::{PyDict, PyList, PyType};
 
 use access::{Ended, interrupted};
 
@@ -348,6 +348,8 @@ impl Simulation {
         inputs: &Bound<'_, PyAny>,
         quantities: &Bound<'_, PyDict>,
     ) -> PyResult<Py<PyAny>> {
+        let inputs = &inputs.try_iter()?.collect::<PyResult<Vec<_>>>()?;
+        let inputs = &PyList::new(py, inputs)?;
         let asked = Asked::of(inputs, quantities, (&self.world, &self.parts))?;
         let found = self.differentiate(py, |run| run.sensitivities(&asked))?;
         asked.into_python(py, inputs, &found, self.world.dim)

@@ -205,24 +205,40 @@ fn kind(name: &str) -> PyResult<StateQuantity> {
     })
 }
 
-/// Settings: each scheme with each step, then with each tolerance.
+/// Settings: each scheme with each step, then with each tolerance; or `{scheme: {"steps": …, "tolerances": …}}`.
 pub(crate) fn settings(
     schemes: &Bound<'_, PyAny>,
     steps: Option<&Bound<'_, PyAny>>,
     tolerances: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<Setting>> {
-    let steps = input::list(steps, "steps")?.unwrap_or_default();
-    let tolerances = input::list(tolerances, "tolerances")?.unwrap_or_default();
-    let names: Vec<String> = match schemes.extract() {
-        Ok(name) => vec![name],
-        Err(_) => schemes.extract()?,
-    };
     let mut settings = Vec::new();
-    for name in &names {
-        let scheme = scheme(name)?;
-        settings.extend(steps.iter().map(|&step| Setting::fixed(scheme, step)));
-        let controlled = tolerances.iter();
-        settings.extend(controlled.map(|&relative| Setting::controlled(scheme, relative)));
+    if let Ok(schemes) = schemes.cast::<PyDict>() {
+        if steps.or(tolerances).is_some() {
+            return Err(error::scene(
+                "each scheme has its own steps or tolerances: leave out steps= and tolerances=",
+            ));
+        }
+        for (name, own) in schemes {
+            let own = own.cast_into::<PyDict>()?;
+            for key in own.keys() {
+                let key: String = key.extract()?;
+                if !matches!(&*key, "steps" | "tolerances") {
+                    let message = format!("a scheme has no {key:?}: give steps or tolerances");
+                    return Err(error::scene(message));
+                }
+            }
+            let [steps, tolerances] = [own.get_item("steps")?, own.get_item("tolerances")?];
+            let own = [steps.as_ref(), tolerances.as_ref()];
+            add_settings(&mut settings, name.extract()?, own)?;
+        }
+    } else {
+        let names: Vec<String> = match schemes.extract() {
+            Ok(name) => vec![name],
+            Err(_) => schemes.extract()?,
+        };
+        for name in names {
+            add_settings(&mut settings, name, [steps, tolerances])?;
+        }
     }
     if settings.is_empty() {
         return Err(error::scene(
@@ -230,4 +246,19 @@ pub(crate) fn settings(
         ));
     }
     Ok(settings)
+}
+
+/// Adds those of one scheme.
+fn add_settings(
+    settings: &mut Vec<Setting>,
+    name: String,
+    [steps, tolerances]: [Option<&Bound<'_, PyAny>>; 2],
+) -> PyResult<()> {
+    let scheme = scheme(&name)?;
+    let steps = input::list(steps, "steps")?.unwrap_or_default();
+    let tolerances = input::list(tolerances, "tolerances")?.unwrap_or_default();
+    let (steps, tolerances) = (steps.into_iter(), tolerances.into_iter());
+    settings.extend(steps.map(|step| Setting::fixed(scheme, step)));
+    settings.extend(tolerances.map(|relative| Setting::controlled(scheme, relative)));
+    Ok(())
 }

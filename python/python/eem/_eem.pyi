@@ -317,7 +317,7 @@ class Scene:
     def study(
         self,
         duration: float,
-        schemes: str | Sequence[str],
+        schemes: str | Sequence[str] | Mapping[str, Mapping[str, ArrayLike]],
         *,
         steps: ArrayLike | None = None,
         tolerances: ArrayLike | None = None,

@@ -46,8 +46,7 @@ class Input:
     @classmethod
     def parameter(cls, of: Material | Element | ElementArray | Sequence[Element | int], name: str) -> Input:
         """A parameter of a spring, or one that several springs, or all of a material, have in common."""
-        is_one = hasattr(of, "__index__") or not hasattr(of, "__iter__") or type(of).__name__ == "ElementArray"
-        return cls("parameter", of if is_one else tuple(of), name)  # type: ignore[arg-type]
+        return cls("parameter", tuple(of) if isinstance(of, (list, np.ndarray)) else of, name)
 
     @classmethod
     def mass(cls, node: Node) -> Input:
@@ -188,7 +187,11 @@ class Sensitivities:
 
     def to_dict(self) -> dict[str, _Floats]:
         """Columns by name, for tables: ``time``, and those of `names`."""
-        return {"time": self.time, **dict(zip(self.names, self._values, strict=True))}
+        columns = {"time": self.time, **dict(zip(self.names, self._values, strict=True))}
+        if len(columns) <= len(self.names):
+            twice = next(name for name in self.names if name == "time" or self.names.count(name) > 1)
+            raise SceneError(f"two columns have the name {twice!r}: give inputs other names with `named`")
+        return columns
 
     def __len__(self) -> int:
         return len(self.time)

@@ -81,7 +81,10 @@ impl Simulation {
             let mut guard = self.lock()?;
             _ = take_raised();
             let found = question(&mut **guard.run()?);
-            found.map_err(|error| take_raised().unwrap_or_else(|| error::gradient(error)))
+            match take_raised() {
+                Some(raised) => Err(raised),
+                None => found.map_err(error::gradient),
+            }
         })
     }
 
