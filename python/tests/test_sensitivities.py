@@ -7,6 +7,7 @@ import eem
 import numpy as np
 import pytest
 
+from conftest import block
 from test_gradients import Pair
 
 
@@ -99,6 +100,22 @@ def test_all_inputs_agree_with_gradients(scheme, snapshots):
     with pytest.raises(eem.SceneError, match="two columns have the name"):
         same.to_dict()
     run.check_gradient(objective + eem.Objective.integral("energy"))
+
+
+def test_a_solid(metal):
+    scene = eem.Scene(dim=2)
+    sheet = block(scene, metal, [3, 1])
+    run = scene.simulate("eem-temperature", step=0.01)
+    run.keep_history()
+    run.run(until=0.1)
+    warm = eem.Objective.at_end("temperature", sheet.points[0])
+    run.check_gradient(warm)
+    gradient = run.gradient(warm)
+    mu, start = eem.Input.parameter(metal, "mu"), eem.Input.temperature(sheet.points[1])
+    found = run.sensitivities([mu, start], {"t": ("temperature", sheet.points[0])})
+    assert found.of("t", mu)[-1] == pytest.approx(gradient.by_parameter(metal, "mu"), rel=1e-12)
+    assert found.of("t", start)[-1] == pytest.approx(gradient.by_temperature(sheet.points[1]), rel=1e-12)
+    assert found.units == ["K/Pa", "1"]
 
 
 def test_functions_of_time(rubber):
