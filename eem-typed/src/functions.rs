@@ -129,10 +129,13 @@ impl<S: Scalar> Functions<S> {
         self.by_parameters.get_or_init(make).as_ref()
     }
 
-    /// The names of the parameters by which there are derivatives.
+    /// The names of the parameters by which there are derivatives: all or none.
     pub(crate) fn parameter_names(&self) -> &'static [&'static str] {
+        if self.by_parameters().is_none() {
+            return &[];
+        }
         let model = self.compiled.model();
-        let parameters = model.parameters.iter().take(MOST_PARAMETERS);
+        let parameters = model.parameters.iter();
         let names: Vec<_> = parameters
             .map(|&parameter| model.graph.name(parameter))
             .collect();

@@ -1,12 +1,16 @@
-//! Arguments of calls to scenes as acts.
+//! Arguments of calls to scenes as acts, and what they return.
 
-use std::ops::Range;
-
+use eem::EquilibriumReport;
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::act::{Act, Bulk, Course, Partner, Speed};
 use crate::built::dashpots;
-use crate::handle::{Element, Kind, Node, Reservoir, ReservoirArray, indices};
+use crate::handle::{
+    Element, ElementArray, HeatPath, HeatPathArray, Kind, Node, NodeArray, Reservoir,
+    ReservoirArray, indices,
+};
 use crate::material::Material;
 use crate::world::World;
 use crate::{error, input};
@@ -66,14 +70,15 @@ impl World {
         Ok(first)
     }
 
-    /// Adds a solid and returns the numbers of its nodes and points, and its cells in numbers of nodes of the scene.
+    /// Adds a solid and returns an `eem.Solid`.
     pub(crate) fn solid(
         &mut self,
+        py: Python<'_>,
         material: &Bound<'_, Material>,
         [positions, cells]: [&Bound<'_, PyAny>; 2],
         bulk: Bulk,
         [temperature, velocity]: [Option<&Bound<'_, PyAny>>; 2],
-    ) -> PyResult<(Range<usize>, Range<usize>, Vec<usize>)> {
+    ) -> PyResult<Py<PyAny>> {
         let dim = self.dim;
         let positions = input::rows(positions, dim, "positions")?;
         let count = positions.len() / dim;
@@ -85,7 +90,10 @@ impl World {
         });
         let counts = self.lineage.counts;
         let first = counts[Kind::Node as usize];
-        let own: Vec<_> = cells.iter().map(|&node| first + node).collect();
+        let own = cells
+            .iter()
+            .map(|&node| (first + node).cast_signed() as i64);
+        let own = PyArray1::from_iter(py, own).reshape([cells.len() >> dim, 1 << dim])?;
         let material = self.material(material);
         self.act(Act::Solid {
             material,
@@ -96,7 +104,10 @@ impl World {
             temperatures: temperatures.transpose()?.unwrap_or_default(),
         })?;
         let range = |kind: Kind| counts[kind as usize]..self.lineage.counts[kind as usize];
-        Ok((range(Kind::Node), range(Kind::Element), own))
+        let nodes = NodeArray::of(self.lineage.own, range(Kind::Node));
+        let points = ElementArray::of(self.lineage.own, range(Kind::Element));
+        let class = py.import("eem._solid")?.getattr("Solid")?;
+        Ok(class.call1((nodes, points, own))?.unbind())
     }
 
     /// The properties of a solid: density, thickness, conductivity, fibres.
@@ -119,13 +130,14 @@ impl World {
         })
     }
 
-    /// Adds paths of heat and returns their numbers, and whether one was given.
-    pub(crate) fn paths(
+    /// Adds paths of heat and returns the handle of one, or an array of several.
+    pub(crate) fn paths<'py>(
         &mut self,
+        py: Python<'py>,
         springs: &Bound<'_, PyAny>,
         partners: &Bound<'_, PyAny>,
         conductance: &Bound<'_, PyAny>,
-    ) -> PyResult<(Range<usize>, bool)> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let (elements, is_one) = indices::<Element>(springs, &self.lineage)?;
         let count = elements.len();
         let is_reservoir =
@@ -158,7 +170,12 @@ impl World {
             partners,
             conductances,
         })?;
-        Ok((first..first + count, is_one))
+        let own = self.lineage.own;
+        Ok(if is_one {
+            Bound::new(py, HeatPath::of(own, first))?.into_any()
+        } else {
+            Bound::new(py, HeatPathArray::of(own, first..first + count))?.into_any()
+        })
     }
 
     /// A quantity that is a number or a function of time.
@@ -176,4 +193,19 @@ impl World {
         <[usize; 2]>::try_from(nodes)
             .map_err(|_| error::scene(format!("a spring has two nodes, not {count}")))
     }
+}
+
+/// How a state at rest was found.
+pub(crate) fn as_dict<'py>(
+    py: Python<'py>,
+    found: &EquilibriumReport,
+) -> PyResult<Bound<'py, PyDict>> {
+    let report = PyDict::new(py);
+    report.set_item("residual", found.residual)?;
+    report.set_item("heat", found.heat)?;
+    report.set_item("followed", found.followed)?;
+    report.set_item("load_steps", found.load_steps)?;
+    report.set_item("iterations", found.iterations)?;
+    report.set_item("friction_steps", found.friction_steps)?;
+    Ok(report)
 }

@@ -3,15 +3,17 @@
 use eem::typed::{Law, LawError};
 use eem::{
     Bulk, Element, Equilibrium, EquilibriumError, EquilibriumReport, HeatPartner, HeatPath, Node,
-    RefusedScene, Reservoir, Scene, SceneError, Scheme, Simulation,
+    RefusedScene, Reservoir, Scene, SceneError, Scheme, Simulation, StudyReport,
 };
 use eem_solids::{Refused, Solids};
 use eem_springs::Springs;
+use pyo3::PyResult;
 
 use crate::act::{self, Act, Course, Partner, Rest, Speed};
 use crate::function::Function;
 use crate::handle::Counts;
 use crate::run::AnyRun;
+use crate::study::Plan;
 
 /// The handles of the library, in the order of creation.
 #[derive(Clone, Default)]
@@ -83,6 +85,7 @@ pub(crate) trait AnyScene: Send + Sync {
     fn find_rest(&mut self, rest: Rest) -> Result<EquilibriumReport, EquilibriumError>;
     fn duplicate(&self) -> Box<dyn AnyScene>;
     fn start(&self, scheme: Scheme, step: f64) -> Result<Box<dyn AnyRun>, Vec<SceneError>>;
+    fn study(&self, plan: &Plan) -> PyResult<StudyReport>;
 }
 
 /// A scene and its handles.
@@ -350,6 +353,10 @@ where
         let run = Simulation::new(self.scene.clone(), scheme, step);
         let refused = |refused: RefusedScene<D>| refused.errors().to_vec();
         Ok(Box::new(run.map_err(refused)?))
+    }
+
+    fn study(&self, plan: &Plan) -> PyResult<StudyReport> {
+        plan.run(&self.scene)
     }
 }
 

@@ -129,12 +129,7 @@ impl<'a> Request<'a> {
         let mut columns = Vec::new();
         for (material, values) in vary {
             let material = material.cast::<Material>()?;
-            let known = world.materials.iter().position(|known| known.is(material));
-            let Some(index) = known else {
-                return Err(error::scene(format!(
-                    "no spring of the scene has the material {material}"
-                )));
-            };
+            let index = world.law(material)?;
             for (name, values) in values.cast::<PyDict>()? {
                 let name: String = name.extract()?;
                 let array = input::array(&values, &format!("parameter `{name}`"))?;

@@ -3,6 +3,7 @@
 use eem::typed::Law;
 use eem::{Element, Gradient, GradientError, Node, Objective, Quantity, Reservoir, Simulation};
 use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -13,7 +14,7 @@ use crate::{error, input};
 
 /// A quantity that has derivatives.
 #[derive(Clone, Copy)]
-enum Subject {
+pub(crate) enum Subject {
     Position(Node),
     Velocity(Node),
     Momentum(Node),
@@ -99,7 +100,7 @@ pub(crate) fn terms(
 }
 
 /// A quantity with its handle.
-fn subject(
+pub(crate) fn subject(
     (quantity, of, dashpot): (&str, &Bound<'_, PyAny>, usize),
     lineage: &Lineage,
     parts: &Parts,
@@ -117,7 +118,13 @@ fn subject(
         "reservoir_entropy" => Subject::ReservoirEntropy(reservoir()?),
         "reservoir_heat" => Subject::ReservoirHeat(reservoir()?),
         "kinetic_energy" => Subject::KineticEnergy,
-        _ => Subject::Energy,
+        "energy" => Subject::Energy,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "there are no derivatives of '{other}': take one of {}",
+                QUANTITIES.join(", ")
+            )));
+        }
     })
 }
 
@@ -147,33 +154,42 @@ fn of_vector(
     component: Option<usize>,
     dim: usize,
 ) -> PyResult<usize> {
-    let is_vector = matches!(
-        subject,
-        Subject::Position(_) | Subject::Velocity(_) | Subject::Momentum(_)
-    );
     match component {
-        None if is_vector && dim > 1 => Err(error::scene(format!(
+        None if subject.is_vector() && dim > 1 => Err(error::scene(format!(
             "{quantity} has {dim} components: say which one, counted from 0, with component="
         ))),
         component => Ok(component.unwrap_or(0)),
     }
 }
 
+impl Subject {
+    pub(crate) const fn is_vector(self) -> bool {
+        matches!(
+            self,
+            Self::Position(_) | Self::Velocity(_) | Self::Momentum(_)
+        )
+    }
+
+    pub(crate) const fn quantity<const D: usize>(self) -> Quantity<D> {
+        match self {
+            Self::Position(node) => Quantity::Position(node),
+            Self::Velocity(node) => Quantity::Velocity(node),
+            Self::Momentum(node) => Quantity::Momentum(node),
+            Self::Stretch(element) => Quantity::Stretch(element),
+            Self::Temperature(element) => Quantity::Temperature(element),
+            Self::ViscousStretch(element, dashpot) => Quantity::ViscousStretch(element, dashpot),
+            Self::ReservoirEntropy(reservoir) => Quantity::ReservoirEntropy(reservoir),
+            Self::ReservoirHeat(reservoir) => Quantity::ReservoirHeat(reservoir),
+            Self::KineticEnergy => Quantity::KineticEnergy,
+            Self::Energy => Quantity::TotalEnergy,
+        }
+    }
+}
+
 /// The objective of terms; at least one.
 fn objective<const D: usize>(terms: &[Term]) -> Objective<D> {
     let one = |term: &Term| {
-        let quantity = match term.subject {
-            Subject::Position(node) => Quantity::Position(node),
-            Subject::Velocity(node) => Quantity::Velocity(node),
-            Subject::Momentum(node) => Quantity::Momentum(node),
-            Subject::Stretch(element) => Quantity::Stretch(element),
-            Subject::Temperature(element) => Quantity::Temperature(element),
-            Subject::ViscousStretch(element, dashpot) => Quantity::ViscousStretch(element, dashpot),
-            Subject::ReservoirEntropy(reservoir) => Quantity::ReservoirEntropy(reservoir),
-            Subject::ReservoirHeat(reservoir) => Quantity::ReservoirHeat(reservoir),
-            Subject::KineticEnergy => Quantity::KineticEnergy,
-            Subject::Energy => Quantity::TotalEnergy,
-        };
+        let quantity = term.subject.quantity();
         let objective = match &term.when {
             When::End => Objective::at_end(quantity),
             When::At(time) => Objective::at(*time, quantity),
@@ -274,6 +290,16 @@ pub(crate) fn gradient<const D: usize>(
         timed: gradient.by_step_size().err().map(|error| error.to_string()),
         series: series(&gradient, parts),
     })
+}
+
+/// Finds it again, and checks it by tangents.
+pub(crate) fn check<const D: usize>(
+    run: &mut Simulation<D>,
+    terms: &[Term],
+) -> Result<(), GradientError> {
+    let objective = objective(terms);
+    let gradient = run.gradient(&objective)?;
+    run.check_gradient(&gradient, &objective)
 }
 
 /// All derivatives by functions of time.

@@ -79,6 +79,18 @@ pub(crate) fn number(given: &Bound<'_, PyAny>, what: &str) -> PyResult<f64> {
     }
 }
 
+/// A list of numbers.
+pub(crate) fn list(given: Option<&Bound<'_, PyAny>>, what: &str) -> PyResult<Option<Vec<f64>>> {
+    let Some(given) = given else {
+        return Ok(None);
+    };
+    let array = array(given, what)?;
+    match array.shape[..] {
+        [_] => Ok(Some(array.values)),
+        _ => refuse(what, &array.shape, "(n,)"),
+    }
+}
+
 /// The end of a run, or the times of its states.
 pub(crate) fn times(until: Option<f64>, times: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
     match (until, times) {

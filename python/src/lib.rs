@@ -6,7 +6,8 @@
 //! | add a quantity of runs | `run.rs`, `simulation.rs`; `record.rs` and `python/eem/_record.py` to record it |
 //! | change how arrays are taken | `input.rs` |
 //! | change handles | `handle.rs` |
-//! | add a quantity that has derivatives, or an input they are by | `gradient.rs`, `python/eem/_gradient.py` |
+//! | add a quantity that has derivatives, or an input they are by | `gradient.rs`, `python/eem/_gradient.py`; `sensitivities.rs`, `python/eem/_sensitivities.py` |
+//! | change what a study takes or tells | `study.rs`, `python/eem/_study.py` |
 //! | change exceptions | `error.rs`, `python/eem/_errors.py` |
 //! | compile springs and solids differently, or other shapes of them | `springs`, `solids` |
 
@@ -24,8 +25,10 @@ mod record;
 mod report;
 mod run;
 mod scene;
+mod sensitivities;
 mod setting;
 mod simulation;
+mod study;
 mod watch;
 mod world;
 
@@ -45,6 +48,8 @@ mod _eem {
     use crate::scene::PyScene;
     #[pymodule_export]
     use crate::simulation::Simulation;
+    #[pymodule_export]
+    use crate::study::Studied;
 
     /// The version of the library.
     #[pymodule_export]
@@ -61,4 +66,8 @@ mod _eem {
     /// The names of the quantities that have derivatives.
     #[pymodule_export]
     const QUANTITIES: [&str; crate::gradient::QUANTITIES.len()] = crate::gradient::QUANTITIES;
+
+    /// The names of the kinds of quantities whose errors a study finds.
+    #[pymodule_export]
+    const KINDS: [&str; crate::study::KINDS.len()] = crate::study::KINDS;
 }

@@ -4,15 +4,16 @@ use std::ops::ControlFlow;
 
 use eem::{
     Checkpoint, Element, GradientError, History, Node, RestoreError, RunEnd, SceneError, Scheme,
-    Simulation, StepError, StepReport, StepStatistics, Tolerance,
+    Sensitivities, Simulation, StepError, StepReport, StepStatistics, Tolerance,
 };
 
 use eem::nalgebra::Matrix3;
 use eem::typed::Law;
 
 use crate::built::Parts;
-use crate::gradient::{Found, Term, gradient};
+use crate::gradient::{self, Found, Term, gradient};
 use crate::record::entries;
+use crate::sensitivities::{Asked, Given};
 
 /// Sees a run after each step.
 pub(crate) type Observer<'a> =
@@ -68,6 +69,8 @@ pub(crate) trait AnyRun: Send {
         parts: &Parts,
         laws: &[Law],
     ) -> Result<Found, GradientError>;
+    fn check_gradient(&mut self, terms: &[Term]) -> Result<(), GradientError>;
+    fn sensitivities(&mut self, asked: &Asked) -> Result<Sensitivities, GradientError>;
 }
 
 impl<const D: usize> AnyRun for Simulation<D> {
@@ -219,6 +222,17 @@ impl<const D: usize> AnyRun for Simulation<D> {
         laws: &[Law],
     ) -> Result<Found, GradientError> {
         gradient(self, terms, parts, laws)
+    }
+
+    fn check_gradient(&mut self, terms: &[Term]) -> Result<(), GradientError> {
+        gradient::check(self, terms)
+    }
+
+    fn sensitivities(&mut self, asked: &Asked) -> Result<Sensitivities, GradientError> {
+        let inputs: Vec<_> = asked.inputs.iter().map(Given::input).collect();
+        let quantities = asked.quantities.iter();
+        let quantities = quantities.map(|(name, subject)| (name.as_str(), subject.quantity()));
+        self.sensitivities(&inputs, quantities)
     }
 }
 

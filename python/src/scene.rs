@@ -2,22 +2,22 @@
 
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
-use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyType};
 
 use crate::act::{Act, Bulk, Course, Rest};
+use crate::arguments::as_dict;
 use crate::ensemble::Request;
 use crate::handle::{
-    Element, ElementArray, HeatPath, HeatPathArray, Kind, Lineage, Node, NodeArray, Reservoir,
-    ReservoirArray, indices, one,
+    Element, ElementArray, Kind, Lineage, Node, NodeArray, Reservoir, ReservoirArray, indices, one,
 };
+use crate::input;
 use crate::material::Material;
 use crate::setting::{scheme, tolerance};
 use crate::simulation::Simulation;
+use crate::study::{ACCURACIES, Plan, settings};
 use crate::world::{State, World};
-use crate::{error, input};
 
 /// A scene in one, two or three dimensions: anchors, masses, springs, reservoirs and loads.
 ///
@@ -230,7 +230,6 @@ impl PyScene {
         velocity: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Py<PyAny>> {
         let mut world = self.world()?;
-        let dim = world.dim;
         let bulk = world.bulk([Some(density), thickness, conductivity, fibres])?;
         let bulk = Bulk {
             lumped,
@@ -238,20 +237,7 @@ impl PyScene {
             ..bulk
         };
         let mesh = [positions, cells];
-        let (nodes, points, cells) = world.solid(material, mesh, bulk, [temperature, velocity])?;
-        let own = world.lineage.own;
-        drop(world);
-        let class = py.import("eem._solid")?.getattr("Solid")?;
-        let columns = if dim == 2 { 4 } else { 8 };
-        let rows = cells.len() / columns;
-        let cells = cells.into_iter().map(|node| node.cast_signed() as i64);
-        let cells = PyArray1::from_iter(py, cells).reshape([rows, columns])?;
-        let made = class.call1((
-            NodeArray::of(own, nodes),
-            ElementArray::of(own, points),
-            cells,
-        ))?;
-        Ok(made.unbind())
+        world.solid(py, material, mesh, bulk, [temperature, velocity])
     }
 
     /// Holds nodes of solids where they are; `move_anchor` moves them then.
@@ -288,14 +274,8 @@ impl PyScene {
     /// Many reservoirs with constant temperatures, K.
     fn reservoirs(&self, temperatures: &Bound<'_, PyAny>) -> PyResult<ReservoirArray> {
         let mut world = self.world()?;
-        let array = input::array(temperatures, "temperatures")?;
-        if array.shape.len() != 1 {
-            return Err(error::scene(
-                "temperatures are a list with one for each reservoir",
-            ));
-        }
+        let temperatures = input::list(Some(temperatures), "temperatures")?.unwrap_or_default();
         let first = world.lineage.counts[Kind::Reservoir as usize];
-        let temperatures = array.values;
         world.act(Act::Reservoirs { temperatures })?;
         let Lineage { own, counts, .. } = world.lineage;
         Ok(ReservoirArray::of(
@@ -313,14 +293,7 @@ impl PyScene {
         partners: &Bound<'py, PyAny>,
         conductance: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut world = self.world()?;
-        let (all, is_one) = world.paths(springs, partners, conductance)?;
-        let own = world.lineage.own;
-        Ok(if is_one {
-            Bound::new(py, HeatPath::of(own, all.start))?.into_any()
-        } else {
-            Bound::new(py, HeatPathArray::of(own, all))?.into_any()
-        })
+        self.world()?.paths(py, springs, partners, conductance)
     }
 
     /// The acceleration of all masses, m/s².
@@ -402,19 +375,13 @@ impl PyScene {
         thermal_balance: bool,
         load_steps: u32,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let found = self.world()?.find_rest(Rest {
+        let rest = Rest {
             held,
             thermal_balance,
             load_steps,
-        })?;
-        let report = PyDict::new(py);
-        report.set_item("residual", found.residual)?;
-        report.set_item("heat", found.heat)?;
-        report.set_item("followed", found.followed)?;
-        report.set_item("load_steps", found.load_steps)?;
-        report.set_item("iterations", found.iterations)?;
-        report.set_item("friction_steps", found.friction_steps)?;
-        Ok(report)
+        };
+        let found = self.world()?.find_rest(rest)?;
+        as_dict(py, &found)
     }
 
     /// Starts a run with a scheme and a step, s; with a relative tolerance the step is the first one to try.
@@ -467,6 +434,48 @@ impl PyScene {
         request.run(py, (scheme, step), tolerance, threads)
     }
 
+    /// Runs this scene for so many seconds with each of the schemes, with each of the steps, s, and with step control at each of the
+    /// tolerances, and returns an `eem.StudyReport`: what each costs, and how far its end is from that of two independent references.
+    /// Schemes with others each are a dictionary: `{"gauss-4": {"steps": [0.1, 0.05]}, "eem-explicit": {"tolerances": [1e-3]}}`.
+    ///
+    /// The report recommends a setting for each of `accuracies`, 1e-2, 1e-4 and 1e-6 if none are given. Each setting is timed `repeats`
+    /// times; the steps of the references become at most `refinement` times smaller. Ctrl-C ends it after the run under way.
+    ///
+    /// >>> import eem
+    /// >>> hooke = eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=20.0)
+    /// >>> scene = eem.Scene(dim=2)
+    /// >>> ends = scene.anchor([0.0, 0.0]), scene.mass(1.0, [1.1, 0.0], [0.0, 1.0])
+    /// >>> spring = scene.spring(hooke, ends)
+    /// >>> report = scene.study(2.0, ["eem-entropy", "variational-4"], steps=[0.1, 0.05, 0.025])
+    /// >>> [round(report.order(scheme, "q")) for scheme in ("eem-entropy", "variational-4")]
+    /// [2, 4]
+    /// >>> report.recommend(1e-4).fastest.scheme
+    /// 'variational-4'
+    #[pyo3(
+        signature = (duration, schemes, *, steps=None, tolerances=None, accuracies=None, repeats=3, refinement=32)
+    )]
+    #[expect(clippy::too_many_arguments, reason = "they have names in Python")]
+    fn study(
+        &self,
+        py: Python<'_>,
+        duration: f64,
+        schemes: &Bound<'_, PyAny>,
+        steps: Option<&Bound<'_, PyAny>>,
+        tolerances: Option<&Bound<'_, PyAny>>,
+        accuracies: Option<&Bound<'_, PyAny>>,
+        repeats: usize,
+        refinement: u32,
+    ) -> PyResult<Py<PyAny>> {
+        let plan = Plan {
+            duration,
+            settings: settings(schemes, steps, tolerances)?,
+            accuracies: input::list(accuracies, "accuracies")?.unwrap_or(ACCURACIES.to_vec()),
+            repeats,
+            refinement,
+        };
+        plan.into_python(py, &self.copied(py)?)
+    }
+
     #[classmethod]
     fn _restored(class: &Bound<'_, PyType>, state: State) -> PyResult<Self> {
         Ok(Self::of(World::restored(class.py(), state)?))
@@ -486,17 +495,6 @@ impl PyScene {
     }
 
     fn __repr__(&self) -> PyResult<String> {
-        let world = self.world()?;
-        let [nodes, elements, reservoirs, paths] = world.lineage.counts;
-        let points = world.scene.parts().points();
-        let (dim, springs) = (world.dim, elements - points);
-        let points = if points > 0 {
-            format!(", points={points}")
-        } else {
-            String::new()
-        };
-        Ok(format!(
-            "Scene(dim={dim}, nodes={nodes}, springs={springs}{points}, reservoirs={reservoirs}, paths={paths})"
-        ))
+        Ok(self.world()?.shown())
     }
 }

@@ -8,7 +8,7 @@ use eem::{Checkpoint, History};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyType};
+use pyo3::types::{PyDict, PyList, PyType};
 
 use access::{Ended, interrupted};
 
@@ -18,10 +18,11 @@ use crate::handle::{Element, Node};
 use crate::record::{Rows, Wanted, ledger, record};
 use crate::report::Report;
 use crate::run::AnyRun;
+use crate::sensitivities::Asked;
 use crate::setting::scheme;
 use crate::watch::Watch;
 use crate::world::{State, World};
-use crate::{error, gradient, input, setting};
+use crate::{error, input, setting};
 
 /// A run of a scene, made by `Scene.simulate`. It is pickled and copied with all bits.
 #[pyclass(frozen, module = "eem")]
@@ -296,15 +297,62 @@ impl Simulation {
     /// >>> round(gradient.by_parameter(spring, "k"), 6)  # -0.1 sin(2)/4
     /// -0.022732
     fn gradient(&self, py: Python<'_>, objective: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
+        let terms = self.terms(objective)?;
         let (world, parts) = (&self.world, &*self.parts);
-        let terms = gradient::terms(objective, (&world.lineage, parts, world.dim))?;
-        let found = py.detach(|| {
-            let mut guard = self.lock()?;
-            _ = take_raised();
-            let found = guard.run()?.gradient(&terms, parts, &world.context.laws);
-            found.map_err(|error| take_raised().unwrap_or_else(|| error::gradient(error)))
-        })?;
+        let found =
+            self.differentiate(py, |run| run.gradient(&terms, parts, &world.context.laws))?;
         found.into_python(py, world, parts)
+    }
+
+    /// Finds the gradient of an `Objective` once more and checks it by the tangents of the same steps, from the first to the last:
+    /// along a direction in which all inputs but the sizes of steps change, the objective has to change by what the gradient says. A
+    /// `GradientError` with the reason `"Disagrees"` says that the two differ by more than 1.5e-8 of the sum of the magnitudes of the
+    /// terms: the motion is so sensitive that no digits are left, a formula has a kink, or a load is not a function of time only.
+    ///
+    /// >>> import eem
+    /// >>> scene = eem.Scene(dim=1)
+    /// >>> stone = scene.mass(2.0, [0.0], [3.0])
+    /// >>> scene.set_gravity([-9.81])
+    /// >>> run = scene.simulate("eem-entropy", step=0.01)
+    /// >>> run.keep_history()
+    /// >>> record = run.run(until=1.0)
+    /// >>> run.check_gradient(eem.Objective.at_end("position", stone))
+    fn check_gradient(&self, py: Python<'_>, objective: &Bound<'_, PyAny>) -> PyResult<()> {
+        let terms = self.terms(objective)?;
+        self.differentiate(py, |run| run.check_gradient(&terms))
+    }
+
+    /// The derivatives of quantities by some inputs at every state since `keep_history`, as an `eem.Sensitivities`: those of the
+    /// steps that were made, as in a `gradient`. There one number is differentiated by all inputs, here any number of quantities
+    /// at all times by a few inputs, of which each takes a part of the time of the run.
+    ///
+    /// Quantities have names of their own: `{"z": ("position", node), "E": "energy"}`, with those of an `Objective`; a third entry
+    /// counts the dashpots of a `"viscous_stretch"` from 0.
+    ///
+    /// >>> import eem
+    /// >>> scene = eem.Scene(dim=1)
+    /// >>> stone = scene.mass(2.0, [0.0], [3.0])
+    /// >>> scene.force(stone, lambda t: [4.0 * t])
+    /// >>> run = scene.simulate("eem-entropy", step=0.01)
+    /// >>> run.keep_history()
+    /// >>> record = run.run(until=1.0)
+    /// >>> slope = eem.Input.force(stone, lambda t: [t]).named("a", "N/s")
+    /// >>> found = run.sensitivities([eem.Input.mass(stone), slope], {"q": ("position", stone)})
+    /// >>> print(*found.names, sep=", ")
+    /// q_x by mass of node 0, q_x by a
+    /// >>> found.of("q", slope)[-1].round(4).tolist()  # q = 3 t + a t³/6m
+    /// [0.0833]
+    fn sensitivities(
+        &self,
+        py: Python<'_>,
+        inputs: &Bound<'_, PyAny>,
+        quantities: &Bound<'_, PyDict>,
+    ) -> PyResult<Py<PyAny>> {
+        let inputs = &inputs.try_iter()?.collect::<PyResult<Vec<_>>>()?;
+        let inputs = &PyList::new(py, inputs)?;
+        let asked = Asked::of(inputs, quantities, (&self.world, &self.parts))?;
+        let found = self.differentiate(py, |run| run.sensitivities(&asked))?;
+        asked.into_python(py, inputs, &found, self.world.dim)
     }
 
     /// The force on a mass, N, from now on.

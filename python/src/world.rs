@@ -106,6 +106,16 @@ impl World {
         })
     }
 
+    /// The index of a material that springs or solids have.
+    pub(crate) fn law(&self, material: &Bound<'_, Material>) -> PyResult<usize> {
+        let known = self.materials.iter().position(|known| known.is(material));
+        known.ok_or_else(|| {
+            error::scene(format!(
+                "no spring of the scene has the material {material}"
+            ))
+        })
+    }
+
     /// The index of a new function.
     pub(crate) fn function(&mut self, callable: &Bound<'_, PyAny>) -> usize {
         let callable = Arc::new(callable.clone().unbind());
@@ -127,6 +137,21 @@ impl World {
             };
             take_raised().unwrap_or_else(|| error::scenes(message, all))
         })
+    }
+
+    /// Its `repr`.
+    pub(crate) fn shown(&self) -> String {
+        let [nodes, elements, reservoirs, paths] = self.lineage.counts;
+        let points = self.scene.parts().points();
+        let (dim, springs) = (self.dim, elements - points);
+        let points = if points > 0 {
+            format!(", points={points}")
+        } else {
+            String::new()
+        };
+        format!(
+            "Scene(dim={dim}, nodes={nodes}, springs={springs}{points}, reservoirs={reservoirs}, paths={paths})"
+        )
     }
 
     /// What a pickle contains.

@@ -20,7 +20,7 @@ def test_example(example, tmp_path):
     assert picture.stat().st_size > 1000
 
 
-@pytest.mark.parametrize("item", [eem, eem.Material, eem.Objective, eem.Scene, eem.Simulation], ids=lambda item: item.__name__)
+@pytest.mark.parametrize("item", [eem, eem.Input, eem.Material, eem.Objective, eem.Scene, eem.Simulation], ids=lambda item: item.__name__)
 def test_examples_of_doc_strings(item):
     runner = doctest.DocTestRunner()
     for test in doctest.DocTestFinder().find(item, item.__name__, globs={}):

@@ -216,6 +216,10 @@ def test_laws_with_many_parameters(oscillator):
     for name in ("k0", "k64"):
         with pytest.raises(eem.GradientError, match="up to 64"):
             gradient.by_parameter(spring, name)
+    run.check_gradient(eem.Objective.at_end("position", mass))
+    with pytest.raises(eem.GradientError, match="no derivatives by its parameters") as caught:
+        run.sensitivities([eem.Input.parameter(spring, "k64")], {"q": ("position", mass)})
+    assert caught.value.reason == "NoParameterDerivatives"
 
 
 def test_a_function_that_raises_ends_a_gradient(oscillator):

@@ -44,7 +44,9 @@ from eem._errors import (
 from eem._formulas import Argument, Formula
 from eem._gradient import Gradient, Objective
 from eem._record import EnsembleRecord, Record
+from eem._sensitivities import Input, Sensitivities
 from eem._solid import Solid
+from eem._study import Recommendation, StudyReport, StudyRow
 
 __all__ = [
     "ALL_SHAPES",
@@ -61,19 +63,24 @@ __all__ = [
     "GradientError",
     "HeatPath",
     "HeatPathArray",
+    "Input",
     "Material",
     "MaterialError",
     "Node",
     "NodeArray",
     "Objective",
+    "Recommendation",
     "Record",
     "Reservoir",
     "ReservoirArray",
     "Scene",
     "SceneError",
+    "Sensitivities",
     "Simulation",
     "Solid",
     "StepError",
     "StepReport",
+    "StudyReport",
+    "StudyRow",
     "__version__",
 ]

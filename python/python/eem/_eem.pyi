@@ -7,7 +7,9 @@ from numpy.typing import ArrayLike, NDArray
 from eem._formulas import Argument, Formula
 from eem._gradient import Gradient, Objective
 from eem._record import EnsembleRecord, Record
+from eem._sensitivities import Input, Sensitivities
 from eem._solid import Solid
+from eem._study import StudyReport
 
 __all__ = [
     "ALL_SHAPES",
@@ -17,6 +19,7 @@ __all__ = [
     "ElementArray",
     "HeatPath",
     "HeatPathArray",
+    "KINDS",
     "Lineage",
     "Material",
     "Node",
@@ -27,9 +30,11 @@ __all__ = [
     "Scene",
     "Simulation",
     "StepReport",
+    "Studied",
 ]
 
 ALL_SHAPES: Final[bool]
+KINDS: Final[list[str]]
 LEDGER: Final[list[str]]
 QUANTITIES: Final[list[str]]
 VERSION: Final[str]
@@ -309,11 +314,29 @@ class Scene:
         tolerance: float | None = None,
         threads: int = 0,
     ) -> EnsembleRecord: ...
+    def study(
+        self,
+        duration: float,
+        schemes: str | Sequence[str] | Mapping[str, Mapping[str, ArrayLike]],
+        *,
+        steps: ArrayLike | None = None,
+        tolerances: ArrayLike | None = None,
+        accuracies: ArrayLike | None = None,
+        repeats: int = 3,
+        refinement: int = 32,
+    ) -> StudyReport: ...
     def __copy__(self) -> Scene: ...
     def __deepcopy__(self, _memo: Any) -> Scene: ...
     def __reduce__(self) -> Any: ...
     @classmethod
     def _restored(cls, state: Any) -> Scene: ...
+
+_Quantity = (
+    str
+    | tuple[str]
+    | tuple[str, Node | Element | Reservoir]
+    | tuple[str, Element, int]
+)
 
 @final
 class Simulation:
@@ -357,6 +380,10 @@ class Simulation:
     ) -> Record: ...
     def keep_history(self, *, bytes: int | None = None, snapshots: int | None = None) -> None: ...
     def gradient(self, objective: Objective) -> Gradient: ...
+    def check_gradient(self, objective: Objective) -> None: ...
+    def sensitivities(
+        self, inputs: Sequence[Input], quantities: Mapping[str, _Quantity]
+    ) -> Sensitivities: ...
     def control_steps(
         self,
         tolerance: float,
@@ -408,3 +435,12 @@ class StepReport:
     def error(self) -> float: ...
     @property
     def correction(self) -> float: ...
+
+@final
+class Studied:
+    def front(self) -> list[int]: ...
+    def order(self, scheme: str, quantity: str) -> float | None: ...
+    def recommend(
+        self, accuracy: float, quantities: Sequence[str]
+    ) -> tuple[str, list[int | None], tuple[str, float] | None]: ...
+    def csv(self) -> str: ...

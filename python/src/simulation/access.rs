@@ -2,19 +2,20 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
-use eem::{RunEnd, SceneError, Scheme, Tolerance};
+use eem::{GradientError, RunEnd, SceneError, Scheme, Tolerance};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 use super::Simulation;
-use crate::error;
 use crate::function::take_raised;
+use crate::gradient::Term;
 use crate::handle::{Element, Kind, Node, indices};
 use crate::record::{Rows, Wanted};
 use crate::run::{AnyRun, Stop};
 use crate::watch::Watch;
 use crate::world::World;
+use crate::{error, gradient};
 
 /// A run that nobody else steps.
 pub(super) struct Locked<'a>(pub(super) MutexGuard<'a, Option<Box<dyn AnyRun>>>);
@@ -62,6 +63,29 @@ impl Simulation {
         question: impl FnOnce(&mut dyn AnyRun) -> Result<T, SceneError>,
     ) -> PyResult<T> {
         question(&mut **self.lock()?.run()?).map_err(error::of_scene)
+    }
+
+    /// The terms of an objective.
+    pub(super) fn terms(&self, objective: &Bound<'_, PyAny>) -> PyResult<Vec<Term>> {
+        let world = &self.world;
+        gradient::terms(objective, (&world.lineage, &self.parts, world.dim))
+    }
+
+    /// Asks for derivatives, without the interpreter.
+    pub(super) fn differentiate<T: Send>(
+        &self,
+        py: Python<'_>,
+        question: impl FnOnce(&mut dyn AnyRun) -> Result<T, GradientError> + Send,
+    ) -> PyResult<T> {
+        py.detach(|| {
+            let mut guard = self.lock()?;
+            _ = take_raised();
+            let found = question(&mut **guard.run()?);
+            match take_raised() {
+                Some(raised) => Err(raised),
+                None => found.map_err(error::gradient),
+            }
+        })
     }
 
     pub(super) fn ask_element(

@@ -210,6 +210,74 @@ fn inputs_that_are_not_there_are_errors() {
     assert!(matches!(none, Err(GradientError::NoDerivative { .. })));
 }
 
+/// A text has places for more parameters than its own.
+#[cfg(feature = "typed")]
+#[test]
+fn springs_of_texts_have_tangents_by_their_parameters() {
+    let source = eem::typed::Source::new("|x: Stretch| 0.5 * k * (x - l).powi(2)");
+    let compiled = eem::typed::compile(&source.parameter("k", None).parameter("l", None)).unwrap();
+    let law = eem::typed::Law::new(compiled, &[("k", 4.0), ("l", 1.0)]).unwrap();
+    for scheme in FORMS {
+        let mut scene = Scene::<1>::new();
+        let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+        let model: eem::typed::Spring0 = law.model().unwrap();
+        let spring = scene.spring(model, ends);
+        let mut run = Simulation::new(scene, scheme, 0.01).unwrap();
+        run.keep_history(History::default());
+        run.run_until(1.0).unwrap();
+        let end = Objective::at_end(Quantity::Position(ends[1]));
+        let gradient = run.gradient(&end).unwrap();
+        run.check_gradient(&gradient, &end).unwrap();
+        let inputs = ["k", "l"].map(|name| Input::parameter(spring, name));
+        let table = run.sensitivities(&inputs, [("q", Quantity::Position(ends[1]))]);
+        let table = table.unwrap();
+        // q = l + 0.1 cos(2t) with ω² = k/m, and at rest at l + 0.1
+        for (at, exact) in [-0.1 * 2.0_f64.sin() / 4.0, 1.0 - 2.0_f64.cos()]
+            .into_iter()
+            .enumerate()
+        {
+            let got = *table.of(0, at).unwrap().last().unwrap();
+            assert!((got - exact).abs() < 1e-3, "{got} {exact}");
+        }
+    }
+}
+
+/// There are derivatives by 64 at most.
+#[cfg(feature = "typed")]
+#[test]
+fn a_text_with_many_parameters_has_no_tangents_by_them() {
+    let terms: Vec<String> = (0..65).map(|n| format!("k{n} * (x - 1).powi(2)")).collect();
+    let text = format!("|x: Stretch| {}", terms.join(" + "));
+    let names: Vec<String> = (0..65).map(|n| format!("k{n}")).collect();
+    let source = eem::typed::Source::new(&text);
+    let source = (names.iter()).fold(source, |source, name| source.parameter(name, None));
+    let values: Vec<(&str, f64)> = names.iter().map(|name| (name.as_str(), 0.1)).collect();
+    let law = eem::typed::Law::new(eem::typed::compile(&source).unwrap(), &values).unwrap();
+    let model: eem::typed::Spring0 = law.model().unwrap();
+    let mut scene = Scene::<1>::new();
+    let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    let spring = scene.spring(model, ends);
+    let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.1).unwrap();
+    run.keep_history(History::default());
+    run.run_until(0.5).unwrap();
+    let end = Objective::at_end(Quantity::Position(ends[1]));
+    let gradient = run.gradient(&end).unwrap();
+    run.check_gradient(&gradient, &end).unwrap();
+    for name in ["k0", "k64"] {
+        let by = Input::parameter(spring, name);
+        let table = run.sensitivities(&[by], [("q", Quantity::Position(ends[1]))]);
+        for error in [
+            gradient.by_parameter(spring, name).unwrap_err(),
+            table.unwrap_err(),
+        ] {
+            assert!(
+                matches!(error, GradientError::NoParameterDerivatives { .. }),
+                "{error}"
+            );
+        }
+    }
+}
+
 #[test]
 fn derivatives_have_names_and_units() {
     let (scene, bob, spring, air) = crate::support::single_pendulum_scene();

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::element::error::StateError;
+use crate::element::handle::Element;
 use crate::scene::error::SceneError;
 use crate::step::error::StepError;
 use eem_material::number::readable::Readable;
@@ -186,6 +187,21 @@ pub enum GradientError {
     /// An element cannot be in a state of the history.
     #[error(transparent)]
     State(#[from] StateError),
+}
+
+impl GradientError {
+    /// An element has no such parameter; a text without derivatives has none.
+    pub(crate) fn no_parameter(element: &Element, name: &str, known: &[&'static str]) -> Self {
+        let model = element.model();
+        if known.is_empty() {
+            return Self::NoParameterDerivatives { model };
+        }
+        Self::UnknownParameter {
+            name: name.to_owned(),
+            model,
+            known: known.to_vec(),
+        }
+    }
 }
 
 impl From<StepError> for GradientError {

@@ -189,11 +189,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     pub fn by_parameter(&self, element: Element, name: &str) -> Result<S, GradientError> {
         let own = self.of(element)?;
         let Some(at) = own.names.iter().position(|own| *own == name) else {
-            return Err(GradientError::UnknownParameter {
-                name: name.to_owned(),
-                model: element.model(),
-                known: own.names.to_vec(),
-            });
+            return Err(GradientError::no_parameter(&element, name, own.names));
         };
         let value = own.values[at];
         if value.is_finite() {

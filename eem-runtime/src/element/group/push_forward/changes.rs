@@ -191,7 +191,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             return thinned;
         };
         let mut parameters = M::Parameters::filled(S::zero());
-        parameters.as_mut().copy_from_slice(own);
+        // A text has places for more than its own.
+        for (parameter, &own) in parameters.as_mut().iter_mut().zip(own) {
+            *parameter = own;
+        }
         let x = [&self.start.x0, &self.x];
         let by = (self.scheme).form_tangent(&self.model, x, &self.memory, &parameters);
         for (sum, &by) in response.as_mut().iter_mut().zip(by.as_ref()) {

@@ -226,15 +226,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let [group, _] = self.places[element.index()];
         let group = self.stepper.elements(group as usize);
         let known = group.parameters();
-        let model = element.model();
         let Some(place) = known.iter().position(|own| *own == name) else {
-            return Err(GradientError::UnknownParameter {
-                name: name.to_owned(),
-                model,
-                known: known.to_vec(),
-            });
+            return Err(GradientError::no_parameter(&element, name, known));
         };
         if !group.has_parameter_derivatives() {
+            let model = element.model();
             return Err(GradientError::NoParameterDerivatives { model });
         }
         Ok(one_of(known.len(), place))
