@@ -186,6 +186,8 @@ def test_what_is_refused(oscillator, hooke):
         run.gradient(eem.Objective.at_end("temperature", spring))
     with pytest.raises(eem.GradientError, match="standard deviation"):
         run.gradient(eem.Objective.misfit("position", mass, times=[1.0], data=[0.0], sigma=0.0))
+    with pytest.raises(eem.SceneError, match=r"sigma of the shape \(2,\) does not fit"):
+        eem.Objective.misfit("position", mass, times=[0.5, 1.0, 1.5], data=[0.0] * 3, sigma=[1.0, 2.0])
     with pytest.raises(eem.SceneError, match="do not fit"):
         eem.Objective.misfit("position", mass, times=[1.0], data=[0.0, 1.0])
     assert run.checkpoint() == before

@@ -233,13 +233,15 @@ def test_what_is_refused(oscillator, hooke):
             run.sensitivities(inputs, quantities)
     with pytest.raises(TypeError, match="an eem.Input is expected, not int"):
         run.sensitivities([3], q)
-    with pytest.raises(eem.SceneError, match="counted from 0"):
-        eem.Input.gravity(-1)
+    for axis in [-1, mass, True]:
+        with pytest.raises(eem.SceneError, match="whole number from 0"):
+            eem.Input.gravity(axis)
     with pytest.raises(TypeError, match="a function of the time"):
         eem.Input.force(mass, 3.0)
     assert run.checkpoint() == before
     found = run.sensitivities(inputs, q)
-    for quantity, by in [("p", 0), (1, 0), ("q", 1), ("q", eem.Input.gravity(0))]:
+    # A handle is not the number of a column.
+    for quantity, by in [("p", 0), (1, 0), ("q", 1), ("q", eem.Input.gravity(0)), ("q", mass), ("q", False)]:
         with pytest.raises(eem.SceneError, match="there is no"):
             found.of(quantity, by)
     again = pickle.loads(pickle.dumps(found))

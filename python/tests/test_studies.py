@@ -155,6 +155,7 @@ def test_what_is_refused(oscillator):
     report = scene.study(1.0, "eem-entropy", steps=[0.1], repeats=1)
     with pytest.raises(eem.SceneError, match="none of the quantities"):
         report.recommend(1e-3, ["theta"])
+    assert report.recommend(1.0, "q").quantities == report.recommend(1.0, iter(["q"])).quantities == ("q",)
     with pytest.raises(eem.SceneError, match="accuracy of -1"):
         report.recommend(-1.0)
     with pytest.raises(eem.SceneError, match="no errors of \"energy\""):

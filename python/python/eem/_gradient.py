@@ -75,7 +75,7 @@ class Objective:
     def _of(cls, terms: Sequence[_Term]) -> Objective:
         for term in terms:
             if term.quantity not in QUANTITIES:
-                raise ValueError(
+                raise SceneError(
                     f"there are no derivatives of {term.quantity!r}: take one of {', '.join(QUANTITIES)}"
                 )
         made = cls()
@@ -141,7 +141,11 @@ class Objective:
         deviations = np.asarray(sigma, dtype=np.float64)
         if deviations.ndim == 1 and values.ndim == 2:
             deviations = deviations[:, None]
-        deviations = np.broadcast_to(deviations if deviations.ndim != 1 else deviations[:, None], columns.shape)
+        try:
+            deviations = np.broadcast_to(deviations if deviations.ndim != 1 else deviations[:, None], columns.shape)
+        except ValueError:
+            message = f"sigma of the shape {np.shape(sigma)} does not fit data of the shape {values.shape}"
+            raise SceneError(message) from None
         terms = [
             _Term(1.0, quantity, of, one, dashpot, "misfit", np.stack([instants, columns[:, k], deviations[:, k]], 1))
             for k, one in enumerate(components)

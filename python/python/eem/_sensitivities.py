@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from operator import index as whole
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -133,9 +132,9 @@ class Input:
 
 
 def _counted(value: int, what: str) -> int:
-    if whole(value) < 0:
-        raise SceneError(f"{what} is {value}, it is counted from 0")
-    return whole(value)
+    if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < 0:
+        raise SceneError(f"{what} is {value!r}; it is a whole number from 0 on")
+    return int(value)
 
 
 def _function(by: Any) -> Any:
@@ -157,7 +156,7 @@ class Sensitivities:
     #: their units: ``"m/kg"``
     units: list[str]
     #: the inputs
-    inputs: list[Input]
+    inputs: tuple[Input, ...]
 
     def __init__(
         self,
@@ -171,7 +170,7 @@ class Sensitivities:
         self.time = time
         self.names = names
         self.units = units
-        self.inputs = list(inputs)
+        self.inputs = tuple(inputs)
         self._values = values
         self._quantities = quantities
 
@@ -179,7 +178,7 @@ class Sensitivities:
         """The derivatives of a quantity, by its name or number, by an input, or its number: ``(n,)``, of a vector ``(n, dim)``."""
         names = [name for name, _ in self._quantities]
         at = _place(quantity, names, f"quantity {quantity!r}: there are {', '.join(names)}")
-        column = _place(by, self.inputs, f"input {by!r}: there are {self.inputs}")
+        column = _place(by, self.inputs, f"input {by!r}: there are {', '.join(map(repr, self.inputs))}")
         first = sum(components or 1 for _, components in self._quantities[:at])
         components = self._quantities[at][1]
         rows = self._values[first * len(self.inputs) + column :: len(self.inputs)]
@@ -187,10 +186,10 @@ class Sensitivities:
 
     def to_dict(self) -> dict[str, _Floats]:
         """Columns by name, for tables: ``time``, and those of `names`."""
-        columns = {"time": self.time, **dict(zip(self.names, self._values, strict=True))}
+        columns = {"time": self.time.copy(), **dict(zip(self.names, self._values.copy(), strict=True))}
         if len(columns) <= len(self.names):
             twice = next(name for name in self.names if name == "time" or self.names.count(name) > 1)
-            raise SceneError(f"two columns have the name {twice!r}: give inputs other names with `named`")
+            raise SceneError(f"two columns have the name {twice!r}: give quantities other names, or inputs with `named`")
         return columns
 
     def __len__(self) -> int:
@@ -203,9 +202,10 @@ class Sensitivities:
 
 def _place(one: Any, known: Sequence[Any], missing: str) -> int:
     """Where something is among those that there are, or its number."""
-    if hasattr(one, "__index__"):
-        if -len(known) <= whole(one) < len(known):
-            return whole(one) % len(known)
+    # Handles and truth values are no numbers of columns.
+    if isinstance(one, (int, np.integer)) and not isinstance(one, bool):
+        if -len(known) <= one < len(known):
+            return int(one) % len(known)
     elif one in known:
         return known.index(one)
     raise SceneError(f"there is no {missing}")

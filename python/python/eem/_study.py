@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from eem._eem import KINDS
+from eem._errors import SceneError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -69,7 +70,7 @@ class StudyRow:
     def error(self, quantity: str) -> float | None:
         """The error of ``"q"``, ``"p"``, ``"theta"`` or ``"gamma"``, if it is stated."""
         if quantity not in KINDS:
-            raise ValueError(f"a study has no errors of {quantity!r}: take one of {', '.join(KINDS)}")
+            raise SceneError(f"a study has no errors of {quantity!r}: take one of {', '.join(KINDS)}")
         found: float | None = getattr(self, f"error_{quantity}")
         return found
 
@@ -102,11 +103,11 @@ class StudyReport:
     #: the time from the start at which states are compared, s
     duration: float
     #: a row for each setting
-    rows: list[StudyRow]
+    rows: tuple[StudyRow, ...]
 
     def __init__(self, duration: float, rows: list[StudyRow], found: Studied) -> None:
         self.duration = duration
-        self.rows = rows
+        self.rows = tuple(rows)
         self._found = found
 
     @property
@@ -118,11 +119,12 @@ class StudyReport:
         """The observed order of a scheme: the slope between the two smallest steps with stated errors, if there are two."""
         return self._found.order(scheme, quantity)
 
-    def recommend(self, accuracy: float, quantities: Sequence[str] = KINDS) -> Recommendation:
+    def recommend(self, accuracy: float, quantities: str | Sequence[str] = KINDS) -> Recommendation:
         """The fastest settings whose relative errors are at most so large, in these quantities."""
+        quantities = (quantities,) if isinstance(quantities, str) else tuple(quantities)
         text, places, refused = self._found.recommend(accuracy, list(quantities))
         fastest, lawful, closest = (None if place is None else self.rows[place] for place in places)
-        return Recommendation(accuracy, tuple(quantities), fastest, lawful, closest, refused, text)
+        return Recommendation(accuracy, quantities, fastest, lawful, closest, refused, text)
 
     def csv(self) -> str:
         """A line for each row, below heads; errors that are not stated are empty."""

@@ -160,8 +160,8 @@ fn write(directory: &Path, runs: &Runs, line: &[Best]) -> Result<(), Box<dyn Err
     let first = at(runs.first());
     let figure = Figure {
         title: "Ten cars of which none is better than another".to_owned(),
-        x_label: "room, √R (mm)".to_owned(),
-        y_label: "acceleration of the body, root mean square (m/s²)".to_owned(),
+        x_label: "room of the suspension, √R (mm)".to_owned(),
+        y_label: "acceleration of the body (m/s²)".to_owned(),
         curves: vec![
             curve(
                 "designed",
