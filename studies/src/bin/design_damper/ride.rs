@@ -13,7 +13,7 @@ use eem_studies::time_grid::TimeGrid;
 /// What the car has to carry besides, kg.
 const LOAD: f64 = 75.0;
 
-/// Natural logarithms of η0 (N s/m) and k_s (N/m), less those of the car as it was.
+/// Natural logarithms of η0 (N s/m) and `k_s` (N/m), less those of the car as it was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Design(pub(crate) [f64; 2]);
 
@@ -26,7 +26,7 @@ impl Design {
         DAMPER.eta0 * self.0[0].exp()
     }
 
-    /// k_s, N/m.
+    /// `k_s`, N/m.
     pub(crate) fn stiffness(self) -> f64 {
         SUSPENSION * self.0[1].exp()
     }

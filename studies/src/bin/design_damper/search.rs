@@ -44,8 +44,15 @@ pub(crate) struct Best {
 struct Weighted<'a> {
     runs: &'a Runs,
     weight: f64,
-    last: RefCell<Option<(Vec<f64>, f64, Vec<f64>)>>,
+    last: RefCell<Option<Point>>,
     count: Cell<usize>,
+}
+
+/// A design with value and gradient.
+struct Point {
+    place: Vec<f64>,
+    value: f64,
+    gradient: [f64; 2],
 }
 
 impl Runs {
@@ -139,20 +146,22 @@ impl Weighted<'_> {
     /// What `of` says of value and gradient at a point.
     fn at<T>(&self, point: &[f64], of: impl Fn(f64, &[f64]) -> T) -> Result<T, ArgminError> {
         let mut last = self.last.borrow_mut();
-        if let Some((known, value, gradient)) = &*last
-            && known == point
-        {
-            return Ok(of(*value, gradient));
+        if let Some(known) = last.as_ref().filter(|known| known.place == point) {
+            return Ok(of(known.value, &known.gradient));
         }
         let Self { runs, weight, .. } = *self;
         let design = Design([point[0], point[1]]);
         let found = drive(runs.scheme, runs.grid, design, Some(runs.slopes(weight)));
-        let (ride, by) = found.map_err(|error| ArgminError::msg(error.to_string()))?;
+        let (ride, gradient) = found.map_err(|error| ArgminError::msg(error.to_string()))?;
         let value = runs.objective(weight, &ride);
         runs.note(ride.record);
         self.count.set(self.count.get() + 1);
-        let said = of(value, &by);
-        *last = Some((point.to_vec(), value, by.to_vec()));
+        let said = of(value, &gradient);
+        *last = Some(Point {
+            place: point.to_vec(),
+            value,
+            gradient,
+        });
         Ok(said)
     }
 }
