@@ -4,9 +4,9 @@ use eem::prelude::*;
 use eem::{Gradient, History, Objective};
 use eem_testkit::length::at_length;
 
-use super::drawing::{Class, Drawing};
-use super::random::Random;
-use super::watched::{FORMS, Watched};
+use crate::extremes::drawing::{Class, Drawing};
+use crate::extremes::random::Random;
+use crate::extremes::watched::{FORMS, Watched};
 
 const STEPS: usize = 50;
 

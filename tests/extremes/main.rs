@@ -7,3 +7,6 @@
 
 #[path = "suite.rs"]
 mod extremes;
+
+#[cfg(feature = "gradients")]
+mod gradients;

@@ -27,8 +27,6 @@ pub(crate) mod world;
 // The kinds of extremes.
 pub(crate) mod bits;
 pub(crate) mod findings;
-#[cfg(all(test, feature = "gradients"))]
-pub(crate) mod gradients;
 pub(crate) mod heat;
 pub(crate) mod kinds;
 pub(crate) mod lengths;
