@@ -69,6 +69,7 @@ fn runs(name: &str) -> &'static [&'static [&'static str]] {
     match name {
         // At rest, so that options about steps have no effect.
         "describe" | "cook" => &[&[]],
+        "design_damper" => &[&["--end", "0.5"]],
         "ensemble" => &[&["--end", "2"], &["--end", "1", "--members", "1"]],
         "fit_damper" => &[
             &["--end", "2"],
