@@ -9,6 +9,7 @@
 //! | draw a deformed solid | `deformed.rs`; `Mesh::outlines` gives the faces |
 //! | draw the figure of a paper | `figures.rs` in the folder of the study; `published.rs` |
 //! | fit a model to records | `bin/fit_damper/fit.rs` |
+//! | find a least value by gradients | `least.rs` |
 //! | check that a change keeps all bits, or count instructions | `README.md` |
 
 #![allow(
@@ -26,6 +27,7 @@ pub mod defects;
 pub mod deformed;
 pub mod figures;
 pub mod first_law;
+pub mod least;
 pub mod models;
 pub mod output;
 pub mod pendulums;

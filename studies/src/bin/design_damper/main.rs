@@ -62,7 +62,6 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
     directory.map_or(Ok(()), output::prepare)?;
     let scheme = command_line.schemes_or(&[eem::Scheme::EemEntropy])[0];
 
-    let mut claims = Claims::default();
     let mut runs = Runs::start(scheme, grid)?;
     let mut line: Vec<Best> = Vec::new();
     for place in 0..WEIGHTS {
@@ -73,24 +72,21 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
         line.push(best);
     }
     print(&runs, &line);
-    for record in runs.records() {
-        balance::check(&record, &mut claims);
-    }
     if grid.end() >= lap {
-        check(&runs, &line, &mut claims)?;
+        check(&mut runs, &line)?;
     }
     match directory {
         Some(directory) => write(directory, &runs, &line)?,
         None => terminal::say(HINT),
     }
-    Ok(claims)
+    Ok(runs.claims)
 }
 
 /// The line is one of least values.
-fn check(runs: &Runs, line: &[Best], claims: &mut Claims) -> Result<(), Box<dyn Error>> {
+fn check(runs: &mut Runs, line: &[Best]) -> Result<(), Box<dyn Error>> {
     for best in line {
         let least = runs.least_nearby(best)?.min(1.0 + best.weight);
-        claims.at_most(
+        runs.claims.at_most(
             "J, as a share of that of other designs",
             Some(best.objective / least),
             1.0,
@@ -99,7 +95,8 @@ fn check(runs: &Runs, line: &[Best], claims: &mut Claims) -> Result<(), Box<dyn 
     for pair in line.windows(2) {
         let [before, after] = [&pair[0].ride, &pair[1].ride];
         let is_line = after.room < before.room && after.acceleration > before.acceleration;
-        claims.holds(is_line, "a design is worse than another one in both");
+        runs.claims
+            .holds(is_line, "a design is worse than another one in both");
     }
     Ok(())
 }
@@ -125,7 +122,7 @@ fn print(runs: &Runs, line: &[Best]) {
             format!("{:.2}", ride.temperature - car::CELSIUS),
         ]
     };
-    let first = cells(Design::FIRST, runs.first());
+    let first = cells(Design::FIRST, &runs.first);
     let row = |weight: String, cells: [String; 6], count: String| {
         [weight]
             .into_iter()
@@ -157,7 +154,6 @@ fn write(directory: &Path, runs: &Runs, line: &[Best]) -> Result<(), Box<dyn Err
         trusted: true,
     };
     let at = |ride: &ride::Ride| (1e3 * ride.room, ride.acceleration);
-    let first = at(runs.first());
     let figure = Figure {
         title: "Ten cars of which none is better than another".to_owned(),
         x_label: "room of the suspension, √R (mm)".to_owned(),
@@ -168,7 +164,7 @@ fn write(directory: &Path, runs: &Runs, line: &[Best]) -> Result<(), Box<dyn Err
                 line.iter().map(|best| at(&best.ride)).collect(),
                 0,
             ),
-            curve("as it was", vec![first, (first.0, first.1 * 1.001)], 1),
+            curve("as it was", vec![at(&runs.first)], 1),
         ],
         axes: Axes::Even,
     };
@@ -184,14 +180,7 @@ fn write(directory: &Path, runs: &Runs, line: &[Best]) -> Result<(), Box<dyn Err
                     .collect(),
                 0,
             ),
-            curve(
-                "as it was",
-                vec![
-                    (1e-3 * SUSPENSION, DAMPER.eta0),
-                    (1e-3 * SUSPENSION, 1.001 * DAMPER.eta0),
-                ],
-                1,
-            ),
+            curve("as it was", vec![(1e-3 * SUSPENSION, DAMPER.eta0)], 1),
         ],
         axes: Axes::Even,
     };

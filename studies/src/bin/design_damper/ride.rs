@@ -82,7 +82,9 @@ pub(crate) fn drive(
         ("balance", Quantity::Ledger(|ledger| ledger.balance)),
     ];
     let mut run = Simulation::new(scene, scheme, grid.step)?;
-    run.keep_history(History::default());
+    if slopes.is_some() {
+        run.keep_history(History::default());
+    }
     let record = simulate::record_with(scheme.name(), &mut run, &watched, grid, further)?;
     let column = |name: &str| record.column(name).ok_or("a column is missing");
     let speeds: Vec<f64> = column("p2_x")?.iter().map(|p| p / BODY).collect();

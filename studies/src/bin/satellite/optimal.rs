@@ -8,17 +8,14 @@
 //! stiff, and the kinetic energy K. One gradient of the run is the derivative by all 40 values, checked along the run; L-BFGS of the crate
 //! `argmin` finds the least J from the thrust that would do for a stiff satellite: +F, then −F.
 
-use std::cell::RefCell;
 use std::error::Error;
 use std::path::Path;
 
-use argmin::core::{CostFunction, Error as ArgminError, Executor, Gradient};
-use argmin::solver::linesearch::MoreThuenteLineSearch;
-use argmin::solver::quasinewton::LBFGS;
 use eem::prelude::*;
 use eem::{History, Objective};
 use eem_studies::claims::Claims;
 use eem_studies::figures::{Axes, Curve, Figure, write_stack};
+use eem_studies::least;
 use eem_studies::progress::Progress;
 use eem_studies::record::Record;
 use eem_studies::time_grid::TimeGrid;
@@ -65,15 +62,6 @@ struct Point {
     objective: f64,
     gradient: Vec<f64>,
     record: Record,
-}
-
-/// All runs that the optimiser has asked for.
-struct Runs {
-    aim: Aim,
-    /// The unit in which the optimiser sees the thrust, N: a power of two, so that nothing is rounded.
-    unit: f64,
-    made: RefCell<Vec<Point>>,
-    progress: RefCell<Progress>,
 }
 
 impl Aim {
@@ -155,80 +143,34 @@ fn places(satellite: &Satellite) -> Result<[Node; 4], Box<dyn Error>> {
     Ok([tail, head, tips[0], tips[1]])
 }
 
-impl Runs {
-    /// The thrust for a stiff satellite. The unit makes the first step of the optimiser, `−dJ/dx`, about that to the least value
-    /// of a parabola that touches 0.
-    fn start(aim: Aim) -> Result<Self, Box<dyn Error>> {
-        let first = aim.run(&aim.start())?;
-        let slope: f64 = first.gradient.iter().map(|g| g * g).sum();
-        Ok(Self {
-            aim,
-            unit: (0.5 * (2.0 * first.objective / slope).log2())
-                .round()
-                .exp2(),
-            made: RefCell::new(vec![first]),
-            progress: RefCell::new(Progress::new("runs", MOST_RUNS)),
-        })
-    }
-
-    /// What `of` says of a thrust, which is run unless it has been.
-    fn at<T>(&self, in_units: &[f64], of: impl Fn(&Point) -> T) -> Result<T, ArgminError> {
-        let thrust = &self.thrust(in_units);
-        let is_it = |point: &&Point| point.thrust == *thrust;
-        if let Some(point) = self.made.borrow().iter().find(is_it) {
-            return Ok(of(point));
-        }
-        let point = self
-            .aim
-            .run(thrust)
-            .map_err(|error| ArgminError::msg(error.to_string()))?;
-        let said = of(&point);
-        let mut made = self.made.borrow_mut();
-        made.push(point);
-        self.progress.borrow_mut().advance(made.len());
-        Ok(said)
-    }
-
-    fn thrust(&self, in_units: &[f64]) -> Vec<f64> {
-        in_units.iter().map(|x| x * self.unit).collect()
-    }
-}
-
-impl CostFunction for &Runs {
-    type Param = Vec<f64>;
-    type Output = f64;
-
-    fn cost(&self, thrust: &Vec<f64>) -> Result<f64, ArgminError> {
-        self.at(thrust, |point| point.objective)
-    }
-}
-
-impl Gradient for &Runs {
-    type Param = Vec<f64>;
-    type Gradient = Vec<f64>;
-
-    fn gradient(&self, thrust: &Vec<f64>) -> Result<Vec<f64>, ArgminError> {
-        self.at(thrust, |point| {
-            point.gradient.iter().map(|g| g * self.unit).collect()
-        })
-    }
-}
-
 /// Finds the thrust, prints and draws it.
 pub(crate) fn run(aim: Aim, directory: Option<&Path>) -> Result<Claims, Box<dyn Error>> {
-    let runs = Runs::start(aim)?;
-    let start = aim.start().iter().map(|f| f / runs.unit).collect();
-    let search = LBFGS::new(MoreThuenteLineSearch::new(), 10);
-    let executor = Executor::new(&runs, search);
-    executor
-        .configure(|state| state.param(start).max_iters(aim.iterations))
-        .run()?;
-    let mut made = runs.made.into_inner();
+    let start = aim.run(&aim.start())?;
+    // The optimiser sees the thrust in a unit, N, that makes its first step, `−dJ/dx`, about that to the least value of a
+    // parabola that touches 0: a power of two, so that nothing is rounded.
+    let slope: f64 = start.gradient.iter().map(|g| g * g).sum();
+    let unit = (0.5 * (2.0 * start.objective / slope).log2())
+        .round()
+        .exp2();
+    let in_units = |point: Point| least::Point {
+        place: point.thrust.iter().map(|f| f / unit).collect(),
+        value: point.objective,
+        gradient: point.gradient.iter().map(|g| g * unit).collect(),
+        of: point,
+    };
+    let mut progress = Progress::new("runs", MOST_RUNS);
+    let mut runs = 1;
+    let until = (aim.iterations, f64::EPSILON);
+    let mut made = least::search(in_units(start), until, |place| {
+        let thrust: Vec<f64> = place.iter().map(|x| x * unit).collect();
+        let point = aim.run(&thrust)?;
+        runs += 1;
+        progress.advance(runs);
+        Ok(in_units(point))
+    })?;
     made.truncate(MOST_RUNS);
-    let least = made
-        .iter()
-        .min_by(|a, b| a.objective.total_cmp(&b.objective));
-    let ends = [made.first(), least].map(|point| point.ok_or("nothing was run"));
+    let ends = [made.first(), least::least(&made)];
+    let ends = ends.map(|point| point.map(|point| &point.of).ok_or("nothing was run"));
     let [first, best] = [ends[0]?, ends[1]?];
     print([first, best], made.len());
     if let Some(directory) = directory {
@@ -236,7 +178,7 @@ pub(crate) fn run(aim: Aim, directory: Option<&Path>) -> Result<Claims, Box<dyn 
     }
     let mut claims = Claims::default();
     for point in &made {
-        keeps_both_laws(&point.record, &mut claims);
+        keeps_both_laws(&point.of.record, &mut claims);
     }
     if aim.grid.end() >= LONG {
         let fall = first.objective / best.objective;
