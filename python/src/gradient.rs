@@ -3,7 +3,6 @@
 use eem::typed::Law;
 use eem::{Element, Gradient, GradientError, Node, Objective, Quantity, Reservoir, Simulation};
 use numpy::{PyArray1, PyArrayMethods};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -120,7 +119,7 @@ pub(crate) fn subject(
         "kinetic_energy" => Subject::KineticEnergy,
         "energy" => Subject::Energy,
         other => {
-            return Err(PyValueError::new_err(format!(
+            return Err(error::scene(format!(
                 "there are no derivatives of '{other}': take one of {}",
                 QUANTITIES.join(", ")
             )));
