@@ -7,7 +7,7 @@ use crate::setting::Setting;
 use eem_material::number::readable::Readable;
 use eem_runtime::SceneError;
 
-/// Why a study cannot begin.
+/// Why a study has no report.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StudyError {
@@ -80,6 +80,9 @@ pub enum StudyError {
         /// The error of the scene.
         r#source: SceneError,
     },
+    /// The function that watches it has ended it.
+    #[error("the study was stopped by the function that `watch` was given")]
+    Stopped,
     /// A reference belongs to another scene.
     #[error(
         "reference {index} has {got} values for the {quantity} of the state, the scene has {expected}; \

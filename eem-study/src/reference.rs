@@ -8,7 +8,9 @@
 //! setting, until halving no longer helps, or up to a limit.
 
 use crate::course::{Build, Course, Watched, run};
+use crate::error::StudyError;
 use crate::quantity::{DOUBT, EndState, PerQuantity, StateQuantity};
+use crate::setting::Setting;
 use eem_runtime::{RocketError, SceneError, Scheme, StepError};
 
 /// Two schemes of one order.
@@ -116,6 +118,8 @@ pub(crate) struct Search<'a> {
     pub(crate) refinement: u32,
     /// The ends of all settings.
     pub(crate) ends: &'a [EndState],
+    /// The setting that a scene is said to be rejected for.
+    pub(crate) setting: Setting,
 }
 
 impl Search<'_> {
@@ -124,8 +128,8 @@ impl Search<'_> {
     pub(crate) fn run<const D: usize>(
         self,
         build: &Build<'_, D, f64>,
-        mut note: impl FnMut(u64, u64),
-    ) -> Result<StudyReference, SceneError> {
+        mut note: impl FnMut(u64, u64) -> Result<(), StudyError>,
+    ) -> Result<StudyReference, StudyError> {
         let mut pair = FOURTH_ORDER;
         let mut found: Option<StudyReference> = None;
         let mut factor = pair.first;
@@ -139,7 +143,7 @@ impl Search<'_> {
                 }));
             };
             let planned = 2 * u64::from(steps);
-            note(planned, 0);
+            note(planned, 0)?;
             let next = match solve(build, pair.schemes, (steps, self.end_time)) {
                 Err(
                     SceneError::NotForSolids { .. }
@@ -147,12 +151,15 @@ impl Search<'_> {
                 ) if pair.first == FOURTH_ORDER.first => {
                     pair = SECOND_ORDER;
                     factor = pair.first;
-                    note(0, planned);
+                    note(0, planned)?;
                     continue;
                 }
-                result => result?,
+                result => result.map_err(|source| StudyError::Scene {
+                    setting: self.setting,
+                    source,
+                })?,
             };
-            note(0, planned);
+            note(0, planned)?;
             let (next, is_done) = self.judge(found, next);
             if is_done {
                 return Ok(next);

@@ -1,6 +1,7 @@
 //! Studies: the cost and the accuracy of each setting for a scene.
 
 use core::fmt;
+use core::ops::ControlFlow;
 
 use crate::advice::check_accuracy;
 use crate::course::{Build, Course, Finished, Watched, run};
@@ -10,7 +11,7 @@ use crate::reference::{ReferenceEnd, Search, StudyReference};
 use crate::report::StudyReport;
 use crate::row::StudyRow;
 use crate::setting::{Precision, Setting};
-use eem_runtime::{Scene, SceneError};
+use eem_runtime::Scene;
 
 /// The default of [`Study::repeats`].
 const REPEATS: usize = 3;
@@ -154,9 +155,9 @@ impl<'a, const D: usize> Study<'a, D> {
     }
 
     /// Calls `watch` after every run with the number of steps made and planned. More are planned when the
-    /// references must be refined.
+    /// references must be refined. If it returns [`ControlFlow::Break`], the study ends with [`StudyError::Stopped`].
     #[must_use]
-    pub fn watch(mut self, watch: impl FnMut(u64, u64) + 'a) -> Self {
+    pub fn watch(mut self, watch: impl FnMut(u64, u64) -> ControlFlow<()> + 'a) -> Self {
         self.watch = Some(Box::new(watch));
         self
     }
@@ -169,7 +170,7 @@ impl<'a, const D: usize> Study<'a, D> {
     ///
     /// [`StudyError`] if there are no settings, a step or the end time is not positive and finite, no whole number
     /// of steps ends at the end time, or the scene is rejected. Nothing has run then, unless a scheme rejects the
-    /// scene.
+    /// scene. [`StudyError::Stopped`] if [`watch`](Self::watch) ends it.
     pub fn run(mut self) -> Result<StudyReport, StudyError> {
         let courses = self.check()?;
         let watch = self.watch.take();
@@ -187,7 +188,7 @@ impl<'a, const D: usize> Study<'a, D> {
         for (row, course) in rows.iter_mut().zip(&courses) {
             let finished = self.run_setting(row.setting, course, Watched::Laws(row))?;
             ends.push(finished.end.ok());
-            progress.advance(u64::from(course.planned));
+            progress.advance(u64::from(course.planned))?;
         }
         self.time(&courses, &mut rows, &mut progress)?;
         let reference = self.find_reference(&rows, &ends, &mut progress)?;
@@ -292,7 +293,7 @@ impl<'a, const D: usize> Study<'a, D> {
                 let finished = self.run_setting(row.setting, course, Watched::Nothing)?;
                 setups.push(finished.setup);
                 times.push(finished.seconds);
-                progress.advance(u64::from(course.planned));
+                progress.advance(u64::from(course.planned))?;
             }
         }
         for (row, (mut setups, mut times)) in rows.iter_mut().zip(repeats) {
@@ -326,18 +327,17 @@ impl<'a, const D: usize> Study<'a, D> {
             finest: rows.iter().fold(1, |most, row| most.max(row.steps)),
             refinement: self.refinement,
             ends: &ends,
+            setting: self.settings[0],
         };
-        let found = search.run(&*self.build, |planned, made| {
+        search.run(&*self.build, |planned, made| {
             progress.plan(planned);
-            progress.advance(made);
-        });
-        let setting = self.settings[0];
-        found.map_err(|source: SceneError| StudyError::Scene { setting, source })
+            progress.advance(made)
+        })
     }
 }
 
 /// A function of the numbers of steps made and planned.
-type Watch<'a> = dyn FnMut(u64, u64) + 'a;
+type Watch<'a> = dyn FnMut(u64, u64) -> ControlFlow<()> + 'a;
 
 /// The steps made and planned, and the function that watches them.
 struct Progress<'a> {
@@ -352,11 +352,13 @@ impl Progress<'_> {
         self.planned = self.planned.saturating_add(steps);
     }
 
-    /// Adds steps that have been made, and calls the function.
-    fn advance(&mut self, steps: u64) {
+    /// Adds steps that have been made, and calls the function; an error if it ends the study.
+    fn advance(&mut self, steps: u64) -> Result<(), StudyError> {
         self.done = self.done.saturating_add(steps);
-        if let Some(watch) = self.watch.as_mut().filter(|_| steps > 0) {
-            watch(self.done, self.planned);
+        let watch = self.watch.as_mut().filter(|_| steps > 0);
+        match watch.map(|watch| watch(self.done, self.planned)) {
+            Some(ControlFlow::Break(())) => Err(StudyError::Stopped),
+            _ => Ok(()),
         }
     }
 }

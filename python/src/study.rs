@@ -1,6 +1,7 @@
 //! `Scene.study`: the cost and the accuracy of schemes for a scene.
 
 use std::cell::RefCell;
+use std::ops::ControlFlow;
 
 use eem::{
     Advice, Scene, Setting, StateQuantity, Statement, Study, StudyError, StudyReport, StudyRow,
@@ -34,22 +35,15 @@ impl Plan {
     /// after the run in which it came.
     pub(crate) fn run<const D: usize>(&self, scene: &Scene<D>) -> PyResult<StudyReport> {
         let raised = RefCell::new(None);
-        let build = || {
-            let mut own = scene.clone();
-            if raised.borrow().is_some() {
-                // Only a scene that is refused ends a study.
-                own.mass(f64::NAN, [0.0; D], [0.0; D]);
+        let watch = |_, _| match take_raised().or_else(|| Python::attach(check_signals).err()) {
+            Some(error) => {
+                raised.replace(Some(error));
+                ControlFlow::Break(())
             }
-            own
-        };
-        let watch = |_, _| {
-            let found = take_raised().or_else(|| Python::attach(check_signals).err());
-            if let Some(error) = found {
-                raised.borrow_mut().get_or_insert(error);
-            }
+            None => ControlFlow::Continue(()),
         };
         _ = take_raised();
-        let found = Study::new(build, self.duration)
+        let found = Study::new(|| scene.clone(), self.duration)
             .settings(self.settings.iter().copied())
             .accuracies(self.accuracies.iter().copied())
             .repeats(self.repeats)

@@ -330,11 +330,32 @@ fn references_can_be_given() {
 #[test]
 fn progress_reaches_what_was_planned() {
     let mut seen = Vec::new();
-    let watched = study(&[Scheme::EemEntropy], 1).watch(|done, planned| seen.push((done, planned)));
+    let watched = study(&[Scheme::EemEntropy], 1).watch(|done, planned| {
+        seen.push((done, planned));
+        ControlFlow::Continue(())
+    });
     watched.run().unwrap();
     assert!(seen.is_sorted() && seen.len() >= 3);
     let (done, planned) = *seen.last().unwrap();
     assert_eq!(done, planned);
+}
+
+#[test]
+fn a_study_ends_when_the_function_that_watches_it_says_so() {
+    // After a run of the two settings, one that is timed, and those of the references.
+    for last in [1, 3, 5] {
+        let mut calls = 0;
+        let stopped = study(&[Scheme::EemEntropy], 1).watch(|_, _| {
+            calls += 1;
+            if calls == last {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
+        assert_eq!(stopped.run().unwrap_err(), StudyError::Stopped);
+        assert_eq!(calls, last);
+    }
 }
 
 // What is refused says what to do.

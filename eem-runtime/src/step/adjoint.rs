@@ -17,8 +17,9 @@
 //! ((2/h) M + K)ᵀ w = b + (2/h) λ_v
 //! ```
 //!
-//! From step to step w changes by O(h), and `M w − λ_v` is as small. To keep their digits, which `2/h` needs, the unknowns are the
-//! differences from the w of the last step, and `λ_v − M w` is carried on by `M` times these.
+//! From step to step w changes by O(h), and `M w − λ_v` is O(h), too. As differences of large numbers they would lose digits, and
+//! `2/h` would multiply what is lost. So the unknowns are the changes of w since the last step, and `λ_v − M w` is updated by `M` times
+//! these.
 
 mod error;
 mod inertia;

@@ -10,6 +10,7 @@
 //! sizes, and steps by tolerances.
 
 use std::error::Error;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use eem::kinematics::Hex8;
@@ -229,7 +230,10 @@ fn run<const D: usize>(
     progress: &mut Progress,
 ) -> Found<Vec<StudyRow>> {
     let study = Study::new(scene, END).settings(settings(largest));
-    let study = study.watch(|done, planned| progress.advance_of(done, planned));
+    let study = study.watch(|done, planned| {
+        progress.advance_of(done, planned);
+        ControlFlow::Continue(())
+    });
     Ok(study.run()?.rows)
 }
 

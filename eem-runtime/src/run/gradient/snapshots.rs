@@ -21,7 +21,8 @@ use eem_material::number::scalar::{Mask, Real};
 /// How often a step is made again, at most, before the pass that keeps states.
 const MOST_PASSES: usize = 3;
 
-/// The share of the memory for snapshots. With c of them and n states, c n steps are made again once: most where both take the same.
+/// The share of the memory for snapshots. With c of them and n states, c n steps are made again only once; that is the most where both
+/// take the same memory.
 const SHARE_OF_SNAPSHOTS: usize = 2;
 
 /// The distance of the first snapshots where there is memory for many states: copying them costs little there.
@@ -334,7 +335,8 @@ impl<S: Real> Record<S> {
             let mut passes = 1..=MOST_PASSES;
             let within = |passes: usize| reach(free, passes).saturating_mul(states);
             if let Some(passes) = passes.find(|&passes| steps <= within(passes)) {
-                // As few as reach leaves, since they are made again once more: what is left of whole parts.
+                // These steps are made again twice, so they are as few as possible: what is left of whole parts, or what
+                // the snapshots after them do not reach.
                 let part = within(passes - 1);
                 let least = steps.saturating_sub(reach(free - 1, passes).saturating_mul(states));
                 let first = ((steps - 1) % part + 1).max(least);

@@ -36,6 +36,7 @@
 //! to rounding with every step, and what is recommended is as accurate as it is said to be.
 
 use std::error::Error;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -198,7 +199,10 @@ fn run_study<const D: usize>(
 ) -> Result<StudyReport, Box<dyn Error>> {
     let mut progress = Progress::new("study", 0);
     let study = Study::new(scene, end).settings(settings.iter().copied());
-    let study = study.watch(|done, planned| progress.advance_of(done, planned));
+    let study = study.watch(|done, planned| {
+        progress.advance_of(done, planned);
+        ControlFlow::Continue(())
+    });
     Ok(study.run()?)
 }
 
