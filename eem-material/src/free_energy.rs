@@ -418,8 +418,19 @@ pub type Each<'e, T> = dyn Fn(usize) -> T + 'e;
 /// A function of elements with their models and one argument each.
 pub type OfEach<M, A, T> = for<'a> fn(&Each<'_, (&'a M, &'a A)>, &mut [T]);
 
-/// A function of elements with their models and two arguments each.
-pub type OfEachPair<M, A, B, T> = for<'a> fn(&Each<'_, (&'a M, &'a A, &'a B)>, &mut [T]);
+/// A function of what is kept of the old states of elements, their new variables, and what else is sought along.
+pub type OfEachStep<S, M, Old, Memory, T> = for<'a> fn(
+    &Each<
+        '_,
+        (
+            &'a M,
+            &'a Old,
+            &'a <M as FreeEnergy<S>>::Variables,
+            &'a Memory,
+        ),
+    >,
+    &mut [T],
+);
 
 /// The functions that are evaluated most often, of elements with models of one type and [kind](FreeEnergy::kind): the
 /// results have the bits of the functions of one element. There are as many as there is room for.
@@ -428,7 +439,11 @@ pub struct Rows<S: Scalar, M: FreeEnergy<S> + ?Sized> {
     /// The most elements that it pays to give to one call.
     pub most: usize,
     /// [`FreeEnergy::temperature_form`] and what belongs to it.
-    pub temperature_form: FormRows<S, M, M::TemperatureFormOld>,
+    pub temperature_form: FormRows<S, M, M::TemperatureFormOld, ()>,
+    /// [`FreeEnergy::entropy_form`] and what belongs to it.
+    pub entropy_form: FormRows<S, M, M::EntropyFormOld, M::Corners>,
+    /// [`FreeEnergy::mixed_states`].
+    pub mixed_states: OfEachStep<S, M, M::EntropyFormOld, M::Corners, [M::Corners; 2]>,
     /// [`FreeEnergy::viscosity`]; temperatures mean nothing without one.
     pub viscosity: OfEach<M, S, (M::Viscosities, M::Viscosities)>,
     /// [`FreeEnergy::caloric_at`], at the temperature of the variables.
@@ -437,13 +452,13 @@ pub struct Rows<S: Scalar, M: FreeEnergy<S> + ?Sized> {
 
 /// A form with its tangent, the response alone, and what both keep of the old state.
 #[derive(Debug)]
-pub struct FormRows<S: Scalar, M: FreeEnergy<S> + ?Sized, Old> {
+pub struct FormRows<S: Scalar, M: FreeEnergy<S> + ?Sized, Old, Memory> {
     /// From the old variables.
     pub old: OfEach<M, M::Variables, Old>,
-    /// From what is kept and the new variables.
-    pub form: OfEachPair<M, Old, M::Variables, Form<S, M>>,
+    /// From what is kept, the new variables, and temperatures of mixed states if the form has them.
+    pub form: OfEachStep<S, M, Old, Memory, Form<S, M>>,
     /// The same without the tangent.
-    pub response: OfEachPair<M, Old, M::Variables, M::Response>,
+    pub response: OfEachStep<S, M, Old, Memory, M::Response>,
 }
 
 /// A free energy that a scene can use. Implemented for every type that qualifies.

@@ -183,6 +183,7 @@ impl<V: Copy> ProgramKernel<V> {
     }
 
     /// The same function of other values.
+    #[inline]
     pub fn map<W>(self, mut of: impl FnMut(V) -> W) -> ProgramKernel<W> {
         match self {
             Self::Function(function) => ProgramKernel::Function(function),

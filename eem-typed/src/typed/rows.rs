@@ -1,5 +1,6 @@
 //! Springs of one law that are evaluated together.
 
+use core::ops::Range;
 use core::slice;
 use std::sync::Arc;
 
@@ -7,12 +8,9 @@ use eem_material::free_energy::{Caloric, Each, FormRows, FreeEnergy, Rows};
 use eem_material::number::scalar::Scalar;
 
 use super::{Typed, caloric};
-use crate::functions::{Functions, KEPT};
+use crate::functions::{Form, Functions, KEPT, Staged};
 use crate::shape::Measures;
-use crate::tape::ROW;
-
-/// A form with its tangent.
-type Form<S, const N: usize, const R: usize> = ([S; R], [[S; N]; R]);
+use crate::tape::{ROW, Tape};
 
 impl<
     S: Scalar,
@@ -29,9 +27,41 @@ impl<
         Rows {
             most: ROW,
             temperature_form: FormRows {
-                old: Self::old_of_each,
-                form: Self::form_of_each,
-                response: Self::response_of_each,
+                old: |each, found| {
+                    let forms = |of| [Some(&in_temperature(of).staged)];
+                    Self::keep_of_each(each, forms, found);
+                },
+                form: |each, found| {
+                    let tape = |of| Some(with_tangent(in_temperature(of)));
+                    Self::step_of_each(each, |()| &[], tape, found, form_parts);
+                },
+                response: |each, found| {
+                    let tape = |of| Some(alone(in_temperature(of)));
+                    Self::step_of_each(each, |()| &[], tape, found, |all| [&mut all[..]]);
+                },
+            },
+            entropy_form: FormRows {
+                old: |each, found| {
+                    let forms = |of| [Some(&in_entropy(of).staged), of.mixed_states.as_ref()];
+                    Self::keep_of_each(each, forms, found);
+                },
+                form: |each, found| {
+                    let tape = |of| Some(with_tangent(in_entropy(of)));
+                    Self::step_of_each(each, |corners| corners, tape, found, form_parts);
+                },
+                response: |each, found| {
+                    let tape = |of| Some(alone(in_entropy(of)));
+                    Self::step_of_each(each, |corners| corners, tape, found, |all| [&mut all[..]]);
+                },
+            },
+            mixed_states: |each, found| {
+                Self::step_of_each(
+                    each,
+                    |corners| corners,
+                    mixed_states,
+                    found,
+                    |all| [all.as_flattened_mut()],
+                );
             },
             viscosity: Self::viscosity_of_each,
             caloric_at: Self::caloric_of_each,
@@ -57,59 +87,44 @@ impl<
         }
     }
 
-    fn old_of_each<'a>(each: &Each<'_, (&'a Self, &'a [S; N])>, found: &mut [[S; KEPT]]) {
+    /// What forms keep of the old variables, one after the other.
+    fn keep_of_each<'a, const F: usize>(
+        each: &Each<'_, (&'a Self, &'a [S; N])>,
+        forms: impl Fn(&'a Functions<S>) -> [Option<&'a Staged<S>>; F],
+        found: &mut [[S; KEPT]],
+    ) {
         let model = |element| each(element).0;
         Self::runs(model, found, |functions, first, found| {
-            let Some(form) = &functions.temperature_form else {
-                for (element, found) in (first..).zip(found) {
-                    let (model, x0) = each(element);
-                    *found = model.temperature_form_old(x0);
-                }
+            found.fill([S::zero(); KEPT]);
+            let inputs = |element: usize| [&each(first + element).1[..]];
+            let mut start = 0;
+            for form in forms(functions).into_iter().flatten() {
+                let kept = start..start + form.old.results();
+                start = kept.end;
+                form.old
+                    .run_rows(inputs, found, |all| [&mut all[kept.clone()]]);
+            }
+        });
+    }
+
+    /// A tape of a step: of so many numbers that are kept, in their place, the new variables, and corners.
+    fn step_of_each<'a, P: 'a, T, const O: usize>(
+        each: &Each<'_, (&'a Self, &'a [S; KEPT], &'a [S; N], &'a P)>,
+        corners: fn(&P) -> &[S],
+        tape: impl Fn(&'a Functions<S>) -> Option<AndKept<'a, S>>,
+        found: &mut [T],
+        parts: impl Fn(&mut T) -> [&mut [S]; O] + Copy,
+    ) {
+        let model = |element| each(element).0;
+        Self::runs(model, found, |functions, first, found| {
+            let Some((tape, kept)) = tape(functions) else {
                 return;
             };
-            found.fill([S::zero(); KEPT]);
-            let tape = &form.staged.old;
-            let inputs = |element: usize| [&each(first + element).1[..]];
-            tape.run_rows(inputs, found, |kept| [&mut kept[..tape.results()]]);
-        });
-    }
-
-    fn form_of_each<'a>(
-        each: &Each<'_, (&'a Self, &'a [S; KEPT], &'a [S; N])>,
-        found: &mut [Form<S, N, R>],
-    ) {
-        let model = |element| each(element).0;
-        Self::runs(model, found, |functions, first, found| {
-            let form = functions.temperature_form.as_ref();
-            let corners = [S::zero(); C];
-            let staged = &form.unwrap_or(&functions.entropy_form).staged;
-            let corners = if form.is_some() { &[] } else { &corners[..] };
             let inputs = |element: usize| {
-                let (_, old, x1) = each(first + element);
-                [&old[..staged.old.results()], x1, corners]
+                let (_, old, x1, memory) = each(first + element);
+                [&old[kept.clone()], x1, corners(memory)]
             };
-            staged.new.run_rows(inputs, found, |(response, tangent)| {
-                [&mut response[..], tangent.as_flattened_mut()]
-            });
-        });
-    }
-
-    fn response_of_each<'a>(
-        each: &Each<'_, (&'a Self, &'a [S; KEPT], &'a [S; N])>,
-        found: &mut [[S; R]],
-    ) {
-        let model = |element| each(element).0;
-        Self::runs(model, found, |functions, first, found| {
-            let form = functions.temperature_form.as_ref();
-            let corners = [S::zero(); C];
-            let own = form.unwrap_or(&functions.entropy_form);
-            let corners = if form.is_some() { &[] } else { &corners[..] };
-            let inputs = |element: usize| {
-                let (_, old, x1) = each(first + element);
-                [&old[..own.staged.old.results()], x1, corners]
-            };
-            own.response
-                .run_rows(inputs, found, |response| [&mut response[..]]);
+            tape.run_rows(inputs, found, parts);
         });
     }
 
@@ -152,4 +167,37 @@ impl<
             }
         });
     }
+}
+
+/// The form in temperature; without one both forms are the same.
+fn in_temperature<S>(of: &Functions<S>) -> &Form<S> {
+    of.temperature_form.as_ref().unwrap_or(&of.entropy_form)
+}
+
+fn in_entropy<S>(of: &Functions<S>) -> &Form<S> {
+    &of.entropy_form
+}
+
+/// A tape, and where what it reads is kept.
+type AndKept<'a, S> = (&'a Tape<S>, Range<usize>);
+
+fn with_tangent<S: Scalar>(form: &Form<S>) -> AndKept<'_, S> {
+    (&form.staged.new, 0..form.staged.old.results())
+}
+
+fn alone<S: Scalar>(form: &Form<S>) -> AndKept<'_, S> {
+    (&form.response, 0..form.staged.old.results())
+}
+
+fn mixed_states<S: Scalar>(of: &Functions<S>) -> Option<AndKept<'_, S>> {
+    let mixed = of.mixed_states.as_ref()?;
+    let first = of.entropy_form.staged.old.results();
+    Some((&mixed.new, first..first + mixed.old.results()))
+}
+
+/// The parts of a form with its tangent.
+fn form_parts<S, const N: usize, const R: usize>(
+    (response, tangent): &mut ([S; R], [[S; N]; R]),
+) -> [&mut [S]; 2] {
+    [response, tangent.as_flattened_mut()]
 }

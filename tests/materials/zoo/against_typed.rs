@@ -6,6 +6,7 @@ use eem::typed::{
     compile, solid,
 };
 use eem::{Array, FreeEnergy, Real};
+use eem_material::free_energy::{Form, FormRows};
 
 use crate::zoo::families;
 use crate::zoo::states;
@@ -172,32 +173,64 @@ fn of_step<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
     all
 }
 
+/// The same of a form, whose values are `forms`; returns what it keeps.
+fn assert_same_form_in_rows<S: Real, M: FreeEnergy<S>, Old: Copy, P>(
+    (model, memory, old): (&M, &P, Old),
+    states: &[M::Variables; 2],
+    rows: &FormRows<S, M, Old, P>,
+    forms: &[Form<S, M>; 2],
+    count: usize,
+) -> Vec<Old> {
+    let mut kept = vec![old; count];
+    let each = |element| (model, &states[1 - element % 2]);
+    (rows.old)(&each, &mut kept);
+    let each = |element: usize| (model, &kept[element], &states[element % 2], memory);
+    let mut of_rows = vec![forms[0]; count];
+    (rows.form)(&each, &mut of_rows);
+    let mut responses = vec![forms[0].0; count];
+    (rows.response)(&each, &mut responses);
+    for (element, (response, tangent)) in of_rows.iter().enumerate() {
+        let form = &forms[element % 2];
+        assert_eq!(rows_of(response, tangent), rows_of(&form.0, &form.1));
+        assert_eq!(flat(&[responses[element]]), flat(&[form.0]));
+    }
+    kept
+}
+
 /// Elements that are evaluated together, at both states in turn, have the bits of one.
 fn assert_same_in_rows<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) {
     let Some(rows) = M::ROWS else {
         return;
     };
     let states = [&at.x0, &at.x1].map(|x| array::<S, M::Variables>(x));
-    let old = states.map(|x0| model.temperature_form_old(&x0));
-    let forms = [0, 1].map(|new| model.temperature_form(&old[1 - new], &states[new]));
+    let corners: M::Corners = array(&at.corners);
     let last = M::Variables::LEN - 1;
     for count in [1, rows.most / 4, rows.most, 2 * rows.most + 1] {
-        let (here, before) = (
-            |element: usize| element % 2,
-            |element: usize| 1 - element % 2,
+        let old = states.map(|x0| model.temperature_form_old(&x0));
+        let forms = [0, 1].map(|new| model.temperature_form(&old[1 - new], &states[new]));
+        assert_same_form_in_rows(
+            (model, &(), old[0]),
+            &states,
+            &rows.temperature_form,
+            &forms,
+            count,
         );
-        let mut found = vec![old[0]; count];
-        let each = |element| (model, &states[before(element)]);
-        (rows.temperature_form.old)(&each, &mut found);
-        let each = |element: usize| (model, &found[element], &states[here(element)]);
-        let mut of_rows = vec![forms[0]; count];
-        (rows.temperature_form.form)(&each, &mut of_rows);
-        let mut responses = vec![forms[0].0; count];
-        (rows.temperature_form.response)(&each, &mut responses);
-        for (element, (response, tangent)) in of_rows.iter().enumerate() {
-            let form = &forms[here(element)];
-            assert_eq!(rows_of(response, tangent), rows_of(&form.0, &form.1));
-            assert_eq!(flat(&[responses[element]]), flat(&[form.0]));
+        let old = states.map(|x0| model.entropy_form_old(&x0));
+        let forms = [0, 1].map(|new| model.entropy_form(&old[1 - new], &states[new], &corners));
+        let with_corners = (model, &corners, old[0]);
+        let kept =
+            assert_same_form_in_rows(with_corners, &states, &rows.entropy_form, &forms, count);
+        let here = |element: usize| element % 2;
+        if M::THERMAL {
+            let mixed = [0, 1].map(|new| {
+                model.mixed_states(&states[1 - new], &old[1 - new], &states[new], &corners)
+            });
+            let mut found = vec![mixed[1]; count];
+            let each = |element: usize| (model, &kept[element], &states[here(element)], &corners);
+            (rows.mixed_states)(&each, &mut found);
+            for (element, found) in found.iter().enumerate() {
+                assert_eq!(flat(found), flat(&mixed[here(element)]));
+            }
         }
         let viscosities = states.map(|x| model.viscosity(x[last]));
         let mut of_rows = vec![viscosities[0]; count];

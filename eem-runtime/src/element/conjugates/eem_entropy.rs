@@ -13,7 +13,8 @@
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
 use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
-use eem_material::free_energy::{Array, Entry, FreeEnergy, Material};
+use core::array;
+use eem_material::free_energy::{Array, Entry, FormRows, FreeEnergy, Material};
 use eem_material::number::scalar::{Mask, Real, unless};
 
 /// The largest first correction of ln θ from which Newton's method goes on, and the factor by which corrections have to
@@ -21,12 +22,19 @@ use eem_material::number::scalar::{Mask, Real, unless};
 const LARGEST_FIRST: f64 = 0.0625;
 const SHRINKING: f64 = 0.25;
 
+/// The elements whose mixed states are sought together, with materials that have rows.
+const TOGETHER: usize = 32;
+
 /// See the module.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EemEntropy;
 
 impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     const EXACT: bool = true;
+    const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = match M::ROWS {
+        Some(rows) => Some(rows.entropy_form),
+        None => None,
+    };
 
     type Old = M::EntropyFormOld;
     /// Corner temperatures.
@@ -55,7 +63,17 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
         corners: &mut Self::Memory,
     ) -> Result<(), Infeasible> {
         if M::THERMAL {
-            find_corners(model, start, x, corners)?;
+            find_corners((model, start, x), corners)?;
+        }
+        Ok(())
+    }
+
+    fn prepare_rows<'a>(
+        each: impl Fn(usize) -> Step<'a, S, M>,
+        memories: &mut [Self::Memory],
+    ) -> Result<(), Infeasible> {
+        if M::THERMAL {
+            find_corners_of_each(each, memories)?;
         }
         Ok(())
     }
@@ -127,26 +145,96 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     }
 }
 
-/// The temperatures of all mixed states, by Newton's method in ln θ, from those of the last trial.
+/// A model, what is known of the old state, and the new variables.
+type Step<'a, S, M> = (
+    &'a M,
+    &'a Start<S, M, <M as FreeEnergy<S>>::EntropyFormOld>,
+    &'a <M as FreeEnergy<S>>::Variables,
+);
+
+/// The temperatures of all mixed states of an element, from those of the last trial.
 #[inline]
 fn find_corners<S: Real, M: FreeEnergy<S>>(
-    model: &M,
-    start: &Start<S, M, M::EntropyFormOld>,
-    x1: &M::Variables,
+    step: Step<'_, S, M>,
     corners: &mut M::Corners,
 ) -> Result<(), Infeasible> {
-    let root = S::EPSILON.sqrt();
-    // S(ln θ) is linear where the capacity is constant, so that only the series of e^x is left.
-    let enough = if model.has_constant_capacity() {
-        root.sqrt()
-    } else {
-        S::from_f64(LAST_CORRECTION) * root
+    let (model, start, x1) = step;
+    let mut search = Search::<S, M>::new(corners);
+    while !search.settled.all() {
+        let mixed = model.mixed_states(&start.x0, &start.old, x1, corners);
+        search.correct(step, &mixed, corners)?;
+    }
+    Ok(())
+}
+
+/// The same of several elements, whose mixed states are evaluated in one call, with the same bits.
+fn find_corners_of_each<'a, S: Real, M: Material<S>>(
+    each: impl Fn(usize) -> Step<'a, S, M>,
+    corners: &mut [M::Corners],
+) -> Result<(), Infeasible> {
+    let Some(rows) = M::ROWS else {
+        let mut all = corners.iter_mut().enumerate();
+        return all.try_for_each(|(element, corners)| find_corners(each(element), corners));
     };
-    let mut settled = S::Mask::none();
-    let guesses = *corners;
-    let mut limit = S::from_f64(LARGEST_FIRST);
-    loop {
-        let [excess, capacities] = model.mixed_states(&start.x0, &start.old, x1, corners);
+    for (part, corners) in corners.chunks_mut(TOGETHER).enumerate() {
+        let each = |index: usize| each(part * TOGETHER + index);
+        let count = corners.len();
+        let mut searches: [_; TOGETHER] =
+            array::from_fn(|index| Search::<S, M>::new(&corners[index % count]));
+        let searches = &mut searches[..count];
+        let mut mixed = [[corners[0]; 2]; TOGETHER];
+        let mixed = &mut mixed[..count];
+        while !searches.iter().all(|search| search.settled.all()) {
+            let step = |index: usize| {
+                let (model, start, x1) = each(index);
+                (model, &start.old, x1, &corners[index])
+            };
+            (rows.mixed_states)(&step, mixed);
+            let found = searches.iter_mut().zip(&*mixed).zip(&mut *corners);
+            for (index, ((search, mixed), corners)) in found.enumerate() {
+                if !search.settled.all() {
+                    search.correct(each(index), mixed, corners)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Newton's method in ln θ for the temperatures of the mixed states of an element.
+struct Search<S: Real, M: FreeEnergy<S>> {
+    guesses: M::Corners,
+    /// The largest correction that goes on.
+    limit: S,
+    settled: S::Mask,
+}
+
+impl<S: Real, M: FreeEnergy<S>> Search<S, M> {
+    #[inline]
+    fn new(guesses: &M::Corners) -> Self {
+        Self {
+            guesses: *guesses,
+            limit: S::from_f64(LARGEST_FIRST),
+            settled: S::Mask::none(),
+        }
+    }
+
+    /// One correction, from the [mixed states](FreeEnergy::mixed_states) at the present temperatures.
+    #[inline]
+    fn correct(
+        &mut self,
+        (model, start, x1): Step<'_, S, M>,
+        [excess, capacities]: &[M::Corners; 2],
+        corners: &mut M::Corners,
+    ) -> Result<(), Infeasible> {
+        let root = S::EPSILON.sqrt();
+        // S(ln θ) is linear where the capacity is constant, so that only the series of e^x is left.
+        let enough = if model.has_constant_capacity() {
+            root.sqrt()
+        } else {
+            S::from_f64(LAST_CORRECTION) * root
+        };
+        let settled = self.settled;
         let mut found = *corners;
         let (mut largest, mut sum, mut least) = (S::zero(), S::zero(), S::MAX);
         for index in 0..M::Corners::LEN {
@@ -159,9 +247,9 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
             found[index] = corners[index] + corners[index] * growth(correction);
         }
         let size = largest + S::zero() * sum;
-        let is_far = !(settled | (size.at_most(limit) & S::zero().less(least)));
+        let is_far = !(settled | (size.at_most(self.limit) & S::zero().less(least)));
         if is_far.any() {
-            let sought = search_corners(model, start, x1, guesses)?;
+            let sought = search_corners(model, start, x1, self.guesses)?;
             for index in 0..M::Corners::LEN {
                 found[index] = S::select(is_far, sought[index], found[index]);
             }
@@ -169,11 +257,9 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
         for index in 0..M::Corners::LEN {
             corners[index] = unless(settled, corners[index], found[index]);
         }
-        settled = settled | size.at_most(enough) | is_far;
-        if settled.all() {
-            return Ok(());
-        }
-        limit = S::from_f64(SHRINKING) * size;
+        self.settled = settled | size.at_most(enough) | is_far;
+        self.limit = S::from_f64(SHRINKING) * size;
+        Ok(())
     }
 }
 

@@ -19,7 +19,7 @@ pub(crate) struct EemTemperature;
 
 impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     const EXACT: bool = true;
-    const ROWS: Option<FormRows<S, M, Self::Old>> = match M::ROWS {
+    const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = match M::ROWS {
         Some(rows) => Some(rows.temperature_form),
         None => None,
     };

@@ -39,12 +39,12 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     /// What the scheme keeps of the old state.
     type Old: Copy + Send + Sync;
 
-    /// [`old`](Self::old), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
-    /// has them and the form needs nothing else.
-    const ROWS: Option<FormRows<S, M, Self::Old>> = None;
-
     /// What it keeps from one iteration to the next, as starting values.
     type Memory: Copy + Send + Sync;
+
+    /// [`old`](Self::old), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
+    /// has them.
+    const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = None;
 
     /// `[T; 1]` for a rule that evaluates the model at one point of the step, `[T; 0]` for others.
     type AtPoint<T: Entry>: Array<T>;
@@ -90,6 +90,18 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         _: &M::Variables,
         _: &mut Self::Memory,
     ) -> Result<(), Infeasible> {
+        Ok(())
+    }
+
+    /// [`prepare`](Self::prepare) of several elements, with [rows](Self::ROWS).
+    #[inline]
+    fn prepare_rows<'a>(
+        _: impl Fn(usize) -> (&'a M, &'a Start<S, M, Self::Old>, &'a M::Variables),
+        _: &mut [Self::Memory],
+    ) -> Result<(), Infeasible>
+    where
+        M: 'a,
+    {
         Ok(())
     }
 

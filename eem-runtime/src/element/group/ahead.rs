@@ -6,20 +6,22 @@ use eem_material::free_energy::{Caloric, FreeEnergy};
 use eem_material::number::scalar::Real;
 
 /// Workspace for the springs of a call; empty for other models.
-pub(super) struct Ahead<S: Real, M: FreeEnergy<S>, O> {
+pub(super) struct Ahead<S: Real, M: FreeEnergy<S>, O, P> {
     pub(super) x: Vec<M::Variables>,
     pub(super) old: Vec<O>,
+    pub(super) memories: Vec<P>,
     pub(super) forms: Vec<Form<S, M>>,
     pub(super) responses: Vec<M::Response>,
     pub(super) viscosities: Vec<Viscosities<S, M>>,
     pub(super) caloric: Vec<(Caloric<S>, S)>,
 }
 
-impl<S: Real, M: FreeEnergy<S>, O> Ahead<S, M, O> {
+impl<S: Real, M: FreeEnergy<S>, O, P> Ahead<S, M, O, P> {
     pub(super) const fn new() -> Self {
         Self {
             x: Vec::new(),
             old: Vec::new(),
+            memories: Vec::new(),
             forms: Vec::new(),
             responses: Vec::new(),
             viscosities: Vec::new(),

@@ -2,12 +2,13 @@
 //!
 //! The loops over elements are those of all models. What they would evaluate is known there, with the same bits.
 
+use super::ahead::Ahead;
 use super::member::Member;
 use super::point::{Point, Viscosities, variables};
 use super::pose::placed_arms;
 use super::share::Share;
 use crate::algebra::system::LinearSystem;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::{ElementScheme, Infeasible};
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{Old, StepView, Trial};
@@ -54,23 +55,28 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         trial: &Trial<S, D>,
         system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
-        let Some((model, form)) = M::ROWS.zip(C::ROWS) else {
+        let Some((model, form)) = M::ROWS.zip(C::ROWS).filter(|_| !trial.is_start) else {
             return self.linearize_one_by_one(view, trial, system);
         };
         let (values, right) = system.parts();
         let ahead = &mut self.ahead;
         for members in self.members.chunks_mut(model.most) {
-            let count = ahead.take(members.iter().map(|member| member.placed_variables(trial)));
-            let zeros = M::Variables::filled(S::zero());
-            let none = (M::Response::filled(S::zero()), M::Tangent::filled(zeros));
-            ahead.forms.resize(count, none);
-            (form.form)(&each(members, &ahead.x), &mut ahead.forms);
-            let response = |index: usize| &ahead.forms[index].0;
-            find_viscosities(&model, members, response, &mut ahead.viscosities);
+            let is_known = prepare(members, trial, ahead).is_ok();
+            if is_known {
+                let zeros = M::Variables::filled(S::zero());
+                let none = (M::Response::filled(S::zero()), M::Tangent::filled(zeros));
+                ahead.forms.resize(members.len(), none);
+                (form.form)(&each(members, &ahead.x, &ahead.memories), &mut ahead.forms);
+                let response = |index: usize| &ahead.forms[index].0;
+                find_viscosities(&model, members, response, &mut ahead.viscosities);
+            }
             for (index, member) in members.iter_mut().enumerate() {
-                let known = (&ahead.forms[index], ahead.viscosities[index]);
+                let known = is_known.then(|| {
+                    let prepared = ahead.memories[index];
+                    (prepared, &ahead.forms[index], ahead.viscosities[index])
+                });
                 let mut share = Share::none();
-                member.linearize(&self.contacts, view, trial, Some(known), &mut share)?;
+                member.linearize(&self.contacts, view, trial, known, &mut share)?;
                 member.add_share(&share, &self.contacts, (&mut *values, &mut *right));
             }
         }
@@ -83,21 +89,26 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
     ) -> Result<(), StateError> {
-        let Some((model, form)) = M::ROWS.zip(C::ROWS) else {
+        let Some((model, form)) = M::ROWS.zip(C::ROWS).filter(|_| !trial.is_start) else {
             return self.respond_one_by_one(view, trial);
         };
         let ahead = &mut self.ahead;
         for members in self.members.chunks_mut(model.most) {
-            let count = ahead.take(members.iter().map(|member| member.placed_variables(trial)));
-            ahead
-                .responses
-                .resize(count, M::Response::filled(S::zero()));
-            (form.response)(&each(members, &ahead.x), &mut ahead.responses);
-            let response = |index: usize| &ahead.responses[index];
-            find_viscosities(&model, members, response, &mut ahead.viscosities);
+            let is_known = prepare(members, trial, ahead).is_ok();
+            if is_known {
+                let none = M::Response::filled(S::zero());
+                ahead.responses.resize(members.len(), none);
+                let each = each(members, &ahead.x, &ahead.memories);
+                (form.response)(&each, &mut ahead.responses);
+                let response = |index: usize| &ahead.responses[index];
+                find_viscosities(&model, members, response, &mut ahead.viscosities);
+            }
             for (index, member) in members.iter_mut().enumerate() {
-                let known = (ahead.responses[index], ahead.viscosities[index]);
-                member.respond(view, trial, Some(known))?;
+                let known = is_known.then(|| {
+                    let prepared = ahead.memories[index];
+                    (prepared, ahead.responses[index], ahead.viscosities[index])
+                });
+                member.respond(view, trial, known)?;
             }
         }
         Ok(())
@@ -145,11 +156,36 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-/// Models with what they keep of the old state, and new variables.
+/// The variables at a trial, and what the scheme has to find before its form. Where it does not for one spring, all of them
+/// are gone through one by one, so that the error is that of the first.
+fn prepare<S, M, K, C, const D: usize>(
+    members: &[Member<S, M, K, C, D>],
+    trial: &Trial<S, D>,
+    ahead: &mut Ahead<S, M, C::Old, C::Memory>,
+) -> Result<(), Infeasible>
+where
+    S: Real,
+    M: Material<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    ahead.take(members.iter().map(|member| member.placed_variables(trial)));
+    ahead.memories.clear();
+    let memories = members.iter().map(|member| member.only().memory);
+    ahead.memories.extend(memories);
+    let each = |index: usize| {
+        let point = members[index].only();
+        (&point.model, &point.start, &ahead.x[index])
+    };
+    C::prepare_rows(each, &mut ahead.memories)
+}
+
+/// Models with what they keep of the old state, new variables, and what the scheme has found before its form.
 fn each<'a, S, M, K, C, const D: usize>(
     members: &'a [Member<S, M, K, C, D>],
     x: &'a [M::Variables],
-) -> impl Fn(usize) -> (&'a M, &'a C::Old, &'a M::Variables)
+    memories: &'a [C::Memory],
+) -> impl Fn(usize) -> (&'a M, &'a C::Old, &'a M::Variables, &'a C::Memory)
 where
     S: Real,
     M: Material<S>,
@@ -158,7 +194,7 @@ where
 {
     |index| {
         let point = members[index].only();
-        (&point.model, &point.start.old, &x[index])
+        (&point.model, &point.start.old, &x[index], &memories[index])
     }
 }
 

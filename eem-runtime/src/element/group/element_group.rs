@@ -39,7 +39,7 @@ pub(crate) struct ElementGroup<
     /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, S, D>>,
     /// Workspace for elements that are evaluated together.
-    pub(super) ahead: Ahead<S, M, C::Old>,
+    pub(super) ahead: Ahead<S, M, C::Old, C::Memory>,
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>

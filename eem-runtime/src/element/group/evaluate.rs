@@ -131,7 +131,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        known: Known<M::Response, S, M>,
+        known: Known<C::Memory, M::Response, S, M>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
         self.points.as_mut().iter_mut().try_for_each(|point| {
@@ -154,27 +154,23 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         contacts: &[Contact<K, S, D>],
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        known: Known<&Form<S, M>, S, M>,
+        known: Known<C::Memory, &Form<S, M>, S, M>,
         share: &mut Share<K, S, D>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
             let found = point.values_to_restore(trial.settled);
-            let measures = point.locate_trial(&arms.placed, trial)?;
+            let measures = point.locate_trial(&arms.placed, trial, known.map(|known| known.0))?;
             let pose = point.pose(&arms, &measures);
             point.sensitivity = pose.sensitivity;
             let by_rate = point.extend(&pose, &arms.motion);
             // Used in place: copies would cost a good part of the time.
-            let mut form = known.map_or_else(|| point.form(trial), |(form, _)| *form);
+            let mut form = known.map_or_else(|| point.form(trial), |known| *known.1);
             if M::THERMAL && point.scheme.is_in_temperature() {
                 point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
             }
-            point.accept(
-                view.per_step,
-                &form,
-                known.map(|(_, viscosities)| viscosities),
-            )?;
+            point.accept(view.per_step, &form, known.map(|known| known.2))?;
             let elastic = point.add_drag(view.per_step, &mut form);
             let contact = point.contact_in(contacts);
             point.condense(view, &trial.interface, &form, contact)?;

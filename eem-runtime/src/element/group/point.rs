@@ -81,8 +81,8 @@ pub(super) type Viscosities<S, M> = (
     <M as FreeEnergy<S>>::Viscosities,
 );
 
-/// What may be known of a trial before it is evaluated: response or form, and viscosities.
-pub(super) type Known<T, S, M> = Option<(T, Viscosities<S, M>)>;
+/// What may be known of a trial before it is evaluated: what the scheme has prepared, response or form, and viscosities.
+pub(super) type Known<P, T, S, M> = Option<(P, T, Viscosities<S, M>)>;
 
 /// A point with its variables in a step of the scheme `C`.
 pub(crate) struct Point<

@@ -24,12 +24,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     Point<S, M, K, C, D>
 {
     /// Finds the measures of the trial state, its temperature if that is not an unknown, and other values that the form
-    /// of the scheme needs. Returns the measures of the arms that the scheme uses.
+    /// of the scheme needs, unless they are known. Returns the measures of the arms that the scheme uses.
     #[inline]
     pub(super) fn locate_trial(
         &mut self,
         r1: &Arms<K, S, D>,
         trial: &Trial<S, D>,
+        prepared: Option<C::Memory>,
     ) -> Result<Measures<K, S, D>, StateError> {
         let [measures1, measures] = self.placed(r1);
         check_measures::<K, S, D>(&self.kinematics, self.element, &measures, r1)?;
@@ -46,7 +47,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 self.x[Self::TEMPERATURE] = theta;
             }
         }
-        if !trial.is_start {
+        if let Some(prepared) = prepared {
+            self.memory = prepared;
+        } else if !trial.is_start {
             C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
                 .map_err(|infeasible| infeasible.of(self.element))?;
         }
@@ -106,10 +109,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         arms: &TrialArms<K, S, D>,
-        known: Known<M::Response, S, M>,
+        known: Known<C::Memory, M::Response, S, M>,
     ) -> Result<(), StateError> {
         let per_step = view.per_step;
-        let measures = self.locate_trial(&arms.placed, trial)?;
+        let prepared = known.map(|(prepared, ..)| prepared);
+        let measures = self.locate_trial(&arms.placed, trial, prepared)?;
         if Self::DRAGS > 0 {
             let pose = self.pose(arms, &measures);
             self.extend(&pose, &arms.motion);
@@ -128,13 +132,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             self.response = form.0;
             return Ok(());
         }
-        let (response, viscosities) = known.unzip();
-        self.response = response.unwrap_or_else(|| {
-            self.scheme
-                .response(&self.model, &self.start, &self.x, &self.memory)
-        });
+        self.response = known.map_or_else(
+            || {
+                self.scheme
+                    .response(&self.model, &self.start, &self.x, &self.memory)
+            },
+            |(_, response, _)| response,
+        );
         let response = self.response;
-        self.accept_response(per_step, &response, viscosities)
+        self.accept_response(per_step, &response, known.map(|known| known.2))
     }
 
     #[inline]
