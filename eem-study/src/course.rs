@@ -4,6 +4,7 @@ use core::ops::ControlFlow;
 use std::time::Instant;
 
 use crate::error::StudyError;
+use crate::progress::Progress;
 use crate::quantity::{EndState, larger, share};
 use crate::row::StudyRow;
 use crate::setting::{Setting, StepChoice};
@@ -29,7 +30,7 @@ pub(crate) type Build<'a, const D: usize, S> = dyn Fn() -> Scene<D, S> + 'a;
 /// A setting with its steps up to a common end time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Course {
-    setting: Setting,
+    pub(crate) setting: Setting,
     /// s.
     end: f64,
     /// The number of equal steps, or a typical number of controlled ones.
@@ -74,25 +75,24 @@ impl Course {
         Ok(run)
     }
 
-    /// All steps, or those up to the first that fails.
+    /// All steps, or those up to the first that fails, or at which `watch` breaks off.
     pub(crate) fn go<const D: usize, S: Real>(
         &self,
         run: &mut Simulation<D, S>,
-        mut watch: impl FnMut(&Simulation<D, S>, &StepReport<S>),
+        mut watch: impl FnMut(&Simulation<D, S>, &StepReport<S>) -> ControlFlow<()>,
     ) -> Result<(), StepError> {
         match self.setting.steps {
             StepChoice::Fixed(_) => {
                 for _ in 0..self.planned {
                     let report = run.step()?;
-                    watch(run, &report);
+                    if watch(run, &report).is_break() {
+                        break;
+                    }
                 }
             }
             StepChoice::Tolerance(_) => {
                 let end = run.time() + S::from_f64(self.end);
-                run.run_until_with(end, |run, report| {
-                    watch(run, report);
-                    ControlFlow::Continue(())
-                })?;
+                run.run_until_with(end, watch)?;
             }
         }
         Ok(())
@@ -137,6 +137,25 @@ pub(crate) struct Finished {
     pub(crate) seconds: f64,
 }
 
+/// Why a run has no end.
+#[derive(Debug)]
+pub(crate) enum NoEnd {
+    /// The scene is rejected.
+    Scene(SceneError),
+    /// The function that watches the study has ended it.
+    Stopped,
+}
+
+impl NoEnd {
+    /// As the error of a study, in a run of this setting.
+    pub(crate) fn of(self, setting: Setting) -> StudyError {
+        match self {
+            Self::Scene(source) => StudyError::Scene { setting, source },
+            Self::Stopped => StudyError::Stopped,
+        }
+    }
+}
+
 /// What is watched in every step, which takes time.
 #[derive(Debug)]
 pub(crate) enum Watched<'a> {
@@ -153,9 +172,11 @@ pub(crate) fn run<const D: usize, S: Real>(
     build: &Build<'_, D, S>,
     course: &Course,
     watched: Watched<'_>,
-) -> Result<Finished, SceneError> {
+    progress: &mut Progress<'_>,
+) -> Result<Finished, NoEnd> {
+    progress.begin(u64::from(course.planned));
     let start = Instant::now();
-    let mut run = course.start(build)?;
+    let mut run = course.start(build).map_err(NoEnd::Scene)?;
     let setup = start.elapsed().as_secs_f64();
     let watches_momenta = matches!(watched, Watched::Momenta);
     let mut largest_momentum = run.largest_momentum();
@@ -163,6 +184,7 @@ pub(crate) fn run<const D: usize, S: Real>(
         Watched::Laws(row) => Some(Laws::new(&run, row)),
         Watched::Nothing | Watched::Momenta => None,
     };
+    let mut outcome = ControlFlow::Continue(());
     let start = Instant::now();
     let end = course.go(&mut run, |run, report| {
         if watches_momenta {
@@ -171,8 +193,13 @@ pub(crate) fn run<const D: usize, S: Real>(
         if let Some(laws) = &mut laws {
             laws.watch(run, report);
         }
+        outcome = progress.step();
+        outcome
     });
     let seconds = start.elapsed().as_secs_f64();
+    if outcome.is_break() || progress.end().is_break() {
+        return Err(NoEnd::Stopped);
+    }
     if let Some(Laws { row, .. }) = laws {
         let statistics = run.step_statistics();
         let rejected = statistics.map_or(0, |statistics| statistics.rejected());

@@ -5,6 +5,7 @@
 mod advice;
 mod course;
 mod error;
+mod progress;
 mod quantity;
 mod reference;
 mod report;

@@ -7,10 +7,9 @@
 //! hundred times the error of the reference. It is halved until the difference is at most a hundredth of each error of a
 //! setting, until halving no longer helps, or up to a limit.
 
-use crate::course::{Build, Course, Watched, run};
-use crate::error::StudyError;
+use crate::course::{Build, Course, NoEnd, Watched, run};
+use crate::progress::Progress;
 use crate::quantity::{DOUBT, EndState, PerQuantity, StateQuantity};
-use crate::setting::Setting;
 use eem_runtime::{RocketError, SceneError, Scheme, StepError};
 
 /// Two schemes of one order.
@@ -118,18 +117,15 @@ pub(crate) struct Search<'a> {
     pub(crate) refinement: u32,
     /// The ends of all settings.
     pub(crate) ends: &'a [EndState],
-    /// The setting that a scene is said to be rejected for.
-    pub(crate) setting: Setting,
 }
 
 impl Search<'_> {
-    /// Refines two runs until they agree, or cannot. Calls `note` with planned steps, `(planned, 0)`, and with those
-    /// made, `(0, made)`.
+    /// Refines two runs until they agree, or cannot.
     pub(crate) fn run<const D: usize>(
         self,
         build: &Build<'_, D, f64>,
-        mut note: impl FnMut(u64, u64) -> Result<(), StudyError>,
-    ) -> Result<StudyReference, StudyError> {
+        progress: &mut Progress<'_>,
+    ) -> Result<StudyReference, NoEnd> {
         let mut pair = FOURTH_ORDER;
         let mut found: Option<StudyReference> = None;
         let mut factor = pair.first;
@@ -143,23 +139,19 @@ impl Search<'_> {
                 }));
             };
             let planned = 2 * u64::from(steps);
-            note(planned, 0)?;
-            let next = match solve(build, pair.schemes, (steps, self.end_time)) {
-                Err(
+            progress.plan(planned);
+            let next = match solve(build, pair.schemes, (steps, self.end_time), progress) {
+                Err(NoEnd::Scene(
                     SceneError::NotForSolids { .. }
                     | SceneError::Rocket(RocketError::Scheme { .. }),
-                ) if pair.first == FOURTH_ORDER.first => {
+                )) if pair.first == FOURTH_ORDER.first => {
                     pair = SECOND_ORDER;
                     factor = pair.first;
-                    note(0, planned)?;
+                    progress.drop_planned(planned);
                     continue;
                 }
-                result => result.map_err(|source| StudyError::Scene {
-                    setting: self.setting,
-                    source,
-                })?,
+                result => result?,
             };
-            note(0, planned)?;
             let (next, is_done) = self.judge(found, next);
             if is_done {
                 return Ok(next);
@@ -211,13 +203,11 @@ fn solve<const D: usize>(
     build: &Build<'_, D, f64>,
     schemes: [Scheme; 2],
     (steps, end_time): (u32, f64),
-) -> Result<StudyReference, SceneError> {
-    let end = |scheme| {
-        let finished = run(
-            build,
-            &Course::equal(scheme, steps, end_time),
-            Watched::Momenta,
-        );
+    progress: &mut Progress<'_>,
+) -> Result<StudyReference, NoEnd> {
+    let mut end = |scheme| {
+        let course = Course::equal(scheme, steps, end_time);
+        let finished = run(build, &course, Watched::Momenta, progress);
         finished.map(|finished| finished.end)
     };
     let (states, end) = match (end(schemes[0])?, end(schemes[1])?) {

@@ -154,6 +154,10 @@ impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = self.name();
         match self.steps {
+            // Without being asked for it controls its steps.
+            StepChoice::Fixed(step) if self.scheme == Scheme::Auto => {
+                write!(f, "{name} with constant h = {} s", Readable(step))
+            }
             StepChoice::Fixed(step) => write!(f, "{name} with h = {} s", Readable(step)),
             StepChoice::Tolerance(relative) => {
                 write!(f, "{name} at a tolerance of {}", Readable(relative))

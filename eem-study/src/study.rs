@@ -6,6 +6,7 @@ use core::ops::ControlFlow;
 use crate::advice::check_accuracy;
 use crate::course::{Build, Course, Finished, Watched, run};
 use crate::error::StudyError;
+use crate::progress::{Progress, Watch};
 use crate::quantity::{EndState, StateQuantity};
 use crate::reference::{ReferenceEnd, Search, StudyReference};
 use crate::report::StudyReport;
@@ -154,8 +155,9 @@ impl<'a, const D: usize> Study<'a, D> {
         self
     }
 
-    /// Calls `watch` after every run with the number of steps made and planned. More are planned when the
-    /// references must be refined. If it returns [`ControlFlow::Break`], the study ends with [`StudyError::Stopped`].
+    /// Calls `watch` after every run, and some ten times in a second of one, with the number of steps made and planned. More are
+    /// planned when the references must be refined. If it returns [`ControlFlow::Break`], the study ends with
+    /// [`StudyError::Stopped`].
     #[must_use]
     pub fn watch(mut self, watch: impl FnMut(u64, u64) -> ControlFlow<()> + 'a) -> Self {
         self.watch = Some(Box::new(watch));
@@ -173,22 +175,18 @@ impl<'a, const D: usize> Study<'a, D> {
     /// scene. [`StudyError::Stopped`] if [`watch`](Self::watch) ends it.
     pub fn run(mut self) -> Result<StudyReport, StudyError> {
         let courses = self.check()?;
-        let watch = self.watch.take();
-        let mut progress = Progress {
-            watch,
-            done: 0,
-            planned: 0,
-        };
-        let runs = 1 + u64::try_from(self.repeats.max(1)).unwrap_or(u64::MAX);
+        let mut progress = Progress::new(self.watch.take());
+        let repeats = u64::try_from(self.repeats.max(1)).unwrap_or(u64::MAX);
+        let runs = repeats.saturating_add(1);
         for course in &courses {
-            progress.plan(runs * u64::from(course.planned));
+            progress.plan(runs.saturating_mul(u64::from(course.planned)));
         }
         let mut rows: Vec<_> = self.settings.iter().copied().map(StudyRow::new).collect();
         let mut ends = Vec::with_capacity(rows.len());
         for (row, course) in rows.iter_mut().zip(&courses) {
-            let finished = self.run_setting(row.setting, course, Watched::Laws(row))?;
+            let watched = Watched::Laws(row);
+            let finished = self.run_setting(course, watched, &mut progress)?;
             ends.push(finished.end.ok());
-            progress.advance(u64::from(course.planned))?;
         }
         self.time(&courses, &mut rows, &mut progress)?;
         let reference = self.find_reference(&rows, &ends, &mut progress)?;
@@ -266,16 +264,17 @@ impl<'a, const D: usize> Study<'a, D> {
     /// One run of a setting, see [`run`].
     fn run_setting(
         &self,
-        setting: Setting,
         course: &Course,
         watched: Watched<'_>,
+        progress: &mut Progress<'_>,
     ) -> Result<Finished, StudyError> {
+        let setting = course.setting;
         let finished = match (setting.precision, &self.single) {
-            (Precision::Double, _) => run(&*self.build, course, watched),
-            (Precision::Single, Some(build)) => run(&**build, course, watched),
+            (Precision::Double, _) => run(&*self.build, course, watched, progress),
+            (Precision::Single, Some(build)) => run(&**build, course, watched, progress),
             (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
         };
-        finished.map_err(|source| StudyError::Scene { setting, source })
+        finished.map_err(|error| error.of(setting))
     }
 
     /// Measures the times of all settings. Each repeat runs all of them, so that a busy machine does not slow all
@@ -288,12 +287,11 @@ impl<'a, const D: usize> Study<'a, D> {
     ) -> Result<(), StudyError> {
         let mut repeats = vec![(Vec::new(), Vec::new()); rows.len()];
         for _ in 0..self.repeats.max(1) {
-            for ((row, course), (setups, times)) in rows.iter().zip(courses).zip(&mut repeats) {
+            for (course, (setups, times)) in courses.iter().zip(&mut repeats) {
                 // The end is the same as that of the watched run.
-                let finished = self.run_setting(row.setting, course, Watched::Nothing)?;
+                let finished = self.run_setting(course, Watched::Nothing, progress)?;
                 setups.push(finished.setup);
                 times.push(finished.seconds);
-                progress.advance(u64::from(course.planned))?;
             }
         }
         for (row, (mut setups, mut times)) in rows.iter_mut().zip(repeats) {
@@ -327,38 +325,8 @@ impl<'a, const D: usize> Study<'a, D> {
             finest: rows.iter().fold(1, |most, row| most.max(row.steps)),
             refinement: self.refinement,
             ends: &ends,
-            setting: self.settings[0],
         };
-        search.run(&*self.build, |planned, made| {
-            progress.plan(planned);
-            progress.advance(made)
-        })
-    }
-}
-
-/// A function of the numbers of steps made and planned.
-type Watch<'a> = dyn FnMut(u64, u64) -> ControlFlow<()> + 'a;
-
-/// The steps made and planned, and the function that watches them.
-struct Progress<'a> {
-    watch: Option<Box<Watch<'a>>>,
-    done: u64,
-    planned: u64,
-}
-
-impl Progress<'_> {
-    /// Adds planned steps.
-    fn plan(&mut self, steps: u64) {
-        self.planned = self.planned.saturating_add(steps);
-    }
-
-    /// Adds steps that have been made, and calls the function; an error if it ends the study.
-    fn advance(&mut self, steps: u64) -> Result<(), StudyError> {
-        self.done = self.done.saturating_add(steps);
-        let watch = self.watch.as_mut().filter(|_| steps > 0);
-        match watch.map(|watch| watch(self.done, self.planned)) {
-            Some(ControlFlow::Break(())) => Err(StudyError::Stopped),
-            _ => Ok(()),
-        }
+        let found = search.run(&*self.build, progress);
+        found.map_err(|error| error.of(self.settings[0]))
     }
 }

@@ -12,7 +12,7 @@ use eem_springs::Springs;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyMapping};
 
 use crate::act::Act;
 use crate::built::{Built, Context, Parts, Refusal};
@@ -121,17 +121,18 @@ impl<'a> Request<'a> {
     /// `{material: {"k": values}}` with as many values for each, and the times at which states are recorded.
     pub(crate) fn new(
         world: &'a World,
-        vary: &Bound<'_, PyDict>,
+        vary: &Bound<'_, PyMapping>,
         until: Option<f64>,
         times: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let times = input::times(until, times)?;
         let mut columns = Vec::new();
-        for (material, values) in vary {
+        for item in vary.items()? {
+            let (material, values): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
             let material = material.cast::<Material>()?;
             let index = world.law(material)?;
-            for (name, values) in values.cast::<PyDict>()? {
-                let name: String = name.extract()?;
+            for item in values.cast::<PyMapping>()?.items()? {
+                let (name, values): (String, Bound<'_, PyAny>) = item.extract()?;
                 let array = input::array(&values, &format!("parameter `{name}`"))?;
                 if array.shape.len() != 1 {
                     return Err(error::scene(format!(

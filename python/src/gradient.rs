@@ -3,6 +3,7 @@
 use eem::typed::Law;
 use eem::{Element, Gradient, GradientError, Node, Objective, Quantity, Reservoir, Simulation};
 use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -57,7 +58,7 @@ pub(crate) struct Term {
 }
 
 /// A term as `eem._gradient.Objective` keeps it: factor, quantity, handle or None, component, dashpot, `end`, `at`, `integral` or
-/// `misfit`, and rows of times, data and deviations.
+/// `misfit`, rows of times, data and deviations, and the number of components if there are data of all.
 type Given<'py> = (
     f64,
     String,
@@ -66,6 +67,7 @@ type Given<'py> = (
     usize,
     String,
     Bound<'py, PyAny>,
+    Option<usize>,
 );
 
 /// The terms of an objective.
@@ -73,9 +75,19 @@ pub(crate) fn terms(
     objective: &Bound<'_, PyAny>,
     (lineage, parts, dim): (&Lineage, &Parts, usize),
 ) -> PyResult<Vec<Term>> {
-    let given: Vec<Given<'_>> = objective.getattr("_terms")?.extract()?;
-    let term = |(factor, quantity, of, component, dashpot, when, records): Given<'_>| {
+    let Ok(given) = objective.getattr("_terms") else {
+        let kind = objective.get_type().name()?;
+        let message = format!("an eem.Objective is expected, not {kind}");
+        return Err(PyTypeError::new_err(message));
+    };
+    let given: Vec<Given<'_>> = given.extract()?;
+    let term = |(factor, quantity, of, component, dashpot, when, records, axes): Given<'_>| {
         let subject = subject((&quantity, &of, dashpot), lineage, parts)?;
+        if let Some(axes) = axes.filter(|&axes| axes != dim) {
+            return Err(error::scene(format!(
+                "the data of {quantity} have {axes} components, it has {dim}"
+            )));
+        }
         let rows = || {
             let rows = input::rows(&records, 3, "records")?;
             Ok::<Vec<[f64; 3]>, PyErr>(rows.as_chunks().0.to_vec())
@@ -104,6 +116,17 @@ pub(crate) fn subject(
     lineage: &Lineage,
     parts: &Parts,
 ) -> PyResult<Subject> {
+    if dashpot != 0 && quantity != "viscous_stretch" {
+        return Err(error::scene(format!(
+            "{quantity} has no dashpots: leave {dashpot} out"
+        )));
+    }
+    if matches!(quantity, "kinetic_energy" | "energy") && !of.is_none() {
+        let of = of.repr()?;
+        return Err(error::scene(format!(
+            "{quantity} is that of the scene: leave {of} out"
+        )));
+    }
     let node = || of_one::<handle::Node, _>(quantity, of, lineage, &parts.nodes);
     let element = || of_one::<handle::Element, _>(quantity, of, lineage, &parts.elements);
     let reservoir = || of_one::<handle::Reservoir, _>(quantity, of, lineage, &parts.reservoirs);

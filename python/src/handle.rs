@@ -27,6 +27,15 @@ impl Kind {
             Self::HeatPath => "path of heat",
         }
     }
+
+    const fn one(self) -> &'static str {
+        match self {
+            Self::Node => "a node",
+            Self::Element => "an element",
+            Self::Reservoir => "a reservoir",
+            Self::HeatPath => "a path of heat",
+        }
+    }
 }
 
 /// How many of each kind a scene has.
@@ -55,16 +64,15 @@ impl Lineage {
         })
     }
 
-    /// That of a copy.
-    pub(crate) fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+    /// That of a copy, which has this number.
+    pub(crate) fn copy(&self, own: u64) -> Self {
         let mut copied = self.copied.clone();
         copied.push((self.own, self.counts));
-        let own = random(py)?;
-        Ok(Self {
+        Self {
             own,
             copied,
             ..self.clone()
-        })
+        }
     }
 
     /// The index of a handle of this kind, with the number of the scene that gave it.
@@ -97,7 +105,8 @@ impl Lineage {
     }
 }
 
-fn random(py: Python<'_>) -> PyResult<u64> {
+/// The number of a scene. Python may go on with another thread meanwhile.
+pub(crate) fn random(py: Python<'_>) -> PyResult<u64> {
     let bytes = py.import("os")?.call_method1("urandom", (8,))?;
     Ok(u64::from_ne_bytes(bytes.extract()?))
 }
@@ -380,10 +389,10 @@ pub(crate) fn indices<H: Handle>(
         return Ok((own.collect::<PyResult<_>>()?, false));
     }
     let Ok(items) = given.try_iter() else {
-        let name = H::KIND.name();
         let kind = given.get_type().name()?;
         return Err(PyTypeError::new_err(format!(
-            "a {name}, or several, are expected, not {kind}"
+            "{}, or several, are expected, not {kind}",
+            H::KIND.one()
         )));
     };
     let items = items.map(|item| one::<H>(&item?, lineage));
@@ -395,13 +404,13 @@ pub(crate) fn one<H: Handle>(given: &Bound<'_, PyAny>, lineage: &Lineage) -> PyR
     if let Ok(handle) = given.cast::<H>() {
         return lineage.index(H::KIND, handle.get().id());
     }
-    let name = H::KIND.name();
     match given.extract() {
         Ok(number) if !is_handle(given) => lineage.number(H::KIND, number),
         _ => {
             let kind = given.get_type().name()?;
             Err(PyTypeError::new_err(format!(
-                "a {name} is expected, not {kind}"
+                "{} is expected, not {kind}",
+                H::KIND.one()
             )))
         }
     }

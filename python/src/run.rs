@@ -1,6 +1,7 @@
 //! A run whose dimension is known when the program runs.
 
 use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex};
 
 use eem::{
     Checkpoint, Element, GradientError, History, Node, RestoreError, RunEnd, SceneError, Scheme,
@@ -14,6 +15,7 @@ use crate::built::Parts;
 use crate::gradient::{self, Found, Term, gradient};
 use crate::record::entries;
 use crate::sensitivities::{Asked, Given};
+use crate::watch::Watch;
 
 /// Sees a run after each step.
 pub(crate) type Observer<'a> =
@@ -63,6 +65,8 @@ pub(crate) trait AnyRun: Send {
     fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError>;
     fn with_scheme(self: Box<Self>, scheme: Scheme) -> Result<Box<dyn AnyRun>, Unchanged>;
     fn keep_history(&mut self, history: History);
+    /// Looks for signals in the steps of gradients.
+    fn watch_gradients(&mut self, watch: Arc<Mutex<Watch>>);
     fn gradient(
         &mut self,
         terms: &[Term],
@@ -213,6 +217,13 @@ impl<const D: usize> AnyRun for Simulation<D> {
 
     fn keep_history(&mut self, history: History) {
         self.keep_history(history);
+    }
+
+    fn watch_gradients(&mut self, watch: Arc<Mutex<Watch>>) {
+        self.watch_gradients(move || match watch.lock() {
+            Ok(mut watch) => watch.look(),
+            Err(_) => ControlFlow::Break(()),
+        });
     }
 
     fn gradient(

@@ -4,13 +4,14 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyType};
+use pyo3::types::{PyDict, PyList, PyMapping, PyType};
 
 use crate::act::{Act, Bulk, Course, Rest};
 use crate::arguments::as_dict;
 use crate::ensemble::Request;
 use crate::handle::{
     Element, ElementArray, Kind, Lineage, Node, NodeArray, Reservoir, ReservoirArray, indices, one,
+    random,
 };
 use crate::input;
 use crate::material::Material;
@@ -51,8 +52,10 @@ impl PyScene {
 
     /// A copy of what is in it.
     pub(crate) fn copied(&self, py: Python<'_>) -> PyResult<World> {
+        // Asked for first, so that no other thread meets a scene that is in use while it is only read.
+        let own = random(py)?;
         let world = self.world()?;
-        Ok(world.copy(world.lineage.copy(py)?))
+        Ok(world.copy(world.lineage.copy(own)))
     }
 }
 
@@ -419,7 +422,7 @@ impl PyScene {
     fn ensemble(
         &self,
         py: Python<'_>,
-        vary: &Bound<'_, PyDict>,
+        vary: &Bound<'_, PyMapping>,
         scheme: &str,
         step: f64,
         until: Option<f64>,
@@ -439,7 +442,8 @@ impl PyScene {
     /// Schemes with others each are a dictionary: `{"gauss-4": {"steps": [0.1, 0.05]}, "eem-explicit": {"tolerances": [1e-3]}}`.
     ///
     /// The report recommends a setting for each of `accuracies`, 1e-2, 1e-4 and 1e-6 if none are given. Each setting is timed `repeats`
-    /// times; the steps of the references become at most `refinement` times smaller. Ctrl-C ends it after the run under way.
+    /// times; the steps of the references become at most `refinement` times smaller. Steps are constant, also those of `"auto"`, as
+    /// after `fix_steps`. Ctrl-C ends it.
     ///
     /// >>> import eem
     /// >>> hooke = eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=20.0)

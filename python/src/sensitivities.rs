@@ -4,7 +4,7 @@ use eem::{Column, Element, HeatPath, Input, Node, Reservoir, Sensitivities};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyString, PyTuple};
+use pyo3::types::{PyList, PyMapping, PyString, PyTuple};
 
 use crate::built::Parts;
 use crate::error;
@@ -188,12 +188,13 @@ impl Asked {
     /// Of `eem.Input`s, and quantities by name: `"energy"`, or a tuple with a handle, and the number of a dashpot.
     pub(crate) fn of(
         inputs: &Bound<'_, PyList>,
-        quantities: &Bound<'_, PyDict>,
+        quantities: &Bound<'_, PyMapping>,
         (world, parts): (&World, &Parts),
     ) -> PyResult<Self> {
         let inputs = inputs.iter();
         let inputs = inputs.map(|input| Given::of(&input, world, parts));
-        let quantity = |(name, given): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let quantity = |item: Bound<'_, PyAny>| {
+            let (name, given): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
             let (kind, of, dashpot) = parsed(&given).map_err(|_| {
                 PyTypeError::new_err(format!(
                     "{name}: a quantity is \"energy\", (\"position\", node) or (\"viscous_stretch\", spring, dashpot), not {given}"
@@ -204,7 +205,11 @@ impl Asked {
         };
         Ok(Self {
             inputs: inputs.collect::<PyResult<_>>()?,
-            quantities: quantities.iter().map(quantity).collect::<PyResult<_>>()?,
+            quantities: quantities
+                .items()?
+                .iter()
+                .map(quantity)
+                .collect::<PyResult<_>>()?,
         })
     }
 

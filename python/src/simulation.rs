@@ -8,13 +8,13 @@ use eem::{Checkpoint, History};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyType};
+use pyo3::types::{PyDict, PyList, PyMapping, PyType};
 
 use access::{Ended, interrupted};
 
 use crate::built::Parts;
 use crate::function::take_raised;
-use crate::handle::{Element, Node};
+use crate::handle::{Element, Node, random};
 use crate::record::{Rows, Wanted, ledger, record};
 use crate::report::Report;
 use crate::run::AnyRun;
@@ -346,7 +346,7 @@ impl Simulation {
         &self,
         py: Python<'_>,
         inputs: &Bound<'_, PyAny>,
-        quantities: &Bound<'_, PyDict>,
+        quantities: &Bound<'_, PyMapping>,
     ) -> PyResult<Py<PyAny>> {
         let inputs = &inputs.try_iter()?.collect::<PyResult<Vec<_>>>()?;
         let inputs = &PyList::new(py, inputs)?;
@@ -427,7 +427,7 @@ impl Simulation {
 
     fn __copy__(slf: &Bound<'_, Self>) -> PyResult<Self> {
         let own = slf.get();
-        let world = own.world.copy(own.world.lineage.copy(slf.py())?);
+        let world = own.world.copy(own.world.lineage.copy(random(slf.py())?));
         let copy = Self::new(world, scheme(own.scheme()?)?, own.step)?;
         copy.restore(&own.checkpoint()?)?;
         Ok(copy)

@@ -7,7 +7,7 @@ use eem::{
     Advice, Scene, Setting, StateQuantity, Statement, Study, StudyError, StudyReport, StudyRow,
 };
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyMapping};
 
 use crate::function::take_raised;
 use crate::setting::scheme;
@@ -31,8 +31,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Runs everything, without the interpreter. An exception of a function of time, or of the handler of a signal, ends it
-    /// after the run in which it came.
+    /// Runs everything, without the interpreter. An exception of a function of time, or of the handler of a signal, ends it.
     pub(crate) fn run<const D: usize>(&self, scene: &Scene<D>) -> PyResult<StudyReport> {
         let raised = RefCell::new(None);
         let watch = |_, _| match take_raised().or_else(|| Python::attach(check_signals).err()) {
@@ -206,24 +205,32 @@ pub(crate) fn settings(
     tolerances: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<Setting>> {
     let mut settings = Vec::new();
-    if let Ok(schemes) = schemes.cast::<PyDict>() {
+    if let Ok(schemes) = schemes.cast::<PyMapping>() {
         if steps.or(tolerances).is_some() {
             return Err(error::scene(
                 "each scheme has its own steps or tolerances: leave out steps= and tolerances=",
             ));
         }
-        for (name, own) in schemes {
-            let own = own.cast_into::<PyDict>()?;
-            for key in own.keys() {
-                let key: String = key.extract()?;
-                if !matches!(&*key, "steps" | "tolerances") {
-                    let message = format!("a scheme has no {key:?}: give steps or tolerances");
-                    return Err(error::scene(message));
+        for item in schemes.items()? {
+            let (name, own): (String, Bound<'_, PyAny>) = item.extract()?;
+            let Ok(own) = own.cast_into::<PyMapping>() else {
+                return Err(error::scene(format!(
+                    "{name}: give {{\"steps\": …}}, {{\"tolerances\": …}} or both"
+                )));
+            };
+            let mut lists = [None, None];
+            for item in own.items()? {
+                let (key, list): (String, Bound<'_, PyAny>) = item.extract()?;
+                match &*key {
+                    "steps" => lists[0] = Some(list),
+                    "tolerances" => lists[1] = Some(list),
+                    _ => {
+                        let message = format!("{name} has no {key:?}: give steps or tolerances");
+                        return Err(error::scene(message));
+                    }
                 }
             }
-            let [steps, tolerances] = [own.get_item("steps")?, own.get_item("tolerances")?];
-            let own = [steps.as_ref(), tolerances.as_ref()];
-            add_settings(&mut settings, name.extract()?, own)?;
+            add_settings(&mut settings, name, lists.each_ref().map(Option::as_ref))?;
         }
     } else {
         let names: Vec<String> = match schemes.extract() {

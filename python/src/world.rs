@@ -9,7 +9,7 @@ use crate::act::{Act, Rest};
 use crate::built::{AnyScene, Built, Context};
 use crate::error;
 use crate::function::{Function, take_raised};
-use crate::handle::Lineage;
+use crate::handle::{Lineage, random};
 use crate::material::Material;
 use crate::run::AnyRun;
 
@@ -171,7 +171,7 @@ impl World {
     ) -> PyResult<Self> {
         let acts: Vec<Act> = serde_json::from_str(&acts)
             .map_err(|error| error::checkpoint(format!("this is no pickled scene: {error}")))?;
-        let mut world = Self::new(dim, lineage.copy(py)?)?;
+        let mut world = Self::new(dim, lineage.copy(random(py)?))?;
         for material in &materials {
             world.material(material.bind(py));
         }

@@ -2,6 +2,8 @@
 
 import math
 import pickle
+import signal
+import threading
 
 import eem
 import numpy as np
@@ -190,6 +192,20 @@ def test_what_is_refused(oscillator, hooke):
         eem.Objective.misfit("position", mass, times=[0.5, 1.0, 1.5], data=[0.0] * 3, sigma=[1.0, 2.0])
     with pytest.raises(eem.SceneError, match="do not fit"):
         eem.Objective.misfit("position", mass, times=[1.0], data=[0.0, 1.0])
+    with pytest.raises(eem.SceneError, match="do not fit"):
+        eem.Objective.misfit("position", mass, times=[1.0], data=np.zeros((1, 0)))
+    with pytest.raises(eem.SceneError, match="data of position have 2 components, it has 1"):
+        run.gradient(eem.Objective.misfit("position", mass, times=[1.0], data=[[0.0, 1.0]]))
+    with pytest.raises(eem.SceneError, match="sigma 0 is nan, it must be finite"):
+        eem.Objective.misfit("position", mass, times=[1.0], data=[0.0], sigma=math.nan)
+    with pytest.raises(eem.SceneError, match="the time 0 is inf, it must be finite"):
+        eem.Objective.at(math.inf, "position", mass)
+    with pytest.raises(eem.SceneError, match="stretch has no dashpots"):
+        run.gradient(eem.Objective.at_end("stretch", spring, dashpot=1))
+    with pytest.raises(eem.SceneError, match="kinetic_energy is that of the scene"):
+        run.gradient(eem.Objective.integral("kinetic_energy", mass))
+    with pytest.raises(TypeError, match="an eem.Objective is expected, not NoneType"):
+        run.gradient(None)
     assert run.checkpoint() == before
     flat = eem.Scene(dim=2)
     stone = flat.mass(1.0, [0, 0])
@@ -240,3 +256,25 @@ def test_a_function_that_raises_ends_a_gradient(oscillator):
     is_wrong = True
     with pytest.raises(KeyError, match="gone"):
         run.gradient(eem.Objective.at_end("position", mass))
+
+
+@pytest.mark.parametrize("kind", ["gradient", "sensitivities", "check_gradient"])
+def test_ctrl_c_ends_what_looks_for_derivatives(oscillator, kind):
+    scene, mass, _ = oscillator
+    run = scene.simulate("eem-temperature", step=0.1)
+    run.keep_history()
+    run.run(until=3_000.0, every=None)
+    before = run.checkpoint()
+    end = eem.Objective.at_end("position", mass)
+    asked = {
+        "gradient": lambda: run.gradient(end),
+        "sensitivities": lambda: run.sensitivities([eem.Input.mass(mass)], {"q": ("position", mass)}),
+        "check_gradient": lambda: run.check_gradient(end),
+    }
+    timer = threading.Timer(0.1, lambda: signal.raise_signal(signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        for _ in range(1000):
+            asked[kind]()
+    timer.join()
+    assert run.checkpoint() == before and run.gradient(end).value == run.q[mass, 0]

@@ -228,6 +228,24 @@ def test_ctrl_c_returns_the_record_so_far(pendulum):
     assert run.run(until=run.time + 1.0).end == "reached"
 
 
+def test_ctrl_c_within_a_function_of_time_returns_the_record_so_far(pendulum):
+    is_late = False
+
+    def force(t):
+        if is_late and t > 0.5:
+            raise KeyboardInterrupt
+        return [0.0, 0.0]
+
+    scene = copy.copy(pendulum.scene)
+    scene.force(scene.nodes[1], force)
+    run = scene.simulate("eem-temperature", step=0.1)
+    is_late = True
+    record = run.run(until=1.0)
+    assert record.end == "interrupted" and record.time[-1] == run.time < 1.0
+    is_late = False
+    assert run.run(until=1.0).end == "reached"
+
+
 def test_other_signals_raise_what_their_handler_raises(pendulum):
     class Alarm(Exception):
         pass

@@ -2,6 +2,7 @@
 
 import itertools
 import pickle
+import types
 
 import eem
 import numpy as np
@@ -226,11 +227,15 @@ def test_what_is_refused(oscillator, hooke):
         ({"q": ("force", spring)}, ValueError, "no derivatives of 'force'"),
         ({"q": ("temperature", spring)}, eem.SceneError, "no temperature"),
         ({"q": ("position", spring)}, TypeError, "a node is expected"),
+        ({"q": ("position", mass, 1)}, eem.SceneError, "position has no dashpots: leave 1 out"),
+        ({"q": ("energy", spring)}, eem.SceneError, r"energy is that of the scene: leave Element\(0\) out"),
         ({"q": 3}, TypeError, "q: a quantity is"),
         ({"q": ()}, TypeError, "q: a quantity is"),
     ]:
         with pytest.raises(error, match=message):
             run.sensitivities(inputs, quantities)
+    found = run.sensitivities(inputs, types.MappingProxyType(q))
+    assert np.array_equal(found.of("q", inputs[0]), run.sensitivities(inputs, q).of("q", inputs[0]))
     with pytest.raises(TypeError, match="an eem.Input is expected, not int"):
         run.sensitivities([3], q)
     for axis in [-1, mass, True]:

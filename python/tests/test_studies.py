@@ -4,6 +4,8 @@ import math
 import signal
 import threading
 import time
+import types
+from concurrent.futures import ThreadPoolExecutor
 
 import eem
 import numpy as np
@@ -173,7 +175,27 @@ def test_ctrl_c_ends_a_study(pendulum):
         pendulum.scene.study(1.0, "eem-temperature", steps=[0.001] * 100_000)
     assert time.perf_counter() - start < 30.0
     timer.join()
+    # Also within a run, which would take hours.
+    timer = threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        pendulum.scene.study(1e7, "eem-temperature", steps=[0.01])
+    timer.join()
     assert pendulum.scene.study(1.0, "eem-temperature", steps=[0.1], repeats=1).rows[0].steps == 10
+
+
+def test_studies_of_one_scene_in_several_threads(pendulum):
+    study = lambda _: pendulum.scene.study(0.1, "eem-entropy", steps=[0.01], repeats=1).rows[0].energy_defect
+    with ThreadPoolExecutor(4) as pool:
+        assert len(set(pool.map(study, range(40)))) == 1
+
+
+def test_schemes_have_settings_of_their_own_in_any_mapping(pendulum):
+    own = types.MappingProxyType({"auto": types.MappingProxyType({"steps": [0.05]})})
+    report = pendulum.scene.study(0.1, own, repeats=1)
+    assert report.rows[0].steps == 2 and "auto with constant h = 0.05 s" in str(report)
+    with pytest.raises(eem.SceneError, match='auto: give {"steps": …}'):
+        pendulum.scene.study(0.1, {"auto": [0.05]})
 
 
 def test_other_threads_go_on(pendulum):

@@ -358,6 +358,20 @@ fn a_study_ends_when_the_function_that_watches_it_says_so() {
     }
 }
 
+#[test]
+fn a_study_ends_within_a_run() {
+    let steps = 2_000_000_000_u32;
+    let mut seen = 0;
+    let setting = Setting::fixed(Scheme::EemEntropy, 0.01);
+    let endless = Study::new(pendulum, 0.01 * f64::from(steps)).setting(setting);
+    let stopped = endless.watch(|done, _| {
+        seen = done;
+        ControlFlow::Break(())
+    });
+    assert_eq!(stopped.run().unwrap_err(), StudyError::Stopped);
+    assert!(seen > 0 && seen < u64::from(steps));
+}
+
 // What is refused says what to do.
 
 /// The message of a study that is not begun.

@@ -112,6 +112,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     /// The states since a history is kept.
     #[cfg(feature = "gradients")]
     history: Option<Box<Record<S>>>,
+    #[cfg(feature = "gradients")]
+    watch: Option<Box<gradient::Watch>>,
     /// Somebody asks for sums of dissipation and heat.
     wants_meters: AtomicBool,
     /// The report with the largest `|defect|/bound` so far.
@@ -220,6 +222,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             homes: BTreeMap::new(),
             #[cfg(feature = "gradients")]
             history: None,
+            #[cfg(feature = "gradients")]
+            watch: None,
             wants_meters: AtomicBool::new(false),
             worst: None,
             corrections: Corrections::none(),

@@ -48,6 +48,31 @@ class _Term(NamedTuple):
     when: str
     #: times, data and standard deviations
     records: _Floats
+    #: the number of components, if there are data of all
+    axes: int | None = None
+
+
+def _not_finite(records: _Floats) -> str:
+    """The first number that is not."""
+    row, column = np.argwhere(~np.isfinite(records))[0]
+    return f"{('the time', 'data', 'sigma')[column]} {row} is {records[row, column]}"
+
+
+def _term(
+    quantity: str,
+    of: _Handle,
+    component: int | None,
+    dashpot: int,
+    when: str,
+    records: _Floats | None = None,
+    axes: int | None = None,
+) -> _Term:
+    if quantity not in QUANTITIES:
+        raise SceneError(f"there are no derivatives of {quantity!r}: take one of {', '.join(QUANTITIES)}")
+    records = np.empty((0, 3)) if records is None else records
+    if not np.isfinite(records).all():
+        raise SceneError(f"{_not_finite(records)}, it must be finite")
+    return _Term(1.0, quantity, of, component, dashpot, when, records, axes)
 
 
 class Objective:
@@ -73,11 +98,6 @@ class Objective:
 
     @classmethod
     def _of(cls, terms: Sequence[_Term]) -> Objective:
-        for term in terms:
-            if term.quantity not in QUANTITIES:
-                raise SceneError(
-                    f"there are no derivatives of {term.quantity!r}: take one of {', '.join(QUANTITIES)}"
-                )
         made = cls()
         made._terms = tuple(terms)
         return made
@@ -87,7 +107,7 @@ class Objective:
         cls, quantity: str, of: _Handle = None, *, component: int | None = None, dashpot: int = 0
     ) -> Objective:
         """A quantity at the end of the run."""
-        return cls._of([_Term(1.0, quantity, of, component, dashpot, "end", np.empty((0, 3)))])
+        return cls._of([_term(quantity, of, component, dashpot, "end")])
 
     @classmethod
     def at(
@@ -101,14 +121,14 @@ class Objective:
     ) -> Objective:
         """A quantity at a time at which a step ends, s; `run(times=...)` makes steps end at given times."""
         records = np.array([[time, 0.0, 1.0]])
-        return cls._of([_Term(1.0, quantity, of, component, dashpot, "at", records)])
+        return cls._of([_term(quantity, of, component, dashpot, "at", records)])
 
     @classmethod
     def integral(
         cls, quantity: str, of: _Handle = None, *, component: int | None = None, dashpot: int = 0
     ) -> Objective:
         """The integral of a quantity over the time of the history, by the trapezoidal rule over its steps."""
-        return cls._of([_Term(1.0, quantity, of, component, dashpot, "integral", np.empty((0, 3)))])
+        return cls._of([_term(quantity, of, component, dashpot, "integral")])
 
     @classmethod
     def misfit(
@@ -131,7 +151,7 @@ class Objective:
             raise SceneError(f"times have {instants.ndim} axes, a list is expected")
         values = np.asarray(data, dtype=np.float64)
         columns = values[:, None] if values.ndim == 1 else values
-        if columns.ndim != 2 or len(columns) != len(instants):
+        if columns.ndim != 2 or len(columns) != len(instants) or columns.shape[1] == 0:
             raise SceneError(f"data of the shape {values.shape} do not fit {len(instants)} times")
         components: list[int | None] = [component]
         if values.ndim == 2:
@@ -146,11 +166,14 @@ class Objective:
         except ValueError:
             message = f"sigma of the shape {np.shape(sigma)} does not fit data of the shape {values.shape}"
             raise SceneError(message) from None
-        terms = [
-            _Term(1.0, quantity, of, one, dashpot, "misfit", np.stack([instants, columns[:, k], deviations[:, k]], 1))
-            for k, one in enumerate(components)
-        ]
-        return cls._of(terms)
+        axes = columns.shape[1] if values.ndim == 2 else None
+        records = [np.stack([instants, columns[:, k], deviations[:, k]], 1) for k in range(columns.shape[1])]
+        return cls._of(
+            [
+                _term(quantity, of, one, dashpot, "misfit", own, axes)
+                for one, own in zip(components, records, strict=True)
+            ]
+        )
 
     def __mul__(self, factor: float) -> Objective:
         return self._of([term._replace(factor=term.factor * float(factor)) for term in self._terms])

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 use eem::{GradientError, RunEnd, SceneError, Scheme, Tolerance};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 
 use super::Simulation;
@@ -71,17 +71,21 @@ impl Simulation {
         gradient::terms(objective, (&world.lineage, &self.parts, world.dim))
     }
 
-    /// Asks for derivatives, without the interpreter.
+    /// Asks for derivatives, without the interpreter, and looks for signals in their steps.
     pub(super) fn differentiate<T: Send>(
         &self,
         py: Python<'_>,
         question: impl FnOnce(&mut dyn AnyRun) -> Result<T, GradientError> + Send,
     ) -> PyResult<T> {
+        let watch = Arc::new(Mutex::new(Watch::new(py)?));
         py.detach(|| {
             let mut guard = self.lock()?;
+            let run = guard.run()?;
             _ = take_raised();
-            let found = question(&mut **guard.run()?);
-            match take_raised() {
+            run.watch_gradients(Arc::clone(&watch));
+            let found = question(&mut **run);
+            let signal = watch.lock().ok().and_then(|mut watch| watch.signal.take());
+            match signal.or_else(take_raised) {
                 Some(raised) => Err(raised),
                 None => found.map_err(error::gradient),
             }
@@ -209,6 +213,12 @@ impl Simulation {
             Ok(RunEnd::Stopped | RunEnd::Event(_)) => return Err(interrupted()),
             Err(Stop::Scene(error)) => return Err(error::of_scene(error)),
             Err(Stop::Step(error)) => match take_raised() {
+                // While a function of time was called, which takes most of the time of such a run.
+                Some(raised)
+                    if Python::attach(|py| raised.is_instance_of::<PyKeyboardInterrupt>(py)) =>
+                {
+                    Ended::Signal(raised)
+                }
                 Some(raised) => return Err(raised),
                 None => Ended::Failed(Box::new(error)),
             },

@@ -161,6 +161,32 @@ fn a_panic_of_a_load_leaves_the_history() {
 }
 
 #[test]
+fn whoever_watches_ends_steps_that_are_made_again() {
+    let (scene, bob, ..) = single_pendulum_scene();
+    let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.1).unwrap();
+    run.keep_history(History::snapshots(2));
+    run.run_until(1.0).unwrap();
+    let place = Objective::at_end(Quantity::Position(bob));
+    let (expected, before) = (bits(&run.gradient(&place).unwrap()), run.checkpoint());
+    // 10 steps back, and more that are made again.
+    for calls in 1..15 {
+        let mut left = calls;
+        run.watch_gradients(move || {
+            left -= 1;
+            if left > 0 {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        });
+        assert_eq!(run.gradient(&place).unwrap_err(), GradientError::Stopped);
+        assert_eq!(before, run.checkpoint());
+    }
+    run.watch_gradients(|| ControlFlow::Continue(()));
+    assert_eq!(expected, bits(&run.gradient(&place).unwrap()));
+}
+
+#[test]
 fn values_that_controllers_have_set_need_all_states() {
     let end = |history: History| {
         let (scene, bob, ..) = single_pendulum_scene();

@@ -181,6 +181,9 @@ pub enum GradientError {
         /// The change along the run.
         tangent: f64,
     },
+    /// The function that watches gradients has ended it.
+    #[error("the derivatives were stopped by the function that `watch_gradients` was given")]
+    Stopped,
     /// The linear system does not fit in memory, or a handle is of another scene.
     #[error(transparent)]
     Scene(#[from] SceneError),

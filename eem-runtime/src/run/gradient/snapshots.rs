@@ -192,6 +192,13 @@ impl<S: Real> Record<S> {
         self.schemes.iter().map(of)
     }
 
+    /// The time at which the last steps with this scheme began; the end if they are of another one.
+    pub(crate) fn end_before(&self, scheme: Scheme) -> S {
+        let last = self.schemes.last().filter(|&&(_, own)| own == scheme);
+        self.time_of(last.map_or(self.len(), |&(first, _)| first))
+            .value
+    }
+
     fn time_of(&self, steps: usize) -> Sum<S> {
         let mut before = self.snapshots.iter().rev();
         let from = before.find(|snapshot| snapshot.index <= steps);

@@ -13,6 +13,7 @@ mod way;
 mod zeros;
 
 use core::mem;
+use core::ops::ControlFlow;
 use std::collections::BTreeSet;
 
 use super::Simulation;
@@ -37,6 +38,9 @@ use eem_material::number::scalar::{Mask, Real};
 use inputs::Made;
 use seeds::Seeds;
 use way::{Way, Weighted, add};
+
+/// A function that may end the search for derivatives.
+pub(super) type Watch = dyn FnMut() -> ControlFlow<()> + Send + Sync;
 
 /// # Gradients
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -97,6 +101,46 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         objective: &Objective<D, S>,
     ) -> Result<Gradient<D, S>, GradientError> {
         self.on_history(|run, kept| run.gradient_of(kept, &[(1.0, objective)]))
+    }
+
+    /// Calls a function in every step that gradients, tangents and their checks go through. If it returns
+    /// [`ControlFlow::Break`], they end with [`GradientError::Stopped`], and nothing has changed.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use eem::prelude::*;
+    /// use eem::{GradientError, History, Objective};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(1.0, [0.0], [2.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.keep_history(History::default());
+    /// run.run_until(1.0)?;
+    /// let place = Objective::at_end(Quantity::Position(mass));
+    ///
+    /// let mut left = 5;
+    /// run.watch_gradients(move || {
+    ///     left -= 1;
+    ///     if left > 0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    /// });
+    /// assert_eq!(run.gradient(&place).unwrap_err(), GradientError::Stopped);
+    /// run.watch_gradients(|| ControlFlow::Continue(()));
+    /// assert_eq!(run.gradient(&place)?.by_velocity(mass)?[0], run.time());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn watch_gradients(
+        &mut self,
+        watch: impl FnMut() -> ControlFlow<()> + Send + Sync + 'static,
+    ) {
+        self.watch = Some(Box::new(watch));
+    }
+
+    /// An error if somebody who watches ends it.
+    fn look(&mut self) -> Result<(), GradientError> {
+        match self.watch.as_mut().map(|watch| watch()) {
+            Some(ControlFlow::Break(())) => Err(GradientError::Stopped),
+            _ => Ok(()),
+        }
     }
 
     /// The derivatives of an objective at an event, the end of the history, whose time follows the inputs so that another
@@ -327,6 +371,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             &mut LinearSystem<S, 1>,
         ) -> Result<(), NoAdjoint>,
     ) -> Result<(), GradientError> {
+        self.look()?;
         // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         let Stepper::Newton(newton) = &mut self.stepper else {
@@ -364,8 +409,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
         }
         let mut others = kept.schemes().filter(|&(scheme, _)| scheme != self.in_use);
-        if let Some((_, time)) = others.next() {
-            let time = time.to_f64();
+        if others.next().is_some() {
+            let time = kept.end_before(self.in_use).to_f64();
             return Err(GradientError::HistoryBroken { time });
         }
         if kept.ends_in(&self.state) {

@@ -60,6 +60,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         mut see: impl FnMut(&State<S>),
     ) -> Result<(), GradientError> {
         for step in from..to {
+            self.look()?;
             self.step_by(kept.size(step))?;
             if let Some(time) = kept.arrival(step + 1) {
                 self.state.time = Sum::new(time);
