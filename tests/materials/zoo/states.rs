@@ -29,7 +29,7 @@ pub(crate) fn around(specimen: &dyn Specimen) -> Vec<Vec<f64>> {
 
 /// Pairs of an old and a new state.
 pub(crate) fn steps(specimen: &dyn Specimen) -> Vec<[Vec<f64>; 2]> {
-    let increments = INCREMENTS.iter().step_by(at_length(1, 2));
+    let increments = INCREMENTS.iter().step_by(at_length(1, 3));
     increments
         .map(|&increment| step(specimen, increment))
         .collect()

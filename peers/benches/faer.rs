@@ -4,7 +4,7 @@
 
 #[path = "faer/plain.rs"]
 mod plain;
-#[path = "../eem-sparse/tests/support/mod.rs"]
+#[path = "../../eem-sparse/tests/support/mod.rs"]
 mod support;
 
 use divan::{AllocProfiler, Bencher};
