@@ -258,6 +258,16 @@ def test_a_function_that_raises_ends_a_gradient(oscillator):
         run.gradient(eem.Objective.at_end("position", mass))
 
 
+def test_a_constant_force_is_no_function_of_time():
+    scene = eem.Scene(dim=1)
+    mass = scene.mass(2.0, [0.0], [1.0])
+    scene.force(mass, [3.0])
+    run = scene.simulate("eem-entropy", step=0.25)
+    run.keep_history()
+    run.run(until=1.0)
+    assert run.gradient(eem.Objective.at_end("position", mass)).by_end_time() == 2.5
+
+
 @pytest.mark.parametrize("kind", ["gradient", "sensitivities", "check_gradient"])
 def test_ctrl_c_ends_what_looks_for_derivatives(oscillator, kind):
     scene, mass, _ = oscillator

@@ -28,7 +28,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     pub fn dead_load(&mut self, node: Node, force: [S; D]) {
         match infinite(&force).next() {
             Some((axis, value)) => self.refuse(SceneError::DeadLoad { node, axis, value }),
-            None => self.force(node, move |_| force),
+            None if self.expect_kind(node, true, "a force") => {
+                let force = Course::Constant(SVector::from(force));
+                self.loads.forces.push((node, force));
+            }
+            None => {}
         }
     }
 

@@ -35,6 +35,8 @@ pub(crate) type TemperatureOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
 pub(crate) enum Course<F, T> {
     /// A function of the user.
     Function(F),
+    /// The same at all times.
+    Constant(T),
     /// A value that holds until another one is set: a force, the velocity of an anchor, or a temperature that is reached at
     /// the end of a step.
     Set(T),
@@ -50,6 +52,7 @@ impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
     pub(crate) fn position(&self, time: S, from: &[S; D], elapsed: S) -> SVector<S, D> {
         match self {
             Self::Function(of) => of(time),
+            Self::Constant(position) => *position,
             Self::Set(velocity) => {
                 SVector::from_fn(|axis, _| from[axis] + elapsed * velocity[axis])
             }
@@ -62,6 +65,7 @@ impl<S: Real> Course<TemperatureOfTime<S>, S> {
     pub(crate) fn at(&self, time: S, from: S, share: S) -> S {
         match self {
             Self::Function(of) => of(time),
+            Self::Constant(value) => *value,
             Self::Set(to) => between(from, *to, share),
         }
     }

@@ -95,7 +95,7 @@ impl<S: Real> StepLoads<S> {
         for (node, force) in &loads.forces {
             let value = match force {
                 Course::Function(of) => of(time),
-                Course::Set(force) => *force,
+                Course::Constant(force) | Course::Set(force) => *force,
             };
             for axis in 0..D {
                 // The sum of all loads on the node may overflow although none of them does.

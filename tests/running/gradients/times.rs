@@ -227,6 +227,24 @@ fn times_of_events_have_derivatives() {
 }
 
 #[test]
+fn a_dead_load_does_not_depend_on_time() {
+    let mut scene = Scene::<1>::new();
+    let mass = scene.mass(2.0, [0.0], [1.0]);
+    scene.dead_load(mass, [3.0]);
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.25).unwrap();
+    run.keep_history(History::default());
+    run.run_until(1.0).unwrap();
+    let place = Objective::at_end(Quantity::Position(mass));
+    let gradient = run.gradient(&place).unwrap();
+    // q̇ = v, and ∂q/∂f of all forces is t²/2m.
+    let velocity = run.momentum(mass).unwrap()[0] / 2.0;
+    assert_eq!(gradient.by_end_time().unwrap(), velocity);
+    let by_force = gradient.by_force(mass).unwrap();
+    let sum: f64 = by_force.iter().map(|(_, by)| by[0]).sum();
+    assert_eq!(sum, 0.25);
+}
+
+#[test]
 fn times_without_derivatives_are_errors() {
     let mut scene = Scene::<1>::new();
     let mass = scene.mass(1.0, [0.5], [0.0]);

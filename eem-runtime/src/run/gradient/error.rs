@@ -72,7 +72,7 @@ pub enum GradientError {
     },
     /// A quantity has no derivatives here.
     #[error(
-        "there are no derivatives of {quantity}; take positions, velocities, momenta, stretches, viscous stretches, temperatures, reservoirs, or energies"
+        "there are no derivatives of {quantity} here; take positions of nodes, velocities or momenta of masses, stretches, viscous stretches, temperatures, reservoirs, or energies"
     )]
     NoDerivative {
         /// The quantity.

@@ -140,7 +140,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 }
                 let motion = motion.and_then(|motion| match motion {
                     Course::Function(of) => Some(of),
-                    Course::Set(_) => None,
+                    Course::Constant(_) | Course::Set(_) => None,
                 });
                 let is_right = motion.map_or(
                     value.equal(created).all() && carry.equal(S::zero()).all(),

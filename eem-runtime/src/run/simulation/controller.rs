@@ -264,10 +264,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let node = |index: usize| scene.node(index);
         loads
             .forces
-            .retain(|(_, force)| matches!(force, Course::Function(_)));
+            .retain(|(_, force)| !matches!(force, Course::Set(_)));
         loads
             .motions
-            .retain(|(_, motion)| matches!(motion, Course::Function(_)));
+            .retain(|(_, motion)| !matches!(motion, Course::Set(_)));
         for (&index, force) in saved.forced.iter().zip(forces) {
             loads
                 .forces
@@ -298,7 +298,7 @@ fn set_ones<S: Real, const D: usize>(
 ) -> impl Iterator<Item = (Node, &SVector<S, D>)> {
     all.iter().filter_map(|(node, course)| match course {
         Course::Set(value) => Some((*node, value)),
-        Course::Function(_) => None,
+        Course::Function(_) | Course::Constant(_) => None,
     })
 }
 
