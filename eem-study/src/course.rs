@@ -242,7 +242,8 @@ impl<'a> Laws<'a> {
         row.energy_defect = larger(row.energy_defect, defect);
         row.step_bound = larger(row.step_bound, share(report.bound.to_f64(), energy));
         let entropy = ledger.entropy.to_f64();
-        row.least_entropy_change = -larger(-row.least_entropy_change, self.entropy - entropy);
+        // Not −0 of a run that produces none.
+        row.least_entropy_change = 0.0 - larger(-row.least_entropy_change, self.entropy - entropy);
         self.entropy = entropy;
     }
 }

@@ -28,8 +28,8 @@ pub enum StudyError {
     },
     /// No whole number of steps ends at the end time, at which errors are compared.
     #[error(
-        "no whole number of steps of {} s ends at {} s; take {} s or {} s",
-        Readable(*step), Readable(*end), Readable(*shorter), Readable(*longer)
+        "no whole number of steps of {} s ends at {} s; take {}",
+        Readable(*step), Readable(*end), either(*shorter, *longer)
     )]
     NoWholeSteps {
         /// The step, s.
@@ -110,8 +110,19 @@ pub enum StudyError {
     },
 }
 
+/// Two steps to choose from, which may be one.
+fn either(shorter: f64, longer: f64) -> String {
+    if shorter.to_bits() == longer.to_bits() {
+        return format!("{} s", Readable(shorter));
+    }
+    format!("{} s or {} s", Readable(shorter), Readable(longer))
+}
+
 /// The names of kinds of quantities.
 pub(crate) fn listed(quantities: &[StateQuantity]) -> String {
+    if quantities.is_empty() {
+        return "it was asked for none".to_owned();
+    }
     let names: Vec<_> = quantities.iter().map(ToString::to_string).collect();
     names.join(", ")
 }
