@@ -16,7 +16,7 @@ pub(crate) use eem_entropy::EemEntropy;
 pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use element::{ElementScheme, Form, Infeasible, Placement, Start};
 pub(crate) use point::PointRule;
-pub(crate) use temperature::{settled_at, temperature_at};
+pub(crate) use temperature::{recovered_at, temperature_at};
 
 /// The families.
 #[derive(Clone, Copy, Debug)]

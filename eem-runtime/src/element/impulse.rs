@@ -1,6 +1,6 @@
-//! The impulses of a step, in one of the memory places that each node has for its forces.
+//! The impulses of a step, in one of the vectors that are stored for each node.
 
-/// Places per node.
+/// Vectors per node.
 pub(crate) const PLACES: usize = 3;
 
 /// The impulses on all nodes, N s.

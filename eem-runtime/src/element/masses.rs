@@ -1,4 +1,4 @@
-//! The masses of the nodes, of which anchors have none, and of solids, which couple nodes.
+//! The mass matrix: masses of the nodes, none for anchors, and masses of solids, which couple nodes.
 
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Mask, Real};

@@ -9,13 +9,13 @@
 //! each satisfies both laws and conserves the momenta; together they are of first order (Romero 2010, part II; Kern,
 //! Romero, Conde Martín & García Orden 2021, §I). Only the solver distinguishes the parts.
 
-/// The part of the physics that is stepped. In this order each question below is one comparison.
+/// The part of the physics that is stepped. The order makes each method below a single comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Phase {
     /// Internal variables; positions and momenta stay.
     Heat,
     Whole,
-    /// The whole, but at prescribed temperatures, by a step without end: a state at rest.
+    /// The whole, but at prescribed temperatures and in a step of infinite length: a state at rest.
     Relaxed,
     /// The same with the viscous stretches of the old state.
     Held,
@@ -34,12 +34,12 @@ impl Phase {
         matches!(self, Self::Whole | Self::Heat | Self::Relaxed)
     }
 
-    /// Prescribed temperatures count.
+    /// Prescribed temperatures apply.
     pub(crate) const fn prescribes(self) -> bool {
         !matches!(self, Self::Mechanics)
     }
 
-    /// Nothing moves.
+    /// The new state is at rest.
     pub(crate) const fn is_at_rest(self) -> bool {
         matches!(self, Self::Held | Self::Relaxed)
     }

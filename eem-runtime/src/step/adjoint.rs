@@ -1,5 +1,5 @@
-//! The adjoint of a step of the energy–entropy–momentum forms: from the derivatives of a number by the new state to those by
-//! the old state, and the weights that give its derivatives by everything else. Its tangents are in `tangents.rs`.
+//! The adjoint of a step of the energy–entropy–momentum forms: from the derivatives of an objective by the new state to those
+//! by the old state, and the weights that give its derivatives by everything else. Its tangents are in `tangents.rs`.
 //!
 //! A step satisfies `R(x¹, x⁰) = 0` with
 //!
@@ -41,16 +41,16 @@ use inertia::Inertia;
 pub(crate) use rockets::RocketStep;
 pub(crate) use tangents::{HeatChange, Tangents};
 
-/// The adjoint of one step after the other, with memory for all of them.
+/// The adjoint of one step after the other, with a workspace for all of them.
 #[derive(Debug)]
 pub(crate) struct Adjoint<S, const D: usize> {
     inertia: Inertia<S, D>,
     /// The interface temperatures of a step, and whether there are any.
     interface: InterfaceTemperatures<S>,
     is_coupled: bool,
-    /// `w_v` of the last step by unknown, 0 for those that are not of positions.
+    /// `w_v` of the last step for each unknown; 0 unless the unknown is a position.
     last: Vec<[S; 1]>,
-    /// What the last step has changed of `M w_v`, and `λ_v − M w_v` with the present λ.
+    /// The change of `M w_v` by the last step, and `λ_v − M w_v` with the present λ.
     changes: Vec<S>,
     rests: Vec<S>,
     /// The derivatives by the present state, and those by the one after it.
@@ -61,7 +61,7 @@ pub(crate) struct Adjoint<S, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Adjoint<S, D> {
-    /// From the derivatives by the last state on.
+    /// Begins with the derivatives by the last state.
     pub(crate) fn new(
         layout: &Layout,
         masses: &Masses<S>,
@@ -91,8 +91,8 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
         }
     }
 
-    /// Goes on from the new state of a step, the present one, to its old state. The derivatives by the parameters of each
-    /// element in the step are passed to `see`.
+    /// Goes back from the new state of a step, the present one, to its old state. Passes the derivatives by the parameters of
+    /// each element in the step to `see`.
     pub(crate) fn step_back(
         &mut self,
         past: &PastStep<'_, S>,
@@ -149,8 +149,8 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
         self.rests[at] += by;
     }
 
-    /// Solves the system of a step, and moves the masses back:
-    /// `λ_q⁰ = w_q = (2/h)(M w_v − λ_v)`, `λ_v⁰ = 2M w_v − λ_v`. Anchors keep their sums, and have `M w_v` by their old velocities.
+    /// Solves the system of a step. For masses, `λ_q⁰ = w_q = (2/h)(M w_v − λ_v)` and `λ_v⁰ = 2M w_v − λ_v`; for anchors,
+    /// λ_q stays, and `λ_v⁰ = M w_v` comes from the masses of solids.
     fn find_weights(
         &mut self,
         view: &StepView<'_, S>,

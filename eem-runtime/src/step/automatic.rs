@@ -22,13 +22,13 @@ const LOOK_EVERY: u32 = 10;
 /// Checks in succession that find steps limited by stability or failed, before another scheme is tried.
 const LIMITED_LOOKS: u32 = 2;
 
-/// Stability limits a step above this fraction of the longest stable one, by a bound.
+/// A step above this fraction of the bound for the longest stable one is limited by stability.
 const NEARLY_UNSTABLE: f64 = 0.6;
 
 /// Cost ratio required before switching, in either direction.
 const MARGIN: f64 = 1.5;
 
-/// Expected Newton iterations of a step, and the steps of one in two halves.
+/// Expected Newton iterations of a step, and the steps of an error estimate: one, and its two halves.
 const ITERATIONS: f64 = 4.0;
 const PARTS: f64 = 3.0;
 
@@ -39,35 +39,35 @@ const PATIENCE: f64 = 4.0;
 const TRIAL_STEPS: u32 = 6;
 const HOPELESS: f64 = 4.0;
 
-/// The ratio of implicit steps above which the motion counts as a different one.
+/// The ratio of the sizes of implicit steps above which the motion counts as a different one.
 const OTHER_MOTION: f64 = 4.0;
 
-/// The effort of an explicit trial, and of building elements twice.
+/// The effort of an explicit trial, including building the elements twice.
 const EXPLICIT_TRIAL: f64 = 400.0;
 
-/// The weight of earlier steps after another one.
+/// The factor by which each step reduces the weight of the earlier ones.
 const MEMORY: f64 = 0.8;
 
-/// The scheme with which a run by this scheme begins.
-pub(crate) const fn first(asked: Scheme, is_second: bool) -> Scheme {
+/// The scheme with which a run set to `asked` begins; some scenes need an implicit scheme of order 2.
+pub(crate) const fn first(asked: Scheme, needs_second: bool) -> Scheme {
     match asked {
-        Scheme::Auto if is_second => Scheme::EemTemperature,
+        Scheme::Auto if needs_second => Scheme::EemTemperature,
         Scheme::Auto => Scheme::EemExplicit,
         own => own,
     }
 }
 
 /// The implicit scheme for a tolerance.
-pub(crate) fn implicit<S: Real>(tolerance: &Tolerance<S>, is_second: bool) -> Scheme {
+pub(crate) fn implicit<S: Real>(tolerance: &Tolerance<S>, needs_second: bool) -> Scheme {
     let is_rough = tolerance.relative.to_f64() >= ROUGH;
-    if is_rough || is_second {
+    if is_rough || needs_second {
         Scheme::EemTemperature
     } else {
         Scheme::EemEntropy6
     }
 }
 
-/// The schemes that are tried, in this order, if one finds no step.
+/// The schemes that are tried, in this order, if the present one finds no step.
 pub(crate) const CANDIDATES: [Scheme; 4] = [
     Scheme::EemTemperature,
     Scheme::EemEntropy,
@@ -75,8 +75,8 @@ pub(crate) const CANDIDATES: [Scheme; 4] = [
     Scheme::EemExplicit,
 ];
 
-/// The effort of an evaluation of all elements, with the solution for so many unknowns, in evaluations by the explicit
-/// scheme; measured on pendulums and on a chain of 16 springs.
+/// The effort of evaluating all elements and solving for the unknowns, in units of an evaluation by the explicit scheme;
+/// measured on pendulums and on a chain of 16 springs.
 fn weight(scheme: Scheme, unknowns: usize) -> f64 {
     let dense = match scheme {
         Scheme::EemExplicit => return 1.0,
@@ -113,7 +113,7 @@ pub(crate) struct Choice {
     pub(crate) limited: u32,
     /// Failed steps at the last check.
     pub(crate) failures: u64,
-    /// Effort per time, 1/s, and last step, s, of the scheme before it.
+    /// Effort per time, 1/s, and last step, s, of the previous scheme.
     pub(crate) before: [f64; 2],
     /// Whether the present scheme is the explicit one on trial.
     pub(crate) is_on_trial: bool,
@@ -138,7 +138,7 @@ pub(crate) enum Verdict {
 }
 
 impl Choice {
-    /// All numbers that are no counts; valid ones are finite and not negative.
+    /// All numbers except counts; valid ones are finite and not negative.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         let ([a, b], [c, d]) = (self.recent, self.before);
         let on_trial = f64::from(u8::from(self.is_on_trial));
@@ -166,7 +166,7 @@ impl Choice {
         }
     }
 
-    /// Counts the evaluations of a scheme with so many unknowns over a time, s; zero for rejected steps.
+    /// Adds the effort of evaluations by a scheme. The time, s, is that of the step, zero if it was rejected.
     pub(crate) fn note(
         &mut self,
         (scheme, unknowns): (Scheme, usize),
@@ -195,10 +195,10 @@ impl Choice {
 
     /// Takes the result of a check: the present step as a fraction of the longest stable one, and the number of failed steps
     /// so far.
-    pub(crate) const fn see(&mut self, share: f64, failures: u64) {
+    pub(crate) const fn see(&mut self, fraction: f64, failures: u64) {
         let has_failed = failures > self.failures;
         self.failures = failures;
-        self.limited = if share > NEARLY_UNSTABLE || has_failed {
+        self.limited = if fraction > NEARLY_UNSTABLE || has_failed {
             self.limited + 1
         } else {
             0
@@ -236,12 +236,12 @@ impl Choice {
         self.wait_for(PATIENCE * EXPLICIT_TRIAL);
     }
 
-    /// Starts a trial of the explicit scheme after steps of this size, s; returns the size of its own last steps, s.
+    /// Starts a trial of the explicit scheme after steps of this size, s; returns the last step of the previous scheme, s.
     pub(crate) fn begin_trial(&mut self, last: f64) -> f64 {
-        let [_, own] = self.before;
+        let [_, previous] = self.before;
         self.leave(last);
         self.is_on_trial = true;
-        own
+        previous
     }
 
     fn leave(&mut self, last: f64) {
@@ -250,7 +250,7 @@ impl Choice {
         (self.steps, self.limited) = (0, 0);
     }
 
-    /// The outcome of the trial of the explicit scheme so far.
+    /// The outcome of the trial of the explicit scheme so far, given the size of its present step, s.
     pub(crate) fn judge(&mut self, present: f64) -> Verdict {
         let [rate, last] = self.before;
         let is_hopeless = self.steps > 0 && self.rate() > HOPELESS * rate;

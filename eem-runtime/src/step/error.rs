@@ -257,7 +257,7 @@ pub enum StepFailure {
 }
 
 impl StepFailure {
-    /// Whether a step failed, and not the call.
+    /// Whether the step failed, and not an argument of the call.
     const fn is_of_a_step(&self) -> bool {
         !matches!(
             self,
@@ -323,8 +323,8 @@ pub struct StepError {
     pub step: f64,
     /// Why it failed. It is part of the message, so it is not the `source`.
     pub failure: StepFailure,
-    /// A shorter step, s, that was tried and works; `None` with step control, if no step failed, or if none of the
-    /// halves down to a thousandth works.
+    /// A shorter step, s, that was tried and works; `None` with step control, if no step failed, or if
+    /// halving the step down to a thousandth does not help.
     pub shorter: Option<f64>,
     /// The iterations of all attempts. [`NewtonSettings::max_iterations`](crate::NewtonSettings) is the limit of
     /// one attempt.

@@ -23,8 +23,8 @@ pub(crate) enum Placement {
 
 /// The response of an element in a step.
 ///
-/// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 of the scheme's own: the new one for
-/// schemes that look at the ends, the mean one for those that look at the middle. Newton's method
+/// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 that depends on the scheme: the new one for
+/// schemes that evaluate the ends of the step, the mean one for those that evaluate its middle. Newton's method
 /// corrects τ, or the entropy change Δs if [`temperature`](Self::temperature) finds τ from it.
 pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     Copy + Send + Sync + 'static
@@ -52,7 +52,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     /// Where the measures are taken.
     fn placement(self) -> Placement;
 
-    /// The part w of forces and rates that is taken from the response; the rest is that of the old state.
+    /// The fraction w of forces and rates that is taken from the response; the rest is that of the old state.
     #[inline]
     fn implicit(self) -> f64 {
         1.0
@@ -70,7 +70,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     /// The first starting values of a step, from the old temperature.
     fn memory(theta0: S) -> Self::Memory;
 
-    /// The temperature τ of the trial, given its other variables and Δs, if the scheme takes the entropy for its unknown;
+    /// The temperature τ of the trial, given its other variables and Δs, if the scheme has the entropy as its unknown;
     /// the present τ otherwise.
     fn temperature(
         self,
@@ -130,9 +130,9 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         Infeasible::unless_stable(x[last] * form.1[last + 1][last], x[last])
     }
 
-    /// For a scheme in temperature: replaces the Δs of the form by that of rates, where increments
-    /// say by how much the rates along the step change measures, viscous stretches and temperature,
-    /// apart from what the old state contributes. Returns its derivative by the increments.
+    /// For a scheme in temperature: replaces the Δs of the form by `Σ_i (∂s/∂x_i) δ_i`, where `δ` are the
+    /// increments of measures, viscous stretches and temperature along the step, less the contributions of the
+    /// old state. Returns `∂s/∂x`.
     fn change_entropy_at_rates(
         self,
         _: &M,
@@ -163,7 +163,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         *memory
     }
 
-    /// The derivative of the weighted response by the parameters at fixed `x⁰` and `x¹`; of the exact forms.
+    /// The derivative of the weighted response by the parameters at fixed `x⁰` and `x¹`; NaN unless the form is exact.
     #[cfg(feature = "gradients")]
     fn form_adjoint(
         self,

@@ -1,7 +1,6 @@
-//! The temperature that belongs to an entropy, from a temperature that is nearly right.
+//! The temperature θ̂ for a given entropy, from a guess near it: its accuracy, and the energy evaluated with it.
 //!
-//! How sharp it has to be, and what else is evaluated on the way; the inversion itself is
-//! [`temperature_near`].
+//! The inversion itself is [`temperature_near`].
 
 use crate::element::conjugates::element::Infeasible;
 use crate::element::state::Energy;
@@ -11,10 +10,10 @@ use eem_material::number::scalar::Real;
 
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
 /// again. Newton's method in ln θ leaves half the square of the correction, times the slope
-/// of ln C over ln θ: ε/32 for C ∝ θ, and as much for eˣ.
+/// of ln C over ln θ: ε/32 for C ∝ θ. The last factor, 1 + x in place of eˣ, leaves as much.
 pub(super) const LAST_CORRECTION: f64 = 0.25;
 
-/// θ̂ at the configuration of `x`, whose own temperature does not matter; stable.
+/// θ̂ at the configuration of `x`, whose own temperature does not matter; its heat capacity is positive.
 #[inline]
 pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     model: &M,
@@ -25,7 +24,7 @@ pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     temperature_of(&model.caloric_at(x), entropy, guess)
 }
 
-/// θ̂ where the caloric quantities are these functions of the temperature; stable.
+/// The same, given the caloric quantities as functions of the temperature.
 #[inline]
 pub(crate) fn temperature_of<S: Real>(
     caloric_at: &impl Fn(S) -> (Caloric<S>, S),
@@ -37,9 +36,9 @@ pub(crate) fn temperature_of<S: Real>(
     Ok(found.0)
 }
 
-/// The temperature of a new state with what belongs to it.
+/// Temperature and energies of a new state, from its entropy.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Settled<S> {
+pub(crate) struct Recovered<S> {
     /// θ̂, K.
     pub(crate) temperature: S,
     /// ψ, J.
@@ -48,15 +47,15 @@ pub(crate) struct Settled<S> {
     pub(crate) energy: Energy<S>,
 }
 
-/// The same for a state that is kept. Its last correction of ln θ is at most ε^¾: what that leaves, half
+/// θ̂ and the energies of a state that is stored. The last correction of ln θ is at most ε^¾: the error left, half
 /// its square times d ln C/d ln θ, is far below a rounding of the entropy. `ψ + θ s` is stationary in θ
 /// at fixed s, so that it may be that of the last temperature that was tried.
 #[inline]
-pub(crate) fn settled_at<S: Real>(
+pub(crate) fn recovered_at<S: Real>(
     mut energy_at: impl FnMut(S) -> (Caloric<S>, S),
     entropy: S,
     guess: S,
-) -> Result<Settled<S>, Infeasible> {
+) -> Result<Recovered<S>, Infeasible> {
     let root = S::EPSILON.sqrt();
     let with_energy = |theta: S| {
         let (caloric, psi) = energy_at(theta);
@@ -70,7 +69,7 @@ pub(crate) fn settled_at<S: Real>(
         heat_capacity,
         magnitude,
     };
-    Ok(Settled {
+    Ok(Recovered {
         temperature,
         free_energy: psi,
         energy: Energy::new(psi, [theta, entropy], &caloric),

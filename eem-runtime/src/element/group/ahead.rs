@@ -1,4 +1,4 @@
-//! What a model evaluates of several springs in one call, before they are gone through one by one.
+//! What a model evaluates of several springs in one call, ahead of the loop over the springs.
 
 use super::point::Viscosities;
 use crate::element::conjugates::Form;
@@ -29,7 +29,7 @@ impl<S: Real, M: FreeEnergy<S>, O, P> Ahead<S, M, O, P> {
         }
     }
 
-    /// Takes the variables of some springs.
+    /// Stores the variables of some springs; returns their number.
     pub(super) fn take(&mut self, x: impl Iterator<Item = M::Variables>) -> usize {
         self.x.clear();
         self.x.extend(x);

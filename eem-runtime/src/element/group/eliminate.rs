@@ -66,7 +66,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Condensed<S
 pub(super) struct LocalSystem<S: Real, M: FreeEnergy<S>> {
     /// r, and after the elimination the constant of the solution.
     pub(super) constant: M::Variables,
-    /// `∂r/∂x`; the columns of the measures are solved for.
+    /// `∂r/∂x`; the columns of the measures are right-hand sides, and after the elimination the solution.
     pub(super) rows: M::Hessian,
     /// `∂r/∂r_s`, if needed.
     pub(super) by_heat: M::Variables,

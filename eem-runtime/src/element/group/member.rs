@@ -59,7 +59,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         (first, parts)
     }
 
-    /// The point of an element that has one.
+    /// The first point, the only one of a spring.
     pub(super) fn only(&self) -> &Point<S, M, K, C, D> {
         &self.points.as_ref()[0]
     }
@@ -102,7 +102,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms, for schemes in temperature and Kelvin–Voigt dashpots.
+    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms; only schemes in temperature and Kelvin–Voigt dashpots use it.
     #[inline]
     fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
         if !self.scheme().is_in_temperature() && M::Drag::LEN == 0 {

@@ -1,8 +1,8 @@
-//! An element in a step that was made, between states of a history.
+//! An element in a completed step between two states of a history, for the adjoint and the tangents of the step.
 //!
-//! The response `(f*, g*, θ*, Δs)` of a point is even in its two states, except Δs, which is odd. So its derivative by the
-//! old state is the tangent of the form from the new state to the old one, with the row of Δs negated. The same holds for the
-//! mean-value gradients of the measures.
+//! When the two states are exchanged, the response `(f*, g*, θ*, Δs)` of a point stays, except Δs, which changes sign. So its
+//! derivative by the old state is the tangent of the form from the new state to the old one, with the row of Δs negated.
+//! The mean-value gradients of the measures stay, too.
 
 use super::arms::measures_in;
 use super::member::Member;
@@ -27,7 +27,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Takes over both states of a step.
+    /// Sets both states, and what depends on them, to those of a step.
     #[inline]
     pub(super) fn return_to(
         &mut self,
@@ -58,14 +58,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(())
     }
 
-    /// Both states as its kinematics see them.
+    /// The arms and measures of both states.
     #[inline]
     pub(super) fn ends(&self, arms: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
         let measures = [&self.start.x0, &self.x].map(|x| measures_in::<K, S, D>(x));
         Ends::new(&self.kinematics, arms, measures)
     }
 
-    /// The same from the new state to the old one.
+    /// The same with the two states exchanged.
     #[inline]
     pub(super) fn ends_back(&self, [r0, r1]: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
         let measures = [&self.x, &self.start.x0].map(|x| measures_in::<K, S, D>(x));

@@ -2,7 +2,7 @@
 
 use super::point::{Point, variables};
 use super::respond::{check_measures, check_temperature};
-use crate::element::conjugates::{ElementScheme, Infeasible, Placement, settled_at};
+use crate::element::conjugates::{ElementScheme, Infeasible, Placement, recovered_at};
 use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics};
@@ -54,9 +54,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let found = if let Some(&known) = known {
                 let mut known = Some(known);
                 let energy_at = |theta| known.take().unwrap_or_else(|| energy_at(theta));
-                settled_at(energy_at, entropy, near)
+                recovered_at(energy_at, entropy, near)
             } else {
-                settled_at(energy_at, entropy, near)
+                recovered_at(energy_at, entropy, near)
             };
             let found = found.map_err(|infeasible| infeasible.of(self.element))?;
             check_temperature(self.element, found.temperature)?;

@@ -44,8 +44,8 @@ pub enum Measure<S, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Measure<S, D> {
-    /// Gives the fibres among some measures their directions, one after the other; lengths of directions
-    /// mean nothing.
+    /// Gives the fibres among some measures their directions, one after the other; the lengths of the
+    /// directions do not matter.
     ///
     /// ```
     /// use eem::kinematics::{Measure, Strain};
@@ -103,17 +103,17 @@ fn unit<S: Real, const D: usize>(direction: &[S; D]) -> Option<[S; D]> {
     note = "a solid needs arguments like `e1: StrainTrace` and `e2: StrainSquare` in `#[free_energy(…)]`"
 )]
 pub trait StrainEnergy<const N: usize> {
-    /// The measures at a point, in the order of the arguments; then the components of the strain, if a viscous
-    /// strain has some.
+    /// The measures at a point, in the order of the arguments; then the components of the strain, if there is a
+    /// viscous strain.
     const STRAINS: [Strain; N];
 
-    /// [`STRAINS`](Self::STRAINS), unless they are known only when a program runs.
+    /// [`STRAINS`](Self::STRAINS), unless the measures are known only at run time.
     fn strains(&self) -> [Strain; N] {
         Self::STRAINS
     }
 
-    /// The free energy as a function of these measures: the material itself, or one of components in place of
-    /// joint invariants of strain and viscous strain.
+    /// The free energy as a function of these measures: the material itself or, with a viscous strain, a function of
+    /// components in place of the joint invariants of strain and viscous strain.
     type AtPoint<S: Real>: FreeEnergy<S> + Send + Sync + 'static
     where
         Self: Material<S>;

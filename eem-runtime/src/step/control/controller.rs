@@ -22,9 +22,9 @@ pub(crate) struct Accuracy {
 /// The source of the error estimate of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Estimate {
-    /// The step in two halves. Tolerances are those of the state and not of a step.
+    /// The step in two halves. The tolerance is for the error of the state, not of one step.
     Halves,
-    /// The same, with a tolerance of the errors of all steps in a given time.
+    /// The step in two halves. The tolerance is for the errors of all steps in a given time.
     HalvesOverTime,
     /// An embedded scheme; the estimate is of order p.
     Embedded,
@@ -38,7 +38,7 @@ impl Accuracy {
         f64::from(self.order)
     }
 
-    /// With a tolerance of the errors of all steps in a given time, unless the estimate is embedded.
+    /// With a tolerance for the errors of all steps in a given time, unless the estimate is embedded.
     pub(crate) fn over_time(self) -> Self {
         let estimate = match self.estimate {
             Estimate::Halves | Estimate::HalvesOverTime => Estimate::HalvesOverTime,
@@ -52,7 +52,7 @@ impl Accuracy {
         self.estimate != Estimate::Embedded
     }
 
-    /// The relative tolerance of a step that is this part of the time of the tolerance.
+    /// The relative tolerance of one step, which takes the fraction `part` of the time that the tolerance is for.
     pub(super) fn of_step<S: Real>(self, relative: S, part: S) -> S {
         match self.estimate {
             Estimate::Halves => relative.powf(S::from_f64(1.0 + 1.0 / self.order())),
@@ -108,7 +108,7 @@ pub(crate) const AFTER_FAILURE: f64 = 0.25;
 /// Smaller errors are treated as this one.
 const LEAST_ERROR: f64 = 1e-10;
 
-/// For an embedded estimate: the reduction of the exponent of the error, and the exponent of the error before (Hairer,
+/// For an embedded estimate: the reduction of the exponent of the error, and the exponent of the previous error (Hairer,
 /// Nørsett & Wanner, *Solving ODEs I*, II.4, with a smaller exponent than theirs, which would make steps far smaller).
 const FORGETTING: f64 = 0.03;
 const REMEMBERING: f64 = 0.04;
@@ -156,7 +156,7 @@ impl<S: Real> Controller<S> {
     }
 }
 
-/// The change of size that the filter makes.
+/// The factor on the step size by the filter.
 fn filtered<S: Real>([size, error]: [S; 2], [last_error, last_size]: [S; 2], order: f64) -> S {
     let share = |error: S| {
         let error = error.maximum(S::from_f64(LEAST_ERROR));
@@ -166,7 +166,7 @@ fn filtered<S: Real>([size, error]: [S; 2], [last_error, last_size]: [S; 2], ord
     limited(share(error) * share(last_error) * memory)
 }
 
-/// The change of size for an embedded estimate.
+/// The factor on the step size for an embedded estimate.
 fn proportional<S: Real>(error: S, [last_error, _]: [S; 2], order: f64) -> S {
     let error = error.maximum(S::from_f64(LEAST_ERROR));
     let last_error = last_error.maximum(S::from_f64(LEAST_REMEMBERED));

@@ -88,8 +88,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Adds what dashpots and paths of heat have done in the step to the sums that are kept of it, as the closing has scaled
-    /// all productions of a component.
+    /// Adds the heat and the entropy production of dashpots and paths of heat in the step to the meters, with the factor by
+    /// which the closing has scaled all productions of a component.
     pub(super) fn meter(&self, h: S, next: &mut State<S>) {
         let (stage, components) = (&self.stage, &self.components);
         let slots = self.scratch.produced.len();

@@ -1,4 +1,4 @@
-//! The required accuracy of a step, and its units.
+//! The required accuracy of a step, and the magnitudes to which its errors are relative.
 
 use crate::step::control::Tolerance;
 use eem_material::number::scalar::Real;
@@ -19,11 +19,11 @@ const LARGEST_FIXED_CORRECTION: f64 = 1e-2;
 /// Up to this difference from a rigid rotation a fixed step may be replaced by one.
 const LARGEST_FIXED_TURN: f64 = 1e-7;
 
-/// The part of the tolerance that a rigid rotation may differ by.
+/// The fraction of the tolerance by which a rigid rotation may differ from the stages.
 const TURN_SHARE: f64 = 0.1;
 
 impl<S: Real> Demand<S> {
-    /// The largest correction before closing, relative to the terms of the energy.
+    /// The largest energy defect before closing, relative to the terms of the energy.
     pub(super) fn largest_correction(self) -> S {
         match self {
             Self::None => S::from_f64(LARGEST_FIXED_CORRECTION),

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! In the principal axes of M, with moments μ, it is `J_ab = (μ_a + μ_b) Ω_ab`. Masses on a line have no inertia
-//! about it: in the planes without inertia no momentum changes J, see [`turning`].
+//! about it. In planes without inertia, no change of the momenta of the masses changes J, see [`turning`].
 
 mod moments;
 mod principal;
@@ -29,7 +29,7 @@ pub(super) enum Inertia<S, const D: usize> {
     Line { along: [S; D], moment: S },
     /// In space.
     Space(Inverse<S>),
-    /// Nearly on a line, or of more dimensions.
+    /// Nearly on a line, or in more than three dimensions.
     Principal(Principal<D>),
     /// Of several lanes, each with a shape of its own.
     Lanes(Moments<S, D>),
@@ -105,7 +105,7 @@ pub(super) struct Inverse<S> {
 }
 
 impl<S: Real> Inverse<S> {
-    /// Nothing if the body is weak about an axis.
+    /// `None` if the inertia about an axis is weak.
     fn of<const D: usize>(moments: &Moments<S, D>) -> Option<Self> {
         let m = &moments.0;
         let [a, b, c] = [m[1][1] + m[2][2], m[0][0] + m[2][2], m[0][0] + m[1][1]];

@@ -11,10 +11,10 @@ use crate::step::solver::progress::Target;
 use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// The state after the step, or after the part of it that the view names, and what it proves.
+    /// Finds the state after the step, or after the phase of it that the view names; returns its certificate.
     ///
-    /// If none is found from the start of the scheme, an exact scheme tries others; several numbers in one
-    /// do not, as some of them need not have failed.
+    /// If Newton's method fails from the usual initial guess, all but the classical schemes try others. With several lanes
+    /// they do not, as some of the lanes need not have failed.
     pub(crate) fn solve(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -47,9 +47,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         certificate.ok_or(StepFailure::NotConverged { update: f64::NAN })
     }
 
-    /// Exact schemes start with the old internal variables, from rest, and from the solution for another form if they have
-    /// one; then the solution is followed from a small step to the full one. At last an exact scheme takes all its
-    /// iterations from its own start.
+    /// Exact schemes start with the old internal variables, from the old state, and from the solution for another form if
+    /// they have one; then the solution is followed from a small step to the full one. At last an exact scheme starts with
+    /// the old internal variables again, and takes all its iterations even where they seem hopeless.
     #[cold]
     fn try_other_starts(
         &mut self,
@@ -110,7 +110,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.converge(groups, view, effort, target)
     }
 
-    /// The solution for growing parts of the step, each starting from the one before.
+    /// The solutions for growing fractions of the step, each starting from the one before.
     #[cold]
     fn follow(
         &mut self,

@@ -19,14 +19,15 @@ use eem_material::number::scalar::Real;
 pub(super) struct Linearized<S: Real, M: Material<S>, G> {
     /// With the forces of Kelvin–Voigt dashpots.
     pub(super) form: Form<S, M>,
-    /// Of the response by the variables of the old state, and of its measures by the arms.
+    /// Of the response by the variables of the old state.
     by_old: M::Tangent,
+    /// Of the old measures by the old arms.
     gradient: G,
-    /// Before the elimination.
+    /// The local equations before the elimination.
     local: LocalSystem<S, M>,
 }
 
-/// What changes of the equations of a point while its new variables stay: forces, local equations, θ*.
+/// The changes of the forces, the local equations and θ* of a point at constant new variables.
 pub(super) struct Change<S: Real, M: Material<S>> {
     forces: M::Variables,
     local: M::Variables,
@@ -34,7 +35,7 @@ pub(super) struct Change<S: Real, M: Material<S>> {
 }
 
 /// The changes of viscosities with the parameters.
-struct Thinned<S: Real, M: Material<S>> {
+struct ViscosityChanges<S: Real, M: Material<S>> {
     viscosities: M::Viscosities,
     drag: M::Drag,
 }
@@ -42,7 +43,7 @@ struct Thinned<S: Real, M: Material<S>> {
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Linearizes its equations at both states, which it has taken over, and eliminates its unknowns.
+    /// Linearizes its equations at both states, set by `return_to`, and eliminates its unknowns.
     #[inline]
     pub(super) fn linearize_past(
         &mut self,
@@ -101,7 +102,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// What changes of its equations along a direction in which its old arms change like this.
+    /// The changes of its equations along a direction, in which its old arms change by `moved`.
     #[inline]
     pub(super) fn change(
         &self,
@@ -127,7 +128,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         for (row, slopes) in linear.by_old.as_ref().iter().enumerate() {
             response[row] = sum_of(slopes, &x);
         }
-        let thinned = self.add_parameters(direction, &mut response);
+        let by_parameters = self.add_parameters(direction, &mut response);
         let theta = temperature_in::<S, M>(&response);
         let mut change = Change::<S, M> {
             forces: M::Variables::filled(S::zero()),
@@ -137,24 +138,24 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         for a in 0..M::MEASURES {
             change.forces[a] = response[a];
         }
-        let (mut heat, mut warmer) = (S::zero(), S::zero());
+        let (mut heat, mut d_heat) = (S::zero(), S::zero());
         for k in 0..M::DASHPOTS {
             let (at, eta) = (M::MEASURES + k, self.viscosities.0[k]);
-            let (rate, slower) = (self.creep[k] * per_step, -x[at] * per_step);
-            let thicker = self.viscosities.1[k] * theta + thinned.viscosities[k];
-            let force = thicker * rate + eta * slower;
+            let (rate, d_rate) = (self.creep[k] * per_step, -x[at] * per_step);
+            let d_eta = self.viscosities.1[k] * theta + by_parameters.viscosities[k];
+            let force = d_eta * rate + eta * d_rate;
             change.local[k] = force - response[at];
             heat += eta * rate * rate;
-            warmer += (force + eta * slower) * rate;
+            d_heat += (force + eta * d_rate) * rate;
         }
         for a in 0..Self::DRAGS {
             let eta = self.drag.viscosity.0[a];
-            let (rate, slower) = (self.drag.extension[a] * per_step, -x[a] * per_step);
-            let thicker = self.drag.viscosity.1[a] * theta + thinned.drag[a];
-            let force = thicker * rate + eta * slower;
+            let (rate, d_rate) = (self.drag.extension[a] * per_step, -x[a] * per_step);
+            let d_eta = self.drag.viscosity.1[a] * theta + by_parameters.drag[a];
+            let force = d_eta * rate + eta * d_rate;
             change.forces[a] += force;
             heat += eta * rate * rate;
-            warmer += (force + eta * slower) * rate;
+            d_heat += (force + eta * d_rate) * rate;
         }
         let Some(slot) = thermal else {
             return change;
@@ -166,11 +167,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let per_theta = own.recip();
             let flow = self.heat_flow(&step.view, contact, interface, own);
             heat += flow.heat;
-            warmer -= flow.conductance * theta;
+            d_heat -= flow.conductance * theta;
             if let Some(&[given, per_degree]) = direction.heat.get(slot) {
-                warmer += given - per_degree * own;
+                d_heat += given - per_degree * own;
             }
-            response[Self::ENTROPY] - h * per_theta * (warmer - heat * per_theta * theta)
+            response[Self::ENTROPY] - h * per_theta * (d_heat - heat * per_theta * theta)
         };
         change
     }
@@ -181,17 +182,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         &self,
         direction: &Direction<S>,
         response: &mut M::Response,
-    ) -> Thinned<S, M> {
-        let mut thinned = Thinned::<S, M> {
+    ) -> ViscosityChanges<S, M> {
+        let mut changes = ViscosityChanges::<S, M> {
             viscosities: M::Viscosities::filled(S::zero()),
             drag: M::Drag::filled(S::zero()),
         };
         let own = direction.parameters.get(self.element.index());
         let Some(own) = own.filter(|own| !own.is_empty()) else {
-            return thinned;
+            return changes;
         };
         let mut parameters = M::Parameters::filled(S::zero());
-        // A text has places for more than its own.
+        // A model of a text has room for more parameters than it uses.
         for (parameter, &own) in parameters.as_mut().iter_mut().zip(own) {
             *parameter = own;
         }
@@ -205,14 +206,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let mut weights = M::Viscosities::filled(S::zero());
             weights[k] = S::one();
             let by = self.model.viscosity_adjoint(theta, &weights);
-            thinned.viscosities[k] = sum_of(&by, &parameters);
+            changes.viscosities[k] = sum_of(&by, &parameters);
         }
         for a in 0..Self::DRAGS {
             let mut weights = M::Drag::filled(S::zero());
             weights[a] = S::one();
-            thinned.drag[a] = sum_of(&self.model.drag_adjoint(theta, &weights), &parameters);
+            changes.drag[a] = sum_of(&self.model.drag_adjoint(theta, &weights), &parameters);
         }
-        thinned
+        changes
     }
 
     /// Eliminates its unknowns: keeps their constants in the new state of the direction, and returns the change of the forces.

@@ -37,7 +37,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageForces<K, S, D> {
         }
     }
 
-    /// Adds a force along an arm, of which the derivatives by the arms of each set are given.
+    /// Adds a force with this value and direction, given the derivatives of the value by the arms of each set.
     fn add(&mut self, stage: usize, (value, along): (S, &Arms<K, S, D>), by: &[Arms<K, S, D>]) {
         add_scaled::<K, S, D>(&mut self.pulls[stage], value, along);
         for (blocks, by) in self.blocks[stage].iter_mut().zip(by) {
@@ -75,7 +75,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
     ) {
         let (rule, contacts) = (self.rule, &source.point().contacts);
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        // By the heat at each stage.
+        // The derivatives of the forces at each stage by the heat at each stage.
         let mut by_heat = [[nowhere; MOST_STAGES]; MOST_STAGES];
         for (stage, by_heat) in by_heat.iter_mut().enumerate().take(rule.stages()) {
             for force in 0..C::FORCES {
@@ -107,8 +107,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
         }
     }
 
-    /// Adds the effect of heat from other elements to the rows of the nodes in a set, given the impulses by the heat at
-    /// each stage.
+    /// Adds the effect of heat from other elements to the rows of the nodes in a set, given the derivatives of the impulses
+    /// by the heat at each stage.
     fn add_heat(
         &mut self,
         set: usize,
@@ -159,8 +159,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
         }
     }
 
-    /// Writes the impulses of the forces to the rows of each set.
-    pub(super) fn write_forces(self) {
+    /// Adds the impulses of the forces and their derivatives to the rows of each set.
+    pub(super) fn add_impulses(self) {
         for (set, weights) in self.rule.positions.iter().enumerate() {
             let own = &self.site.sets[set][set];
             let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);

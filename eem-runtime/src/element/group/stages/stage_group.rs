@@ -111,7 +111,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const 
                     target.add_temperatures(source, &bases, (slot, trial));
                 }
             }
-            target.write_forces();
+            target.add_impulses();
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! The energy of a component, and heat that puts it back.
+//! The energy of a component, and its correction by heat.
 
 use super::super::Explicit;
 use super::super::scratch::Motion;
@@ -19,7 +19,7 @@ const HEAT_ITERATIONS: usize = 3;
 const ENOUGH: f64 = 2.0;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Sums over the masses of a component, as they are now.
+    /// Finds the sums over the masses of a component for their present positions and momenta.
     pub(in super::super) fn look_at_motion(&mut self, index: usize) {
         let gravity = self.gravity;
         self.sum_motion(index, |sum, place, arm| {
@@ -27,7 +27,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         });
     }
 
-    /// The sums of what is added for each mass of a component and its arm.
+    /// Sums what `add` adds for each mass of a component and its arm.
     pub(super) fn sum_motion(
         &mut self,
         index: usize,
@@ -63,7 +63,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         [energy.value(), magnitude]
     }
 
-    /// The contribution of the state at the start of a step to its bound, and the terms of the energies there, J.
+    /// The magnitude by which the state at the start of a step enters the bound of the energy, and its energy terms, J.
     #[cold]
     pub(in super::super) fn terms_at_start(&self, state: &State<S>) -> [S; 2] {
         let mut motion = S::zero();
@@ -188,9 +188,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.components.all[index].slots.clone()
     }
 
-    /// Gives entropy to an element as if it had produced it: `θ (1 + r + r²/2)` with `r = x/c`, and
-    /// `e + θ x (1 + r/2)`. Returns the lanes in which that is exact
-    /// to rounding, and θ meets the kept entropy.
+    /// Gives the entropy x to an element as if it had produced it: θ becomes `θ (1 + r + r²/2)` with `r = x/c`, and e becomes
+    /// `e + θ x (1 + r/2)`. Returns the lanes in which that is exact to rounding, and θ matches the stored entropy.
     pub(super) fn warm(
         &mut self,
         index: usize,
@@ -210,7 +209,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let element = self.components.elements[slot] as usize;
         next.energies[element].value += energy;
         *theta += *theta * ratio * (S::one() + half * ratio);
-        // 2 √u: what is left out is the cube, and the second order of forces.
+        // 2 √u: neglected are the cube of r, and the second-order change of forces.
         let small = (S::EPSILON + S::EPSILON).sqrt();
         ratio.abs().less(small) & is_met(ratio, [capacity, bend])
     }

@@ -2,11 +2,11 @@
 
 use eem_material::number::scalar::Real;
 
-/// The share of the trace of M below which the inertia in a plane is weak: the correction of momenta there would be
-/// a hundred times as large as in other planes and more, and the body is turned instead.
+/// The fraction of the trace of M below which the inertia in a plane is weak: a correction of momenta there would be
+/// at least a hundred times as large as in other planes, so that the body is rotated instead.
 pub(in super::super) const WEAK: f64 = 1e-4;
 
-/// The share below which it is rounding: 64 ε in double precision.
+/// The fraction below which it is rounding: 64 ε in double precision.
 pub(super) const NO_INERTIA: f64 = 1.4e-14;
 
 /// `M = Σ m r rᵀ`, kg m². Only the entries on and above the diagonal are used.

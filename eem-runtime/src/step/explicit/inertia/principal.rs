@@ -3,7 +3,7 @@
 use super::moments::{Moments, NO_INERTIA};
 use crate::algebra::bivector::{Bivector, planes};
 
-/// Sweeps over all pairs of axes; convergence is quadratic, so that a handful do.
+/// Sweeps over all pairs of axes; convergence is quadratic, so that a handful suffice.
 const MOST_SWEEPS: usize = 40;
 
 /// Principal axes and moments.
@@ -34,7 +34,7 @@ impl<const D: usize> Principal<D> {
                 break;
             }
         }
-        // The squares of the arms: rounding may leave −0 or less.
+        // Sums of squares, but rounding may leave −0 or less.
         let moments = core::array::from_fn(|axis| matrix[axis][axis].max(0.0));
         Self { axes, moments }
     }

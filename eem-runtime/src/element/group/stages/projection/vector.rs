@@ -1,4 +1,5 @@
-//! Numbers per variable `y = (C…, γ…, s)` of the path of a point, and the derivatives of the energy by them.
+//! Vectors and matrices over the variables `y = (C…, γ…, s)` of the path of a point, and the derivatives of the energies
+//! `e(π, γ, s)` and `ê(C, γ, s)`.
 //!
 //! ```text
 //! e_x = ψ_x,   e_s = θ,   e_xy = ψ_xy − ψ_xθ ψ_yθ/ψ_θθ,   e_xs = −ψ_xθ/ψ_θθ,   e_ss = −1/ψ_θθ
@@ -25,7 +26,7 @@ pub(super) struct Vector<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, co
 #[derive(Debug)]
 pub(super) struct Matrix<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
     strains: StrainMatrix<K, S, D>,
-    /// Rows of the strain in columns of the rest, and, transposed, the other way round.
+    /// Rows of the strain, columns of the rest; and rows of the rest, columns of the strain, stored transposed.
     right: K::PerStrain<M::Variables>,
     below: K::PerStrain<M::Variables>,
     rest: M::Hessian,
@@ -160,7 +161,7 @@ pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, c
         rest: first,
     };
     let mut curvatures = Matrix::zero();
-    let turning = kinematics.strain_curvature(strain, &measures_in::<K, S, D>(&first));
+    let geometric = kinematics.strain_curvature(strain, &measures_in::<K, S, D>(&first));
     let strains = Vector::<S, M, K, D>::STRAINS;
     for column in 0..M::Variables::LEN {
         let by_strain = chained::<S, K, D>(&along, second[column].as_ref());
@@ -178,7 +179,7 @@ pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, c
             }
         }
     }
-    for (q, row) in turning.as_ref().iter().enumerate() {
+    for (q, row) in geometric.as_ref().iter().enumerate() {
         for (p, &entry) in row.as_ref().iter().enumerate() {
             *curvatures.at_mut([q, p]) += entry;
         }
@@ -228,8 +229,8 @@ pub(super) fn chained<S: Real, K: QuadraticStrain<S, D>, const D: usize>(
     sum
 }
 
-/// The magnitude of the second derivatives by some variables with these weights, and of the first ones over their unit. As
-/// a metric it vanishes only where all derivatives of the energy do.
+/// The norm of the second derivatives by some variables, plus that of the first ones over `unit`; each derivative by a
+/// variable is divided by the root of its count. The metric made of it vanishes only where all these derivatives do.
 pub(super) fn steepness<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
     (slopes, curvatures): (&Vector<S, M, K, D>, &Matrix<S, M, K, D>),
     variables: Range<usize>,
