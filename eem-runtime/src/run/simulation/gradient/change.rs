@@ -1,7 +1,7 @@
 //! A direction, along which a run is differentiated: the change of each input.
 
 use super::derivatives::Of;
-use crate::scene::loads::{OfTime, TemperatureOfTime};
+use crate::scene::loads::{OfTime, ScalarOfTime};
 use crate::step::adjoint::{HeatChange, PerVariable};
 use eem_material::number::scalar::Real;
 use nalgebra::SVector;
@@ -17,10 +17,10 @@ pub(super) struct Change<const D: usize, S: Real> {
     pub(super) heat: HeatChange<S>,
     /// Changes as functions of time, each with its index: of the node, rocket, node, thermal slot or reservoir.
     pub(super) forces: Vec<(usize, OfTime<S, D>)>,
-    pub(super) thrusts: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(super) thrusts: Vec<(usize, ScalarOfTime<S>)>,
     pub(super) motions: Vec<(usize, OfTime<S, D>)>,
-    pub(super) temperatures: Vec<(usize, TemperatureOfTime<S>)>,
-    pub(super) ovens: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(super) temperatures: Vec<(usize, ScalarOfTime<S>)>,
+    pub(super) ovens: Vec<(usize, ScalarOfTime<S>)>,
 }
 
 impl<const D: usize, S: Real> Change<D, S> {
