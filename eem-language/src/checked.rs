@@ -1,8 +1,8 @@
 //! A model whose names are resolved.
 //!
-//! Output of the check phase. Indices are valid by construction. What names, arguments or types
-//! showed to be wrong has been reported and is a hole: [`ExprKind::Wrong`], or a dashpot without a
-//! law. If nothing has been reported, there are no holes, and roles and laws are complete.
+//! Output of the check phase. Indices are valid by construction. Wrong names, arguments and types
+//! have been reported and leave holes: [`ExprKind::Wrong`], or a dashpot without a law. If nothing
+//! has been reported, there are no holes, and roles and laws are complete.
 
 use eem_symbolic::{Function, Number};
 use proc_macro2::{Ident, TokenStream};
@@ -17,19 +17,19 @@ pub(crate) struct Checked<'a> {
     pub(crate) krate: &'a syn::Path,
     /// The scalar that the implementation is for.
     pub(crate) scalar: Scalar<'a>,
-    /// The fields that an expression mentions, in order of declaration, then the constants of the
-    /// program, in order of appearance.
+    /// The fields that an expression mentions, in order of declaration, then the Rust constants, in
+    /// order of appearance.
     pub(crate) parameters: Vec<Parameter<'a>>,
     /// The arguments in the order of the state: measures, dashpots, temperature.
     pub(crate) variables: Vec<Variable<'a>>,
     /// The free energy.
     pub(crate) energy: Body<'a>,
-    /// One viscosity per dashpot, in the order of the dashpots, then those of the viscous strain; nothing where
-    /// it is missing.
+    /// One viscosity per dashpot, in the order of the dashpots, then those of the viscous strain; `None`
+    /// where it is missing.
     pub(crate) viscosities: Vec<Option<Body<'a>>>,
-    /// The viscosity of the stretch, if a dashpot stands beside the spring.
+    /// The viscosity of the stretch, if a dashpot acts in parallel with the spring.
     pub(crate) drag: Option<Body<'a>>,
-    /// The roles are complete, and no expression has a hole: this is the model that was meant.
+    /// Whether the roles are complete and no expression has a hole.
     pub(crate) sound: bool,
 }
 
@@ -50,7 +50,7 @@ impl Checked<'_> {
         self.variables.iter().filter_map(|v| v.role.joint())
     }
 
-    /// The paths of the constants of the program, in order of appearance.
+    /// The paths of the Rust constants, in order of appearance.
     pub(crate) fn constants(&self) -> impl Iterator<Item = &TokenStream> {
         self.parameters.iter().filter_map(|p| match &p.source {
             Source::Constant(path) => Some(path),
@@ -58,7 +58,7 @@ impl Checked<'_> {
         })
     }
 
-    /// It is a free energy per volume, of strains.
+    /// Whether ψ is an energy per volume, a function of strains.
     pub(crate) fn per_volume(&self) -> bool {
         self.strains().next().is_some()
     }
@@ -76,7 +76,7 @@ pub(crate) enum Scalar<'a> {
 /// A number that an expression mentions and whose value is known at run time only.
 #[derive(Clone, Debug)]
 pub(crate) struct Parameter<'a> {
-    /// What it is.
+    /// Where it comes from.
     pub(crate) origin: Origin,
     /// Its name in formulas: `stiffness`, `stiffness[2]`, `R`.
     pub(crate) name: String,
@@ -84,14 +84,14 @@ pub(crate) struct Parameter<'a> {
     pub(crate) source: Source<'a>,
 }
 
-/// What a parameter is.
+/// Where a parameter comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
     /// Index of a field of the struct.
     Field(usize),
     /// Index of a field that is an array, and of an entry of it.
     Entry(usize, usize),
-    /// A constant of the program, in order of appearance.
+    /// A Rust constant, in order of appearance.
     Constant(usize),
 }
 
@@ -164,12 +164,12 @@ pub(crate) enum ExprKind<'a> {
     /// The absolute value, with the token that asks for it.
     Abs(&'a Ident, Box<Expr<'a>>),
     Apply(Function, Box<Expr<'a>>),
-    /// Base and exponent; the exponent has to turn out an integer.
+    /// Base and exponent; the exponent must evaluate to an integer.
     Powi(Box<Expr<'a>>, Box<Expr<'a>>),
     Powf(Box<Expr<'a>>, Box<Expr<'a>>),
     /// The derivative with respect to a variable.
     Diff(Box<Expr<'a>>, usize),
-    /// What a helper computes in the call that is given: messages about it name the call.
+    /// The value of a call of a helper, with the call, which messages about the value name.
     InCall(&'a syn::Expr, Box<Expr<'a>>),
     /// Something that has been reported, and the expressions in it.
     Wrong(Vec<Expr<'a>>),

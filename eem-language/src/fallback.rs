@@ -1,8 +1,8 @@
-//! What a wrong model expands to: its errors, and an implementation that does nothing.
+//! The expansion of an invalid model: its errors, and a stub of the implementation.
 //!
-//! Without the implementation every use of the type would add "the trait `FreeEnergy` is not
-//! implemented" to the messages that matter; with another shape than the closure says, every
-//! array of a state would add a mismatch.
+//! Without the stub every use of the type would add "the trait `FreeEnergy` is not implemented" to
+//! the messages that matter. The stub has arrays of the lengths that the closure declares: otherwise
+//! every array of a state would add a type mismatch.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -22,7 +22,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// The shape of the model that was meant.
+    /// Counts the arguments of the closure by role.
     pub(crate) fn new(input: &Input<'_>) -> Self {
         let count = |role| {
             input
@@ -44,7 +44,7 @@ impl Shape {
         }
     }
 
-    /// Mentions the constants of the formulas, so that Rust says at once which of them do not exist.
+    /// Uses the constants of the formulas in the stub, so that Rust also reports those that do not exist.
     pub(crate) fn mention<'c>(&mut self, constants: impl Iterator<Item = &'c TokenStream>) {
         self.constants.extend(constants.cloned());
     }

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use eem_symbolic::Rational;
 
-/// What a unit is a product of powers of.
+/// What a unit has powers of: base units, prime numbers and the unknown units of fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Base {
     Metre,
@@ -53,7 +53,7 @@ impl Base {
 
 /// A product of powers of [bases](Base).
 ///
-/// Operations give nothing where an exponent does not fit 128-bit rationals.
+/// Operations return `None` if an exponent does not fit 128-bit rationals.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Unit {
     /// No exponent is zero.
@@ -61,7 +61,7 @@ pub(crate) struct Unit {
 }
 
 impl Unit {
-    /// 1, the unit of what is dimensionless.
+    /// 1, the unit of dimensionless quantities.
     pub(crate) fn one() -> Self {
         Self::default()
     }
@@ -90,7 +90,7 @@ impl Unit {
         Self::of([(Base::Kelvin, 1)])
     }
 
-    /// Whether this is the unit of what is dimensionless.
+    /// Whether this is the unit of dimensionless quantities.
     pub(crate) fn is_one(&self) -> bool {
         self.exponents.is_empty()
     }
@@ -132,7 +132,7 @@ impl Unit {
         })
     }
 
-    /// The factor that makes the unit of its coherent SI unit: 1000 for kN/m.
+    /// The size of the unit in its coherent SI unit: 1000 for kN/m.
     pub(crate) fn scale(&self) -> Self {
         self.part(Base::is_prime)
     }

@@ -3,9 +3,9 @@
 //! Both are schemes of the library, of the same order but with different equations: one is Gauss collocation on q, p, γ
 //! and s, the other an action by Simpson's rule. They share the elements' formulas and Newton's method, but no source of
 //! errors. So where they agree, the error of each is at most of the size of the difference. Their first step is the
-//! smallest of all settings over `r`, with `r^p ≥ 100` for their order p, so that a setting of the same order has a
-//! hundred times the error of the reference. It is halved until the difference is at most a hundredth of each error of a
-//! setting, until halving no longer helps, or up to a limit.
+//! smallest step of all settings divided by `r`, with `r^p ≥ 100` for their order p, so that a setting of the same order
+//! has at least a hundred times the error of the reference. The step is halved until the difference is at most a hundredth of
+//! each error of a setting, until halving no longer helps, or up to a limit.
 
 use crate::course::{Build, Course, NoEnd, Watched, run};
 use crate::progress::Progress;
@@ -16,7 +16,7 @@ use eem_runtime::{RocketError, SceneError, Scheme, StepError};
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     schemes: [Scheme; 2],
-    /// The smallest step of all settings over the first step: 4⁴ ≥ 100, 16² ≥ 100.
+    /// `r`, the smallest step of all settings divided by the first step: 4⁴ ≥ 100, 16² ≥ 100.
     first: u32,
 }
 
@@ -31,7 +31,7 @@ const SECOND_ORDER: Pair = Pair {
     first: 16,
 };
 
-/// Halving a step helps if it reduces the difference to this share; in second order it is a quarter.
+/// Halving a step helps if it reduces the difference at least to this fraction; in second order it becomes a quarter.
 const HELPS: f64 = 0.5;
 
 /// Why the references were not refined further.
@@ -47,7 +47,7 @@ pub enum ReferenceEnd {
     Limit,
     /// One of them failed with its smallest steps.
     Failed(StepError),
-    /// They were given.
+    /// The user provided them.
     Given,
 }
 
@@ -76,12 +76,12 @@ impl StudyReference {
         }
     }
 
-    /// The same for every kind.
+    /// The relative differences of the references in all kinds of quantities.
     pub(crate) fn doubts(&self) -> PerQuantity {
         StateQuantity::ALL.map(|quantity| self.doubt(quantity))
     }
 
-    /// The difference of a state from the first of the two; not a number if they failed.
+    /// The differences of a state from the first reference; not a number if the references failed.
     pub(crate) fn differences(&self, state: &EndState) -> PerQuantity {
         if let Some([first, _]) = &self.states {
             return state.differences(first);
@@ -90,7 +90,7 @@ impl StudyReference {
         StateQuantity::ALL.map(unknown)
     }
 
-    /// The kinds of quantities in which the references differ too much for an error of these states.
+    /// The kinds of quantities in which the references differ too much to state the error of one of these states.
     fn open(&self, ends: &[EndState]) -> [bool; 4] {
         let doubts = self.doubts();
         let mut open = [false; 4];
@@ -109,13 +109,13 @@ impl StudyReference {
 /// The settings of a search for references.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search<'a> {
-    /// s.
+    /// The end time, s.
     pub(crate) end_time: f64,
-    /// The most steps of a setting.
+    /// The largest number of steps of a setting.
     pub(crate) finest: u32,
-    /// How many times smaller the steps may be.
+    /// The largest factor by which the steps may be smaller than those.
     pub(crate) refinement: u32,
-    /// The ends of all settings.
+    /// The end states of all settings.
     pub(crate) ends: &'a [EndState],
 }
 
@@ -161,8 +161,8 @@ impl Search<'_> {
         }
     }
 
-    /// The number of steps `factor` times smaller than the smallest of all settings; `None` beyond the limit. The first
-    /// are always allowed.
+    /// The number of steps if each is `factor` times smaller than the smallest of all settings; `None` beyond the limit,
+    /// which never excludes the first factor.
     fn steps(&self, factor: u32, pair: Pair) -> Option<u32> {
         let is_within = factor <= self.refinement.max(pair.first);
         self.finest.checked_mul(factor).filter(|_| is_within)

@@ -22,7 +22,7 @@ use eem_runtime::Scheme;
 ///     scene
 /// }
 ///
-/// // A mass that swings with ω = 2/s; the scheme has an error of (ωh)²ωt/12 in ωt.
+/// // A mass that swings with ω = 2/s; the scheme's error in the phase ωt is (ωh)²ωt/12.
 /// let report = Study::new(scene, 1.0)
 ///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 3))
 ///     .run()?;

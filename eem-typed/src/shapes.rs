@@ -16,7 +16,7 @@ impl Law {
     ///
     /// # Errors
     ///
-    /// [`LawError::Solid`] of strains, and [`LawError::Dashpots`] with more than three in series.
+    /// [`LawError::Solid`] if ψ is a function of strains, [`LawError::Dashpots`] for more than three dashpots in series.
     ///
     /// ```
     /// use eem::typed::{Law, LawError, Source, compile};
@@ -117,33 +117,34 @@ shapes! {
     ThermalSpring2: 4, 2, 0, 6, 5;
     /// A spring with a temperature and three dashpots in series.
     ThermalSpring3: 5, 3, 0, 8, 6;
-    /// A spring without temperature, with a dashpot beside it.
+    /// A spring without temperature, with a dashpot in parallel.
     DampedSpring0: 1, 0, 1, 0, 1;
-    /// A spring without temperature, with a dashpot beside it and one in series.
+    /// A spring without temperature, with a dashpot in parallel and one in series.
     DampedSpring1: 2, 1, 1, 0, 2;
-    /// A spring without temperature, with a dashpot beside it and two in series.
+    /// A spring without temperature, with a dashpot in parallel and two in series.
     DampedSpring2: 3, 2, 1, 0, 3;
-    /// A spring without temperature, with a dashpot beside it and three in series.
+    /// A spring without temperature, with a dashpot in parallel and three in series.
     DampedSpring3: 4, 3, 1, 0, 4;
-    /// A spring with a temperature and a dashpot beside it.
+    /// A spring with a temperature and a dashpot in parallel.
     DampedThermalSpring0: 2, 0, 1, 2, 3;
-    /// A spring with a temperature, a dashpot beside it and one in series.
+    /// A spring with a temperature, a dashpot in parallel and one in series.
     DampedThermalSpring1: 3, 1, 1, 4, 4;
-    /// A spring with a temperature, a dashpot beside it and two in series.
+    /// A spring with a temperature, a dashpot in parallel and two in series.
     DampedThermalSpring2: 4, 2, 1, 6, 5;
-    /// A spring with a temperature, a dashpot beside it and three in series.
+    /// A spring with a temperature, a dashpot in parallel and three in series.
     DampedThermalSpring3: 5, 3, 1, 8, 6;
 }
 
-/// The type of a solid of a law: a [`Typed`](crate::Typed).
+/// The type of the material of a solid, made from a law: a [`Typed`](crate::Typed).
 ///
 /// ```text
 /// solid!(strains: 2)
 /// solid!(strains: 3, invariants: 3, volume_flow: 1, dashpots: 1, temperature: 1, numbers: f32)
 /// ```
 ///
-/// It counts the strains that ψ is a function of, the invariants of a viscous strain, dashpots in series and temperatures, in
-/// this order; what is not there is left out, and numbers are `f64`. Volume flows if one of the invariants is the trace.
+/// The arguments, in this order, are the numbers of strains and of invariants of a viscous strain in ψ, of dashpots in series
+/// and of temperatures (0 or 1), and the number type. All but the first may be left out; the default number type is `f64`.
+/// Write `volume_flow: 1` if one of the invariants is the trace.
 ///
 /// ```
 /// use eem::kinematics::Quad4;

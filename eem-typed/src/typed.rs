@@ -25,7 +25,7 @@ use crate::tape::Tape;
 /// | N | number of variables: measures, dashpots, temperature |
 /// | K | dashpots in series |
 /// | V | viscosities: K, and those of a viscous strain |
-/// | D | dashpots beside the spring, 0 or 1 |
+/// | D | dashpots in parallel with the spring, 0 or 1 |
 /// | C | corners: 2 (N − 1) with a temperature, else 0 |
 /// | R | responses: N + 1 with a temperature, else N |
 ///

@@ -1,4 +1,4 @@
-//! What is known of helpers while a body is resolved.
+//! Helpers, and how far the call that is inlined has been expanded.
 
 use proc_macro2::Ident;
 
@@ -10,17 +10,19 @@ pub(super) struct Helper<'a> {
     pub(super) ident: &'a Ident,
     pub(super) used: bool,
     pub(super) definition: &'a ast::Helper<'a>,
-    /// What its body sees.
+    /// The names that its body can use.
     pub(super) scope: Scope,
 }
 
-/// The call that is inlined, with those inside of it.
+/// The expansion of the outermost call and the calls inside it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Inlining {
-    /// Levels of expressions that are being resolved.
+    /// Depth of the expression that is being resolved; a call counts as several levels.
     pub(super) level: usize,
-    /// The level of the call in the formula.
+    /// The level of the outermost call.
     pub(super) start: usize,
+    /// Calls expanded so far.
     pub(super) calls: usize,
+    /// Whether there are too many calls or levels.
     pub(super) exhausted: bool,
 }

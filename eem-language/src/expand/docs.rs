@@ -10,7 +10,7 @@ use crate::units::Units;
 
 // Expands to:
 //
-//     /// Generated from the free energy of the model.
+//     /// Generated from the free energy of the model:
 //     ///
 //     /// ```text
 //     /// ψ = …
@@ -37,7 +37,7 @@ pub(super) fn formulas(
     doc(lines)
 }
 
-/// Nothing for a model without units.
+/// Empty for a model without units.
 fn table_of_units(checked: &Checked<'_>, units: &Units) -> Vec<String> {
     let parameters = checked.parameters.iter();
     let rows = parameters.filter_map(|parameter| {
@@ -77,7 +77,7 @@ pub(super) fn new_stage(purpose: &str, program: &Program) -> TokenStream {
     paragraphs(purpose, &format!("{cost}{transcendental}"))
 }
 
-/// How many transcendental functions are called, beside how many arguments they have.
+/// How many transcendental functions are called, and for how many different arguments.
 fn transcendental(count: TranscendentalCount) -> String {
     let TranscendentalCount { calls, arguments } = count;
     let plural = |n: usize, noun: &str| match n {

@@ -11,8 +11,7 @@ pub(crate) struct Header<'a> {
     ident: &'a Ident,
     original: &'a Generics,
     generics: Generics,
-    /// The type that stands for the scalar: a parameter of the struct, or `__S` unless it
-    /// has a parameter of that name.
+    /// The type that stands for the scalar: a parameter of the struct, or an [unused] name.
     pub(crate) scalar: TokenStream,
 }
 
@@ -54,7 +53,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// A name for the scalar that the struct has not given to a parameter of its own.
+/// `__S`, with `_` appended until no parameter of the struct has that name.
 pub(super) fn unused(generics: &Generics) -> Ident {
     let mut scalar = Ident::new("__S", Span::call_site());
     while generics.params.iter().any(|parameter| match parameter {

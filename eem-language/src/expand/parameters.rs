@@ -1,4 +1,4 @@
-//! The derivatives by the parameters: adjoints and tangents of both forms, adjoints of functions of a state.
+//! The derivatives with respect to the parameters: adjoints and tangents of both forms, adjoints of functions of one state.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,7 @@ use super::statements::{Statements, value};
 /// An argument of a generated function, and how many inputs of its program it holds.
 type Argument = (TokenStream, usize);
 
-/// All functions.
+/// The generated functions of all these derivatives.
 pub(super) fn parameters(programs: &ParameterPrograms, inputs: &Inputs) -> TokenStream {
     let entropy = entropy_form(programs, inputs);
     let temperature = temperature_form(programs, inputs);
@@ -208,7 +208,7 @@ fn direction(inputs: &Inputs) -> Argument {
     (quote!(__direction), inputs.parameters.len())
 }
 
-/// Of a program whose inputs are the parameters, then the arguments.
+/// The body of a function whose program takes the parameters, then the arguments.
 fn body(program: &Program, inputs: &Inputs, arguments: &[Argument]) -> TokenStream {
     written(program, inputs, |index| inputs.argument(index, arguments))
 }

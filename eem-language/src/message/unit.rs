@@ -165,7 +165,7 @@ pub(crate) struct Side<'m> {
 }
 
 impl Side<'_> {
-    /// `in N/m`, `dimensionless`
+    /// `in N/m`, `dimensionless`, `dimensionless with a factor of …`
     fn phrase(&self) -> String {
         match (self.unit.is_one(), self.unit.coherent().is_one()) {
             (true, _) => "dimensionless".to_owned(),
@@ -207,7 +207,7 @@ pub(crate) fn sum(
     )
 }
 
-/// Help for a number beside a quantity: `theta - 300`.
+/// Help for a bare number that is added to or subtracted from a quantity: `theta - 300`.
 pub(crate) fn number_with_unit(number: &str, unit: &Unit) -> Said {
     said(|d| {
         let (field, unit) = (d.a_field(), d.the_unit(&unit.to_string()));
@@ -215,7 +215,7 @@ pub(crate) fn number_with_unit(number: &str, unit: &Unit) -> Said {
     })
 }
 
-/// Help for units that differ by a factor, which a field brings in.
+/// Help for units that differ by a factor only, which comes from the unit of `field`.
 pub(crate) fn field_with_scale(field: &str, unit: &Unit) -> String {
     let coherent = unit.coherent();
     if coherent.is_one() {
@@ -226,7 +226,7 @@ pub(crate) fn field_with_scale(field: &str, unit: &Unit) -> String {
     format!("`{field}` is in {unit}, and 1 {unit} is {scaled}: give it in {coherent}")
 }
 
-/// Help for units that differ: the quotient of what is wanted and what is `found`, by name.
+/// Help for units that differ: by what to divide or multiply the expression called `found`, which has this `unit`.
 pub(crate) fn factor_is_missing(found: &str, wanted: &Unit, unit: &Unit) -> String {
     let divisor = unit.over(wanted).filter(|u| !u.to_string().contains('/'));
     let help = match divisor {
@@ -295,7 +295,7 @@ pub(crate) fn power_of_unit(base: &Side<'_>, exponent: &str) -> Message {
     )
 }
 
-pub(crate) fn whole(what: &str, wanted: &str, found: &Side<'_>, help: String) -> Message {
+pub(crate) fn wrong_result(what: &str, wanted: &str, found: &Side<'_>, help: String) -> Message {
     Message::new(
         format!("{what} must be in {wanted}, but this is {}", found.phrase()),
         help,

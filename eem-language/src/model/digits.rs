@@ -1,4 +1,4 @@
-//! Forms that lose the digits of small strains: differences of what is nearly equal where a solid is at rest.
+//! Warnings of cancellation: differences of values that are nearly equal at rest lose the digits of small strains.
 
 use eem_symbolic::{ExprId, Function};
 
@@ -9,7 +9,7 @@ use crate::message::expression::digits as message;
 use crate::units::excerpt;
 
 impl Lowering<'_> {
-    /// `ln(1 + j)`, whose argument has lost the last digits of j.
+    /// Warns of `ln(1 + j)`, whose argument has lost the last digits of j.
     pub(super) fn warn_of_function(&mut self, function: Function, expr: &Expr<'_>, value: ExprId) {
         if function == Function::Ln && self.is_at_rest(value, 1.0) {
             let text = excerpt(expr.original);
@@ -17,7 +17,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// `exp(e1) - 1`, and other differences of 1 and what is nearly 1.
+    /// Warns of `exp(e1) - 1`, and other differences of 1 and a value that is 1 at rest.
     pub(super) fn warn_of_difference(
         &mut self,
         operator: Operator,
@@ -36,7 +36,7 @@ impl Lowering<'_> {
         } else {
             return;
         };
-        // Sums are taken apart, and what is left has no ones.
+        // Not for sums: `(1 + x) - 1` is simplified to `x`.
         let help = match &near.kind {
             ExprKind::Apply(Function::Exp, _) => "write `exp_m1(x)` for `exp(x) - 1`",
             ExprKind::Apply(Function::Cos, _) => "write `2 * sin(x / 2).powi(2)` for `1 - cos(x)`",

@@ -107,7 +107,7 @@ fn role(cx: &Ctxt, argument: Option<&syn::Ident>, ty: &Type) -> Option<Role> {
     }
     let text = ty.to_token_stream().to_string().replace(' ', "");
     match argument {
-        // The habit of writing the type of the value.
+        // The type of the value in place of its role.
         Some(argument) if text == "f64" || text == "f32" || text == "_" => {
             let name = crate::ast::name(argument);
             cx.error(ty, &message::argument_without_role(&name));

@@ -1,4 +1,4 @@
-//! What Rust allows in front of a closure.
+//! Modifiers of a closure, such as `move`: Rust allows them, a formula does not.
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;

@@ -1,4 +1,4 @@
-//! Names that patterns consist of.
+//! Patterns that are a plain name.
 
 use syn::{Ident, Pat, PatIdent};
 
@@ -6,7 +6,7 @@ use crate::ctxt::Ctxt;
 use crate::message::Message;
 use crate::message::expression::syntax::not_allowed;
 
-/// The name of a pattern that is nothing but a name; what else there is, is reported as `other`.
+/// The name of a pattern that is a plain name; reports `other` for any other pattern.
 pub(super) fn plain_name<'a>(
     cx: &Ctxt,
     pat: &'a Pat,

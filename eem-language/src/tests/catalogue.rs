@@ -1,7 +1,7 @@
 //! Every message has a compile-fail case, in the folder of its module.
 //!
-//! Messages remember where they were written while the cases are expanded here. That the compiler
-//! shows them at the right tokens is tested by `eem-ui`.
+//! In tests a message records the line that creates it; expanding the cases shows which ones occur.
+//! `eem-ui` tests that the compiler shows them at the right tokens.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -81,19 +81,19 @@ pub(super) fn file_key(path: &Path) -> String {
     path[below..].to_owned()
 }
 
-/// Expands every item of a case that derives.
+/// Expands every struct, enum and union of a case.
 fn expand_case(case: &Path) -> String {
     let source = fs::read_to_string(case).expect("the case can be read");
     let file = syn::parse_file(&source).expect("the case is Rust");
-    let mut errors = String::new();
+    let mut expansion = String::new();
     for item in file.items {
         let (Item::Struct(_) | Item::Enum(_) | Item::Union(_)) = item else {
             continue;
         };
         let input: DeriveInput = syn::parse_quote!(#item);
-        errors.push_str(&crate::derive::derive(&input).to_string());
+        expansion.push_str(&crate::derive::derive(&input).to_string());
     }
-    errors
+    expansion
 }
 
 #[test]

@@ -94,7 +94,7 @@ impl<'r> Rules<'r> {
         let same = found.unit.coherent() == *wanted;
         let scale = same.then(|| self.scale_help(found.scaled)).flatten();
         let help = scale.unwrap_or_else(|| message::factor_is_missing("it", wanted, &found.unit));
-        let message = message::whole(what, wanted_text, &side, help);
+        let message = message::wrong_result(what, wanted_text, &side, help);
         self.cx.error(body.value.original, &message);
     }
 

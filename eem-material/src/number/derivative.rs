@@ -1,21 +1,22 @@
 //! The derivative of a function at the beginning of an interval, from values in it.
 //!
-//! Differences over spans, each √3 times shorter than the one before, are extrapolated by Neville's algorithm. The result is
-//! the limit with the smallest estimated error, from the differences to lower degrees and from rounding, with which the
-//! limits of all shorter spans agree: a function that returns to its first value could seem flat over a long span (after
-//! C. J. F. Ridders, *Accurate computation of F′(x) and F′(x) F″(x)*, Adv. Eng. Softw. 4 (1982)).
+//! Difference quotients over spans, each √3 times shorter than the one before, are extrapolated to a limit by Neville's
+//! algorithm. The error of a limit is estimated from its differences to those of one degree less, and from rounding. The
+//! result has the smallest estimate of all limits with which those of every shorter span agree: over a long span, a function
+//! that returns to its first value could seem flat (after C. J. F. Ridders, *Accurate computation of F′(x) and F′(x) F″(x)*,
+//! Adv. Eng. Softw. 4 (1982)).
 
-/// The ratio of a span to the next: irrational, so that no period is a multiple of two consecutive spans.
+/// The ratio of a span to the next: irrational, so that no two consecutive spans are multiples of one period.
 const RATIO: f64 = 1.732_050_807_568_877_2;
 
 /// The number of spans: the shortest is 3e-5 of the interval. Shorter ones would show the rounding of functions with larger
 /// terms, such as 1 − cos t.
 pub const SPANS: usize = 20;
 
-/// The highest degree of a polynomial.
+/// The highest degree of an extrapolating polynomial.
 const DEGREE: usize = 8;
 
-/// Roundings of the two values of a difference; those of a function are a few.
+/// Rounding error of a difference, in ε of the larger of its two values: a function makes a few roundings.
 const ROUNDINGS: f64 = 4.0;
 
 /// The largest difference of two limits that agree, in units of their estimated errors.
@@ -38,7 +39,8 @@ pub fn shares() -> [f64; SPANS] {
     shares
 }
 
-/// The derivative from the value at the beginning and those after the spans, in numbers with this ε; NaN if there is none.
+/// The derivative, from the value at the beginning and those after the spans; `epsilon` is that of their number type. NaN if
+/// values after the shortest spans are not finite.
 #[must_use]
 pub fn derivative(first: f64, (spans, values): ([f64; SPANS], [f64; SPANS]), epsilon: f64) -> f64 {
     let limits = limits(first, (&spans, &values), epsilon);
@@ -51,7 +53,7 @@ pub fn derivative(first: f64, (spans, values): ([f64; SPANS], [f64; SPANS]), eps
     best.map_or(f64::NAN, |(_, limit)| limit.value)
 }
 
-/// The best limit of those that end with each span.
+/// For each span, the best limit from it and longer ones.
 fn limits(first: f64, (spans, values): (&[f64; SPANS], &[f64; SPANS]), epsilon: f64) -> Vec<Limit> {
     let mut before = [f64::NAN; DEGREE + 1];
     let of_span = |(place, (&value, &span)): (usize, (&f64, &f64))| {

@@ -171,7 +171,7 @@ pub enum SceneError {
         /// The element.
         element: Element,
     },
-    /// Heat and entropy of an oven: what it gives is counted by the ledger and by its paths.
+    /// Heat or entropy of an oven is requested: the ledger and the paths of the oven count what it gives.
     #[error(
         "{reservoir} is an oven and keeps no heat: see the heat of the ledger, or `conducted_heat` of its paths"
     )]
@@ -179,14 +179,14 @@ pub enum SceneError {
         /// The oven.
         reservoir: Reservoir,
     },
-    /// A controller sets what a load of the scene gives.
+    /// A controller sets a load that the scene prescribes.
     #[error(
         "the {quantity} of {handle} is given by the scene: leave it out there to set it in a run"
     )]
     GivenLoad {
         /// The node or the element.
         handle: String,
-        /// What is given.
+        /// The quantity.
         quantity: &'static str,
     },
     /// A controller sets the temperature of an element without a thermostat.
@@ -197,7 +197,7 @@ pub enum SceneError {
         /// The element.
         element: Element,
     },
-    /// Dissipation and heat of a scheme that does not close its balances.
+    /// Dissipation or heat is requested from a scheme without exact balances.
     #[error(
         "{scheme} has no exact balances, by which dissipation and heat are defined; take a scheme that keeps the laws"
     )]
@@ -205,7 +205,7 @@ pub enum SceneError {
         /// The name of the scheme.
         scheme: &'static str,
     },
-    /// A sum of quantities that have several components, or other units.
+    /// The quantities of a sum have several components or different units.
     #[error("a sum needs quantities with one component and one unit")]
     MixedSum,
     /// An element has no initial temperature.
@@ -230,13 +230,13 @@ pub enum SceneError {
         /// The step, s.
         value: f64,
     },
-    /// A start time that is not finite.
+    /// The start time is not finite.
     #[error("the start time is {value} s, it must be finite", value = Readable(*value))]
     StartTime {
         /// The time, s.
         value: f64,
     },
-    /// A relative tolerance outside (0, 1), or below the rounding floor of the scheme.
+    /// A relative tolerance is outside (0, 1), or below the rounding floor of the scheme.
     #[error("the relative tolerance is {relative}, it must be less than 1 and, for this scheme, at least {floor:.0e}", relative = Readable(*relative))]
     Tolerance {
         /// The tolerance.

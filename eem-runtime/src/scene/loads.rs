@@ -27,8 +27,8 @@ pub(crate) fn extent<'a, S: Real>(coordinates: impl Iterator<Item = &'a S>) -> S
 /// A vector (force in N, position in m) as a function of time in s.
 pub(crate) type OfTime<S, const D: usize> = Arc<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
 
-/// A temperature in K as a function of time in s.
-pub(crate) type TemperatureOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
+/// A scalar (temperature in K, thrust in N) as a function of time in s.
+pub(crate) type ScalarOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
 
 /// What a load gives: `F` is a function of time in s.
 #[derive(Clone)]
@@ -60,7 +60,7 @@ impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
     }
 }
 
-impl<S: Real> Course<TemperatureOfTime<S>, S> {
+impl<S: Real> Course<ScalarOfTime<S>, S> {
     /// The value at a time, at this share of a step that begins at `from`.
     pub(crate) fn at(&self, time: S, from: S, share: S) -> S {
         match self {
@@ -75,7 +75,7 @@ impl<S: Real> Course<TemperatureOfTime<S>, S> {
 pub(crate) type VectorCourse<S, const D: usize> = Course<OfTime<S, D>, SVector<S, D>>;
 
 /// The course of a temperature.
-pub(crate) type TemperatureCourse<S> = Course<TemperatureOfTime<S>, S>;
+pub(crate) type TemperatureCourse<S> = Course<ScalarOfTime<S>, S>;
 
 /// A force of a given size in N as a function of time in s, along a line that turns with two nodes.
 #[derive(Clone)]
@@ -94,7 +94,7 @@ pub(crate) struct Loads<S: Real, const D: usize> {
     pub(crate) motions: Vec<(Node, VectorCourse<S, D>)>,
     pub(crate) temperatures: Vec<(Element, TemperatureCourse<S>)>,
     /// Reservoirs whose temperature changes.
-    pub(crate) ovens: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(crate) ovens: Vec<(usize, ScalarOfTime<S>)>,
 }
 
 impl<S: Real, const D: usize> Loads<S, D> {

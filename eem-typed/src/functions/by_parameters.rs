@@ -1,4 +1,4 @@
-//! The derivatives of a law by its parameters as tapes.
+//! Tapes of the derivatives of a law with respect to its parameters.
 
 use eem_material::number::scalar::Scalar;
 use eem_symbolic::{ParameterPrograms, Program};
@@ -7,14 +7,14 @@ use super::staged::of_state;
 use crate::error::LawError;
 use crate::tape::Tape;
 
-/// How many parameters a law with derivatives by them may have: their number is known only when a program runs, the size of an
-/// array of derivatives when it is compiled.
+/// The most parameters of a law that is differentiated with respect to them: their number is known only at run time, but the
+/// size of an array of derivatives is fixed at compile time.
 pub(crate) const MOST_PARAMETERS: usize = 64;
 
 /// The tapes of [`ParameterPrograms`], for fixed values of the parameters.
 #[derive(Debug)]
 pub(crate) struct ByParameters<S> {
-    /// None without a temperature, here and below.
+    /// `None` without a temperature, as the next one.
     pub(crate) temperature_form_adjoint: Option<Tape<S>>,
     pub(crate) temperature_form_tangent: Option<Tape<S>>,
     pub(crate) entropy_form_adjoint: Tape<S>,

@@ -236,7 +236,7 @@ pub fn powi_dd2<S: Scalar>(a: S, b: S, n: i32) -> S {
     })
 }
 
-/// `numerator/(aⁿbⁿ)`, the larger power first: what it divides is of nearly its size.
+/// `numerator/(aⁿbⁿ)`, divided by the larger power first, which is of nearly the size of the numerator.
 fn over_powers<S: Scalar>(numerator: S, a: S, b: S, n: u32) -> S {
     let (a_power, b_power) = (compensated_power(a, n), compensated_power(b, n));
     S::branch(

@@ -17,7 +17,7 @@ use super::text::{Fault, Text};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
-/// The last line.
+/// The beginning of the last line.
 const DIGEST: &str = "digest: ";
 
 impl<S: Real> Checkpoint<S> {
@@ -27,14 +27,14 @@ impl<S: Real> Checkpoint<S> {
         if S::IS_DOUBLE { "f64" } else { "f32" }
     };
 
-    /// Writes it to a file that [`load`](Self::load) reads with all bits, in any program.
+    /// Writes the checkpoint to a file, from which [`load`](Self::load) restores every bit, in any program.
     ///
     /// The file is text, one named list of numbers per line, and ends with a digest. It is complete or absent: it is written
-    /// under another name beside its place, and renamed; a file that was there is replaced.
+    /// under another name in the same folder, and then renamed. An existing file is replaced.
     ///
     /// # Errors
     ///
-    /// Those of the file system.
+    /// The errors of the file system.
     ///
     /// ```
     /// use eem::materials::Hooke;
@@ -64,7 +64,7 @@ impl<S: Real> Checkpoint<S> {
         let part = PathBuf::from(name);
         let written = write(&part, &self.to_text()).and_then(|()| fs::rename(&part, path));
         written.inspect_err(|_| {
-            // What remains is of no use.
+            // An incomplete file is of no use.
             _ = fs::remove_file(&part);
         })
     }
@@ -73,8 +73,8 @@ impl<S: Real> Checkpoint<S> {
     ///
     /// # Errors
     ///
-    /// [`LoadError`] if there is no such file, or it is none of a checkpoint, has another version or number type, is cut off or
-    /// has been edited.
+    /// [`LoadError`] if the file does not exist, is not a checkpoint, has another version or number type, is cut off or has
+    /// been edited.
     ///
     /// ```
     /// use eem::{Checkpoint, LoadError};

@@ -9,7 +9,7 @@ use crate::element::handle::{Element, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
 use crate::run::recorder::axis_name;
 use crate::scene::body::Body;
-use crate::scene::loads::{OfTime, TemperatureOfTime};
+use crate::scene::loads::{OfTime, ScalarOfTime};
 use eem_material::number::scalar::Real;
 
 /// An input of a run, for [`Simulation::sensitivities`](crate::Simulation::sensitivities).
@@ -48,8 +48,8 @@ pub(crate) enum InputOf<const D: usize, S: Real> {
     Force(Node, OfTime<S, D>),
     Thrust(Node, usize, NumberOfTime<S>),
     Motion(Node, OfTime<S, D>),
-    Thermostat(Element, TemperatureOfTime<S>),
-    Oven(Reservoir, TemperatureOfTime<S>),
+    Thermostat(Element, ScalarOfTime<S>),
+    Oven(Reservoir, ScalarOfTime<S>),
 }
 
 impl<const D: usize, S: Real> Input<D, S> {

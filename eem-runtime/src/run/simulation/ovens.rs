@@ -1,4 +1,4 @@
-//! Reservoirs whose temperature is a function of time.
+//! Ovens: reservoirs whose temperature is a function of time.
 
 use super::Simulation;
 use crate::step::error::StepFailure;
@@ -23,7 +23,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// Books what ovens have given in the last step as heat: `−θ Δσ` and the entropy `−Δσ`.
+    /// Books what ovens have given in the last step: the heat `−θ Δσ` and the entropy `−Δσ`.
     #[cold]
     pub(super) fn book_ovens(&mut self) {
         let state = &mut self.state;
@@ -36,7 +36,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state.thermostat_entropy.add(received.value);
             state.thermostat_entropy.add(received.carry);
         }
-        // The explicit scheme keeps energies of reservoirs, and rates with their temperatures.
+        // The explicit scheme has stored energies of reservoirs, and rates at their old temperatures.
         self.forget_loads();
     }
 

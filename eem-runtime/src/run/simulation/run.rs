@@ -175,11 +175,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// For a time within a step, the scheme makes an additional step from the beginning of that step, or from the
     /// previous time, and undoes it afterwards; so the run has the same bits as without. The observer sees states
     /// of the scheme, as accurate as the others, which obey the laws; an interpolation would not. The entropy at
-    /// the end of a step can be lower than that of the last sample in it, by the error of the step. Each time costs
-    /// a step. [`run_at`](Self::run_at) ends steps at the times instead. This is cheaper for a few times, and right
-    /// for discontinuous loads.
+    /// the end of a step can be lower than that of the last sample in it, by the error of the step. Each such time
+    /// costs a step. [`run_at`](Self::run_at) ends steps at the times instead, which is cheaper for a few times, and
+    /// right for discontinuous loads.
     ///
-    /// If the observer stops the run, the simulation stays at the state it has seen.
+    /// If the observer stops the run, the simulation stays at the state that the observer saw last.
     ///
     /// # Errors
     ///
@@ -240,7 +240,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Shows the states at these times, which the last step has passed, by shorter steps that are undone afterwards.
-    /// If the observer stops the run, it stays at that state.
+    /// If the observer stops the run, the run stays at that state.
     fn sample(
         &mut self,
         times: &[S],

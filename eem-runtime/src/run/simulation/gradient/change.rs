@@ -1,12 +1,12 @@
-//! A direction: by how much inputs change.
+//! A direction, along which a run is differentiated: the change of each input.
 
 use super::derivatives::Of;
-use crate::scene::loads::{OfTime, TemperatureOfTime};
+use crate::scene::loads::{OfTime, ScalarOfTime};
 use crate::step::adjoint::{HeatChange, PerVariable};
 use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
-/// By how much all inputs change. Lists are empty where nothing of a kind changes.
+/// The changes of all inputs. A list is empty if no input of its kind changes.
 pub(super) struct Change<const D: usize, S: Real> {
     /// The state at the start, without functions of time.
     pub(super) start: PerVariable<S>,
@@ -15,16 +15,16 @@ pub(super) struct Change<const D: usize, S: Real> {
     pub(super) pairs: Vec<S>,
     pub(super) gravity: SVector<S, D>,
     pub(super) heat: HeatChange<S>,
-    /// Functions of time by node, place of the rocket, node, thermal slot and reservoir.
+    /// Changes as functions of time, each with its index: of the node, rocket, node, thermal slot or reservoir.
     pub(super) forces: Vec<(usize, OfTime<S, D>)>,
-    pub(super) thrusts: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(super) thrusts: Vec<(usize, ScalarOfTime<S>)>,
     pub(super) motions: Vec<(usize, OfTime<S, D>)>,
-    pub(super) temperatures: Vec<(usize, TemperatureOfTime<S>)>,
-    pub(super) ovens: Vec<(usize, TemperatureOfTime<S>)>,
+    pub(super) temperatures: Vec<(usize, ScalarOfTime<S>)>,
+    pub(super) ovens: Vec<(usize, ScalarOfTime<S>)>,
 }
 
 impl<const D: usize, S: Real> Change<D, S> {
-    /// The change of the state at the start, of which functions of time are a part.
+    /// The change of the state at the start, including that of prescribed motions at this time.
     pub(super) fn start_at(&self, time: S) -> PerVariable<S> {
         let mut start = self.start.clone();
         for (node, by) in &self.motions {
@@ -37,7 +37,7 @@ impl<const D: usize, S: Real> Change<D, S> {
     }
 }
 
-/// The product of the derivative by something with its change in a direction.
+/// The derivative `by`, taken with respect to `of`, times the change of `of` in a direction.
 pub(super) fn along<const D: usize, S: Real>(
     (change, state): (&Change<D, S>, &PerVariable<S>),
     of: Of<'_, S>,
