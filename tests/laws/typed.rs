@@ -299,19 +299,14 @@ fn springs_that_are_evaluated_together_have_the_bits_of_derived_ones() {
         (at_length(40, 5), 0.02),
     );
     assert_same_bits([&derived, &typed], schemes(), (2, 0.02));
-    // Trials at which a spring has no mixed state, and steps that are refused for it.
-    for step in [0.2, 0.4, 0.8] {
-        let [(derived, is_refused), (typed, _)] = [&derived, &typed].map(|built| {
-            let mut running = Running::new(built, Scheme::EemEntropy, step);
-            let outcome = (0..3).try_for_each(|_| running.step().map(drop));
-            let refusal = outcome.map_err(|error| error.to_string());
-            let is_refused = refusal.is_err();
-            ((refusal, running.state()), is_refused)
-        });
-        assert!(is_refused, "steps of {step} s");
-        assert_eq!(derived.0, typed.0);
-        assert!(derived.1 == typed.1, "steps of {step} s");
-    }
+    // Trials at which a spring has no mixed state, and a step that is refused for it.
+    let [derived, typed] = [&derived, &typed].map(|built| {
+        let mut running = Running::new(built, Scheme::EemEntropy, 0.4);
+        let outcome = (0..3).try_for_each(|_| running.step().map(drop));
+        (outcome.unwrap_err().to_string(), running.state())
+    });
+    assert_eq!(derived.0, typed.0);
+    assert!(derived.1 == typed.1, "the states before the refusal");
 }
 
 #[test]

@@ -49,6 +49,8 @@ use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 #[cfg(feature = "gradients")]
+use crate::run::gradient::history::Watch;
+#[cfg(feature = "gradients")]
 use crate::run::gradient::snapshots::Record;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
@@ -113,7 +115,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     #[cfg(feature = "gradients")]
     history: Option<Box<Record<S>>>,
     #[cfg(feature = "gradients")]
-    watch: Option<Box<gradient::Watch>>,
+    watch: Option<Box<Watch>>,
     /// Somebody asks for sums of dissipation and heat.
     wants_meters: AtomicBool,
     /// The report with the largest `|defect|/bound` so far.

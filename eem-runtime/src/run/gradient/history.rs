@@ -1,5 +1,7 @@
 //! The states of a run, kept for its gradient.
 
+use core::ops::ControlFlow;
+
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use eem_material::number::compensated::Sum;
@@ -11,6 +13,9 @@ use eem_material::number::scalar::Real;
 /// bits, when a gradient is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct History(pub(crate) Limit);
+
+/// A function that may end the search for derivatives.
+pub(crate) type Watch = dyn FnMut() -> ControlFlow<()> + Send + Sync;
 
 /// The limit of a history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -39,9 +39,6 @@ use inputs::Made;
 use seeds::Seeds;
 use way::{Way, Weighted, add};
 
-/// A function that may end the search for derivatives.
-pub(super) type Watch = dyn FnMut() -> ControlFlow<()> + Send + Sync;
-
 /// # Gradients
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Keeps the states of all further steps for [`gradient`](Self::gradient). It costs memory and changes no bit.
