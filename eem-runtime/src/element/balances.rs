@@ -37,7 +37,7 @@ impl<S: Real> Received<S> {
         }
     }
 
-    /// Another term of the entropy.
+    /// Adds a term of the entropy, J/K.
     #[inline]
     pub(crate) fn add(&mut self, entropy: S) {
         self.entropy += entropy;
@@ -46,8 +46,8 @@ impl<S: Real> Received<S> {
 }
 
 impl<S: Real> Balances<'_, S> {
-    /// A path between two elements, as the first of these slots sees it, with `hκ` in J/K, and its link there. The production is booked at
-    /// one end, after the exchange, which both ends share.
+    /// Books a path between two elements at the end with the first of these slots, where it has this link. Both ends book
+    /// the same exchange; only the end with the larger slot books the production, after the exchange.
     #[inline]
     pub(crate) fn conduct(
         &mut self,
@@ -67,8 +67,8 @@ impl<S: Real> Balances<'_, S> {
         }
     }
 
-    /// The paths of a slot to reservoirs during a time, s, with the temperature of the element and its
-    /// [correction](reservoir_correction), K.
+    /// Books the paths of a slot to reservoirs during the time `share`, s, with the temperature of the element and the
+    /// [correction](reservoir_correction) of its differences to theirs, K.
     #[inline]
     pub(crate) fn exchange_with_reservoirs(
         &mut self,
@@ -95,7 +95,7 @@ impl<S: Real> Balances<'_, S> {
         }
     }
 
-    /// The production of a path, at this end of it.
+    /// Books the production of a path at this end.
     #[inline]
     fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) {
         let production = path.production();
@@ -107,7 +107,7 @@ impl<S: Real> Balances<'_, S> {
 }
 
 impl<S: Real> State<S> {
-    /// Heat and entropy from a thermostat, J and J/K.
+    /// Books heat and entropy that a thermostat gives, J and J/K.
     #[inline]
     pub(crate) fn book_thermostat(&mut self, heat: S, entropy: S) {
         self.heat.add(heat);
@@ -115,19 +115,19 @@ impl<S: Real> State<S> {
     }
 }
 
-/// Correction of the differences `θ_r − θ*` that makes the conducted heat that of the entropy of an element, K.
+/// Correction of the differences `θ_r − θ*` with which the conducted heat is that of the entropy change of an element, K.
 ///
 /// ```text
 /// Σ h κ (θ_r − θ* + correction) = θ* Δs − heat
 /// ```
 ///
-/// with what flows during the time h, the heat taken, θ* Δs, and the heat received otherwise, J. Rounding of θ*
-/// changes the left-hand side by `hκ ε θ`. Rounding changes the right-hand side by `ε (stored + |θ* Δs| + |heat|)`, where
-/// cθ is stored if Δs is between two temperatures, each of which is rounded. Heat follows from the side that rounding
-/// changes less.
+/// with the heat conducted in the time h, the heat taken, θ* Δs, and the heat received otherwise, J. Rounding of θ*
+/// changes the left-hand side by `hκ ε θ`, and the right-hand side by `ε (stored + |θ* Δs| + |heat|)`, where `stored` is cθ
+/// if Δs is the difference at two temperatures, each of which is rounded, else zero. The heat is computed from the side that
+/// rounding changes less.
 ///
 /// The entropy `u + P` that the element books is `Q/(θ* − correction)`, so that a correction changes the
-/// energy by `Q correction/θ*`. Where it is made, it is no more than roundings of θ*, and that no more than
+/// energy by `Q correction/θ*`. Where a correction is made, it is a few roundings of θ*, and the change of the energy a few
 /// roundings of Q.
 pub(crate) fn reservoir_correction<S: Real>(
     flow: &HeatFlow<S>,

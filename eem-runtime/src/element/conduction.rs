@@ -15,7 +15,7 @@ pub(crate) enum Partner {
     Reservoir(usize),
 }
 
-/// A path of heat as one of its elements sees it.
+/// A path of heat, as stored at one of its elements.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Link<S> {
     pub(crate) partner: Partner,
@@ -35,10 +35,10 @@ pub(crate) struct Conductor<S> {
 #[derive(Clone, Debug)]
 pub(crate) struct Conduction<S> {
     links: Vec<Link<S>>,
-    /// Where the links of each slot begin and end; none for a scene without paths.
+    /// Where the links of each slot begin and end; empty for a scene without paths.
     ranges: Vec<[u32; 2]>,
-    /// Of each path in the order of creation: its first link, that of the lower of two slots, and whether that is at the
-    /// second of the ends that were given.
+    /// Of each path in the order of creation: its first link, which is that of the lower of two slots, and whether this link
+    /// is at the second of the ends with which the path was created.
     paths: Vec<(u32, bool)>,
     /// `θ_r`, K.
     pub(crate) reservoirs: Vec<S>,
@@ -113,7 +113,7 @@ impl<S: Real> Conduction<S> {
         (link as usize, is_second)
     }
 
-    /// The slot at which each path begins, and its partner.
+    /// The slot of the first link of each path, and its partner.
     #[cfg(feature = "gradients")]
     pub(crate) fn path_ends(&self) -> Vec<(usize, Partner)> {
         let slots = self.ranges.iter().enumerate();
@@ -150,7 +150,7 @@ impl<S: Real> Conduction<S> {
         links.any(|link| matches!(link.partner, Partner::Reservoir(_)))
     }
 
-    /// Whether a slot exchanges heat with others.
+    /// Whether a slot exchanges heat with other slots.
     pub(crate) fn meets_slots(&self, slot: usize) -> bool {
         let mut links = self.links(slot).iter();
         links.any(|link| matches!(link.partner, Partner::Slot(_)))
@@ -244,7 +244,7 @@ impl<S: Real> Exchange<S> {
     }
 }
 
-/// The algorithmic temperatures Θ = θ* as elements in contact see each other, per thermal slot, K.
+/// The interface temperatures Θ = θ* between which coupled elements exchange heat, per thermal slot, K.
 ///
 /// Each is a compensated sum: where conduction is stiff, the heat `hκ(Θ_b − Θ_a)` needs more digits of
 /// the difference than the temperatures have.
@@ -252,18 +252,18 @@ impl<S: Real> Exchange<S> {
 pub(crate) struct InterfaceTemperatures<S>(Compensated<S>);
 
 impl<S: Real> InterfaceTemperatures<S> {
-    /// Memory for this many slots.
+    /// Zeros, for this number of slots.
     pub(crate) fn new(slots: usize) -> Self {
         Self(Compensated::new(vec![S::zero(); slots]))
     }
 
-    /// Each of them, rounded.
+    /// Their values, without compensations.
     #[inline]
     pub(crate) fn values(&self) -> &[S] {
         self.0.values()
     }
 
-    /// Restarts one.
+    /// Sets one, without compensation.
     #[inline]
     pub(crate) fn set(&mut self, slot: usize, theta: S) {
         self.0.set(slot, theta);
@@ -281,8 +281,8 @@ impl<S: Real> InterfaceTemperatures<S> {
         self.0.sum(far).change(self.0.sum(near))
     }
 
-    /// What flows in a step to a slot from another, with `hκ` in J/K. The one of the two that comes first
-    /// is where u is formed.
+    /// The exchange at a slot with another one in a step, given `hκ`, J/K. At both ends it is computed from the lower
+    /// slot, so that u is the same.
     #[inline]
     pub(crate) fn exchange(&self, conducted: S, slot: usize, other: usize) -> Exchange<S> {
         let first = slot.min(other);
@@ -292,7 +292,7 @@ impl<S: Real> InterfaceTemperatures<S> {
     }
 }
 
-/// What flows into a slot.
+/// The heat flow into a slot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HeatFlow<S> {
     /// Q, W.

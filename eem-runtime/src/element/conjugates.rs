@@ -1,6 +1,6 @@
 //! Forces, temperature and change of entropy of an element in a step.
 //!
-//! A family says where along the step the deformation is measured and turns old and new variables of a
+//! A family defines at which configuration of the step the deformation is measured, and turns old and new variables of a
 //! point into algorithmic quantities `f*`, `g*`, `θ*`, `Δs` with their exact tangent. It knows nothing of
 //! nodes, neighbours or solvers.
 
@@ -18,7 +18,7 @@ pub(crate) use element::{ElementScheme, Form, Infeasible, Placement, Start};
 pub(crate) use point::PointRule;
 pub(crate) use temperature::{recovered_at, temperature_at};
 
-/// The families.
+/// The families of conjugates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Conjugates {
     /// [`EemEntropy`].

@@ -6,7 +6,7 @@ use eem_material::number::compact::compact;
 #[derive(Clone, Debug)]
 pub(crate) struct Ends {
     nodes: Vec<u32>,
-    /// Where those of each element begin, and where the last ones end.
+    /// The index in `nodes` of the first node of each element, then the number of all.
     starts: Vec<u32>,
 }
 

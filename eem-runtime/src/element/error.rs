@@ -6,7 +6,7 @@ use crate::element::handle::{Element, Node};
 use eem_material::inversion::InversionError;
 use eem_material::number::readable::Readable;
 
-/// Why an element cannot have a state.
+/// Why an element cannot be in a state.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StateError {
@@ -65,7 +65,7 @@ pub enum StateError {
         dashpot: usize,
         /// The viscous stretch.
         value: f64,
-        /// Its unit: m for a spring, none for a solid.
+        /// Its unit: m for a spring, empty for a solid.
         unit: &'static str,
     },
     /// A temperature is not positive and finite.
@@ -95,7 +95,7 @@ pub enum StateError {
         quantity: &'static str,
         /// Its value.
         value: f64,
-        /// Its unit: m² for a spring, none for a solid.
+        /// Its unit: m² for a spring, empty for a solid.
         unit: &'static str,
     },
     /// A heat capacity is not positive and finite.

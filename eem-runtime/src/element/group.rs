@@ -1,13 +1,14 @@
 //! All elements of one model, stepped together.
 //!
-//! [`Group`] is the interface to the solver: one dynamic call per group and phase. [`ElementGroup`] is the one
-//! implementation, monomorphic in model, kinematics and scheme. The phases of a step are
+//! [`Group`] is the interface to the solver: one dynamic call per group and phase. `ElementGroup` implements it for schemes
+//! with one set of forces, `StageGroup` for several stages, both monomorphic in model, kinematics and scheme; elements of
+//! explicit schemes are an [`ExplicitGroup`]. The phases of a step of an `ElementGroup` are
 //!
 //! ```text
 //! begin      take over the old state, once                           (begin)
 //! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
 //!            local unknowns eliminated                              (local, eliminate)
-//!            contributions written to their places                  (share, site)
+//!            contributions added at their matrix indices            (share, site)
 //! correct    local unknowns from the global solution                (correct, point)
 //! close      impulses, what is booked, and the new state            (closing, recovery, certify)
 //! ```

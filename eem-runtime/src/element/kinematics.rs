@@ -17,7 +17,7 @@
 //! ```
 //!
 //! and the force `Σ f_a D*π_a` on node i is `Σ_j A_ij r_m,j` with a symmetric matrix A of numbers, one
-//! per pair of arms, that only depends on `f`, `π⁰` and `π¹`.
+//! per pair of arms, that depends only on `f` and on the strains at both ends (`π⁰` and `π¹` of a spring).
 
 mod between;
 mod measures;

@@ -1,7 +1,7 @@
 //! The DOF map: the unknowns of the global system of each node and element.
 //!
 //! Unknowns are the displacements of the masses and, for elements that conduct heat to other elements, their coupled
-//! interface temperature. Viscous stretches and temperatures proper are condensed within their element.
+//! interface temperature. Viscous stretches and the temperatures θ are condensed within their element.
 
 /// Capabilities of a model: dashpots, temperature, kind of measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub(crate) struct Shape {
     pub(crate) thermal: bool,
     /// Whether a dashpot acts in parallel with the spring (Kelvin–Voigt).
     pub(crate) drag: bool,
-    /// Whether its measure is a length, to which a force belongs.
+    /// Whether its measure is a length, whose conjugate is a force.
     pub(crate) is_spring: bool,
     /// The number of dashpots, the last ones, that are components of a viscous strain.
     pub(crate) viscous_strain: usize,

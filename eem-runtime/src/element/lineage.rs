@@ -45,7 +45,7 @@ impl Lineage {
         self.own
     }
 
-    /// The lineage of a copy of the scene, which has so many handles now.
+    /// The lineage of a copy of the scene, which now has these numbers of handles.
     pub(crate) fn copy(&self, counts: Counts) -> Self {
         let mut copied = self.copied.clone();
         copied.push((self.own, counts));

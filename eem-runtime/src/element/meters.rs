@@ -1,11 +1,11 @@
-//! What dashpots have dissipated, elements have produced and paths of heat have conducted: sums that are kept once somebody
-//! has asked for them.
+//! Heat of dashpots, entropy production of elements and heat of paths: sums per dashpot, element and path, kept from the
+//! time at which they are switched on.
 
 use crate::element::conduction::Exchange;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::scalar::Real;
 
-/// Sums since they were begun; none are kept before.
+/// Sums since the meters were switched on; empty before.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -16,9 +16,9 @@ pub(crate) struct Meters<S> {
     pub(crate) are_on: bool,
     /// The heat of each dashpot in series, then per element that of the dashpots in parallel, J.
     pub(crate) dissipated: Compensated<S>,
-    /// What dashpots and paths of heat have produced, per thermal slot, J/K.
+    /// The entropy that dashpots and paths of heat have produced, per thermal slot, J/K.
     pub(crate) produced: Compensated<S>,
-    /// What each path of heat has brought to the thermal slot that lists it first, by its index there, J.
+    /// The heat that each path has brought to its first thermal slot, by the index of its link there, J.
     pub(crate) conducted: Compensated<S>,
 }
 
@@ -51,7 +51,7 @@ impl<S: Real> Meters<S> {
         [&self.dissipated, &self.produced, &self.conducted].map(|sums| sums.values().len())
     }
 
-    /// Heat of a dashpot, J.
+    /// Adds heat of a dashpot, J.
     #[inline]
     pub(crate) fn dissipate(&mut self, dashpot: usize, heat: S) {
         if self.are_on {
@@ -59,7 +59,7 @@ impl<S: Real> Meters<S> {
         }
     }
 
-    /// Entropy that is produced at a thermal slot, J/K.
+    /// Adds entropy that is produced at a thermal slot, J/K.
     #[inline]
     pub(crate) fn produce(&mut self, slot: usize, entropy: S) {
         if self.are_on {
@@ -67,7 +67,7 @@ impl<S: Real> Meters<S> {
         }
     }
 
-    /// Entropy that a path of heat between two thermal slots produces, J/K: half at each.
+    /// Adds entropy that a path of heat between two thermal slots produces, J/K: half at each.
     #[inline]
     pub(crate) fn produce_between(&mut self, slots: [usize; 2], entropy: S) {
         if self.are_on {
@@ -77,7 +77,7 @@ impl<S: Real> Meters<S> {
         }
     }
 
-    /// A path between two slots, seen from the first of them, where it has this link.
+    /// Adds a path between two slots, as booked at the first of them, where it has this link.
     #[cold]
     pub(crate) fn see_path(&mut self, [slot, other]: [usize; 2], link: usize, path: &Exchange<S>) {
         if slot > other {
@@ -87,14 +87,14 @@ impl<S: Real> Meters<S> {
         }
     }
 
-    /// A path from a slot to a reservoir.
+    /// Adds a path from a slot to a reservoir.
     #[cold]
     pub(crate) fn see_path_outside(&mut self, slot: usize, link: usize, path: &Exchange<S>) {
         self.produce(slot, path.production());
         self.conduct(link, path.heat);
     }
 
-    /// Heat that a path brings to the slot that lists it first, J.
+    /// Adds heat that a path brings to its first slot, J.
     #[inline]
     pub(crate) fn conduct(&mut self, path: usize, heat: S) {
         if self.are_on {
@@ -102,7 +102,7 @@ impl<S: Real> Meters<S> {
         }
     }
 
-    /// Copies those of a state of the same scene.
+    /// Copies the meters of a state of the same scene.
     #[inline]
     pub(crate) fn copy_from(&mut self, other: &Self) {
         if self.are_on | other.are_on {

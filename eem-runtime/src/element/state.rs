@@ -7,7 +7,7 @@ use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Real;
 
-/// Positions, momenta, viscous stretches, entropies and what has been booked.
+/// Positions, momenta, viscous stretches, entropies and the accumulated balances.
 ///
 /// Coordinates are stored node after node; viscous stretches and thermal quantities only for the
 /// elements that have them.
@@ -22,9 +22,9 @@ pub(crate) struct State<S> {
     pub(crate) time: Sum<S>,
     /// q, m.
     pub(crate) positions: Compensated<S>,
-    /// p, kg m/s; of anchors what solids have there.
+    /// p, kg m/s; at anchors, that of the mass of solids there.
     pub(crate) momenta: Compensated<S>,
-    /// v, m/s, where masses couple nodes: then the momenta follow, `p = M v`. Empty where they do not.
+    /// v, m/s, if masses couple nodes: then `p = M v` follows from them. Empty otherwise.
     #[cfg_attr(feature = "serde", serde(default = "Compensated::default"))]
     pub(crate) velocities: Compensated<S>,
     /// γ, m.
@@ -33,10 +33,10 @@ pub(crate) struct State<S> {
     pub(crate) entropies: Compensated<S>,
     /// θ with S(λ, γ, θ) = s, K.
     pub(crate) temperatures: Vec<S>,
-    /// Per element of the scene; a checkpoint has them apart.
+    /// Per element of the scene; a checkpoint stores them separately.
     #[cfg_attr(feature = "serde", serde(skip, default = "Vec::new"))]
     pub(crate) energies: Vec<Energy<S>>,
-    /// `σ_r` since the start, J/K.
+    /// `σ_r`, the entropy that each reservoir has received since the start, J/K.
     pub(crate) reservoir_entropies: Compensated<S>,
     /// Work that loads and moved anchors have done, J.
     pub(crate) work: Sum<S>,
@@ -60,32 +60,32 @@ pub(crate) struct State<S> {
 pub(crate) struct Energy<S> {
     /// `ψ + θ s`.
     pub(crate) value: S,
-    /// `|ψ| + θ|s| + cθ`, or an eighth of `θ Σ |terms of s|` where those cancel: times 8 ε, what rounding
-    /// may do to it and to the temperature that is found from s.
+    /// `|ψ| + θ|s| + cθ` or, if the terms of s cancel, an eighth of `θ Σ |terms of s|`: times 64 ε, the bound for the
+    /// rounding of `value` and of the temperature that is found from s.
     pub(crate) magnitude: S,
     /// c, J/K: times ε, the error of an entropy by rounding of the temperature from which it is found.
     pub(crate) heat_capacity: S,
     /// `|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|` of this state, or a part of it.
     pub(crate) terms: S,
-    /// What the bound of the energy counts beside `magnitude`, J: `Σ|f||π| + Σ|g||γ|` for the rounding of the
-    /// arguments of ψ; where energies are kept by their values, also for the rounding of these.
+    /// What the bound of the energy counts in addition to `magnitude`, J: `Σ|f||π| + Σ|g||γ|` for the rounding of the
+    /// arguments of ψ; for schemes without discrete derivatives also a part for the rounding of ψ itself.
     pub(crate) excess: S,
 }
 
-/// The share of the terms of an entropy that counts in the magnitude of an energy: their sum is known to
-/// 8 ε of them, and the bound of the energy is 64 ε of its magnitude.
+/// The fraction of the terms of an entropy that counts in the magnitude of an energy: their sum has an error of 8 ε of
+/// them, and the bound of the energy is 64 ε of its magnitude.
 const SHARE_OF_TERMS: f64 = 0.125;
 
-/// The share of the terms of ψ: its value is known to 8 ε of them, and what is closed with it to as much.
+/// The same for the terms of ψ, 16 ε of them: ψ has an error of 8 ε of its terms, and the closing adds as much.
 const SHARE_OF_VALUES: f64 = 0.25;
 
-/// The share of forces by secants that is certain in elements without temperature: secants were 8.3 times too large at
-/// most in a million random steps, near the core of a Lennard-Jones spring.
+/// The fraction of secant forces that forces reach at least, in elements without temperature: secants were at most 8.3
+/// times too large in a million random steps, near the core of a Lennard-Jones spring.
 const SHARE_OF_SECANTS: f64 = 0.0625;
 
 impl<S: Real> Energy<S> {
-    /// That of an element with the free energy ψ, the temperature θ and the kept entropy s, given what the
-    /// model says at θ.
+    /// The energy of an element with the free energy ψ, the temperature θ and the stored entropy s, given the caloric
+    /// quantities of the model at θ.
     #[inline]
     pub(crate) fn new(psi: S, [theta, entropy]: [S; 2], caloric: &Caloric<S>) -> Self {
         let terms = S::from_f64(SHARE_OF_TERMS) * theta * caloric.magnitude;
@@ -99,7 +99,7 @@ impl<S: Real> Energy<S> {
         }
     }
 
-    /// That of an element without temperature.
+    /// The energy of an element without temperature.
     #[inline]
     pub(crate) fn without_temperature(psi: S) -> Self {
         Self {
@@ -118,8 +118,8 @@ impl<S: Real> Energy<S> {
         self.excess += forces;
     }
 
-    /// Adds `Σ|f||π| + Σ|g||γ|` by secants, J, and the part of it that is certain, which is none where forces change with
-    /// the temperature.
+    /// Adds `Σ|f||π| + Σ|g||γ|` with secant forces, J, to `excess`; to `terms` only the fraction that is certain, zero if
+    /// forces depend on the temperature.
     #[inline]
     pub(crate) fn add_secants(&mut self, forces: S, is_thermal: bool) {
         self.excess += forces;
@@ -134,7 +134,7 @@ impl<S: Real> Energy<S> {
         self.excess += S::from_f64(SHARE_OF_VALUES) * magnitude;
     }
 
-    /// All numbers.
+    /// The fields in their order.
     pub(crate) fn numbers(&self) -> [S; 5] {
         let Self {
             value,
@@ -146,7 +146,7 @@ impl<S: Real> Energy<S> {
         [value, magnitude, heat_capacity, terms, excess]
     }
 
-    /// From all numbers.
+    /// From the fields in their order.
     pub(crate) const fn of([value, magnitude, heat_capacity, terms, excess]: [S; 5]) -> Self {
         Self {
             value,
@@ -157,14 +157,14 @@ impl<S: Real> Energy<S> {
         }
     }
 
-    /// None.
+    /// No energy.
     pub(crate) fn zero() -> Self {
         Self::of([S::zero(); 5])
     }
 }
 
 impl<S: Real> State<S> {
-    /// Finds the momenta where masses couple nodes, which velocities decide there.
+    /// Finds the momenta `p = M v` from the velocities, if masses couple nodes.
     pub(crate) fn follow_velocities(&mut self, dimension: usize, masses: &Masses<S>) {
         if !masses.are_coupled() {
             return;

@@ -19,7 +19,7 @@ pub(crate) struct Tableau {
     pub(crate) weights: &'static [f64],
     /// `θ_i = Σ_k temperatures_ik Θ_k` with an unknown Θ per set; a row per stage.
     pub(crate) temperatures: &'static [&'static [f64]],
-    /// The equations for them, one per set.
+    /// The equations for Θ, one per set.
     pub(crate) entropies: &'static [EntropyBalance],
     /// `h v_i = Σ_j motion_ij (q_j − q⁰)`, the motion at a stage from the displacements of the sets.
     pub(crate) motion: &'static [&'static [f64]],
@@ -31,8 +31,8 @@ pub(crate) struct Tableau {
 
 /// The path of an element through a step, and the projection of quantities at its points.
 ///
-/// Squared length, viscous stretches and entropy are polynomials of the degree of the number of stages,
-/// given by their increments `h ẏ_j` at the stages. With `ê = e(C, γ, s)` the conjugates of a stage are
+/// The strain C (λ² of a spring, E of a solid), viscous stretches and entropy are polynomials, whose degree is the number of
+/// stages, given by their increments `h ẏ_j` at the stages. With `ê = e(C, γ, s)` the conjugates of a stage are
 ///
 /// ```text
 /// a_i = Σ_r projection_ir ∇ê(y(τ_r)),   y(τ_r) = y⁰ + Σ_j integrals_rj h ẏ_j
@@ -138,7 +138,7 @@ impl Tableau {
         self.known + set
     }
 
-    /// The set of a stage; none for those at the start.
+    /// The set of a stage; `None` for stages at the start of the step.
     pub(crate) const fn set_of(&self, stage: usize) -> Option<usize> {
         stage.checked_sub(self.known)
     }

@@ -3,12 +3,12 @@
 use crate::element::handle::Element;
 use eem_material::number::scalar::{Mask, Real};
 
-/// Roundings of the amplitude that a law may be off by.
+/// The bound of the defect of a law, in roundings of its amplitude.
 pub(crate) const ROUNDINGS: f64 = 64.0;
 
-/// The bound of the defect of the balance of a node, a dashpot or a temperature, in roundings of its terms, without the
-/// rounding of the arguments of the forces. A small update leaves a defect of this size; false convergence leaves one
-/// of the size of the terms. Energy and momenta are checked separately.
+/// The bound of the defect of the balance of a node, a dashpot or a temperature, in roundings of its terms, if these do
+/// not contain the rounding of the arguments of the forces. A small update leaves a defect of this size; false convergence
+/// leaves one of the size of the terms. Energy and momenta are checked separately.
 const BALANCE_ROUNDINGS: f64 = 4096.0;
 
 /// The level of the bound for rounding.
@@ -24,17 +24,17 @@ pub(crate) enum Care {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tally<S: Real> {
     pub(crate) care: Care,
-    /// Heat that flows, J.
+    /// `Σ |Q|` of dashpots and paths of heat, J.
     pub(crate) heat: S,
     /// `Σ h |f*|`, N s.
     pub(crate) impulse: S,
-    /// The contribution of the forces to A, and A⁺, J.
+    /// The contribution of the forces to A* and A⁺ of `step/certificate.rs`, J.
     pub(crate) forces: S,
     /// The entropy production, J/K.
     pub(crate) production: S,
-    /// The smallest of all productions; the largest number without any, J/K.
+    /// The smallest production of a dashpot or a path of heat, J/K; `S::MAX` if there is none.
     pub(crate) least: S,
-    /// Every balance of an internal variable holds to rounding.
+    /// Every balance of a node or an internal variable holds to rounding.
     pub(crate) is_balanced: S::Mask,
 }
 
@@ -52,32 +52,32 @@ impl<S: Real> Tally<S> {
         }
     }
 
-    /// Heat that takes part in the balance, J.
+    /// Adds heat of a dashpot or a path, J.
     #[inline]
     pub(crate) fn turn_over(&mut self, heat: S) {
         self.heat += heat.abs();
     }
 
-    /// The impulse between the nodes of an element, N s.
+    /// Adds the impulse between the nodes of an element, N s.
     #[inline]
     pub(crate) fn exchange(&mut self, impulse: S) {
         self.impulse += impulse.abs();
     }
 
-    /// The contribution of the forces of an element and of the rounding of their arguments, J.
+    /// Adds the contribution of the forces of an element and of the rounding of their arguments, J.
     #[inline]
     pub(crate) fn force(&mut self, energy: S) {
         self.forces += energy;
     }
 
-    /// Entropy that a dashpot or a path of heat has produced, J/K.
+    /// Adds the entropy that a dashpot or a path of heat has produced, J/K.
     #[inline]
     pub(crate) fn produce(&mut self, entropy: S) {
         self.production += entropy;
         self.least = self.least.minimum(entropy);
     }
 
-    /// The defect of the balance of a node, N s, given its impulse, the terms of each direction, and the magnitude of
+    /// Checks the defect of the balance of a node, N s, given its impulse, the terms of each direction, and the magnitude of
     /// the terms of the forces of its elements, whose rounding enters every direction.
     #[inline]
     pub(crate) fn balance_node<const D: usize>(
@@ -95,7 +95,7 @@ impl<S: Real> Tally<S> {
         }
     }
 
-    /// The defect of a balance, and the magnitude of its terms.
+    /// Checks the defect of a balance, given the magnitude of its terms.
     #[inline]
     pub(crate) fn balance(&mut self, residual: S, magnitude: S) {
         let roundings = match self.care {
@@ -122,7 +122,7 @@ pub(crate) struct Reevaluation<S> {
 }
 
 impl<S: Real> Reevaluation<S> {
-    /// Of no elements.
+    /// Without elements.
     pub(crate) fn new() -> Self {
         Self {
             correction: S::zero(),
@@ -131,7 +131,7 @@ impl<S: Real> Reevaluation<S> {
         }
     }
 
-    /// An element with its `Δe` by values, the magnitude of the terms of its free energy at both ends, its `Δe`
+    /// Adds an element with its `Δe` by values, the magnitude of the terms of its free energy at both ends, its `Δe`
     /// by differences, and `f*Δλ − Σ g*Δγ + θ*Δs` with the response of the step, J.
     pub(crate) fn element(
         &mut self,

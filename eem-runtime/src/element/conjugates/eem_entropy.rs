@@ -17,8 +17,8 @@ use core::array;
 use eem_material::free_energy::{Array, Entry, FormRows, FreeEnergy, Material};
 use eem_material::number::scalar::{Mask, Real, unless};
 
-/// The largest first correction of ln θ from which Newton's method goes on, and the factor by which corrections have to
-/// shrink; otherwise mixed states are searched one by one.
+/// The largest first correction of ln θ with which Newton's method continues, and the factor by which corrections have to
+/// shrink; otherwise a safeguarded search finds the temperatures one by one.
 const LARGEST_FIRST: f64 = 0.0625;
 const SHRINKING: f64 = 0.25;
 
@@ -113,7 +113,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
         model.entropy_form_response(&start.old, x, corners)
     }
 
-    /// The ascending chain is the descending one seen from the other end.
+    /// With old and new state exchanged, the ascending chain is the descending one.
     #[cfg(feature = "gradients")]
     #[inline]
     fn exchanged(corners: &Self::Memory) -> Self::Memory {
@@ -145,14 +145,14 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     }
 }
 
-/// A model, what is known of the old state, and the new variables.
+/// A model, the data of the old state, and the new variables.
 type Step<'a, S, M> = (
     &'a M,
     &'a Start<S, M, <M as FreeEnergy<S>>::EntropyFormOld>,
     &'a <M as FreeEnergy<S>>::Variables,
 );
 
-/// The temperatures of all mixed states of an element, from those of the last trial.
+/// Finds the temperatures of all mixed states of an element, from those of the last trial.
 #[inline]
 fn find_corners<S: Real, M: FreeEnergy<S>>(
     step: Step<'_, S, M>,
@@ -204,8 +204,9 @@ fn find_corners_of_each<'a, S: Real, M: Material<S>>(
 /// Newton's method in ln θ for the temperatures of the mixed states of an element.
 struct Search<S: Real, M: FreeEnergy<S>> {
     guesses: M::Corners,
-    /// The largest correction that goes on.
+    /// The largest correction with which Newton's method continues.
     limit: S,
+    /// Lanes that have converged.
     settled: S::Mask,
 }
 
@@ -240,7 +241,7 @@ impl<S: Real, M: FreeEnergy<S>> Search<S, M> {
         for index in 0..M::Corners::LEN {
             let correction = -excess[index] / capacities[index];
             let size = correction.abs();
-            // It keeps a NaN, which a comparison loses.
+            // The sum keeps a NaN; a comparison loses it.
             sum += size;
             largest = S::select(largest.less(size), size, largest);
             least = S::select(capacities[index].less(least), capacities[index], least);
@@ -271,8 +272,8 @@ fn growth<S: Real>(x: S) -> S {
     (x + half * square) + (x * square) * (third + quarter * x)
 }
 
-/// The same one by one: first the ascending chain, where the first k variables are new and the entropy is old, then
-/// the descending one, the other way round.
+/// Searches the temperatures one by one, alternately in two chains: the ascending one, where the first k variables are new
+/// and the entropy is old, and the descending one, where they are old and the entropy is new.
 ///
 /// A trial beyond a spinodal is refused, so that all corners lie on the stable branch.
 #[cold]

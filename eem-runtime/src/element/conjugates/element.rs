@@ -163,7 +163,8 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         *memory
     }
 
-    /// The derivative of the weighted response by the parameters at fixed `x⁰` and `x¹`; NaN unless the form is exact.
+    /// The derivative of the weighted response with respect to the parameters at fixed `x⁰` and `x¹`; NaN unless the form is
+    /// exact.
     #[cfg(feature = "gradients")]
     fn form_adjoint(
         self,

@@ -1,4 +1,4 @@
-//! Rules that evaluate the free energy at one point of the step: the ordinary ones, for comparison, and the
+//! Rules that evaluate the free energy at one point of the step: the classical ones, for comparison, and the
 //! variational integrator.
 //!
 //! | rule | is |
@@ -8,10 +8,10 @@
 //! | variational | Hamilton's principle, see below. It keeps the momenta, and the energy stays near its value |
 //! | rest | no rule of steps: forces at a state at rest, see `step/solver/rest.rs` |
 //!
-//! The first two with the state `z = (q, p, γ, s)`, or with `(q, p, γ, θ)` and the rate
-//! `θ̇ = ((Σ g²/η + Q)/θ − s_λ λ̇ − s_γ γ̇)/s_θ` as Conde Martín, Betsch & García Orden (2016) run them.
+//! The first two have the state `z = (q, p, γ, s)`, or `(q, p, γ, θ)` with the rate
+//! `θ̇ = ((Σ g²/η + Q)/θ − s_λ λ̇ − s_γ γ̇)/s_θ` as in Conde Martín, Betsch & García Orden (2016).
 //!
-//! They are solved by Newton's method in the variables that they integrate, hence with the entropy
+//! They are solved by Newton's method in the variables that they integrate, hence with the entropy or the temperature
 //! as unknown, and with equations that are neither scaled by θ nor multiplied by η: other unknowns or equations move
 //! the time at which the trapezoidal rule breaks down away from the published one.
 //!
@@ -34,22 +34,22 @@ use eem_material::number::scalar::Real;
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PointRule {
-    /// In entropies.
+    /// Midpoint rule for entropies.
     Midpoint,
-    /// In temperatures.
+    /// Midpoint rule for temperatures.
     MidpointTemperature,
-    /// In entropies.
+    /// Trapezoidal rule for entropies.
     Trapezoidal,
-    /// In temperatures.
+    /// Trapezoidal rule for temperatures.
     TrapezoidalTemperature,
-    /// Not of a step: values at a state at rest.
+    /// No rule for steps: values at a state at rest.
     Rest,
     /// From Hamilton's principle.
     Variational,
 }
 
 impl PointRule {
-    /// The share c of the step after which the point lies.
+    /// The time c of the point, as a fraction of the step.
     const fn time(self) -> f64 {
         match self {
             Self::Midpoint | Self::MidpointTemperature | Self::Variational => 0.5,

@@ -79,7 +79,7 @@ fn change_of<K: Kinematics<S, D>, S: Real, const D: usize>(
     change
 }
 
-/// Derivatives by arms as derivatives by positions.
+/// Derivatives with respect to the positions of the nodes, from those with respect to the arms.
 #[inline]
 pub(super) fn spread<K: Kinematics<S, D>, S: Real, const D: usize>(
     by_arm: &Arms<K, S, D>,

@@ -1,4 +1,4 @@
-//! Validation of elements in a state from outside, and their parameters.
+//! Validation of elements in a state from outside, and of the response of their models there.
 
 use super::kelvin_voigt::check_drag;
 use super::point::Point;
@@ -9,11 +9,11 @@ use crate::element::state::State;
 use eem_material::free_energy::Material;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
-/// How many ε of its terms an entropy may differ from that of the model.
+/// The largest difference of a stored entropy and that of the model, in ε of its terms.
 ///
-/// A step finds the temperature of its entropy within 4 ε of the terms of S, or within 2 ε in the
-/// larger of 1 and |ln θ|, times the heat capacity in the entropy (`inversion`); stretches and viscous stretches are
-/// rounded once each. The evaluation of S here may add as much again.
+/// A step finds the temperature to 4 ε of the terms of S, or to `2 ε max(1, |ln θ|)` in ln θ, times the heat capacity in the
+/// entropy (`inversion`); stretches and viscous stretches are rounded once each. The evaluation of S here may add as much
+/// again.
 const ENTROPY_ROUNDINGS: f64 = 8.0;
 
 /// Why an element cannot have a state from outside.
@@ -40,7 +40,7 @@ impl From<StateError> for Misfit {
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Energy, forces and viscosities are those of a state that a scene can begin with.
+    /// An error unless energy and forces are finite and viscosities positive.
     pub(super) fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {
         self.unless_infinite(self.model.free_energy(x))?;
         let gradient = self.model.gradient(x);
@@ -72,7 +72,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// `s = S(λ, γ, θ)` to rounding,
+    /// An error unless `s = S(λ, γ, θ)` to rounding,
     ///
     /// ```text
     /// |S − s| ≤ 8 ε (Σ|terms of S| + Σ |∂S/∂x| |x| + C max(1, |ln θ|)),   x = λ, γ

@@ -28,7 +28,7 @@ pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// The old state; what the scheme keeps of it may be known.
+    /// Takes the old state; the data that the scheme keeps of it may be known.
     #[inline]
     pub(super) fn begin(
         &mut self,
@@ -50,7 +50,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(())
     }
 
-    /// The part of rates and nodal forces that the scheme takes from the old state.
+    /// Finds the part of rates and nodal forces that the scheme takes from the old state.
     fn take_old_share(
         &mut self,
         view: &StepView<'_, S>,
@@ -117,7 +117,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         self.hold();
     }
 
-    /// The internal variables change as in the last step: viscous stretches linearly, the temperature by a factor.
+    /// Predicts the internal variables by their changes in the last step: viscous stretches linearly, the temperature by a
+    /// factor.
     #[inline]
     fn predict(&mut self, before: &Before<'_, S>) {
         let slots = self.slots();
@@ -134,7 +135,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// The part of the rates that the scheme takes from the old state; returns the old gradient.
+    /// Finds the part of the rates that the scheme takes from the old state; returns the old gradient.
     fn take_old_share(
         &mut self,
         view: &StepView<'_, S>,
@@ -172,7 +173,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(gradient)
     }
 
-    /// `(1 − w) θ̇⁰`, which a scheme in temperature has instead of `(1 − w) ṡ⁰`.
+    /// Finds `(1 − w) θ̇⁰`, which a scheme in temperature uses instead of `(1 − w) ṡ⁰`.
     fn find_old_heating(
         &mut self,
         pose: &Pose<K, S, D>,

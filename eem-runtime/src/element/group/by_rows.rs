@@ -1,6 +1,6 @@
-//! Springs whose model takes several in one call: what it evaluates ahead of going through them one by one.
+//! Springs whose model evaluates several of them in one call, ahead of the loop over the springs.
 //!
-//! The loops over elements are those of all models. What they would evaluate is known there, with the same bits.
+//! The loops over elements are those of all models. They take the values evaluated ahead, which have the same bits.
 
 use super::ahead::Ahead;
 use super::member::Member;
@@ -21,7 +21,7 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>
 {
-    /// The old state of all springs.
+    /// Takes the old state in all springs.
     pub(super) fn begin_by_rows(
         &mut self,
         view: &StepView<'_, S>,
@@ -48,7 +48,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(())
     }
 
-    /// Responses with their tangents, and what they contribute to the system of the next iteration.
+    /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.
     pub(super) fn linearize_by_rows(
         &mut self,
         view: &StepView<'_, S>,
@@ -83,7 +83,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(())
     }
 
-    /// Responses without tangents.
+    /// Evaluates responses without tangents.
     pub(super) fn respond_by_rows(
         &mut self,
         view: &StepView<'_, S>,
@@ -114,7 +114,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(())
     }
 
-    /// The end of a step: the temperatures are sought from those of the trial.
+    /// Closes the step in all springs, with caloric quantities evaluated ahead at the temperatures of the trial.
     pub(super) fn close_by_rows(
         &mut self,
         view: &StepView<'_, S>,
@@ -156,8 +156,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-/// The variables at a trial, and what the scheme has to find before its form. Where it does not for one spring, all of them
-/// are gone through one by one, so that the error is that of the first.
+/// Finds the variables at a trial and the memories of the scheme. On an error, the caller evaluates the springs one by one,
+/// so that the error returned is that of the first spring that has one.
 fn prepare<S, M, K, C, const D: usize>(
     members: &[Member<S, M, K, C, D>],
     trial: &Trial<S, D>,
@@ -180,7 +180,7 @@ where
     C::prepare_rows(each, &mut ahead.memories)
 }
 
-/// Models with what they keep of the old state, new variables, and what the scheme has found before its form.
+/// Of a spring: its model, the data of its old state, its new variables and the memory of its scheme.
 fn each<'a, S, M, K, C, const D: usize>(
     members: &'a [Member<S, M, K, C, D>],
     x: &'a [M::Variables],
@@ -198,7 +198,7 @@ where
     }
 }
 
-/// The viscosities at the temperatures of responses.
+/// Finds the viscosities at the temperatures of responses.
 fn find_viscosities<'a, S, M, K, C, const D: usize>(
     model: &Rows<S, M>,
     members: &'a [Member<S, M, K, C, D>],
@@ -215,7 +215,7 @@ fn find_viscosities<'a, S, M, K, C, const D: usize>(
     if M::DASHPOTS == 0 {
         return;
     }
-    // Without a temperature it means nothing which number this is.
+    // Models without temperature ignore it, so that any entry will do.
     let theta = Point::<S, M, K, C, D>::TEMPERATURE * usize::from(M::THERMAL);
     let each = |index: usize| (&members[index].only().model, &response(index)[theta]);
     (model.viscosity)(&each, viscosities);

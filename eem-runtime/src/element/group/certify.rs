@@ -58,7 +58,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         sizes
     }
 
-    /// The force between its nodes, `Σ |∂π/∂r| |f*|`, N.
+    /// A bound of the force between its nodes, `Σ |∂π/∂r| |f*|`, N.
     #[inline]
     pub(super) fn largest_pull(&self, r1: &Arms<K, S, D>) -> S {
         let slopes = self.kinematics.slopes(r1, &measures_in::<K, S, D>(&self.x));
@@ -108,8 +108,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         sum
     }
 
-    /// The contribution of the forces to A and, for a thorough bound, to A⁺, and `Σ|f||π| + Σ|g||γ|` of the new state,
-    /// J:
+    /// The contribution of the forces to A* and, for a thorough bound, to A⁺ of `step/certificate.rs`, and
+    /// `Σ|f||π| + Σ|g||γ|` of the new state, J:
     ///
     /// ```text
     /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|) + ε (|T_λλ| λ² + Σ |T_γγ| γ²)

@@ -36,7 +36,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         sum.unwrap_or_else(|| K::PerNode::filled([S::zero(); D]))
     }
 
-    /// The same as `A r_m`.
+    /// The nodal forces of the last responses in the form `A r_m`, N.
     #[inline]
     pub(super) fn pull(
         &self,
@@ -66,7 +66,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// Books the step, finds the new temperature, whose caloric quantities may be known at that of the trial, and judges.
+    /// Books the step, recovers the new temperature and judges the step. The caloric quantities at the temperature of the
+    /// trial may be known.
     #[inline]
     pub(super) fn close(
         &mut self,
@@ -123,7 +124,7 @@ pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
     spread::<K, S, D>(&pull_of_arms::<K, S, D>(weights, r))
 }
 
-/// The same per arm: those of the nodes but the first.
+/// The same per arm: the forces on all nodes except the first.
 #[inline]
 pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
     weights: &Weights<K, S, D>,
@@ -143,7 +144,7 @@ pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// A of the force `A r_m` at the last response.
+    /// The matrix A of the force `A r_m` at the last response.
     #[inline]
     fn secant(&self, [r0, r1]: [&Arms<K, S, D>; 2]) -> Weights<K, S, D> {
         let measures1 = measures_in::<K, S, D>(&self.x);
@@ -217,7 +218,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         )
     }
 
-    /// The same for the entropy, given what the dashpots contribute.
+    /// Books entropy and heat flows, given what the dashpots contribute; returns all heat and entropy received.
     #[inline]
     fn book_heat(
         &self,
@@ -277,7 +278,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// See [`reservoir_correction`]; zero unless the scheme is exact and the temperature its own.
+    /// See [`reservoir_correction`]; zero unless the scheme is exact and the temperature free.
     fn reservoir_correction(&self, view: &StepView<'_, S>, slot: usize, heat: S) -> S {
         if !C::EXACT || self.is_prescribed {
             return S::zero();

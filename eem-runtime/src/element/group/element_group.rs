@@ -83,7 +83,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         (&self.members[place / points], place % points)
     }
 
-    /// The old state of all elements.
+    /// Takes the old state in all elements.
     #[inline]
     pub(super) fn begin_one_by_one(
         &mut self,
@@ -94,7 +94,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         members.try_for_each(|member| member.begin(view, old, None))
     }
 
-    /// The end of a step.
+    /// Closes the step in all elements.
     #[inline]
     pub(super) fn close_one_by_one(
         &mut self,

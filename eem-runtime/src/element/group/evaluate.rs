@@ -17,7 +17,7 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>
 {
-    /// Responses with their tangents, and what they contribute to the system of the next iteration.
+    /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.
     #[inline]
     pub(super) fn linearize_one_by_one(
         &mut self,
@@ -34,7 +34,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(())
     }
 
-    /// Responses without tangents.
+    /// Evaluates responses without tangents.
     #[inline]
     pub(super) fn respond_one_by_one(
         &mut self,
@@ -125,7 +125,7 @@ fn in_pieces<A: Send, B: Send>(
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// Responses without tangents, which may be known.
+    /// Evaluates the responses, which may be known, without tangents.
     #[inline]
     pub(super) fn respond(
         &mut self,
@@ -142,7 +142,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         })
     }
 
-    /// Responses with their tangents, which may be known, and the contribution of the element to the system of the next
+    /// Evaluates responses and tangents, which may be known, and the contribution of the element to the system of the next
     /// iteration.
     #[expect(
         clippy::inline_always,

@@ -5,7 +5,7 @@
 //! close      temperatures from entropies, and energies, of a state that closes a step     (closing)
 //! pull       forces on the nodes in such a state                                  (closing)
 //! finish     rates of the closed state, with which the next step begins           (closing)
-//! stiffness  how fast elements are, where a step was too long                     (stiffness)
+//! stiffness  stiffness and rates of elements, if a step was too long              (stiffness)
 //! ```
 
 mod closed;

@@ -1,4 +1,4 @@
-//! What one element contributes to the GENERIC form of the equations.
+//! The contribution of one element to the GENERIC form of the equations.
 
 use super::arms::{measures_in, spread};
 use super::point::Point;
@@ -14,7 +14,7 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Replaces the response by the derivatives in a state.
+    /// Replaces the response by the derivatives of the energy in a state.
     pub(super) fn take_derivatives(&mut self, r: &Arms<K, S, D>, state: &State<S>) {
         let x = self.variables_in(r, state);
         let gradient = self.model.gradient(&x);

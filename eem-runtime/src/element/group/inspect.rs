@@ -1,4 +1,4 @@
-//! Values of the elements in a state, by the definitions and not from the last step.
+//! Values of the elements in a state, computed from the definitions and not taken from the last step.
 
 use super::arms::measures_in;
 use super::interface::Elements;
@@ -244,7 +244,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         variables::<S, M>(self.kinematics.measure(r).as_ref(), self.slots(), state)
     }
 
-    /// `ψ + θ s`, with the entropy that is the state, J.
+    /// `ψ + θ s` with the stored entropy, J.
     fn internal_energy(&self, x: &M::Variables, state: &State<S>) -> S {
         let psi = self.model.free_energy(x);
         match self.slots().thermal {
@@ -254,7 +254,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-/// Forces and entropy of an initial state are finite; in later states they are part of a response.
+/// An error unless forces and entropy of an initial state are finite; those of later states are checked with a response.
 fn check_gradient<S: Real, M: FreeEnergy<S>>(
     element: Element,
     gradient: &M::Variables,

@@ -26,9 +26,9 @@ use eem_material::number::scalar::Real;
 
 /// Elements of one model in a state, for any scheme.
 pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
-    /// Entropies of an initial state whose temperatures are given.
+    /// Finds the entropies and energies of an initial state from its temperatures.
     ///
-    /// Calls `refuse` for every element that cannot have it.
+    /// Calls `refuse` for every element for which the state is inadmissible.
     fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError));
 
     /// Adds energy and entropy, from their definitions.
@@ -49,7 +49,7 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// The nodes of the element at `place`.
     fn nodes(&self, place: usize) -> &[u32];
 
-    /// The names of the parameters of their model; none of a scheme without an adjoint.
+    /// The names of the parameters of their model; empty for a scheme without an adjoint.
     #[cfg(feature = "gradients")]
     fn parameters(&self) -> &'static [&'static str] {
         &[]
@@ -61,7 +61,7 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
         &[]
     }
 
-    /// Whether there are derivatives by them.
+    /// Whether the model has derivatives with respect to its parameters.
     #[cfg(feature = "gradients")]
     fn has_parameter_derivatives(&self) -> bool {
         false
@@ -79,7 +79,7 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// The element at `place` in a state.
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
 
-    /// Stress and strain of the element at `place`, none of a spring.
+    /// Stress and strain of the element at `place`; `None` for a spring.
     fn solid_state(&self, place: usize, state: &State<S>) -> Option<SolidState<S>>;
 
     /// The power that the dashpots of the element at `place` turn into heat, W, at these velocities of nodes, m/s.
@@ -141,7 +141,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     );
 
     /// Adds `(h w) A` and `−(h w) A q⁰`, where `A q_i` is the nodal force found at the stage of a set and w
-    /// its weight in the rows of the set; moved anchors are taken from the trial. Only of stages.
+    /// its weight in the rows of the set; moved anchors are taken from the trial. Only for schemes closed stage by stage.
     fn add_secant(
         &mut self,
         _set: usize,
@@ -161,13 +161,14 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
         tally: &mut Tally<S>,
     ) -> Result<(), StateError>;
 
-    /// The energy balances of the elements in the last step, from the old state to a closed one.
+    /// Adds the energy balances of the elements in the last step, from the old state to a closed one.
     fn reevaluate(&self, ends: [&State<S>; 2], reevaluation: &mut Reevaluation<S>);
 
-    /// The contributions of the elements to the discrete GENERIC form of the last step, between two states.
+    /// The contributions of the elements to the discrete GENERIC form of the last step, between two states; empty for
+    /// schemes of several stages.
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
 
-    /// Finds the interface temperatures θ* of its points in a step that was made, before [`pull_back`](Self::pull_back).
+    /// Finds the interface temperatures θ* of its points in a completed step, before [`pull_back`](Self::pull_back).
     #[cfg(feature = "gradients")]
     fn find_interfaces(
         &mut self,
@@ -177,8 +178,8 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
         Ok(())
     }
 
-    /// Adds the transposed tangent of a step that was made, local unknowns eliminated, and the right-hand side to a system.
-    /// Only of the energy–entropy–momentum forms; so are the others.
+    /// Adds the transposed tangent of a completed step, local unknowns eliminated, and the right-hand side to a system.
+    /// Like the methods below, only for the energy–entropy–momentum forms.
     #[cfg(feature = "gradients")]
     fn pull_back(
         &mut self,
@@ -189,8 +190,8 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
         Ok(())
     }
 
-    /// Adds the derivatives by the old state, given the solution of that system, and passes those by the parameters of every
-    /// point to `see`.
+    /// Adds the derivatives with respect to the old state, given the solution of that system, and passes those with respect
+    /// to the parameters of every point to `see`.
     #[cfg(feature = "gradients")]
     fn recover(
         &mut self,
@@ -202,8 +203,8 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     ) {
     }
 
-    /// Adds the tangent of a step that was made, local unknowns eliminated, to a system, and what changes with the old state, with
-    /// parameters and heat to the right-hand side of each direction; θ* of points is written by thermal slot.
+    /// Adds the tangent of a completed step, local unknowns eliminated, to a system, and the changes with old state,
+    /// parameters and heat to the right-hand side of each direction; writes θ* of the points by thermal slot.
     #[cfg(feature = "gradients")]
     fn push_forward(
         &mut self,
@@ -219,7 +220,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     #[cfg(feature = "gradients")]
     fn follow(&self, _: &mut [Direction<S>]) {}
 
-    /// Passes the derivatives of the internal energy of every point by its parameters in a state to `see`.
+    /// Passes the derivatives of the internal energy of every point with respect to its parameters in a state to `see`.
     #[cfg(feature = "gradients")]
     fn energy_by_parameters(&self, _state: &State<S>, _see: &mut SeeParameters<'_, S>) {}
 }
@@ -238,16 +239,16 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
     /// Takes the component of each element, and the places of its nodes by component and node; called once per scene.
     fn join(&mut self, component_of: &[u32], place_of: &dyn Fn(u32, u32) -> u32);
 
-    /// Forces and rates at a stage.
+    /// Adds the forces and writes the rates at a stage.
     fn rates(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
 
-    /// Temperatures and energies of the open components.
+    /// Finds temperatures and energies of the open components.
     fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError>;
 
     /// Adds the forces on places at the last closing of these components, and writes `γ̇` and `g γ̇` of their dashpots.
     fn pull(&self, components: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]);
 
-    /// The rates of the closed state, whose temperatures differ little from those of the last [`close`](Self::close).
+    /// Writes the rates of the closed state, whose temperatures differ little from those of the last [`close`](Self::close).
     fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
 
     /// Passes the stiffness of each element in a state to `see`.
@@ -256,7 +257,7 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
 
 /// Elements of one model without a scheme, for any model.
 pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
-    /// Their type.
+    /// The elements, for a downcast to their type.
     fn as_any(&self) -> &dyn Any;
 
     /// The same, mutable.

@@ -27,12 +27,12 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     /// Number of measures with a dashpot of their own.
     pub(super) const DRAGS: usize = M::Drag::LEN;
 
-    /// Whether `λ̇` is the rate of a classical scheme, with its own derivatives by the arms, and not a difference of
-    /// lengths.
+    /// Whether `λ̇` is the rate of a classical scheme, with its own derivatives with respect to the arms, and not a
+    /// difference of lengths.
     pub(super) const HAS_RATES: bool = Self::DRAGS > 0 && !C::EXACT;
 
     /// Finds `Δλ` along the gradients of the trial. For a classical scheme it is `w h λ̇`, with the rate λ̇ of the
-    /// trial, and its derivatives by the new arms are returned.
+    /// trial, and its derivatives with respect to the new arms are returned.
     #[inline]
     pub(super) fn extend(
         &mut self,
@@ -110,7 +110,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         elastic
     }
 
-    /// `λ̇ dη/dθ`, the derivative of the force by θ*.
+    /// `λ̇ dη/dθ`, the derivative of the force with respect to θ*.
     #[inline]
     fn thinning(&self, a: usize, per_step: S) -> S {
         self.extension_rate(a, per_step) * self.drag.viscosity.1[a]
@@ -150,7 +150,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// For a classical scheme: the derivatives of the heat balance by the new arms through the rates.
+    /// For a classical scheme: finds the derivatives of the heat balance with respect to the new arms through the rates.
     pub(super) fn warm_by_rates(&mut self, view: &StepView<'_, S>, by_arm: &Gradient<K, S, D>) {
         let per_share = self.per_share(view.per_step);
         for at_point in self.single.as_mut() {
@@ -168,7 +168,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// The derivative of a force by the new arms through its rate, times a factor.
+    /// The derivative of a force with respect to the new arms through its rate, times a factor.
     pub(super) fn force_by_rate(
         &self,
         a: usize,
@@ -209,7 +209,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         Ok(power)
     }
 
-    /// Books the heat of the step, J.
+    /// Books the entropy production of the step; returns the heat, J.
     #[inline]
     pub(super) fn book_drag(&self, per_theta: S, tally: &mut Tally<S>) -> S {
         let mut dissipated = S::zero();

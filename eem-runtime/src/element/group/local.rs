@@ -7,7 +7,7 @@
 //!
 //! where `w` is the implicit weight of the scheme and `c` the contribution of the old state. Nothing is divided by η,
 //! so that very small and very large η need no special case. The classical schemes, included for comparison, are solved
-//! as usual, with `γ̇_k = g*_k/η_k` and `r_γk = Δγ_k − h (w γ̇_k + c_k)`, which decides where they break down. The
+//! as usual, with `γ̇_k = g*_k/η_k` and `r_γk = Δγ_k − h (w γ̇_k + c_k)`: other equations would change where they fail. The
 //! unknowns `u = (Δγ…, τ)` occur in no other element, since elements in contact are coupled by the global unknown Θ =
 //! θ*. So their corrections are eliminated here.
 
@@ -24,7 +24,7 @@ use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::Real;
 
-/// The power dissipated by the dashpots, `Σ η γ̇²`, W, and its derivatives by the variables.
+/// The power dissipated by the dashpots, `Σ η γ̇²`, W, and its derivatives with respect to the variables.
 pub(super) struct Dissipation<S: Real, M: FreeEnergy<S>> {
     pub(super) power: S,
     pub(super) by: M::Variables,
@@ -70,7 +70,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
     }
 
-    /// Writes the local equations to an empty system; `SCALED` as [`ElementScheme::SCALES_HEAT`] has it, else as they are.
+    /// Writes the local equations to an empty system; if `SCALED`, that of heat as [`ElementScheme::SCALES_HEAT`] says.
     #[expect(clippy::inline_always, reason = "the system stays in registers")]
     #[inline(always)]
     pub(super) fn balances<const SCALED: bool>(

@@ -11,7 +11,7 @@ use eem_material::number::scalar::Real;
 /// Model and kinematics of the points of an element.
 pub(crate) type Parts<S, M, K, const D: usize> = <K as Kinematics<S, D>>::PerPoint<(M, K)>;
 
-/// Elements of the model `M` with the kinematics `K`, by the handles of their first points.
+/// Elements of the model `M` with the kinematics `K`, each with the handle of its first point.
 pub(crate) struct LooseElements<S: Real, M: Send + Sync, K: Kinematics<S, D>, const D: usize> {
     pub(crate) elements: Vec<(Element, Parts<S, M, K, D>)>,
 }
@@ -19,7 +19,7 @@ pub(crate) struct LooseElements<S: Real, M: Send + Sync, K: Kinematics<S, D>, co
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements<S, M, K, D> {
     pub(super) const POINTS: usize = K::PerPoint::<(M, K)>::LEN;
 
-    /// None yet.
+    /// No elements yet.
     pub(crate) const fn new() -> Self {
         Self {
             elements: Vec::new(),

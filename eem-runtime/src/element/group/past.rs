@@ -1,8 +1,8 @@
 //! An element in a completed step between two states of a history, for the adjoint and the tangents of the step.
 //!
 //! When the two states are exchanged, the response `(f*, g*, θ*, Δs)` of a point stays, except Δs, which changes sign. So its
-//! derivative by the old state is the tangent of the form from the new state to the old one, with the row of Δs negated.
-//! The mean-value gradients of the measures stay, too.
+//! derivative with respect to the old state is the tangent of the form from the new state to the old one, with the row of Δs
+//! negated. The mean-value gradients of the measures stay, too.
 
 use super::arms::measures_in;
 use super::member::Member;
@@ -84,7 +84,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(form)
     }
 
-    /// The derivatives of the response by the variables of the old state.
+    /// The derivatives of the response with respect to the variables of the old state.
     #[inline]
     pub(super) fn slopes_by_old(&self) -> M::Tangent {
         let start = Start {

@@ -49,9 +49,10 @@ pub(super) struct PointMemory<S, V, A> {
     pub(super) entropy_change: S,
     pub(super) previous_entropy_change: S,
     pub(super) entropy_correction: S,
-    /// The derivative of the Δs of the response by the variables.
+    /// The derivative of the Δs of the response with respect to the variables.
     pub(super) entropy_by: V,
-    /// For a scheme in temperature: the derivative of Δs by the new arms through the increments of the measures.
+    /// The derivative of `r_s` with respect to the new arms, without that through the measures: through the increments for
+    /// a scheme in temperature, through the rates of Kelvin–Voigt dashpots for all classical schemes.
     pub(super) by_increment: A,
 }
 
@@ -81,7 +82,7 @@ pub(super) type Viscosities<S, M> = (
     <M as FreeEnergy<S>>::Viscosities,
 );
 
-/// What may be known of a trial before it is evaluated: what the scheme has prepared, response or form, and viscosities.
+/// Values of a trial that may have been evaluated ahead: memory of the scheme, response or form, and viscosities.
 pub(super) type Known<P, T, S, M> = Option<(P, T, Viscosities<S, M>)>;
 
 /// A point with its variables in a step of the scheme `C`.
@@ -117,14 +118,14 @@ pub(crate) struct Point<
     /// Δγ and τ before the last correction, and the correction of all variables.
     pub(super) previous: PerUnknown<S, M::Viscosities>,
     pub(super) correction: M::Variables,
-    /// The response at the trial, and the derivatives of `(f*, g*, θ*)` by `x`.
+    /// The response at the trial, and the derivatives of `(f*, g*, θ*)` with respect to `x`.
     pub(super) response: M::Response,
     pub(super) slopes: M::Hessian,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(super) viscosities: Viscosities<S, M>,
     /// The Kelvin–Voigt dashpot, if there is one.
     pub(super) drag: Drag<M::Drag>,
-    /// The derivative of the measures by the new arms.
+    /// The derivative of the measures with respect to the new arms.
     pub(super) sensitivity: Gradient<K, S, D>,
     /// Local unknowns as functions of the global ones.
     pub(super) condensed: Condensed<S, M, K, D>,
@@ -262,7 +263,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         })
     }
 
-    /// The viscosities at a temperature, all positive; they may be known.
+    /// Finds the viscosities at a temperature, unless they are known; an error unless all are positive.
     #[inline]
     pub(super) fn find_viscosities(
         &mut self,
@@ -353,7 +354,7 @@ pub(super) fn temperature_in<S: Real, M: FreeEnergy<S>>(response: &M::Response) 
     }
 }
 
-/// The variables `x = (π, γ, θ)` of an element in a state.
+/// The variables `x = (π, γ, θ)` of a point in a state, given its measures.
 #[inline]
 pub(super) fn variables<S: Real, M: FreeEnergy<S>>(
     measures: &[S],

@@ -1,5 +1,5 @@
-//! A step that was made, as its adjoint and its tangents see it: its states, derivatives by them or of them, and the weights of
-//! its equations.
+//! A completed step, for its adjoint and its tangents: its states, derivatives with respect to them or of them, and the
+//! weights of its equations.
 
 use super::terms::Terms;
 use super::view::StepView;
@@ -8,7 +8,7 @@ use crate::element::layout::Layout;
 use crate::element::state::State;
 use eem_material::number::scalar::{Mask, Real};
 
-/// A number per variable of a state: the derivatives of something by the state, or those of the state by an input.
+/// A number per variable of a state: derivatives with respect to the state, or of the state with respect to an input.
 #[derive(Clone, Debug)]
 pub(crate) struct PerVariable<S> {
     /// Positions and velocities of all nodes, anchors too; anchors have velocities only where masses couple them.
@@ -21,7 +21,7 @@ pub(crate) struct PerVariable<S> {
 }
 
 impl<S: Real> PerVariable<S> {
-    /// Zero, for a scene with so many coordinates.
+    /// Zeros, for a scene with this number of coordinates.
     pub(crate) fn zero(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
         let zeros = |count| vec![S::zero(); count];
         Self {
@@ -59,17 +59,17 @@ impl<S: Real> PerVariable<S> {
     }
 }
 
-/// A step that was made.
+/// A completed step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PastStep<'a, S> {
-    /// Its size, its old state, and what does not change from step to step.
+    /// Its size, its old state, and the data common to all steps.
     pub(crate) view: StepView<'a, S>,
     pub(crate) new: &'a State<S>,
-    /// Whether thermostats hold the temperatures, by thermal slot.
+    /// Whether thermostats prescribe the temperatures, by thermal slot.
     pub(crate) held: &'a [bool],
 }
 
-/// A step with the derivatives of a number by its new state.
+/// A step with the derivatives of a number with respect to its new state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepBack<'a, S> {
     pub(crate) past: PastStep<'a, S>,
@@ -79,14 +79,14 @@ pub(crate) struct StepBack<'a, S> {
 /// A direction in which inputs change, in a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Direction<S> {
-    /// The changes of the old state and of the new one, of which those of anchors and of temperatures that are held are given.
+    /// The changes of the old state and of the new one; in the latter those of anchors and prescribed temperatures are given.
     pub(crate) old: PerVariable<S>,
     pub(crate) new: PerVariable<S>,
-    /// Those of θ*, by thermal slot.
+    /// The changes of θ*, by thermal slot.
     pub(crate) middle: Vec<S>,
-    /// Those of the parameters of elements; none of most.
+    /// The changes of the parameters of each element; empty for most elements.
     pub(crate) parameters: Vec<Vec<S>>,
-    /// `[a, b]` for a change `a − b θ*` of the heat that a thermal slot receives, W, when the temperatures of elements stay.
+    /// `[a, b]` for a change `a − b θ*` of the heat that a thermal slot receives, W, at constant temperatures of elements.
     pub(crate) heat: Vec<[S; 2]>,
     /// The rows of the right-hand side, then of the solution.
     pub(crate) right: Vec<[S; 1]>,
@@ -95,17 +95,17 @@ pub(crate) struct Direction<S> {
 /// The weights w of the equations of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct StepWeights<S> {
-    /// Of the momentum balances of all nodes, zero at anchors.
+    /// Those of the momentum balances of all nodes, zero at anchors.
     pub(crate) motion: Vec<S>,
-    /// Of the entropy balances, of the temperatures that are held, and θ*, by thermal slot.
+    /// Those of the entropy balances, those of prescribed temperatures, and θ*, by thermal slot.
     pub(crate) entropies: Vec<S>,
     pub(crate) held: Vec<S>,
     pub(crate) temperatures: Vec<S>,
-    /// The derivatives by the positions of anchors in the old state and in the new one, zero at masses.
+    /// The derivatives with respect to the positions of anchors in the old state and in the new one, zero at masses.
     pub(crate) anchors: [Vec<S>; 2],
     /// The terms of `−(∂R/∂h)ᵀ w` of the points.
     pub(crate) by_size: Terms<S>,
 }
 
-/// What receives the derivatives by the parameters of each element.
+/// A function that receives the derivatives with respect to the parameters of each element.
 pub(crate) type SeeParameters<'a, S> = dyn FnMut(Element, &[S]) + 'a;

@@ -13,7 +13,7 @@ pub(super) struct Pose<K: Kinematics<S, D>, S: Real, const D: usize> {
     ends: Ends<K, S, D>,
     /// The gradient along which the forces act.
     pub(super) direction: Gradient<K, S, D>,
-    /// The derivative of the measures that the scheme uses by the new arms.
+    /// The derivative of the measures that the scheme uses with respect to the new arms.
     pub(super) sensitivity: Gradient<K, S, D>,
 }
 
@@ -104,7 +104,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
         kinematics.pull(&ends, &self.direction, force)
     }
 
-    /// The derivative of `Σ_a f_a direction_a` by the new arms, where that of the forces is given.
+    /// The derivative of `Σ_a f_a direction_a` with respect to the new arms, given that of the forces.
     #[inline]
     pub(super) fn tangent(
         &self,
@@ -202,7 +202,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
     }
 }
 
-/// Multiplies everything by ½, exactly.
+/// Multiplies a gradient by ½, exactly.
 #[inline]
 fn halved<K: Kinematics<S, D>, S: Real, const D: usize>(
     mut gradient: Gradient<K, S, D>,

@@ -7,8 +7,8 @@
 //! ```
 //!
 //! for u = (γ, θ). They have the form of the local equations of a step with numbers per measure, `h D*π·w_v`, and per
-//! interface temperature, `w_Θ`, and are eliminated like them. What is left of `wᵀ ∂R/∂x¹` is added transposed to the places
-//! of a step.
+//! interface temperature, `w_Θ`, and are eliminated like them. The rest of `wᵀ ∂R/∂x¹` is added, transposed, at the matrix
+//! indices of a step.
 
 mod condensed;
 mod weights;
@@ -35,7 +35,7 @@ use weights::Surroundings;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>
 {
-    /// Takes over the states of a step where points have interface temperatures, and finds those.
+    /// Finds the interface temperatures θ* of a step. Points that have one return to the states of the step.
     pub(super) fn find_interfaces(
         &mut self,
         step: &PastStep<'_, S>,
@@ -83,7 +83,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         })
     }
 
-    /// From the solution of that system to the derivatives by the old state and by the parameters.
+    /// Finds the derivatives with respect to the old state and to the parameters, given the solution of that system.
     pub(super) fn recover(
         &mut self,
         step: &StepBack<'_, S>,
@@ -133,7 +133,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// The derivatives of the internal energies by the parameters in a state.
+    /// Passes the derivatives of the internal energies with respect to the parameters in a state to `see`.
     pub(super) fn energy_by_parameters(&self, state: &State<S>, see: &mut SeeParameters<'_, S>) {
         for member in &self.members {
             for point in member.points.as_ref() {
@@ -220,7 +220,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
         }
     }
 
-    /// Subtracts derivatives by the arms from those by the positions of all nodes, or of anchors only.
+    /// Subtracts derivatives with respect to the arms from those to the positions of all nodes, or of anchors only.
     #[inline]
     fn subtract(&self, by_arm: &Arms<K, S, D>, only_anchors: bool, target: &mut [S]) {
         let target = target.as_chunks_mut::<D>().0;

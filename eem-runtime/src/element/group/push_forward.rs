@@ -1,4 +1,4 @@
-//! The tangents of a step at its points: what of the local equations changes with the old state and the inputs, and its
+//! The tangents of a step at its points: the changes of the local equations with the old state and the inputs, and their
 //! elimination.
 //!
 //! Along a direction in which old state and inputs change, the new state changes by
@@ -32,8 +32,8 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>
 {
-    /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction. In its new
-    /// state anchors and held temperatures have their changes already, and masses those of the old state.
+    /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction.
+    /// In its new state, anchors and prescribed temperatures already have their changes, and masses those of the old state.
     pub(super) fn push_forward(
         &mut self,
         step: &PastStep<'_, S>,
@@ -97,7 +97,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>
 {
-    /// Adds what changes with the arms through the gradients at the old state, and all that changes with those at the new one.
+    /// Adds the changes with the old arms through the gradients, and all changes with the new arms.
     fn add_motion(
         &self,
         share: &Share<K, S, D>,

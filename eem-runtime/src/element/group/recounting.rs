@@ -10,9 +10,9 @@ use eem_material::number::scalar::Real;
 
 /// The change of the energy of a point between two states.
 pub(super) struct EnergyChange<S: Real, M: FreeEnergy<S>> {
-    /// By its values, with the magnitude of their terms, J.
+    /// From values of the energy, with the magnitude of the terms of ψ, J.
     pub(super) by_values: [S; 2],
-    /// By discrete derivatives, J.
+    /// From discrete derivatives, J.
     pub(super) by_differences: S,
     /// `(Δλ, Δγ, Δs)`.
     pub(super) increments: M::Variables,

@@ -13,7 +13,7 @@ use eem_material::number::scalar::Real;
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// The variables in a state with these arms, if the element can have its deformation.
+    /// The variables in a state with these arms; an error if the deformation is inadmissible.
     #[inline]
     pub(super) fn locate(
         &self,
@@ -25,8 +25,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
     }
 
-    /// The new temperature, which is near a given one (what belongs to that may be known), from the new entropy, or the other way round
-    /// where the scheme integrates the temperature or it is prescribed.
+    /// Finds the new temperature from the new entropy, starting at `near`, where the caloric quantities may be known. If the
+    /// scheme integrates the temperature, or it is prescribed, finds the entropy from the temperature instead.
     ///
     /// Returns the new entropy if a thermostat prescribes the temperature.
     #[inline]

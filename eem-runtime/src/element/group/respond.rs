@@ -16,7 +16,7 @@ pub(super) struct TrialArms<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) old: Arms<K, S, D>,
     /// The new arms, or the mean ones for a scheme at the midpoint.
     pub(super) placed: Arms<K, S, D>,
-    /// `r¹ − r⁰ − (1 − w) h ṙ⁰`, for a scheme in temperature.
+    /// `r¹ − r⁰ − (1 − w) h ṙ⁰`; only schemes in temperature and Kelvin–Voigt dashpots use it.
     pub(super) motion: Arms<K, S, D>,
 }
 
@@ -56,7 +56,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(measures1)
     }
 
-    /// The measures of arms, and those that the scheme sees there.
+    /// The measures of arms, and those at which the scheme evaluates the model.
     #[inline]
     pub(super) fn placed(&self, r1: &Arms<K, S, D>) -> [Measures<K, S, D>; 2] {
         let measures1 = self.kinematics.measure(r1);
@@ -102,7 +102,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         self.accept_response(per_step, &form.0, known)
     }
 
-    /// The response at the trial that has been located, where no tangent is needed: at the end of a step. It may be known.
+    /// Finds the response at a trial, without its tangent, at the end of a step. The response may be known.
     #[inline]
     pub(super) fn respond_alone(
         &mut self,
@@ -155,7 +155,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         self.find_viscosities(temperature_in::<S, M>(response), known)
     }
 
-    /// For a scheme in temperature: replaces the Δs of the response by that of rates.
+    /// For a scheme in temperature: calls [`ElementScheme::change_entropy_at_rates`] with the increments of the trial.
     pub(super) fn change_entropy_at_rates(
         &mut self,
         step: S,
@@ -258,7 +258,7 @@ fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
     sum
 }
 
-/// An error unless the element can have the deformation of these arms.
+/// An error unless the deformation given by these arms is admissible.
 #[inline]
 pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
     kinematics: &K,

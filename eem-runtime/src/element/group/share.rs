@@ -24,7 +24,7 @@ pub(super) struct Share<K: Kinematics<S, D>, S: Real, const D: usize> {
 pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// `h w Gᵀ f*`, with the internal variables eliminated, N s.
     pub(super) pull: Arms<K, S, D>,
-    /// Its derivatives by the new arms.
+    /// Its derivatives with respect to the new arms.
     pub(super) blocks: Blocks<K, S, D>,
 }
 
@@ -32,16 +32,16 @@ pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
 pub(super) struct Heat<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// `θ* − Θ`, with the internal variables eliminated, K.
     pub(super) residual: S,
-    /// The derivative of θ* by the new arms, K/m.
+    /// The derivative of θ* with respect to the new arms, K/m.
     pub(super) by_arm: Arms<K, S, D>,
-    /// The derivative of −θ* by the heat that the point receives, K/W.
+    /// The derivative of −θ* with respect to the heat that the point receives, K/W.
     pub(super) slope: S,
-    /// The derivative of `h w Gᵀ f*` by that heat, N s/W.
+    /// The derivative of `h w Gᵀ f*` with respect to that heat, N s/W.
     pub(super) pull: Arms<K, S, D>,
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Share<K, S, D> {
-    /// Without any point.
+    /// Empty, before any point is evaluated.
     #[inline]
     pub(super) fn none() -> Self {
         Self {
@@ -89,7 +89,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         condensed
     }
 
-    /// The derivative of a condensed response by the new arms, times a factor.
+    /// The derivative of a condensed response with respect to the new arms, times a factor.
     #[inline]
     fn by_arm(&self, row: &CondensedRow<K, S, D>, factor: S) -> Arms<K, S, D> {
         let mut sum = self.sensitivity[0];
@@ -106,7 +106,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// Adds the impulse `h w Gᵀ f*` on the nodes and its derivatives to those of the points before, and the
-    /// derivative by heat from other points to `heat`, if the point receives any.
+    /// derivative with respect to heat from other elements to `heat`, if the point receives any.
     #[expect(
         clippy::inline_always,
         reason = "a call of its own costs 2 % of a step of a spring"
@@ -284,8 +284,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
         }
     }
 
-    /// Adds the block of the arms to two nodes: to the rows and columns of the nodes, and with the
-    /// other sign to those of the first node.
+    /// Adds the block of the arms of the nodes i and j to the blocks (i, j) and (0, 0) of the nodes, and with the other
+    /// sign to (i, 0) and (0, j).
     #[inline]
     pub(super) fn add_block(&self, [i, j]: [usize; 2], block: &[[S; D]; D], values: &mut [S]) {
         if self.is_mass[i] && self.is_mass[j] {

@@ -43,9 +43,9 @@ pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// The partner's thermal slot, and the row of its Θ.
     pub(super) slot: u32,
     pub(super) unknown: u32,
-    /// The entry of the partner's Θ in the row of the own one.
+    /// The entry of the partner's Θ in the row of the own Θ.
     pub(super) entry: u32,
-    /// The link of the path in the list of all.
+    /// The index of the link in the list of all links.
     pub(super) link: u32,
     /// κ, W/K.
     pub(super) conductance: S,

@@ -11,7 +11,7 @@ pub(crate) struct Terms<S> {
 }
 
 impl<S: Real> Terms<S> {
-    /// None.
+    /// A sum without terms.
     pub(crate) fn none() -> Self {
         Self {
             sum: S::zero(),
@@ -40,7 +40,7 @@ impl<S: Real> Terms<S> {
         self.count += other.count;
     }
 
-    /// What rounding may do to the sum: half ε of each partial sum and of each term, none of which exceeds all sizes.
+    /// A bound of the rounding error: half ε of each partial sum and of each term, none of which exceeds the magnitude.
     pub(crate) fn rounding(&self) -> S {
         S::from_f64(self.count) * S::EPSILON * self.magnitude
     }

@@ -128,7 +128,7 @@ impl<S: Real, const D: usize> Trial<S, D> {
     }
 }
 
-/// Sums over elements, to twice the precision.
+/// Sums over elements, in twice the precision.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ElementTotals<S> {
     /// `Σ (ψ + θ s)` with the stored entropies, J.
@@ -140,7 +140,7 @@ pub(crate) struct ElementTotals<S> {
 }
 
 impl<S: Real> ElementTotals<S> {
-    /// Of no elements.
+    /// Zero sums.
     pub(crate) fn new() -> Self {
         let [energy, entropy, entropy_of_state] = [Total::default(); 3];
         Self {
@@ -197,7 +197,7 @@ pub(crate) struct Old<'a, S, const D: usize> {
     pub(crate) force: &'a mut [[S; D]],
     /// The unit of length of each node: the shortest measure of its elements, m.
     pub(crate) lengths: &'a mut [S],
-    /// From which γ and θ of the trial are predicted; `None` if it starts at the old ones.
+    /// The history from which γ and θ of the trial are predicted; `None` if the trial starts at the old ones.
     pub(crate) before: Option<Before<'a, S>>,
 }
 
@@ -225,7 +225,7 @@ pub(crate) enum Along {
     Stage(usize),
 }
 
-/// Where the elements of a group are.
+/// The nodes and state indices of all elements, from which a group takes its own.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Placed<'a> {
     pub(crate) nodes: &'a Ends,

@@ -20,9 +20,9 @@ pub(super) struct Deformed<A, S, const D: usize> {
     strain: A,
 }
 
-/// Beyond this square of a strain j is computed from F. Below, j and the other measures have the rounding of the same E, so
-/// that differences like `e1 − ln(1 + j)` keep their digits; above, squares of E would lose digits of a J that is small or
-/// comes with a large shear. At the limit both are accurate to ε.
+/// Where E:E is below this limit, j is computed from E: then j and the other measures have the rounding of the same E, and
+/// differences like `e1 − ln(1 + j)` keep their digits. Above it, j is computed from F: squares of E would lose digits of a
+/// J that is small or comes with a large shear. At the limit both are accurate to ε.
 const LARGE_SQUARE: f64 = 0.25;
 
 impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {

@@ -13,10 +13,10 @@ pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;
 /// A number per measure: the measures themselves, or their conjugate forces.
 pub type Measures<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<S>;
 
-/// Derivatives of measures by arms: per measure and arm.
+/// Derivatives of measures with respect to the arms: per measure and arm.
 pub type Gradient<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<Arms<K, S, D>>;
 
-/// Second derivatives by arms: a square block per pair of arms.
+/// Second derivatives with respect to the arms: a square block per pair of arms.
 pub type Blocks<K, S, const D: usize> =
     <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<[[S; D]; D]>>;
 
@@ -74,7 +74,7 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// The common part of the mean-value gradients between two states.
     type Between: Copy + core::fmt::Debug;
 
-    /// Whether its measure is a length, to which a force belongs.
+    /// Whether its measure is a length, whose conjugate is a force.
     const IS_SPRING: bool;
     /// Unit of a viscous stretch, whose rate times the viscosity is the force of a dashpot.
     const VISCOUS_UNIT: &'static str;
@@ -169,7 +169,7 @@ pub trait Kinematics<S: Real, const D: usize>:
         sum
     }
 
-    /// The derivative of `Σ_a f_a D*π_a` by `r¹`, where that of the forces is given,
+    /// The derivative of `Σ_a f_a D*π_a` with respect to `r¹`, given that of the forces,
     ///
     /// ```text
     /// Σ_a (f_a ∂(D*π_a)/∂r¹ + D*π_a ∂f_a/∂r¹)
@@ -215,7 +215,7 @@ pub trait Kinematics<S: Real, const D: usize>:
         rates
     }
 
-    /// The derivative of `Σ_a (p_a π_a(r¹) + f_a D*π_a·w)` by `r¹`, for numbers p and vectors w on the arms.
+    /// The derivative of `Σ_a (p_a π_a(r¹) + f_a D*π_a·w)` with respect to `r¹`, for numbers p and vectors w on the arms.
     #[cfg(feature = "gradients")]
     #[inline]
     fn pull_back(
@@ -239,14 +239,14 @@ pub trait Kinematics<S: Real, const D: usize>:
         sum
     }
 
-    /// A of `Σ_a f_a D*π_a = A r_m`, with the measures held.
+    /// A of `Σ_a f_a D*π_a = A r_m`, which depends on the arms only through the strains at both ends.
     fn secant(&self, ends: &Ends<Self, S, D>, force: &Measures<Self, S, D>) -> Weights<Self, S, D>;
 }
 
 /// A number per component of the strain C.
 pub(crate) type PerStrain<K, S, const D: usize> = <K as QuadraticStrain<S, D>>::PerStrain<S>;
 
-/// Derivatives of measures by the strain.
+/// Derivatives of measures with respect to the strain.
 pub(crate) type StrainSlopes<K, S, const D: usize> =
     <K as Kinematics<S, D>>::PerMeasure<PerStrain<K, S, D>>;
 

@@ -53,8 +53,8 @@ pub(super) type PerPair<H, S, const D: usize> =
     <H as Shape<D>>::PerArm<<H as Shape<D>>::PerArm<[[S; D]; D]>>;
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D> {
-    /// The points of a cell with these nodes (m) in the order of its shape, whose thickness (m) is one in
-    /// space.
+    /// The points, in the order of the shape, of a cell with these reference positions of its nodes (m) and this thickness
+    /// (m), which is one in three dimensions.
     ///
     /// # Errors
     ///

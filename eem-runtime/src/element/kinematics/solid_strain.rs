@@ -1,6 +1,6 @@
 //! The strain E at a point of a solid as components, and its measures as functions of them.
 //!
-//! Conjugates of components are `n_q = w_q S_q`, where w counts each pair of shears once more, so that
+//! Conjugates of components are `n_q = w_q S_q`, where w is 1 for normal components and 2 for shears, so that
 //! `Σ n_q E_q = S:E`.
 
 use crate::element::error::StateError;
@@ -24,7 +24,7 @@ fn converted<A: Array<S>, B: Array<S>, S: Real, const D: usize>(from: &A, of_she
     to
 }
 
-/// As a tensor.
+/// Components of a strain as a tensor.
 #[inline]
 fn tensor<H: Shape<D>, S: Real, const D: usize>(strain: &Components<H, S, D>) -> H::Tensor<S> {
     converted::<_, _, S, D>(strain, 1.0)
@@ -78,7 +78,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> QuadraticStrain<S, D>
         self.stiffness_of(&stress::<H, S, D>(n))
     }
 
-    // ½(FᵀF + 1), of which tr E + ½(D + 1) is the trace but for the unit tensor.
+    // ½ tr FᵀF + ½ = tr E + ½(D + 1) bounds the terms ½FᵀF and ½ of every component.
     #[inline]
     fn strain_sizes(&self, strain: &Components<H, S, D>) -> Components<H, S, D> {
         let ones = (0..D).fold(S::one(), |sum, _| sum + S::one());

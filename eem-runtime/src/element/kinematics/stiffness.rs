@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! force_i = F S B_i,   S = Σ_n f_n P_n
-//! K_ij    = B_i·(𝔸·B_j + Σ_n F P_n ⊗ ∂f_n/∂r_j),     𝔸 = ∂(F S)/∂F¹ with f held
+//! K_ij    = B_i·(𝔸·B_j + Σ_n F P_n ⊗ ∂f_n/∂r_j),     𝔸 = ∂(F S)/∂F¹ at constant f
 //! ```
 //!
 //! 𝔸 is computed once per point, and multiplied with all arms at once, in loops of fixed length that the compiler
@@ -20,8 +20,8 @@ use eem_mesh::tensor::{Symmetric, Tensor, add, dot, pushed};
 type Moduli<S, const D: usize> = [[Tensor<S, D>; D]; D];
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D> {
-    /// Adds the derivative of `F S B_i` by the new deformation, of whose change F takes a fraction, with the derivatives of the
-    /// forces by the arms if they are given.
+    /// Adds the derivative of `F S B_i` with respect to the new deformation, of whose change F takes the fraction `share`.
+    /// The derivatives of the forces with respect to the arms are included if they are given.
     pub(super) fn add_stiffness(
         &self,
         [tensor, new]: [&Tensor<S, D>; 2],
@@ -92,7 +92,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
         moduli
     }
 
-    /// `W : 𝔸`, with half of the change of the new deformation in F.
+    /// `W : 𝔸`, where F takes half of the change of the new deformation.
     #[cfg(feature = "gradients")]
     pub(super) fn pulled_stiffness(
         &self,

@@ -8,7 +8,7 @@ use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
-use crate::element::group::explicit::temperature::Settled;
+use crate::element::group::explicit::temperature::Recovered;
 use crate::element::group::explicit::view::ClosingView;
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics};
@@ -92,12 +92,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         let at = self.model.rates_at(x);
         let thermal = self.slots().thermal;
         let free = thermal.filter(|&slot| !view.stage.is_held(slot));
-        let settled = match free.map(|slot| view.next.entropies.values()[slot]) {
+        let recovered = match free.map(|slot| view.next.entropies.values()[slot]) {
             Some(entropy) => self.temperature_of(&x, &at, [entropy, theta], view.unkept)?,
-            None => Settled::given(theta, at(theta)),
+            None => Recovered::given(theta, at(theta)),
         };
-        let theta = settled.theta;
-        let (rates, [entropy, psi]) = settled.evaluated;
+        let theta = recovered.theta;
+        let (rates, [entropy, psi]) = recovered.evaluated;
         let mut found = Closed {
             theta,
             rates,
@@ -119,17 +119,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             let capacity = rates.forces[Self::TEMPERATURE];
             Infeasible::unless_stable(capacity, theta)
                 .map_err(|infeasible| infeasible.of(self.element))?;
-            // Stationary in θ at the kept entropy: the last correction of θ does not change it.
+            // The energy is stationary in θ at the stored entropy: the last correction of θ does not change it.
             energy.value = psi + theta * kept;
             let heat = theta * (kept.abs() + capacity);
             energy.magnitude = energy.value.abs() + heat;
             energy.terms += heat;
             let theta = view.stage.theta_mut(slot);
-            *theta = unless(inactive, *theta, settled.corrected);
+            *theta = unless(inactive, *theta, recovered.corrected);
             let own = &mut view.capacities[slot];
             *own = [
                 unless(inactive, own[0], capacity),
-                unless(inactive, own[1], settled.bend),
+                unless(inactive, own[1], recovered.bend),
             ];
         }
         self.add_bounds_of(r, x, &mut found, &mut energy);
@@ -138,7 +138,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         Ok(())
     }
 
-    /// Adds the terms that the bounds need of a state with these arms, given its temperature and forces.
+    /// Adds the terms of a state with these arms that the bounds need, given its temperature and forces.
     #[inline]
     fn add_bounds_of(
         &self,

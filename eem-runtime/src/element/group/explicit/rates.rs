@@ -168,7 +168,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         is_sound && is_stable.all()
     }
 
-    /// Why there are no rates.
+    /// The error of an element that has no valid rates.
     #[cold]
     pub(super) fn refuse(&self, r: &Arms<K, S, D>, stage: &Stage<S, D>) -> StateError {
         let element = self.element;

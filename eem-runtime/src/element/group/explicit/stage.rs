@@ -3,7 +3,7 @@
 use crate::element::layout::Layout;
 use eem_material::number::scalar::Real;
 
-/// The rates of stages that are kept at the same time.
+/// The number of stages whose rates are stored at the same time.
 pub(crate) const KEPT: usize = 10;
 
 /// Variables at the start of a step, and their rates at its stages.
@@ -66,7 +66,7 @@ impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
     }
 }
 
-/// A mass, or an anchor for one of the components that it holds.
+/// A mass, or an anchor in one of the components (connected bodies) that it holds.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
 pub(crate) struct Place<S, const D: usize> {
@@ -125,7 +125,7 @@ impl<S: Real, const D: usize> Place<S, D> {
     }
 }
 
-/// A rate at the present stage and at the start of the step, and its sum over the stages between with their weights.
+/// A rate at the present stage and at the start of the step, and its sum over the stages so far with their weights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Integral<S> {
     pub(crate) rate: S,
@@ -154,7 +154,7 @@ impl<S: Real> Integral<S> {
     }
 }
 
-/// A number in a vector of its own: a load of two neighbours, each of which has just been stored, would wait for both.
+/// A number aligned like a vector: a vector load of two neighbours that have just been stored would wait for both stores.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
 pub(crate) struct Apart<S>(pub(crate) S);
@@ -179,7 +179,7 @@ pub(crate) struct Stage<S: Real, const D: usize> {
     pub(crate) has_heats: bool,
     /// The weight of this stage.
     pub(crate) weight: S,
-    /// `f λ̇` and the heat that flows in, of each thermal slot, W; empty without thermostats.
+    /// `f λ̇` plus the heat that flows in, of each thermal slot, W; empty without thermostats.
     pub(crate) supply: Vec<Integral<S>>,
     /// Whether a thermostat prescribes the temperature, per thermal slot; empty without thermostats.
     pub(crate) held: Vec<bool>,
@@ -218,8 +218,8 @@ impl<S: Real, const D: usize> Stage<S, D> {
         self.heats[dashpot] += self.weight * power;
     }
 
-    /// Adds `f λ̇` and the heat that flows into a thermal slot at this stage, W; a thermostat sets the rate of its
-    /// temperature.
+    /// Adds `f λ̇` plus the heat that flows into a thermal slot at this stage, W. If a thermostat prescribes the
+    /// temperature, sets its rate to zero.
     #[cold]
     pub(crate) fn supply_heat(&mut self, slot: usize, power: S) {
         self.supply[slot].add(self.weight, power);
@@ -233,7 +233,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
         self.inner_past[index / 2].start[0][index % 2]
     }
 
-    /// The temperature of a thermal slot or, with an index behind those of the slots, of a reservoir, K.
+    /// The temperature of a thermal slot or, with an index after those of the slots, of a reservoir, K.
     #[inline]
     pub(crate) fn theta(&self, slot: usize) -> S {
         self.inner[self.temperatures + slot]

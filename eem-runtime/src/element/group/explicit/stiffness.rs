@@ -1,4 +1,4 @@
-//! How fast elements are: what limits an explicit step.
+//! Stiffness, heat capacity and relaxation rates of elements, which limit an explicit step.
 
 use crate::element::conjugates::PointRule;
 use crate::element::group::explicit::group::ExplicitElements;
@@ -25,7 +25,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitEleme
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
-    /// `∂²e/∂λ² = ψ_λλ − ψ_λθ²/ψ_θθ` at constant entropy; the force itself acts across the element.
+    /// The larger of `∂²e/∂λ² = ψ_λλ − ψ_λθ²/ψ_θθ`, along the element at constant entropy, and `f/λ`, across it.
     fn stiffness_at(&self, x: &M::Variables, nodes: [usize; 2]) -> NodeStiffness<S> {
         let (gradient, hessian) = self.model.hessian(x);
         let mut stiffness = hessian[0][0];

@@ -9,7 +9,7 @@ use eem_material::free_energy::{FreeEnergy, Material, Rates};
 use eem_material::inversion::temperature_near;
 use eem_material::number::scalar::{Mask, Real, unless};
 
-/// Evaluations of a temperature after which the safeguarded search takes over. Newton's method from the
+/// Evaluations after which the safeguarded search takes over. Newton's method from the
 /// temperature of the stages needs one or two.
 const MOST_EVALUATIONS: usize = 6;
 
@@ -20,18 +20,18 @@ const LARGEST_CORRECTION: f64 = 0.25;
 /// are left for the rounding of the value itself.
 const KEPT_ROUNDINGS: f64 = 2.0;
 
-/// The temperature that belongs to an entropy.
-pub(super) struct Settled<S: Real, M: FreeEnergy<S>, T> {
+/// The temperature found for an entropy.
+pub(super) struct Recovered<S: Real, M: FreeEnergy<S>, T> {
     /// The temperature of the last evaluation, K, and its values.
     pub(super) theta: S,
     pub(super) evaluated: (Rates<M::Variables>, T),
-    /// The corrected one, K.
+    /// The temperature after the last correction, K.
     pub(super) corrected: S,
     /// `|∂c/∂ ln θ|`, J/K.
     pub(super) bend: S,
 }
 
-impl<S: Real, M: FreeEnergy<S>, T> Settled<S, M, T> {
+impl<S: Real, M: FreeEnergy<S>, T> Recovered<S, M, T> {
     /// A temperature that needs no correction, and the values there.
     #[inline]
     pub(super) fn given(theta: S, evaluated: (Rates<M::Variables>, T)) -> Self {
@@ -70,14 +70,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         at: &impl Fn(S) -> (Rates<M::Variables>, T),
         [entropy, guess]: [S; 2],
         unkept: &mut Option<UnkeptEntropy>,
-    ) -> Result<Settled<S, M, T>, StateError>
+    ) -> Result<Recovered<S, M, T>, StateError>
     where
         T: Copy + AsRef<[S]>,
     {
         // √u, whose square is a rounding.
         let enough = (S::from_f64(0.5) * S::EPSILON).sqrt();
         let mut theta = guess;
-        let (mut is_settled, mut is_lost) = (S::Mask::none(), S::Mask::none());
+        let (mut has_converged, mut is_lost) = (S::Mask::none(), S::Mask::none());
         for _ in 0..MOST_EVALUATIONS {
             let (rates, values) = at(theta);
             let capacity = rates.forces[Self::TEMPERATURE];
@@ -89,9 +89,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             if is_last.any() {
                 let bend = self.bend(x, [theta, capacity]);
                 let is_last = is_last & is_met(correction, [capacity, bend]);
-                is_settled = (is_settled | is_last) & !is_lost;
-                if is_settled.all() {
-                    return Ok(Settled {
+                has_converged = (has_converged | is_last) & !is_lost;
+                if has_converged.all() {
+                    return Ok(Recovered {
                         theta,
                         evaluated: (rates, values),
                         corrected: theta + theta * correction,
@@ -99,13 +99,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
                     });
                 }
             }
-            if (is_settled | is_lost).all() {
+            if (has_converged | is_lost).all() {
                 break;
             }
             let next = theta * correction.exp();
-            theta = unless(is_settled | is_lost, theta, next);
+            theta = unless(has_converged | is_lost, theta, next);
         }
-        self.search(x, at, [entropy, guess], (is_settled, theta), unkept)
+        self.search(x, at, [entropy, guess], (has_converged, theta), unkept)
     }
 
     /// `|∂c/∂ ln θ| = |c + θ² ∂²s/∂θ²|`, J/K.
@@ -125,9 +125,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         x: &M::Variables,
         at: &impl Fn(S) -> (Rates<M::Variables>, T),
         [entropy, guess]: [S; 2],
-        (is_settled, settled): (S::Mask, S),
+        (has_converged, recovered): (S::Mask, S),
         unkept: &mut Option<UnkeptEntropy>,
-    ) -> Result<Settled<S, M, T>, StateError> {
+    ) -> Result<Recovered<S, M, T>, StateError> {
         let caloric_at = self.model.caloric_at(*x);
         // ε^¾, as in the implicit schemes.
         let root = S::EPSILON.sqrt();
@@ -137,7 +137,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             let entropy = entropy.to_f64();
             Infeasible::Entropy { entropy, source }.of(self.element)
         })?;
-        let theta = S::select(is_settled, settled, found);
+        let theta = S::select(has_converged, recovered, found);
         let (rates, values) = at(theta);
         let capacity = rates.forces[Self::TEMPERATURE];
         let defect = entropy - values.as_ref()[0];
@@ -148,7 +148,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             |sum, (&slope, &x)| sum + (slope * x).abs(),
         );
         let bound = S::from_f64(KEPT_ROUNDINGS) * S::EPSILON * terms;
-        let left = unless(is_settled, S::zero(), defect.abs());
+        let left = unless(has_converged, S::zero(), defect.abs());
         if !left.at_most(bound).all() && unkept.is_none() {
             *unkept = Some(UnkeptEntropy {
                 element: self.element,
@@ -156,10 +156,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             });
         }
         let correction = defect / capacity;
-        Ok(Settled {
+        Ok(Recovered {
             theta,
             evaluated: (rates, values),
-            corrected: S::select(is_settled, theta + theta * correction, theta),
+            corrected: S::select(has_converged, theta + theta * correction, theta),
             bend: self.bend(x, [theta, capacity]),
         })
     }

@@ -13,15 +13,15 @@ pub(crate) struct ClosingView<'a, S: Real, const D: usize> {
     pub(crate) open: &'a [bool],
     /// Inactive lanes of each component, whose values stay.
     pub(crate) inactive: &'a [S::Mask],
-    /// Its temperatures are guesses, replaced by those of the entropies except at thermostats.
+    /// Its temperatures are guesses; `close` replaces them by those found from the entropies, except at thermostats.
     pub(crate) stage: &'a mut Stage<S, D>,
     /// c and `|∂c/∂ ln θ|` per thermal slot, J/K.
     pub(crate) capacities: &'a mut [[S; 2]],
-    /// The first entropy that the temperature found for it misses by more than rounding.
+    /// The first stored entropy that differs by more than rounding from that of the temperature found for it.
     pub(crate) unkept: &'a mut Option<UnkeptEntropy>,
     /// Entropies are input, except at thermostats; energies are output.
     pub(crate) next: &'a mut State<S>,
-    /// Per component.
+    /// The energy of each component.
     pub(crate) energies: &'a mut [ComponentEnergy<S>],
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct ComponentEnergy<S> {
 }
 
 impl<S: Real> ComponentEnergy<S> {
-    /// Of no elements.
+    /// Zero sums.
     pub(crate) fn none() -> Self {
         Self {
             value: Total::default(),
@@ -66,7 +66,7 @@ impl<S: Real> ComponentEnergy<S> {
         self.excess += added(energy.excess);
     }
 
-    /// Of no elements, except in inactive lanes.
+    /// Sets all sums to zero, except in inactive lanes.
     pub(crate) fn clear(&mut self, inactive: S::Mask) {
         let mut cleared = Self::none();
         if S::LANES > 1 {

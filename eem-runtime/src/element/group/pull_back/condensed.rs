@@ -16,7 +16,7 @@ use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// What is left of the transposed equations of a point when its own weights are eliminated:
+/// The transposed equations of a point after the elimination of its own weights:
 /// `Σ_a h (D*π_a·w_v) moduli_a + w_Θ by_heat + constant`, by measure.
 pub(super) struct Reduced<K: Kinematics<S, D>, S: Real, const D: usize> {
     moduli: K::PerMeasure<Measures<K, S, D>>,
@@ -48,7 +48,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         sum
     }
 
-    /// Eliminates its own weights, which are kept as functions of the others.
+    /// Eliminates its own weights, which are stored as functions of the others.
     #[inline]
     pub(super) fn condense_transposed(
         &mut self,
@@ -122,7 +122,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         Ok(reduced)
     }
 
-    /// Adds the derivatives of `wᵀR` by the arms: constant, and by `w_v` (rows) transposed.
+    /// Adds the derivatives of `wᵀR` with respect to the arms: the constant part, and that linear in `w_v`, its rows.
     #[inline]
     pub(super) fn add_transposed(
         &self,
@@ -153,8 +153,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// What its own and its partners' interface temperatures have to do with it: `by_arm` the derivative of `wᵀR` by `w_Θ`
-    /// and the arms; the others of `−(∂R_s/∂Q) w_s`, by `w_v`, by `w_Θ` and constant.
+    /// The terms of the interface temperatures, its own and its partners': `by_arm` is the derivative of `wᵀR` with respect
+    /// to `w_Θ` and the arms. `−(∂R_s/∂Q) w_s` is `pull` times `w_v` plus `slope` times `w_Θ` plus `residual`.
     pub(super) fn heat_transposed(
         &self,
         step: S,

@@ -12,7 +12,7 @@ use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// What the weights of a point depend on besides its own values.
+/// The inputs of the weights of a point besides its own values.
 pub(super) struct Surroundings<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) step: &'a StepBack<'a, S>,
     pub(super) interface: &'a InterfaceTemperatures<S>,
@@ -21,8 +21,8 @@ pub(super) struct Surroundings<'a, K: Kinematics<S, D>, S: Real, const D: usize>
     pub(super) theta: S,
 }
 
-/// The derivatives of `wᵀR` by the response, the increments and the viscosities of a point, and the weight of its balance of
-/// heat.
+/// The derivatives of `wᵀR` with respect to the response, the increments and the viscosities of a point, its terms of
+/// `−(∂R/∂h)ᵀ w`, and the weight of its balance of heat.
 pub(super) struct OfPoint<S: Real, M: Material<S>> {
     pub(super) rho: M::Response,
     pub(super) increments: M::Variables,
@@ -35,14 +35,14 @@ pub(super) struct OfPoint<S: Real, M: Material<S>> {
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// The weights of its equations, given those of the motion of its arms, and its terms of `−(∂R/∂h)ᵀ w`, with those of the
-    /// momentum balances replaced by means of these,
+    /// The weights of its equations, given those of the motion of its arms, and its terms of `−(∂R/∂h)ᵀ w`. The forces
+    /// there are replaced by inertia, by means of the momentum balances,
     ///
     /// ```text
     /// w_v·(MΔv + Σ η_d Δλ D*λ)/h + w_γ η Δγ/h² + (w_s/θ*)(Σ κ (Θ_b − Θ_a) + Σ κ_r (θ_r − θ*) − Σ η Δγ²/h² − Σ η_d Δλ²/h²)
     /// ```
     ///
-    /// without inertia.
+    /// The term with M is not included.
     #[inline]
     pub(super) fn weigh(
         &self,
@@ -128,13 +128,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         of
     }
 
-    /// The derivatives of `wᵀR` by the variables of the old state.
+    /// The derivatives of `wᵀR` with respect to the variables of the old state.
     #[inline]
     pub(super) fn by_old(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
         pulled::<S, M>(rho, &self.slopes_by_old(), increments, -S::one())
     }
 
-    /// The derivatives of `wᵀR` by the variables of the new state, without those by temperatures that are held.
+    /// The derivatives of `wᵀR` with respect to the variables of the new state, without those to prescribed temperatures.
     pub(super) fn by_new(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
         let (_, tangent) = self
             .scheme
@@ -142,7 +142,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         pulled::<S, M>(rho, &tangent, increments, S::one())
     }
 
-    /// Adds the derivatives of `wᵀR` by the arms of the second of two ends, given those by its variables.
+    /// Adds the derivatives of `wᵀR` with respect to the arms of the second of two ends, given those to its variables.
     #[inline]
     pub(super) fn add_by_arms(
         &self,
@@ -161,7 +161,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         add_scaled::<K, S, D>(sum, S::one(), &pulled);
     }
 
-    /// Writes the derivatives by its old internal variables, and the weights of its balance of heat.
+    /// Writes the derivatives with respect to its old internal variables, and the weights of its balance of heat.
     #[inline]
     pub(super) fn write(
         &self,
@@ -184,7 +184,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// The derivatives of the number by the parameters in this step.
+    /// The derivatives of the number with respect to the parameters in this step.
     #[inline]
     pub(super) fn by_parameters(&self, of: &OfPoint<S, M>) -> M::Parameters {
         let x = [&self.start.x0, &self.x];

@@ -19,7 +19,7 @@ use eem_material::number::scalar::Real;
 pub(super) struct Linearized<S: Real, M: Material<S>, G> {
     /// With the forces of Kelvin–Voigt dashpots.
     pub(super) form: Form<S, M>,
-    /// Of the response by the variables of the old state.
+    /// Of the response with respect to the variables of the old state.
     by_old: M::Tangent,
     /// Of the old measures by the old arms.
     gradient: G,
@@ -83,7 +83,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// Adds the derivative of its impulses by the old arms at given forces.
+    /// Adds the derivative of its impulses with respect to the old arms at given forces.
     #[inline]
     pub(super) fn add_old_curvature(
         &self,

@@ -15,7 +15,7 @@ use eem_material::number::scalar::Real;
 pub(super) struct StageForces<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// With the internal variables eliminated, N.
     pulls: [Arms<K, S, D>; MOST_STAGES],
-    /// Their derivatives by the arms of each set.
+    /// Their derivatives with respect to the arms of each set.
     pub(super) blocks: PerPair<Blocks<K, S, D>>,
 }
 
@@ -37,7 +37,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageForces<K, S, D> {
         }
     }
 
-    /// Adds a force with this value and direction, given the derivatives of the value by the arms of each set.
+    /// Adds a force with this value and direction, given the derivatives of the value with respect to the arms of each set.
     fn add(&mut self, stage: usize, (value, along): (S, &Arms<K, S, D>), by: &[Arms<K, S, D>]) {
         add_scaled::<K, S, D>(&mut self.pulls[stage], value, along);
         for (blocks, by) in self.blocks[stage].iter_mut().zip(by) {
@@ -75,7 +75,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
     ) {
         let (rule, contacts) = (self.rule, &source.point().contacts);
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        // The derivatives of the forces at each stage by the heat at each stage.
+        // The derivatives of the forces at each stage with respect to the heat at each stage.
         let mut by_heat = [[nowhere; MOST_STAGES]; MOST_STAGES];
         for (stage, by_heat) in by_heat.iter_mut().enumerate().take(rule.stages()) {
             for force in 0..C::FORCES {

@@ -10,7 +10,7 @@
 //! Q_i = Σ κ (θ_i,partner − θ_i),   θ_i = Σ_k t_ik Θ_k
 //! ```
 //!
-//! except that a thermostat gives its `θ_i` directly.
+//! except that an element with a thermostat has the prescribed `θ_i`.
 
 use super::site::{PerPair, StageSite};
 use crate::algebra::lu::{self, Singular};
@@ -91,9 +91,10 @@ pub(crate) struct LocalStages<S> {
     /// `∂r/∂u`, row-major.
     pub(super) matrix: Vec<S>,
     pivots: Vec<usize>,
-    /// The derivatives of one quantity by the local unknowns.
+    /// The derivatives of one quantity with respect to the local unknowns.
     pub(super) by_unknown: Vec<S>,
-    /// Its change for constant inputs, zero before the elimination of the local unknowns, then its derivatives by the inputs.
+    /// Its change at constant inputs, zero before the elimination of the local unknowns, then its derivatives with respect
+    /// to the inputs.
     pub(super) row: Vec<S>,
     /// Changes of the inputs.
     pub(super) inputs: Vec<S>,
@@ -122,7 +123,7 @@ impl<S: Real> LocalStages<S> {
         self.row.fill(S::zero());
     }
 
-    /// The change of a local unknown by the solved local system, for the changes of the inputs.
+    /// The change of a local unknown that follows from the solved local system and the changes of the inputs.
     pub(super) fn change(&self, solved: &[S], unknown: usize) -> S {
         let columns = solved[self.unknowns()..].chunks_exact(self.unknowns());
         let terms = columns.zip(&self.inputs);
@@ -167,7 +168,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StagePoint<K, S, D> {
         }
     }
 
-    /// The change of Q at a stage by a global solution, W.
+    /// The change of Q at a stage that follows from a global solution, W.
     pub(super) fn heat_change(&self, stage: usize, solution: &[[S; 1]]) -> S {
         let mut change = S::zero();
         let contacts = self.contacts.iter().flatten().enumerate();

@@ -40,7 +40,7 @@ use vector::{Matrix, Vector, derivatives, steepness};
 /// A point with its path through a step, and the projections from it.
 pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
     point: StagePoint<K, S, D>,
-    /// `y⁰ = (C, γ…, s)`, and what the discrete derivatives need of `(π, γ, θ)⁰`.
+    /// `y⁰ = (C, γ…, s)`, and the data of `(π, γ, θ)⁰` for the discrete derivatives.
     old: Vector<S, M, K, D>,
     old_form: M::TemperatureFormOld,
     /// The units of the increments of γ and s: that of viscous stretches, the old heat capacity.
@@ -49,7 +49,7 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D
     metric: Vector<S, M, K, D>,
     /// R: the increments h ẏ at the stages.
     rates: [Vector<S, M, K, D>; MOST_STAGES],
-    /// The same before the last correction, and the correction, without those of C.
+    /// R before the last correction, and the correction, both without C.
     previous: [Vector<S, M, K, D>; MOST_STAGES],
     correction: [Vector<S, M, K, D>; MOST_STAGES],
     /// The temperatures of the points of the path, and that of its end, K.
@@ -66,8 +66,8 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D
     conditioning: [Vector<S, M, K, D>; MOST_STAGES],
     /// `η_k` and `dη_k/dθ` at `Θ_i`.
     viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
-    /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives by the temperature and, for
-    /// constant temperature, by the increments of C.
+    /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives with respect to the temperature
+    /// and, at constant temperature, to the increments of C.
     viscous_heat: [S; MOST_STAGES],
     heat_by_theta: [S; MOST_STAGES],
     heat_by_strain: PerPair<PerStrain<K, S, D>>,
@@ -409,7 +409,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         sum
     }
 
-    /// `y = (C, γ, s)` where the path has gone these shares of the increments.
+    /// `y = (C, γ, s)` at the point of the path after these fractions of the increments.
     fn path_at(&self, shares: &[f64]) -> Vector<S, M, K, D> {
         let mut y = self.increments(shares);
         for index in 0..Self::LEN {

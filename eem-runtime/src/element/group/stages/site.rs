@@ -15,7 +15,7 @@ use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 
-/// Something for every two sets of unknowns: of the rows, and of the columns.
+/// A value for every pair of sets of unknowns: that of the rows, then that of the columns.
 pub(super) type PerPair<T> = [[T; MOST_SETS]; MOST_SETS];
 
 /// The matrix indices of one element.
@@ -53,7 +53,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
         &self.sets[0][0]
     }
 
-    /// Adds the matrix `factor A` of nodal forces `A r` for the nodes that move to the secant system.
+    /// Adds `factor A` of the nodal forces `A r` to the secant system, for the nodes that move.
     #[inline]
     pub(super) fn add_secant(&self, weights: &Weights<K, S, D>, factor: S, values: &mut [S]) {
         let is_mass = &self.first().is_mass;

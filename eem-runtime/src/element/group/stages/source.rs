@@ -23,7 +23,7 @@ where
     /// The common part of [`direction`](Self::direction) and [`by_arms`](Self::by_arms).
     type Bases;
 
-    /// Number of local unknowns: viscous stretches and temperature, set after set.
+    /// Number of local unknowns: the viscous stretches, set after set, then a temperature or entropy per set.
     fn unknowns_of(rule: &Tableau) -> usize {
         rule.sets() * (M::DASHPOTS + usize::from(M::THERMAL))
     }
@@ -50,7 +50,8 @@ where
         arms: &StageArms<K, S, D>,
     ) -> Result<(), StateError>;
 
-    /// Writes the local equations at an evaluated trial: residuals and their derivatives by local unknowns and inputs.
+    /// Writes the local equations at an evaluated trial: residuals and their derivatives with respect to
+    /// local unknowns and inputs.
     fn write_equations(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
@@ -94,13 +95,13 @@ where
         stage_and_force: [usize; 2],
     ) -> &'a Arms<K, S, D>;
 
-    /// The forces at the stage of a set times the derivative of their directions by the arms.
+    /// The forces at the stage of a set times the derivative of their directions with respect to the arms.
     fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D>;
 
     /// The temperature of a set, K; its derivatives are written like those of a [force](Self::force).
     fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S;
 
-    /// The derivatives of the quantity in the row by the arms of each set.
+    /// The derivatives of the quantity in the row with respect to the arms of each set.
     fn by_arms(&self, bases: &Self::Bases, local: &LocalStages<S>) -> [Arms<K, S, D>; MOST_SETS];
 
     /// The changes of the inputs that belong to forces, for changes of the arms of each set.
@@ -123,7 +124,7 @@ where
         Weights::<K, S, D>::filled(K::PerArm::filled(S::zero()))
     }
 
-    /// The magnitude of the terms of the impulses of the forces in a step, N s; only where steps are certified.
+    /// The magnitude of the terms of the impulses of the forces in a step, N s; zero if the scheme is not certified.
     fn impulse_size(&self, _step: S) -> S {
         S::zero()
     }
@@ -138,7 +139,7 @@ where
         tally: &mut Tally<S>,
     ) -> Result<(), StateError>;
 
-    /// The energy balance of the point in the last step, given its nodes; only where steps are certified.
+    /// Adds the energy balance of the point in the last step, given its nodes; only if the scheme is certified.
     fn reevaluate(
         &self,
         _: &StatePoint<S, M, K, D>,

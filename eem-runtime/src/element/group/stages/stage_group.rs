@@ -26,7 +26,7 @@ use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// Elements of the model `M` with the kinematics `K`.
+/// Elements of the model `M` with the kinematics `K`, with conjugates from the source `C`.
 pub(crate) struct StageGroup<
     S: Real,
     M: Material<S>,

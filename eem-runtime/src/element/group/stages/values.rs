@@ -36,7 +36,7 @@ pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D
     old: M::Variables,
     /// The trial variables at the stages.
     x: [M::Variables; MOST_STAGES],
-    /// The same before the last correction, and the correction; temperatures only at the stages whose
+    /// Those before the last correction, and the correction; temperatures only at the stages whose
     /// temperatures are unknowns.
     previous: [M::Variables; MOST_STAGES],
     correction: [M::Variables; MOST_STAGES],
@@ -231,13 +231,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
         }
     }
 
-    /// With the forces as found and the directions of the trial.
+    /// With the forces of the last evaluation, along the directions at the trial.
     fn nodal_force(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
         let (rule, kinematics) = (self.point.rule, &self.point.kinematics);
         let set = rule.set_of(stage);
         let r = set.map_or(arms.old, |set| arms.of_set(set));
-        let feels_itself = set.is_some_and(|set| rule.positions[set][stage] != 0.0);
-        if feels_itself && matches!(rule.ending, Ending::StageByStage) {
+        let depends_on_itself = set.is_some_and(|set| rule.positions[set][stage] != 0.0);
+        if depends_on_itself && matches!(rule.ending, Ending::StageByStage) {
             return pull::<K, S, D>(&self.secant(stage), &r);
         }
         let gradient = kinematics.gradient(&r, &kinematics.measure(&r));
@@ -282,7 +282,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         [&self.x[stage], &self.stages[stage].gradient].map(measures_in::<K, S, D>)
     }
 
-    /// The model at a stage whose variables are known, with the heat from other elements, W.
+    /// Evaluates the model at a stage whose variables are known, with the heat from other elements, W.
     fn evaluate_stage(
         &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
@@ -316,7 +316,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         Ok(())
     }
 
-    /// Writes the derivatives of a quantity of a stage, given by x, to the row of the workspace.
+    /// Writes the derivatives of a quantity of a stage, given those with respect to x, to the row of the workspace.
     fn differentiate(&self, local: &mut LocalStages<S>, stage: usize, by: &M::Variables) {
         let rule = self.point.rule;
         let (measures, rest) = by.as_ref().split_at(M::MEASURES);
@@ -336,27 +336,27 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         }
     }
 
-    /// The equations of the viscous stretches.
+    /// Writes the equations of the viscous stretches.
     fn write_creep(&mut self, local: &mut LocalStages<S>, h: S) {
         let rule = self.point.rule;
         for (set, weights) in rule.rates.iter().enumerate() {
             for k in 0..M::DASHPOTS {
                 let (equation, index) = (set * M::DASHPOTS + k, M::MEASURES + k);
-                let mut rest = self.x[rule.stage_of(set)][index] - self.old[index];
+                let mut residual = self.x[rule.stage_of(set)][index] - self.old[index];
                 let diagonal = equation * (local.unknowns() + 1);
                 local.matrix[diagonal] = S::one();
                 for (stage, &weight) in weights.iter().enumerate() {
                     let weight = -h * S::from_f64(weight);
-                    rest += weight * self.stages[stage].rates[index];
+                    residual += weight * self.stages[stage].rates[index];
                     self.differentiate(local, stage, &self.stages[stage].rates_by[index]);
                     self.point.add_row(local, equation, weight);
                 }
-                self.point.solved[equation] = rest;
+                self.point.solved[equation] = residual;
             }
         }
     }
 
-    /// An equation of the entropies, if the temperature is free.
+    /// Writes an equation of the entropies, if the temperature is free.
     fn write_balance(
         &mut self,
         local: &mut LocalStages<S>,
@@ -365,11 +365,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
     ) {
         let rule = self.point.rule;
         let unknowns = local.unknowns();
-        let mut rest = -S::from_f64(balance.old) * self.point.entropy;
+        let mut residual = -S::from_f64(balance.old) * self.point.entropy;
         for (stage, &weight) in balance.entropies.iter().enumerate() {
             if weight != 0.0 {
                 let weight = S::from_f64(weight);
-                rest += weight * self.stages[stage].entropy();
+                residual += weight * self.stages[stage].entropy();
                 self.differentiate(local, stage, &self.stages[stage].entropy_by());
                 self.point.add_row(local, equation, weight);
             }
@@ -377,7 +377,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         for (stage, &weight) in balance.rates.iter().enumerate() {
             if weight != 0.0 {
                 let weight = -h * S::from_f64(weight);
-                rest += weight * self.stages[stage].rates[Self::TEMPERATURE];
+                residual += weight * self.stages[stage].rates[Self::TEMPERATURE];
                 self.differentiate(
                     local,
                     stage,
@@ -388,10 +388,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
                 self.point.solved[heat * unknowns + equation] = weight / self.theta(stage);
             }
         }
-        self.point.solved[equation] = rest;
+        self.point.solved[equation] = residual;
         // Newton's method on θ r, which is far less curved than r where conduction is stiff, and zero
         // where it is.
-        let scaled = rest / self.theta(balance.stage);
+        let scaled = residual / self.theta(balance.stage);
         let row = &mut local.matrix[equation * unknowns + rule.sets() * M::DASHPOTS..];
         for (entry, &share) in row.iter_mut().zip(rule.temperatures[balance.stage]) {
             *entry += S::from_f64(share) * scaled;

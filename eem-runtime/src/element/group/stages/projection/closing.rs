@@ -122,7 +122,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         }
     }
 
-    /// See [`reservoir_correction`]. The unknown here is hṡ, which no temperature rounds, so that nothing is stored.
+    /// See [`reservoir_correction`]. The unknown here is hṡ and no difference of entropies at two temperatures, so that
+    /// `stored` is zero.
     fn reservoir_correction(
         &self,
         (stage, share): (usize, S),
@@ -166,8 +167,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         }
     }
 
-    /// Adds its forces, and checks the balances of its internal variables, given the magnitude of the terms of its
-    /// energy, J.
+    /// Adds the terms of its forces, and checks the balances of its internal variables, given the magnitude of the terms of
+    /// its energy, J.
     pub(super) fn certify(
         &self,
         in_state: &StatePoint<S, M, K, D>,
@@ -178,7 +179,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let weights = self.point.rule.weights;
         let forces = self.amplitude(tally.care);
         tally.force(forces);
-        // h Σ b |F|, no F above those at the ends: the rounding of larger ones that cancel is an error.
+        // h Σ b |F|, each F limited by those at the ends: the rounding of larger forces, which cancel, is an error.
         let [old_slopes, new_slopes] = &self.end_slopes;
         let at_ends = |q: usize| old_slopes[q].abs().maximum(new_slopes[q].abs());
         let impulse = weights.iter().enumerate();
@@ -226,7 +227,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         }
     }
 
-    /// The contribution of its forces to A and, for a thorough bound, to A⁺, J:
+    /// The contribution of its forces to A* and, for a thorough bound, to A⁺ of `step/certificate.rs`, J:
     ///
     /// ```text
     /// |∇ê⁰||y⁰| + |∇ê¹||y¹| + Σ b |a||R| + ε Σ |W| y¹²,     Σ b |∂²ê/∂x∂y| |y| |R_x|
@@ -268,7 +269,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         }
     }
 
-    /// `Σ|f||π| + Σ|g||γ|` of the new state, which the amplitude has for both ends, J.
+    /// `Σ|f||π| + Σ|g||γ|` of the new state, J.
     pub(super) fn forces_at_end(&self) -> S {
         let strains = Self::STRAINS;
         (0..Self::ENTROPY).fold(S::zero(), |sum, index| {

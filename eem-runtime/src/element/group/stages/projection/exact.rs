@@ -1,4 +1,4 @@
-//! The correction by which the conjugates of the stages give the change of energy exactly.
+//! The correction with which the work of the conjugates of the stages is exactly the change of energy.
 
 use super::Projections;
 use super::vector::Vector;
@@ -71,7 +71,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         by
     }
 
-    /// `a_i + μ W R_i` with derivatives, given μ and, in units of ε, its conditioning error.
+    /// Adds `μ W R_i` and its derivatives to `a_i`, given μ and, in units of ε, its conditioning error.
     fn apply_factor(
         &mut self,
         [factor, conditioning]: [S; 2],

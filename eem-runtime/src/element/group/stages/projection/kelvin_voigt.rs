@@ -4,7 +4,7 @@
 //! ν_i = P_i·R_i,   f_i = η(Θ_i) ν_i/h,   a_i += f_i P_i,   heat f_i ν_i        P_i = ∂π/∂C at C(c_i)
 //! ```
 //!
-//! with the strain of the path, so that its power is what the nodes lose.
+//! at the strain of the path, so that the heat is the work that the nodes lose.
 
 use super::Projections;
 use crate::element::error::StateError;
@@ -37,7 +37,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         Ok(())
     }
 
-    /// The same of a measure at a stage, given `η/h` and `(dη/dθ)/h`.
+    /// The same for a measure at a stage, given `η/h` and `(dη/dθ)/h`.
     fn add_kelvin_voigt_of(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,

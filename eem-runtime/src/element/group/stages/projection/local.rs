@@ -64,8 +64,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let (viscosities, slopes) = &self.viscosities[stage];
         let (drag, slope) = (viscosities[k] * per_step, slopes[k] * per_step);
         let rate = self.rates[stage][index];
-        let rest = drag * rate + self.conjugates[stage][index];
-        self.point.solved[equation] = unit * rest;
+        let residual = drag * rate + self.conjugates[stage][index];
+        self.point.solved[equation] = unit * residual;
         let diagonal = equation * (local.unknowns() + 1);
         local.matrix[diagonal] += unit * unit * drag;
         self.add(local, equation, [stage, index], unit);
@@ -87,19 +87,19 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let (unknowns, last) = (local.unknowns(), Self::ENTROPY);
         let equation = sets * M::DASHPOTS + stage;
         let (theta, rate) = (self.mean_temperature(stage), self.rates[stage][last]);
-        let mut rest = theta * rate - view.step * heat;
+        let mut residual = theta * rate - view.step * heat;
         let mut by_theta = rate + view.step * conductance;
         let (viscosities, slopes) = &self.viscosities[stage];
         for k in 0..M::DASHPOTS {
             let creep = self.rates[stage][strains + k];
             let drag = viscosities[k] * view.per_step * creep;
-            rest -= drag * creep;
+            residual -= drag * creep;
             by_theta -= slopes[k] * view.per_step * creep * creep;
             let unknown = stage * M::DASHPOTS + k;
             local.matrix[equation * unknowns + unknown] -= (drag + drag) * self.units[strains + k];
         }
         if M::Drag::LEN > 0 {
-            rest -= self.viscous_heat[stage];
+            residual -= self.viscous_heat[stage];
             by_theta -= self.heat_by_theta[stage];
             for (set, by) in self.heat_by_strain[stage].iter().enumerate().take(sets) {
                 for (q, &by) in by.as_ref().iter().enumerate() {
@@ -108,7 +108,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                 }
             }
         }
-        self.point.solved[equation] = rest;
+        self.point.solved[equation] = residual;
         local.matrix[equation * (unknowns + 1)] += theta * self.units[last];
         self.add(local, equation, [stage, last], by_theta);
         let input = 1 + sets * strains + stage;
@@ -137,8 +137,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             let row = hessian[M::MEASURES + M::DASHPOTS];
             let increment = self.increments(shares)[last];
             let entropy = -gradient[M::MEASURES + M::DASHPOTS];
-            let rest = (self.old[last] - entropy) + increment;
-            self.point.solved[equation] = theta * rest;
+            let residual = (self.old[last] - entropy) + increment;
+            self.point.solved[equation] = theta * residual;
             let slopes = (self.point.kinematics).strain_slopes([&y.strain, &y.strain]);
             let by_strain = chained::<S, K, D>(&slopes, &row.as_ref()[..M::MEASURES]);
             for (set, &share) in shares.iter().enumerate() {

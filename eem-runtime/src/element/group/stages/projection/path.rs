@@ -16,7 +16,7 @@ use eem_material::number::scalar::{Real, is_positive};
 type PathPoint<S, M, K, const D: usize> = (Vector<S, M, K, D>, <M as FreeEnergy<S>>::Variables);
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
-    /// Arms, their motion and the increments of C at the stages.
+    /// Finds arms, their motion and the increments of C at the stages.
     pub(super) fn move_along(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
@@ -34,7 +34,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         Ok(())
     }
 
-    /// The conjugates of the stages and their derivatives, before they are made exact.
+    /// Finds the conjugates of the stages and their derivatives, before [`make_exact`](Self::make_exact).
     pub(super) fn project(&mut self, in_state: &StatePoint<S, M, K, D>) -> Result<(), StateError> {
         let rule = self.point.rule;
         let Some(path) = rule.path else {
@@ -63,7 +63,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         Ok(())
     }
 
-    /// Adds what a point of the path contributes to the projections.
+    /// Adds the contribution of a point of the path to the projections.
     fn take(
         &mut self,
         (path, r): (&Path, usize),
@@ -103,7 +103,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         measures.ok_or_else(|| self.point.kinematics.refuse(element, strain))
     }
 
-    /// The point where the path has gone these shares of the increments.
+    /// The point of the path after these fractions of the increments.
     fn find_point(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
@@ -123,8 +123,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         Ok((y, x))
     }
 
-    /// The end of the path: `∇ê` there, and the discrete derivatives between both ends, whose sum with the
-    /// increments is Δê.
+    /// Finds the end of the path; returns `∇ê` there, and the discrete derivatives between both ends, whose product with
+    /// the increments is Δê.
     pub(super) fn reach_end(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
@@ -156,7 +156,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         Ok([slopes, mean])
     }
 
-    /// The viscosities at the temperatures of the stages, which are positive.
+    /// Finds the viscosities at the temperatures of the stages; an error unless both are positive.
     pub(super) fn find_viscosities(
         &mut self,
         in_state: &mut StatePoint<S, M, K, D>,

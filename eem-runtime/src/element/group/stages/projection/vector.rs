@@ -148,7 +148,7 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexM
     }
 }
 
-/// `∇ê` and `∇²ê` by `(C, γ, s)` from the derivatives of ψ by `x = (π, γ, θ)`.
+/// `∇ê` and `∇²ê` with respect to `(C, γ, s)` from the derivatives of ψ with respect to `x = (π, γ, θ)`.
 pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
     kinematics: &K,
     strain: &PerStrain<K, S, D>,
@@ -192,7 +192,7 @@ pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, c
     (slopes, curvatures)
 }
 
-/// The derivatives of the energy by `(π, γ, s)`.
+/// The derivatives of the energy with respect to `(π, γ, s)`.
 fn by_entropy<S: Real, M: FreeEnergy<S>>(
     (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
 ) -> (M::Variables, M::Hessian) {

@@ -13,7 +13,7 @@ pub(super) struct AtStage<S: Real, M: FreeEnergy<S>> {
     pub(super) hessian: M::Hessian,
     /// `γ̇ = g/η` at the index of each dashpot, m/s, and `Φ` at that of the temperature, W/K.
     pub(super) rates: M::Variables,
-    /// Their derivatives by x, a row each, for constant heat from other elements.
+    /// Their derivatives with respect to x, a row each, at constant heat from other elements.
     pub(super) rates_by: M::Hessian,
     /// `Σ g γ̇`, W.
     pub(super) dissipation: S,
@@ -45,7 +45,7 @@ impl<S: Real, M: FreeEnergy<S>> AtStage<S, M> {
         row
     }
 
-    /// The rates of the dashpots with the viscosities `η` and `dη/dθ`; returns `∂(Σ g γ̇)/∂x`.
+    /// Finds the rates of the dashpots with the viscosities `η` and `dη/dθ`; returns `∂(Σ g γ̇)/∂x`.
     pub(super) fn creep(&mut self, viscosities: &(M::Viscosities, M::Viscosities)) -> M::Variables {
         let mut dissipation_by = M::Variables::filled(S::zero());
         self.dissipation = S::zero();
@@ -68,7 +68,7 @@ impl<S: Real, M: FreeEnergy<S>> AtStage<S, M> {
         dissipation_by
     }
 
-    /// The rate `Φ` of the entropy at the temperature θ, with the heat received and `∂(Σ g γ̇)/∂x`.
+    /// Finds the rate `Φ` of the entropy at the temperature θ, with the heat received and `∂(Σ g γ̇)/∂x`.
     pub(super) fn warm(&mut self, theta: S, flow: &HeatFlow<S>, dissipation_by: &M::Variables) {
         let last = M::Variables::LEN - 1;
         let rate = (self.dissipation + flow.heat) / theta;
