@@ -40,12 +40,12 @@ impl MemoryLimit {
     /// The memory that the machine has available.
     pub(crate) const NONE: Self = Self(None);
 
-    /// So many bytes, whatever the machine has; without a number, the memory it has available.
+    /// A limit in bytes, whatever the machine has; `None` stands for the memory it has available.
     pub(crate) const fn new(bytes: Option<u64>) -> Self {
         Self(bytes)
     }
 
-    /// An error if a system of so many unknowns needs more bytes than the limit.
+    /// An error if a system of this many unknowns needs more bytes than the limit.
     pub(crate) fn check(self, unknowns: usize, needed: u64) -> Result<(), TooLarge> {
         let available = self.0.or_else(|| available_for(needed));
         match available {
@@ -59,7 +59,7 @@ impl MemoryLimit {
     }
 }
 
-/// The bytes of rows times columns of numbers.
+/// The size of rows times columns of numbers, bytes.
 pub(crate) fn bytes<S>([rows, columns]: [usize; 2]) -> u64 {
     let numbers = rows.saturating_mul(columns);
     u64::try_from(numbers.saturating_mul(size_of::<S>())).unwrap_or(u64::MAX)

@@ -8,8 +8,8 @@
 //! ([`place`](LinearSystem::place)). The entries of a row that belong to the unknowns of one node are consecutive, as are the
 //! rows of B. Anchors write to a scratch entry behind all others, which no elimination reads.
 //!
-//! The [`Storage`] decides how entries are laid out and solved with. Another one is another variant there, with its `new`
-//! (from the pattern), `entries`, `position` and `solve`. One and two unknowns do without.
+//! The [`Storage`] decides how entries are laid out and solved with. A new solver is a new variant there, with its `new`
+//! (from the pattern), `entries`, `position` and `solve`. Systems of one and two unknowns are solved without it.
 
 #[cfg(feature = "gradients")]
 mod columns;
@@ -37,8 +37,8 @@ const MOST_DENSE: usize = 24;
 #[cfg(feature = "sparse")]
 const SPARSITY: usize = 4;
 
-/// Factors are kept from this ratio of their entries to those of the matrix on; a chain has 1, a square lattice of 10 by 10
-/// nodes 3.
+/// Factors are kept if they have at least this many times the entries of the matrix; a chain has 1, a square lattice of
+/// 10 by 10 nodes 3.
 #[cfg(feature = "sparse")]
 const WORTHWHILE_FILL: usize = 3;
 
@@ -159,7 +159,7 @@ fn solve_dense<S: Real, const W: usize>(
     Ok(())
 }
 
-/// The elimination by the pattern, separate for the same reason.
+/// The elimination by the pattern, in a separate function for the same reason.
 #[cfg(feature = "sparse")]
 #[inline(never)]
 fn solve_sparse<S: Real, const W: usize>(
@@ -175,7 +175,7 @@ fn solve_sparse<S: Real, const W: usize>(
     Ok(())
 }
 
-/// Scene numbers for the sparse elimination, which computes in double precision.
+/// Numbers of a scene, as stored for the sparse elimination, which computes in double precision.
 #[cfg(feature = "sparse")]
 #[derive(Clone, Copy)]
 struct Stored<S>(PhantomData<S>);
@@ -289,7 +289,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         &self.solution
     }
 
-    /// The same, mutable.
+    /// The rows of X, mutable.
     pub(crate) fn solution_mut(&mut self) -> &mut [[S; W]] {
         &mut self.solution
     }
@@ -350,7 +350,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         }
     }
 
-    /// Like [`solve`](Self::solve); whether A, if symmetric, is positive definite.
+    /// Like [`solve`](Self::solve); returns whether A, if symmetric, is positive definite.
     pub(crate) fn solve_and_judge(&mut self) -> Result<bool, Singular> {
         #[cfg(feature = "sparse")]
         if let Storage::Sparse(_) = self.storage {

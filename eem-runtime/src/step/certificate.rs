@@ -1,4 +1,4 @@
-//! The certificate of a step: the proof of its laws, whatever found it.
+//! The certificate of a step: the proof of its laws, independent of how the step was computed.
 //!
 //! With the increments that were used and the energies `e = ψ + θ s` of the stored states,
 //!
@@ -22,25 +22,26 @@
 //! not enough. Where the terms of an entropy cancel, the temperature found from it, and so the stored energy, has an error of
 //! 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller values of `|ψ| + θ|s| + cθ`.
 //!
-//! Forces contribute at most 0.4 of the digits: ε^−0.4 times the other terms and `√ε Σ m (ℓ/h)²`, with the shortest element ℓ
-//! of each node; their impulses ε^−0.4 times `Σ |p| + m ℓ/h`. Every term carries some roundings; 64 is eight times the
-//! largest `|R|/(ε (A* + A⁺))` seen in a correct step, near an anchor. Momenta and productions are checked as well.
+//! Forces cost a bound at most 0.4 of the digits: their terms in B* are limited to ε^−0.4 times the sum of the other
+//! terms and `√ε Σ m (ℓ/h)²`, with the shortest element ℓ of each node, and their impulses in the bounds of momenta to
+//! ε^−0.4 times `Σ |p| + m ℓ/h`. Every term carries some roundings; 64 is eight times the largest `|R|/(ε (A* + A⁺))`
+//! seen in a correct step, near an anchor. Momenta and productions are checked as well.
 //!
 //! Where values of ψ have more rounding than B*, because its terms cancel, and R is within `B* + 4 ε M`, with
-//! `M = Σ |terms of ψ|` at both ends, R decides nothing. Then Δe by discrete derivatives between the stored states,
-//! evaluated again, replaces it.
+//! `M = Σ |terms of ψ|` at both ends, R cannot decide. Then discrete derivatives between the stored states, evaluated again,
+//! give Δe instead of values.
 //!
-//! **Report.** R as it is, from values, and with the forces at the ends
+//! **Report.** Reported are R from values, and the bound B with the forces at both ends:
 //!
 //! ```text
 //! B = B* + 64 ε Σ over both ends (|f|λ + Σ |g||γ|)  + 16 ε M
 //! ```
 //!
 //! The second term is the effect of the rounding of λ and γ on ψ, which near a singular force is far above `|f*|λ`; the
-//! evaluation of ψ has an error of 8 ε M. M is computed where values decide nothing. B is not limited, so that the true ΔE
-//! of the stored states is within B. If B exceeds 100 times 64 ε of `T + |ψ| + θ|s| + cθ + |f|λ + Σ|g||γ|` at both ends,
-//! the report says that its bound is wide. The forces at both ends are evaluated for this only if the known terms alone would
-//! make the bound wide.
+//! evaluation of ψ has an error of 8 ε M. M is computed only where values cannot decide. The terms of forces in B are not
+//! limited, so that the true ΔE of the stored states is within B. If B exceeds 100 times 64 ε of
+//! `T + |ψ| + θ|s| + cθ + |f|λ + Σ|g||γ|` at both ends, the report says that its bound is wide. The forces at both ends
+//! are evaluated for this only if the known terms alone would make the bound wide.
 
 mod motion;
 
@@ -54,8 +55,8 @@ use eem_material::number::scalar::{Mask, Real};
 
 pub(crate) use motion::{Kept, Motion, NodeStep, Speeds};
 
-/// Rounding errors of the certificate itself: of the values of ψ and θs at both ends. The defect must stay below the bound
-/// by as much.
+/// Rounding errors of the certificate itself: of the values of ψ and θs at both ends. The defect must be smaller than the
+/// bound by this margin.
 const OWN_ROUNDINGS: f64 = 8.0;
 
 /// The fraction of the bound up to which a step is accepted without another iteration.
@@ -64,10 +65,10 @@ const ENOUGH: f64 = 1.0 / 64.0;
 /// Roundings of `Σ |q||p|` and of `Σ |p|` up to which a step is accepted without another iteration.
 const ENOUGH_MOMENTUM: f64 = 4.0;
 
-/// The fraction of the digits that a bound may cost: a Maxwell element with a stiffness ratio of 10⁷ loses 0.36 of them.
+/// The fraction of digits that a bound may lose to forces: a Maxwell element with a stiffness ratio of 10⁷ loses 0.36.
 const MOST_DIGITS: f64 = 0.4;
 
-/// Roundings of the largest terms of a free energy, in the evaluation of which several add up.
+/// Rounding errors, in ε M, by which values of ψ and its discrete derivatives may disagree.
 const VALUE_ROUNDINGS: f64 = 4.0;
 
 /// Roundings of the terms of ψ in the reported bound: 4 by which values and differences may disagree, 8 of the
@@ -77,7 +78,7 @@ const REPORTED_VALUE_ROUNDINGS: f64 = 16.0;
 /// A bound above this multiple of 64 ε of the terms of the energies is wide.
 const WIDE: f64 = 100.0;
 
-/// The motion if every node covers its shortest element in a step: the scale of forces where nothing else moves.
+/// Energy and momentum if each node moved by its shortest element in a step: the scale for forces where nothing moves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reach<S> {
     /// `Σ m (ℓ/h)²`, J.
@@ -93,16 +94,16 @@ pub(crate) struct Certificate<S: Real> {
     pub(crate) defect: S,
     /// B, J.
     pub(crate) bound: S,
-    /// The terms of the motion, and of the energies at each end or the known part of them, J.
+    /// The magnitude of the terms of the motion, and of the energies at each end or their known part, J.
     motion: S,
     terms: [S; 2],
     /// The defect that decides, R or its replacement by discrete derivatives, and B*, J.
     judged: [S; 2],
-    /// Σ over dashpots and paths of heat, J/K.
+    /// The entropy production of all dashpots and paths of heat, J/K.
     pub(crate) production: S,
-    /// The smallest of them; zero without any, J/K.
+    /// The smallest production of one of them; zero without any, J/K.
     pub(crate) least_production: S,
-    /// The largest component of the defect of the momenta, and the magnitude of their terms.
+    /// The largest component of the defect of each momentum, and the magnitude of its terms, kg m/s and kg m²/s.
     linear: [S; 2],
     angular: [S; 2],
     is_balanced: S::Mask,
@@ -117,7 +118,7 @@ pub(crate) struct Internal<S> {
     magnitude: S,
     /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of each end, or the known part of it, J.
     terms: [S; 2],
-    /// The part of them that neither `magnitude` nor the amplitude of forces has, J.
+    /// The part of `terms` that is neither in `magnitude` nor in the amplitude of forces, J.
     excess: S,
 }
 
@@ -153,7 +154,7 @@ impl<S: Real> Reach<S> {
         Self { energy, momentum }
     }
 
-    /// Adds a node with this mass, kg, which covers its length in a step: h/ℓ is the slowness, s/m.
+    /// Adds a node with this mass, kg, and the slowness h/ℓ, s/m.
     pub(crate) fn add(&mut self, mass: S, slowness: S) {
         let momentum = mass / slowness;
         self.momentum += momentum;
@@ -162,8 +163,8 @@ impl<S: Real> Reach<S> {
 }
 
 impl<S: Real> Certificate<S> {
-    /// From the motion of the nodes, the balances of the elements and the energies of the stored states; `reach` is called
-    /// if needed.
+    /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states;
+    /// `reach` is called if needed.
     pub(crate) fn new<const D: usize>(
         motion: &Motion<S, D>,
         tally: &Tally<S>,
@@ -207,8 +208,8 @@ impl<S: Real> Certificate<S> {
         }
     }
 
-    /// With energies evaluated again: they decide if values are less accurate than the bound and their roundings explain the
-    /// difference.
+    /// Takes energy changes that were evaluated again. They decide where the rounding of values exceeds the bound and
+    /// explains the defect.
     pub(crate) fn reevaluated(mut self, reevaluation: &Reevaluation<S>) -> Self {
         let [defect, bound] = self.judged;
         let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
@@ -240,7 +241,7 @@ impl<S: Real> Certificate<S> {
         self
     }
 
-    /// Two parts of a step, one after the other.
+    /// The certificate of two parts of a step, one after the other.
     pub(crate) fn and(self, later: Self) -> Self {
         Self {
             defect: self.defect + later.defect,
@@ -296,7 +297,7 @@ impl<S: Real> Certificate<S> {
         defect.abs().at_most(S::from_f64(ENOUGH) * bound)
     }
 
-    /// This one where the mask holds and another elsewhere; both of the same step.
+    /// This certificate in the lanes of the mask, `other` elsewhere; both are of the same step.
     pub(crate) fn or(mut self, is_own: S::Mask, other: &Self) -> Self {
         self.defect = S::select(is_own, self.defect, other.defect);
         self.bound = S::select(is_own, self.bound, other.bound);

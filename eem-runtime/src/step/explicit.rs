@@ -51,7 +51,7 @@ use scratch::Scratch;
 pub(crate) use demand::Demand;
 pub(crate) use past::SavedExplicit;
 
-/// An explicit scheme at work on a scene.
+/// The explicit scheme for a scene.
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each says something of its own"
@@ -69,9 +69,9 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     start_loads: StepLoads<S>,
     /// Whether loads, moved anchors, thermostats or dashpots that lose heat act, so that integrals of the step change targets.
     is_driven: bool,
-    /// The places whose rates are kept: masses, and anchors where some are moved.
+    /// The number of places, entries of the stage vector, whose rates are kept: masses, and anchors where some are moved.
     kept_places: usize,
-    /// The present stage, between steps that at the end of the last one with its rates.
+    /// The present stage; between steps, the end of the last one, with its rates.
     stage: Stage<S, D>,
     /// Work and impulses of the loads on each component since the start of the step; empty without loads.
     load_sums: Vec<LoadSums<S, D>>,
@@ -79,12 +79,12 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     books: Books<S, D>,
     old_books: Books<S, D>,
     scratch: Scratch<S, D>,
-    /// Energy defects are closed by motion before heat.
+    /// Whether energy defects are closed by motion before heat.
     is_motion_first: bool,
-    /// Rates and targets are those of the state; the same before the last attempt.
+    /// Whether rates and targets belong to the state, now and before the last attempt.
     is_ready: bool,
     was_ready: bool,
-    /// The stage has left the start of a step that was not made: variables, rates and books are to be restored.
+    /// Whether the stage has left the start of a step that was not accepted, so that it has to be restored.
     has_left: bool,
     /// How often all elements have been evaluated.
     evaluations: u64,
@@ -170,14 +170,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.groups.len()
     }
 
-    /// Does something with all groups of elements.
+    /// Calls a function for each group of elements.
     pub(crate) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
         for group in &mut self.groups {
             visit(group.elements_mut());
         }
     }
 
-    /// Takes its elements out; it cannot step any more.
+    /// Takes the elements out; the scheme cannot step afterwards.
     pub(crate) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
         let groups = mem::take(&mut self.groups).into_iter();
         groups.map(ExplicitGroup::into_loose).collect()

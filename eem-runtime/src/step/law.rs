@@ -1,4 +1,4 @@
-//! What exact schemes keep in every step.
+//! The laws that exact schemes prove in every step.
 
 /// A law that an exact scheme proves in every step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

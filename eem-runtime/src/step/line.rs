@@ -9,7 +9,7 @@ use eem_material::number::scalar::Real;
 pub(super) struct Line<S, const D: usize> {
     /// n.
     pub(super) direction: [S; D],
-    /// `|r|`, m; without a direction it is not positive.
+    /// `|r|`, m; not positive if r has no direction.
     pub(super) length: S,
 }
 

@@ -45,10 +45,10 @@ impl<S: Real> StepLoads<S> {
         }
     }
 
-    /// Evaluates the loads of the step from `time` by `step`, from the old state.
+    /// Evaluates the loads of a step of size `step` that begins at `time` in the state `old`.
     ///
-    /// A force that depends on time is evaluated in the middle of the step, by the trapezoidal rule too: forces at both ends
-    /// would halve the impulse of a load that is switched on between two steps.
+    /// A force that depends on time is evaluated in the middle of the step, even with the trapezoidal rule: forces at
+    /// both ends would halve the impulse of a load that is switched on between two steps.
     pub(crate) fn evaluate<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
@@ -60,8 +60,8 @@ impl<S: Real> StepLoads<S> {
         self.evaluate_supports_by(&CUBIC, loads, ([time, step], S::one()), old)
     }
 
-    /// Evaluates prescribed motions and temperatures at the end of a span, which is a share of the step; forces are those
-    /// of stages.
+    /// Evaluates prescribed motions and temperatures at the end of a span of time that is a given fraction of the step;
+    /// forces are evaluated at the stages instead.
     pub(crate) fn evaluate_supports<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
@@ -184,7 +184,7 @@ impl<S: Real> StepLoads<S> {
                 let position = (before > 0.0).then(|| motion.position(at, &from, elapsed));
                 for (axis, sum) in sums.iter_mut().enumerate() {
                     let coordinate = node.index * D + axis;
-                    // Zero at the start.
+                    // No displacement at the start.
                     let place = position.map_or(S::zero(), |q| q[axis] - q0[coordinate]);
                     if !place.is_finite() {
                         return Err(StepFailure::Motion {
@@ -261,7 +261,7 @@ const CUBIC: Polynomial = Polynomial {
     divisor: 2.0,
 };
 
-/// For those of fourth and sixth order.
+/// For schemes of fourth and sixth order.
 const SEXTIC: Polynomial = Polynomial {
     degree: 6.0,
     weights: &[360.0, -450.0, 400.0, -225.0, 72.0, -10.0],

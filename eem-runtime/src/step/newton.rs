@@ -112,8 +112,8 @@ impl<S: Real> StepReport<S> {
 /// contracts, and the error is smaller still.
 pub(crate) const CONTRACTION: f64 = 0.1;
 
-/// An iteration that contracts less than this, with updates below a tenth of the tolerance,
-/// has reached what rounding allows.
+/// An iteration whose updates are below a tenth of the tolerance and do not fall below this fraction of the one before
+/// has reached the level of rounding.
 pub(crate) const STAGNATION: f64 = 0.25;
 
 /// Whether an update is the last one, given the one before.
@@ -205,6 +205,6 @@ mod tests {
 pub struct NewtonIteration {
     /// The largest residual of the momentum balances before the update, N s.
     pub residual: f64,
-    /// The largest update, in units of the longest stretch and of the temperatures.
+    /// The largest update, relative to the shortest stretch at each node and to the temperatures.
     pub update: f64,
 }

@@ -6,11 +6,11 @@ use eem_material::number::scalar::Real;
 /// The result of a step, from its certificate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outcome<S> {
-    /// `ΔE − work − heat`, and what rounding explains of it, J.
+    /// `ΔE − work − heat`, and its bound for rounding, J.
     pub(crate) defect: S,
     pub(crate) bound: S,
     pub(crate) is_bound_wide: bool,
-    /// Σ over dashpots and paths of heat, and the smallest of them, J/K.
+    /// The entropy production of all dashpots and paths of heat, and the smallest one, J/K.
     pub(crate) production: S,
     pub(crate) least_production: S,
     /// The energy error of an explicit step before its correction, relative to the energy terms: the largest of all
@@ -66,7 +66,7 @@ impl<S: Real> Corrections<S> {
 /// An attempted step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Attempt<S> {
-    /// The estimate of its error in units of the tolerance; zero without one.
+    /// The estimate of its error in units of the tolerance; zero without a tolerance.
     pub(crate) error: S,
     /// `None` if the error exceeds the tolerance: the step is then not made.
     pub(crate) outcome: Option<Outcome<S>>,

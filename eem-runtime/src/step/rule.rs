@@ -1,4 +1,4 @@
-//! The numbers of schemes that go through stages.
+//! The coefficients of the schemes with stages.
 
 pub(crate) mod eem_entropy_4;
 pub(crate) mod eem_entropy_6;

@@ -115,20 +115,20 @@ impl Scheme {
     }
 }
 
-/// How the end of a step follows from what Newton's method has found.
+/// How the state at the end of a step follows from the solution of Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Closing {
     /// From the increments: `Δp = (2m/h) Δq − 2p⁰`.
     Increments,
     /// The force at the start gives the displacements, the force at the end the momenta.
     Start,
-    /// As the [`Tableau`] says.
+    /// From the stages, by the coefficients of the [`Tableau`].
     Stages,
     /// No Newton iteration: the [explicit scheme](crate::step::explicit) closes its steps itself.
     Explicit,
 }
 
-/// The data of a scheme; those of an exact one unless said otherwise.
+/// The data of a scheme.
 struct Rule {
     name: &'static str,
     conjugates: Conjugates,
@@ -138,7 +138,7 @@ struct Rule {
     /// See [`Scheme::predicts_its_start`].
     is_classical: bool,
     order: u8,
-    /// Whether its conserved quantities do not depend on the sizes of steps.
+    /// See [`Scheme::may_change_steps`].
     may_change_steps: bool,
 }
 
@@ -192,11 +192,11 @@ impl Scheme {
         match self {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
-            // Its elements have no algorithmic quantities of their own.
+            // Explicit elements are built without conjugates; this entry only excludes dashpots in parallel with springs.
             Self::EemExplicit => Rule::exact("eem-explicit", Point(PointRule::Variational))
                 .of_order(8)
                 .closed(Closing::Explicit),
-            // That of its first one.
+            // The data of the scheme with which it starts.
             Self::Auto => Rule {
                 name: "auto",
                 ..Self::EemExplicit.rule()
@@ -225,12 +225,12 @@ impl Scheme {
         }
     }
 
-    /// Where the algorithmic quantities of its elements come from.
+    /// How the forces and temperatures of elements in a step are computed.
     pub(crate) const fn conjugates(self) -> Conjugates {
         self.rule().conjugates
     }
 
-    /// How the end of a step follows from what Newton's method has found.
+    /// How the state at the end of a step follows from the solution of Newton's method.
     pub(crate) const fn closing(self) -> Closing {
         self.rule().closing
     }
@@ -263,7 +263,7 @@ impl Scheme {
         self.rule().may_change_steps
     }
 
-    /// How the error of a step goes with its size.
+    /// How the error of a step depends on its size.
     pub(crate) const fn accuracy(self) -> Accuracy {
         Accuracy {
             order: self.order(),
@@ -287,14 +287,14 @@ impl Scheme {
     }
 
     /// Whether Newton's method starts from a motion under predicted forces, which saves most of an iteration. The
-    /// classical schemes start at the old state: beyond their stable steps the start decides which state is found, if
-    /// any, and so they break down where the literature says.
+    /// classical schemes start at the old state: with steps beyond their stability limit, the start decides which
+    /// solution is found, if any, and with the old state they break down where the literature reports it.
     pub(crate) const fn predicts_its_start(self) -> bool {
         !self.rule().is_classical
     }
 
-    /// Whether a solution that is not found at once is followed from a small step on. Not for the classical schemes, for
-    /// the same reason.
+    /// Whether, if Newton's method fails, the solution is continued from that of a smaller step. Not for the classical
+    /// schemes, for the same reason.
     pub(crate) const fn follows_its_solution(self) -> bool {
         !self.rule().is_classical
     }
@@ -316,7 +316,8 @@ impl Scheme {
         matches!(self, Self::Staggered)
     }
 
-    /// Whether it steps springs with a dashpot in parallel: along one gradient, with their heat.
+    /// Whether it supports dashpots in parallel with springs, which need one gradient, and mechanics and heat in one
+    /// solve.
     pub(crate) const fn takes_drag(self) -> bool {
         let takes_drag = match self.conjugates() {
             Conjugates::Stages(rule) => rule.path.is_some(),
@@ -326,7 +327,7 @@ impl Scheme {
         takes_drag && !self.is_split()
     }
 
-    /// Whether it takes the end of a step from increments, so that it steps solids, whose masses couple nodes, and
+    /// Whether the end of a step follows from increments, as needed for solids, whose masses couple nodes, and for
     /// rockets.
     pub(crate) fn ends_by_increments(self) -> bool {
         match self.closing() {
@@ -336,7 +337,7 @@ impl Scheme {
         }
     }
 
-    /// The numbers of a scheme that goes through stages.
+    /// The coefficients of a scheme with stages.
     pub(crate) const fn tableau(self) -> Option<&'static Tableau> {
         match self.conjugates() {
             Conjugates::Stages(rule) => Some(rule),
@@ -347,7 +348,7 @@ impl Scheme {
     /// The sets of unknowns.
     pub(crate) fn sets(self) -> Vec<UnknownSet> {
         let Some(rule) = self.tableau() else {
-            // `(2m/h)(q¹ − q⁰) − 2p⁰ + h F`: twice that of one stage at the end.
+            // `(2m/h)(q¹ − q⁰) − 2p⁰ + h F`: twice the equation of one stage at the end of the step.
             return vec![UnknownSet {
                 time: 1.0,
                 inertia: 2.0,
@@ -368,7 +369,7 @@ impl fmt::Display for Scheme {
     }
 }
 
-/// There is no scheme of this name; the message lists those there are.
+/// No scheme has this name; the message lists the names of all schemes.
 ///
 /// ```
 /// use eem::Scheme;
@@ -380,11 +381,11 @@ impl fmt::Display for Scheme {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no scheme is named `{name}`; there are {}", names())]
 pub struct UnknownScheme {
-    /// What was asked for.
+    /// The requested name.
     pub name: String,
 }
 
-/// All schemes, and the choice among them.
+/// All schemes, and `Auto`.
 fn named() -> impl Iterator<Item = Scheme> {
     Scheme::ALL.into_iter().chain([Scheme::Auto])
 }

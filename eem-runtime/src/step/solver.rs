@@ -1,4 +1,4 @@
-//! One step of a whole scene: Newton's method until the step that is closed from its trial proves its laws.
+//! One step of a whole scene: Newton's method, until the step closed from its trial state proves its laws.
 
 mod balance;
 mod begin;
@@ -40,7 +40,7 @@ use places::{Interface, moving};
 use rockets::Rockets;
 use stages::Stages;
 
-/// Working memory of a step; nothing in it outlives the step but the forces of the last ones.
+/// Workspace of a step. Later steps depend only on the history in `past`.
 #[derive(Debug)]
 pub(crate) struct Solver<S: Real, const D: usize> {
     scheme: Scheme,
@@ -48,7 +48,7 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     sets: Vec<UnknownSet>,
     /// The nodes that move, in the order of their unknowns, set after set.
     nodes: Vec<Balance<S, D>>,
-    /// The masses that couple them.
+    /// The masses that couple these nodes.
     coupling: Coupling<S, D>,
     rockets: Rockets<S, D>,
     /// The coupled interface temperatures, set after set.
@@ -59,12 +59,12 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     trial: Trial<S, D>,
     /// Workspace of schemes with stages.
     stages: Option<Stages<S, D>>,
-    /// The part of the nodal forces that depends on the old state and the loads only, N; empty without one.
+    /// The part of the nodal forces that depends on the old state and the loads only, N; empty if there is none.
     old_force: Vec<[S; D]>,
     past: Past<S, D>,
-    /// The unit of length of each node: its shortest element in the old state, m; the largest number without.
+    /// The unit of length of each node: its shortest element in the old state, m; `S::MAX` without elements.
     lengths: Vec<S>,
-    /// An attempt may be given up early.
+    /// Whether other initial guesses remain, so that an attempt may be given up early.
     has_other_starts: bool,
     /// The nodes that are anchors.
     anchors: Vec<usize>,
@@ -74,9 +74,9 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     final_residual: S,
     /// The certificate of the last closed step.
     certificate: Option<Certificate<S>>,
-    /// The error that kept the last update from being applied in full.
+    /// The error because of which the last update was not applied in full.
     obstacle: Option<StateError>,
-    /// The element whose own energy balance was off by most when it was last asked.
+    /// The element with the largest defect of its own energy balance, when elements were last evaluated for it.
     worst: Option<Element>,
     /// How often all elements have been evaluated at a trial state.
     evaluations: u64,
@@ -166,7 +166,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         &mut self.tangent
     }
 
-    /// Where elements write.
+    /// The data from which the matrix indices of elements follow.
     pub(crate) fn sites<'a>(
         &'a self,
         layout: &'a Layout,

@@ -100,7 +100,7 @@ fn tangent_pattern<S: Real>(
     })
 }
 
-/// The graph of the masses, by elements and rockets: the pattern of the secant matrix, without rockets.
+/// The graph of the masses, whose edges are elements and rockets; without rockets, the pattern of the secant matrix.
 fn mass_pattern(
     elements: &Ends,
     layout: &Layout,

@@ -2,7 +2,8 @@
 //!
 //! Row by row: the rows above have been divided by their pivots, so that a row is finished, from loading it to its own
 //! division, without being stored in between. The pivot of a row is its diagonal entry as long as that is not small
-//! compared with the others; from the first row on where it is, columns are exchanged. One and two unknowns take a division.
+//! compared with the others; from the first row on where it is, columns are exchanged. One or two unknowns need one
+//! division.
 
 use core::array;
 
@@ -97,7 +98,7 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     Ok(())
 }
 
-/// From A to its upper factor, whose diagonal is one; the first row without a good pivot, if there is one.
+/// Replaces A by its upper factor, whose diagonal is one. The error is the first row without a good pivot.
 #[inline]
 fn eliminate<S: Real, const N: usize, const W: usize>(
     a: &mut [[S; N]; N],
@@ -119,10 +120,10 @@ fn eliminate<S: Real, const N: usize, const W: usize>(
     Ok(())
 }
 
-/// Subtracts from row `I` what eliminates its entries before the diagonal, and divides by its diagonal
-/// entry; nothing if that is no good pivot.
+/// Eliminates the entries of row `I` before the diagonal, and divides the row by its diagonal entry. If that is no good
+/// pivot, the row does not change, and the error is its index.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "for this the row is a constant")]
+#[expect(clippy::inline_always, reason = "only then is the row a constant")]
 fn eliminate_row<S: Real, const I: usize, const N: usize, const W: usize>(
     a: &mut [[S; N]; N],
     b: &mut [[S; W]; N],
@@ -149,8 +150,8 @@ fn eliminate_row<S: Real, const I: usize, const N: usize, const W: usize>(
     Ok(())
 }
 
-/// Eliminates from row `first` on, with the largest entry of each row as its pivot, if necessary by an exchange of two
-/// columns.
+/// Eliminates from row `first` on and solves, with the largest entry of each row as its pivot, if necessary by an
+/// exchange of two columns.
 #[cold]
 #[inline(never)]
 fn exchange_from<S: Real, const N: usize, const W: usize>(
@@ -206,7 +207,7 @@ fn largest_behind<S: Real, const N: usize>(
     }
 }
 
-/// From the upper factor, whose diagonal is one, to the solution.
+/// Finds the solution from the upper factor, whose diagonal is one.
 #[inline]
 fn substitute<S: Real, const N: usize, const W: usize>(a: &[[S; N]; N], b: &mut [[S; W]; N]) {
     for (row, entries) in a.iter().enumerate().rev() {

@@ -9,7 +9,7 @@ use crate::algebra::lu::{self, Singular};
 use eem_material::number::scalar::Real;
 
 impl<S: Real> LinearSystem<S, 1> {
-    /// `B − A x` instead of B.
+    /// Replaces B by `B − A x`.
     pub(crate) fn subtract_product(&mut self, x: &[[S; 1]]) {
         let n = self.unknowns;
         let values = &self.values;
@@ -30,8 +30,8 @@ impl<S: Real> LinearSystem<S, 1> {
         }
     }
 
-    /// Overwrites right-hand sides with their solutions, except the scratch rows of anchors, by one elimination of A, which is then
-    /// zero; of a few unknowns by one for four of them.
+    /// Overwrites right-hand sides with their solutions, except the scratch rows of anchors, and A with zeros. A is
+    /// eliminated once, or, with at most [`MOST_FIXED`] unknowns, once for every four right-hand sides.
     pub(crate) fn solve_each<'a>(
         &mut self,
         columns: impl Iterator<Item = &'a mut Vec<[S; 1]>>,

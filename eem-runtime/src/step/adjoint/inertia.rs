@@ -1,4 +1,4 @@
-//! Inertia in the systems of a step that was made.
+//! Inertia in the linear systems of the adjoint and the tangents of a step.
 
 use core::array;
 
@@ -7,7 +7,7 @@ use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use eem_material::number::scalar::Real;
 
-/// The masses with their places in the system.
+/// The masses with the indices of their matrix entries.
 #[derive(Debug)]
 pub(super) struct Inertia<S, const D: usize> {
     pub(super) nodes: Vec<Moving<S, D>>,

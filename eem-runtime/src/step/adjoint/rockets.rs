@@ -14,14 +14,15 @@ use eem_material::number::scalar::Real;
 #[derive(Clone, Debug)]
 pub(crate) struct RocketStep<S, const D: usize> {
     line: PushLine,
-    /// n in the middle.
+    /// n in the middle of the step.
     pub(crate) direction: [S; D],
-    /// `½ h F (1 − n nᵀ)/|r|`, the derivative of its impulse by the head in either state; by the tail it is the negative.
+    /// `½ h F (1 − n nᵀ)/|r|`, the derivative of its impulse with respect to the head in either state, N s/m; with
+    /// respect to the tail it is the negative.
     turning: [[S; D]; D],
 }
 
 impl<S: Real, const D: usize> RocketStep<S, D> {
-    /// With the impulse `h F` between two states.
+    /// A rocket with the impulse `h F` in the step between two states.
     pub(crate) fn new(line: PushLine, impulse: S, states: [&State<S>; 2]) -> Self {
         let half = S::from_f64(0.5);
         let arm: [S; D] = array::from_fn(|axis| {
@@ -45,7 +46,7 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
         [(tail.index, -S::one()), (head.index, S::one())]
     }
 
-    /// Subtracts the derivatives by the new state, in the places of the matrix or of the transposed one.
+    /// Subtracts the derivatives with respect to the new state from the matrix, or from the transposed one.
     pub(super) fn add_to(
         &self,
         layout: &Layout,
@@ -73,7 +74,7 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
         }
     }
 
-    /// Adds what changes with its line in both states to the right-hand side of a direction.
+    /// Adds the change of the impulse with its line, in both states, to the right-hand side of a direction.
     pub(super) fn push(&self, layout: &Layout, direction: &mut Direction<S>) {
         let Some(pushed) = layout.nodes[self.line.node.index] else {
             return;
@@ -89,8 +90,8 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
         }
     }
 
-    /// Subtracts `(∂R/∂q)ᵀ w` at both ends of its line, the same in both states: at anchors twice, and from those by their
-    /// positions in each.
+    /// Subtracts `(∂R/∂q)ᵀ w` at both ends of its line, which is the same for both states. For an anchor, whose position
+    /// is no unknown, both are subtracted at the old position, and one from each of `weights.anchors`.
     pub(super) fn subtract(
         &self,
         layout: &Layout,

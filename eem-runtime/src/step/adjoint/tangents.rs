@@ -1,4 +1,4 @@
-//! The tangents of a step: by how much its new state changes when the old one and the inputs change, in several directions.
+//! The tangents of a step: changes of its new state by changes of the old one and of inputs, in several directions.
 //!
 //! `(∂R/∂x¹) dx¹ = −(∂R/∂x⁰) dx⁰ − (∂R/∂μ) dμ` with the equations R of `adjoint.rs`. The unknowns are the changes of positions
 //! beyond those of the old state, and the changes of interface temperatures; there is one elimination for all directions.
@@ -13,7 +13,7 @@ use crate::step::adjoint::inertia::Inertia;
 use crate::step::adjoint::rockets::RocketStep;
 use eem_material::number::scalar::Real;
 
-/// The tangents of one step after the other, with memory for all of them.
+/// Computes the tangents of one step after the other, with a workspace for all of them.
 #[derive(Debug)]
 pub(crate) struct Tangents<S, const D: usize> {
     inertia: Inertia<S, D>,
@@ -75,8 +75,9 @@ impl<S: Real, const D: usize> Tangents<S, D> {
         }
     }
 
-    /// From the old state of a step to its new one. Of the new one, positions and velocities of anchors and temperatures that are held
-    /// are given; of the right-hand side what changes with masses and loads.
+    /// Finds the changes of the new state of a step from those of the old one. The caller has set, in the new state,
+    /// positions and velocities of anchors and prescribed temperatures, and in the right-hand side, the effect of changed
+    /// masses and loads.
     pub(crate) fn step_forward(
         &mut self,
         past: &PastStep<'_, S>,
@@ -123,7 +124,7 @@ impl<S: Real, const D: usize> Tangents<S, D> {
         Ok(())
     }
 
-    /// The heat of paths whose conductances and reservoirs change, at the temperatures there are.
+    /// Finds the change of heat by changes of conductances and reservoirs, at fixed temperatures of elements.
     fn conduct(
         &self,
         conduction: &Conduction<S>,
@@ -157,7 +158,7 @@ impl<S: Real, const D: usize> Tangents<S, D> {
         }
     }
 
-    /// `M Δv = (2/h) M Δq − 2 M v⁰` of masses; the velocities of anchors are given.
+    /// Adds the known terms of `M Δv = (2/h) M Δq − 2 M v⁰` to the right-hand side; the velocities of anchors are given.
     fn push_inertia(&mut self, masses: &Masses<S>, direction: &mut Direction<S>) {
         let Direction {
             old, new, right, ..
@@ -186,7 +187,7 @@ impl<S: Real, const D: usize> Tangents<S, D> {
         }
     }
 
-    /// `q¹` and `v¹ = (2/h) Δq − v⁰` of masses.
+    /// Sets `q¹` and `v¹ = (2/h) Δq − v⁰` of masses.
     fn move_on(&self, step: S, direction: &mut Direction<S>) {
         let Direction {
             old, new, right, ..
@@ -202,7 +203,7 @@ impl<S: Real, const D: usize> Tangents<S, D> {
         }
     }
 
-    /// The entropies of reservoirs, `Δσ = (h/θ_r) Σ κ (θ* − θ_r)`.
+    /// Adds the changes of the entropies of reservoirs, `Δσ = (h/θ_r) Σ κ (θ* − θ_r)`.
     fn book(
         &self,
         step: S,

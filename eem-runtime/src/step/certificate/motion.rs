@@ -25,7 +25,7 @@ pub(crate) struct Motion<S, const D: usize> {
 /// The momenta that a scene conserves apart from its loads.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kept<S, const D: usize> {
-    /// With two anchors or more, or moved ones: none.
+    /// None: with several anchors, moved anchors, or a scheme that does not prove its laws.
     None,
     /// With one anchor at this place: the angular momentum about it.
     Angular([S; D]),
@@ -99,7 +99,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
         }
     }
 
-    /// Adds a node that moves, with the force of its loads if there are any, N.
+    /// Adds a moving node, with the force of its loads if there are any, N.
     #[inline]
     pub(crate) fn see(&mut self, node: &NodeStep<'_, S, D>, force: Option<&[S; D]>, step: S) {
         let [gain, size] = node.energies();

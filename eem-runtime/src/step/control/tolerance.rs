@@ -80,8 +80,9 @@ impl<S: Real> Tolerance<S> {
         }
     }
 
-    /// The errors of all steps in this time, s, may add up to the tolerance: a step of the size h may have the part `h/time`
-    /// of it (error per unit step). The explicit scheme takes no notice; its estimate is that of a lower order.
+    /// The errors of all steps in this time, s, may add up to the tolerance: a step of the size h may have the part
+    /// `h/time` of it (error per unit step). The explicit scheme ignores it, since its estimate has a lower order than
+    /// the scheme.
     ///
     /// ```
     /// use eem::Tolerance;
@@ -175,7 +176,7 @@ pub(crate) struct Scales<S> {
     position: S,
     momentum: S,
     strain: S,
-    /// The relative and the absolute one of temperatures.
+    /// The relative and the absolute tolerance of temperatures.
     temperature: [S; 2],
 }
 
@@ -203,7 +204,7 @@ impl<S: Real> Scales<S> {
         }
     }
 
-    /// The largest error in units of the tolerance, of differences between two states.
+    /// The largest difference between two states, in units of the tolerance.
     pub(crate) fn error(&self, [a, b]: [&State<S>; 2], kinds: &Kinds) -> S {
         let mut largest = S::zero();
         let mut see = |values: [&[S]; 2], scale: &dyn Fn(usize, S) -> S| {

@@ -72,7 +72,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.is_ready = self.was_ready;
     }
 
-    /// The next step starts from another state, for which rates and targets are evaluated again.
+    /// Makes the next step start from another state, for which rates and targets are evaluated again.
     pub(crate) fn forget(&mut self) {
         self.is_ready = false;
     }

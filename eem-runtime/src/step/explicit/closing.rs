@@ -89,7 +89,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Temperatures and energies of the elements of open components.
+    /// Finds temperatures and energies of the elements of open components.
     fn find_energies(&mut self, next: &mut State<S>) -> Result<(), StateError> {
         let scratch = &mut self.scratch;
         let open = scratch.open.iter().zip(&scratch.inactive);
@@ -114,7 +114,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(())
     }
 
-    /// Forces of the elements, with weights, in the components that ask for them: the gradient of the energy.
+    /// Finds the forces of elements and weights in the components that need them: the negative gradient of the energy.
     fn find_forces(&mut self, view: &ExplicitView<'_, S, D>) {
         let scratch = &mut self.scratch;
         let gravity: [S; D] = view.loads.gravity.into();

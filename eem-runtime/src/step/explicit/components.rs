@@ -1,4 +1,4 @@
-//! The connected components of a scene: what is joined by springs or by paths of heat.
+//! The connected components of a scene: masses and elements joined by springs or by paths of heat.
 //!
 //! Anchors and reservoirs join nothing. Energy and momenta of each component have targets of their own, so
 //! that nothing is moved between bodies that do not touch.
@@ -14,14 +14,14 @@ use crate::element::masses::Masses;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 
-/// What holds the masses of a component.
+/// The anchors of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Support {
-    /// Nothing: both momenta are kept.
+    /// None: both momenta are conserved.
     Free,
-    /// One anchor at this place, about which the angular momentum is kept.
+    /// One anchor at this place, about which the angular momentum is conserved.
     Anchor(usize),
-    /// Several: no momentum is kept.
+    /// Several: no momentum is conserved.
     Several,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Component<S> {
 }
 
 impl<S: Real> Component<S> {
-    /// The velocity of the centre of mass that goes with a linear momentum; zero on an anchor, m/s.
+    /// The velocity of the centre of mass for a linear momentum, m/s; zero with an anchor.
     pub(super) fn velocity<const D: usize>(&self, linear: &[S; D]) -> [S; D] {
         let is_free = self.support == Support::Free;
         linear.map(|p| if is_free { p / self.mass } else { S::zero() })
@@ -51,7 +51,7 @@ impl<S: Real> Component<S> {
 /// A path of heat.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path<S> {
-    /// The thermal slot at one end, and at the other: reservoirs come behind all thermal slots.
+    /// The thermal slots at both ends; reservoirs are numbered after all thermal slots.
     pub(super) ends: [u32; 2],
     pub(super) component: u32,
     /// Its first link in the list of all.
@@ -71,12 +71,12 @@ pub(super) struct Share {
     pub(super) reservoir: u32,
 }
 
-/// All components of a scene, with what belongs to each side by side.
+/// All components of a scene; in each list, the entries of one component are consecutive.
 #[derive(Clone, Debug)]
 pub(super) struct Components<S> {
     pub(super) all: Vec<Component<S>>,
-    /// The node of the scene at each place: first the masses of the first component, then those of the
-    /// next; behind all masses the anchors, once per component that they hold.
+    /// The node of the scene at each place: first the masses of the first component, then those of the next; after all
+    /// masses the anchors, once per component that they hold.
     pub(super) nodes: Vec<u32>,
     /// The component of each place.
     pub(super) of_place: Vec<u32>,
@@ -100,13 +100,13 @@ pub(super) struct Dashpot {
     pub(super) slot: Option<u32>,
 }
 
-/// Sets that are merged: each points to another of the same set, the first to itself.
+/// Disjoint sets that are merged: each member points to another one of its set, the first to itself.
 struct Sets(Vec<usize>);
 
 impl Sets {
     fn first(&mut self, mut of: usize) -> usize {
         while self.0[of] != of {
-            // Halves the way of later questions.
+            // Path halving, for later calls.
             self.0[of] = self.0[self.0[of]];
             of = self.0[of];
         }
@@ -120,7 +120,7 @@ impl Sets {
 }
 
 impl<S: Real> Components<S> {
-    /// The components of a scene; `dashpots` are those of each element.
+    /// The components of a scene.
     pub(super) fn new(
         masses: &Masses<S>,
         elements: &Ends,
@@ -170,7 +170,7 @@ impl<S: Real> Components<S> {
         components
     }
 
-    /// The place of a node of an element by its component.
+    /// A function that finds the place of a node from a component and the node.
     pub(super) fn place_of(&self) -> impl Fn(u32, u32) -> u32 + use<S> {
         let owners = self
             .of_place
@@ -187,7 +187,8 @@ impl<S: Real> Components<S> {
         nodes.map(|&node| masses.get(node as usize).unwrap_or(S::zero()))
     }
 
-    /// Whether some dashpot, or one of a component, has no temperature that takes its heat.
+    /// Whether an element with a dashpot, in this component or in any (`None`), has no temperature, so that the heat
+    /// leaves the scene.
     pub(super) fn loses_heat(&self, component: Option<usize>) -> bool {
         let mut dashpots = self.dashpots.iter();
         dashpots.any(|dashpot| {
@@ -272,7 +273,7 @@ impl<S: Real> Components<S> {
         }
     }
 
-    /// The paths that begin at a slot; each is listed at both ends.
+    /// Adds the paths that begin at a slot; each is linked at both ends, and added at the first one.
     fn add_paths(&mut self, component: usize, slot: u32, conduction: &Conduction<S>) {
         let links = conduction.links(slot as usize).iter();
         for (link, place) in links.zip(conduction.first_link(slot as usize)..) {
@@ -309,7 +310,7 @@ impl<S: Real> Components<S> {
     }
 }
 
-/// The number of the component of each set in the order of their first members, and how many there are.
+/// Numbers the components in the order of their first members. Returns the number of each member, and their count.
 fn numbered<S: Real>(sets: &mut Sets, masses: &Masses<S>, nodes: usize) -> (Vec<u32>, usize) {
     let mut numbers = vec![0; sets.0.len()];
     let mut count = 0;
@@ -329,7 +330,7 @@ fn numbered<S: Real>(sets: &mut Sets, masses: &Masses<S>, nodes: usize) -> (Vec<
     (numbers, count)
 }
 
-/// The dashpots of elements in these components.
+/// All dashpots, given the component of each element.
 fn dashpots(layout: &Layout, components: &[u32]) -> Vec<Dashpot> {
     let mut all = Vec::with_capacity(layout.viscous);
     let ends = layout.elements.iter().skip(1).map(|slots| slots.viscous);

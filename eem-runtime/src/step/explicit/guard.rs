@@ -10,7 +10,7 @@ use eem_material::number::scalar::{Mask, Real};
 /// A number for each stage that has weights.
 pub(super) type PerWeight<S> = [S; WEIGHTED.len()];
 
-/// Entropy that flows along a path of heat and what it produces, at the stages that have weights, W/K.
+/// The flow of entropy along a path of heat, and its entropy production, at the stages that have weights, W/K.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathRates<S> {
     /// `X/θ_a` and `X (θ_b − θ_a)/(θ_a θ_b)` with `X = κ (θ_b − θ_a)`.

@@ -6,8 +6,8 @@
 //! J = M Ω + Ω M,     M = Σ m r rᵀ
 //! ```
 //!
-//! In the principal axes of M, with moments μ, it is `J_ab = (μ_a + μ_b) Ω_ab`. Masses on a line have no inertia
-//! about it. In planes without inertia, no change of the momenta of the masses changes J, see [`turning`].
+//! In the principal axes of M, with moments μ, it is `J_ab = (μ_a + μ_b) Ω_ab`. Masses on a line have no inertia about
+//! the line. In planes without inertia, no change of the momenta of the masses changes J; see [`turning`].
 
 mod moments;
 mod principal;
@@ -31,7 +31,7 @@ pub(super) enum Inertia<S, const D: usize> {
     Space(Inverse<S>),
     /// Nearly on a line, or in more than three dimensions.
     Principal(Principal<D>),
-    /// Of several lanes, each with a shape of its own.
+    /// Of several lanes, whose bodies differ in shape.
     Lanes(Moments<S, D>),
 }
 

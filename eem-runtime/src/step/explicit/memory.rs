@@ -59,7 +59,7 @@ impl<S: Real, const D: usize> Target<S, D> {
         }
     }
 
-    /// All its sums, as they are saved.
+    /// Calls a function for each of its sums, in the order in which they are saved.
     pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut Sum<S>)) {
         visit(&mut self.energy);
         visit(&mut self.lost);
@@ -91,7 +91,7 @@ impl<S: Real, const D: usize> Books<S, D> {
         self.terms = None;
     }
 
-    /// Takes over those of the same scene; targets only where steps change them.
+    /// Copies the values of `other`, of the same scene; targets only where steps change them.
     #[inline]
     pub(super) fn copy_from(&mut self, other: &Self, change_targets: bool) {
         if change_targets {

@@ -24,7 +24,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Gives anchors the velocities with which they start.
+    /// Gives moved anchors their velocities at the start of a step.
     pub(super) fn start_anchors(&mut self) {
         for moved in &self.prescribed.moved {
             for &place in &moved.places {
@@ -83,7 +83,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 }
 
-/// Takes over the forces of others.
+/// Copies the forces of other loads.
 pub(super) fn copy_loads<S: Real>(own: &mut StepLoads<S>, other: &StepLoads<S>) {
     own.total_force.copy_from_slice(&other.total_force);
     own.force.copy_from_slice(&other.force);

@@ -3,7 +3,7 @@
 use eem_material::number::compensated::Sum;
 use eem_material::number::digest::Digest;
 
-/// Targets, what reservoirs have received from each component, and the rates of the present state, bit for
+/// Targets, the entropies that reservoirs have received from each component, and the rates of the present state, bit for
 /// bit.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
@@ -17,15 +17,15 @@ pub(crate) struct SavedExplicit<S> {
     /// The digest of the state that it belongs to.
     pub(crate) state: Digest,
     pub(crate) is_motion_first: bool,
-    /// All sums of each component.
+    /// All sums of the targets of each component.
     pub(crate) targets: Vec<Sum<S>>,
     pub(crate) shares: Vec<Sum<S>>,
     pub(crate) held_energies: Vec<S>,
     pub(crate) largest_momentum: S,
     pub(crate) residue: S,
-    /// Of the stage vector, of dashpots and of thermostats.
+    /// The rates of the stage vector, of dashpots and of thermostats.
     pub(crate) rates: Vec<S>,
-    /// With weights, then without.
+    /// The loads with weights, then without them.
     pub(crate) loads: Vec<S>,
 }
 

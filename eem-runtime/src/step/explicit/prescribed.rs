@@ -1,8 +1,8 @@
 //! Moved anchors and thermostats at the times of the stages.
 //!
-//! The motion of an anchor is taken as the polynomial through its positions at Chebyshev points of the
-//! step, whose derivative is the velocity: no more is known of a function of time than its values. The
-//! degree is 10, so that the error is of an order above that of the scheme.
+//! The motion of an anchor is taken as the polynomial through its positions at Chebyshev points of the step, whose
+//! derivative is the velocity: of a function of time, only values are known. The degree is 10, so that the error is of an
+//! order above that of the scheme.
 
 use core::f64::consts::PI;
 
@@ -19,10 +19,10 @@ use eem_material::number::scalar::{Real, is_positive};
 /// Number of points of a step at which motions are evaluated, one more than the degree.
 const POINTS: usize = 11;
 
-/// Positions and velocities of the stages from those of the points, both ends among them.
+/// The weights that give positions and velocities at the stages from positions at the points, which include both ends.
 #[derive(Clone, Debug)]
 struct Interpolation<S> {
-    /// Where the points are, as shares of the step.
+    /// The times of the points, as fractions of the step.
     points: [S; POINTS],
     values: [[S; POINTS]; STAGES],
     slopes: [[S; POINTS]; STAGES],
@@ -62,11 +62,11 @@ impl<S: Real> Interpolation<S> {
 #[derive(Clone, Debug)]
 pub(super) struct Moved<S, const D: usize> {
     pub(super) node: Node,
-    /// Its places among those of a stage.
+    /// Its places in the stage vector.
     pub(super) places: Vec<usize>,
-    /// Which of the motions of the scene.
+    /// The index of its motion in the scene.
     motion: usize,
-    /// Of the stages, m and m/s.
+    /// At the stages, m and m/s.
     pub(super) positions: [[S; D]; STAGES],
     pub(super) velocities: [[S; D]; STAGES],
 }
@@ -76,16 +76,16 @@ pub(super) struct Moved<S, const D: usize> {
 pub(super) struct Held<S> {
     element: Element,
     pub(super) slot: usize,
-    /// Which of the temperatures of the scene.
+    /// The index of its temperature in the scene.
     temperature: usize,
-    /// Of the stages, K.
+    /// At the stages, K.
     pub(super) temperatures: [S; STAGES],
 }
 
 /// All that is prescribed in a scene.
 #[derive(Clone, Debug)]
 pub(super) struct Prescribed<S, const D: usize> {
-    /// Only if something moves.
+    /// `None` if no anchor is moved.
     interpolation: Option<Interpolation<S>>,
     pub(super) moved: Vec<Moved<S, D>>,
     pub(super) held: Vec<Held<S>>,
@@ -125,7 +125,7 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
         }
     }
 
-    /// Evaluates everything in the step from `time` by `step`.
+    /// Evaluates all motions and temperatures at the stages of a step of size `step` that begins at `time`.
     pub(super) fn evaluate(
         &mut self,
         loads: &Loads<S, D>,
@@ -185,7 +185,7 @@ impl<S: Real, const D: usize> Moved<S, D> {
         let (start, end) = (positions[0], positions[POINTS - 1]);
         for stage in 0..STAGES {
             for axis in 0..D {
-                // Small numbers, which lose no digits beside the distance from the origin.
+                // Differences do not lose digits to the distance from the origin.
                 let from_start = |m: usize| positions[m][axis] - start[axis];
                 let sum = |row: &[S; POINTS]| {
                     (1..POINTS).fold(S::zero(), |sum, m| sum + row[m] * from_start(m))

@@ -25,7 +25,7 @@ pub(super) struct Progress<S: Real> {
     pub(super) correction: S,
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: S,
-    /// All production, and the smallest one before it was closed; the largest number without any, J/K.
+    /// The total entropy production, and the smallest one before the closing, `S::MAX` without any, J/K.
     pub(super) production: Total<S>,
     pub(super) least: S,
     /// The factor by which the closing has changed every production.
@@ -35,7 +35,7 @@ pub(super) struct Progress<S: Real> {
     /// Whether the energy is within tolerance, and whether a correction needs forces.
     pub(super) is_closed: S::Mask,
     pub(super) needs_forces: S::Mask,
-    /// The component was rotated rigidly because no correction was possible.
+    /// Whether the component was rotated rigidly because no correction was possible.
     pub(super) is_rigid: bool,
 }
 
@@ -71,7 +71,7 @@ pub(super) struct Scratch<S: Real, const D: usize> {
     pub(super) progress: Vec<Progress<S>>,
     pub(super) motions: Vec<Motion<S, D>>,
     pub(super) energies: Vec<ComponentEnergy<S>>,
-    /// Whether it has to be evaluated; whether its forces are needed.
+    /// Whether a component has to be evaluated, and whether its forces are needed.
     pub(super) open: Vec<bool>,
     pub(super) needs_forces: Vec<bool>,
     /// Lanes that have not changed and are inactive while the others are evaluated.
@@ -79,17 +79,16 @@ pub(super) struct Scratch<S: Real, const D: usize> {
     /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
     pub(super) capacities: Vec<[S; 2]>,
     pub(super) produced: Vec<S>,
-    /// A stored entropy that the closing has missed.
+    /// An element whose stored entropy does not match its temperature after the closing, if there is one.
     pub(super) unkept: Option<UnkeptEntropy>,
-    /// Entropy that an element with a thermostat has received otherwise, J/K.
+    /// Entropy that an element with a thermostat has received from others than the thermostat, per thermal slot, J/K.
     pub(super) received: Vec<S>,
     /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are needed, N, m/s and W.
     pub(super) forces: Vec<[S; D]>,
     pub(super) creep: Vec<[S; 2]>,
-    /// Π of the paths of heat, J/K.
+    /// The production Π of each path of heat, J/K.
     pub(super) paths: Vec<S>,
-    /// The smallest production of paths of heat between thermostats and reservoirs; the largest number without any,
-    /// J/K.
+    /// The smallest production of paths of heat between thermostats and reservoirs; `S::MAX` without any, J/K.
     pub(super) least: S,
     pub(super) stability: RowSums<S>,
 }
@@ -157,7 +156,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
 }
 
 impl<S: Real, const D: usize> Scratch<S, D> {
-    /// For so many nodes of the scene.
+    /// A workspace for a scene with this many nodes.
     pub(super) fn new(components: &Components<S>, layout: &Layout, nodes: usize) -> Self {
         let (count, thermal) = (components.all.len(), layout.thermal);
         Self {
@@ -183,7 +182,7 @@ impl<S: Real, const D: usize> Scratch<S, D> {
         }
     }
 
-    /// Begins to close a step.
+    /// Clears the workspace for the closing of a step.
     pub(super) fn clear(&mut self) {
         self.progress.fill(Progress::none());
         self.inactive.fill(S::Mask::none());

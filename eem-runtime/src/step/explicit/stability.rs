@@ -12,7 +12,7 @@ use eem_material::number::scalar::{Mask, Real};
 const IMAGINARY_LIMIT: f64 = 5.96;
 const REAL_LIMIT: f64 = 6.39;
 
-/// Of the fastest vibration, conduction and dashpot.
+/// The limits for the fastest vibration, conduction and dashpot.
 const LIMITS: [f64; 3] = [IMAGINARY_LIMIT, REAL_LIMIT, REAL_LIMIT];
 
 impl<S: Real, const D: usize> Explicit<S, D> {
@@ -23,7 +23,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         failure: StepFailure,
         view: &ExplicitView<'_, S, D>,
     ) -> StepFailure {
-        let of_numbers = matches!(
+        let may_be_unstable = matches!(
             failure,
             StepFailure::State(_)
                 | StepFailure::Unbounded { .. }
@@ -31,7 +31,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 | StepFailure::NotClosed { .. }
                 | StepFailure::LawNotKept { .. }
         );
-        if !of_numbers {
+        if !may_be_unstable {
             return failure;
         }
         let time = (view.state.time.value + view.step).to_f64();
@@ -53,7 +53,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.too_cold(&failure, view).unwrap_or(failure)
     }
 
-    /// The step as a share of the longest one that is stable.
+    /// The step as a fraction of the longest stable one.
     pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, S, D>) -> f64 {
         let rates = self.fastest(view).into_iter();
         let shares = rates.zip(LIMITS).map(|(rate, limit)| rate / limit);

@@ -10,14 +10,14 @@ use crate::element::group::{Apart, Past};
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::Real;
 
-/// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and
-/// leave their rows to the last ones.
+/// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and the last two
+/// stages reuse their rows.
 const ROWS: [usize; STAGES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 2, 1];
 
 /// The rows of the stages with weights.
 const WEIGHTED_ROWS: [usize; 8] = [0, 5, 6, 7, 8, 9, ROWS[10], ROWS[11]];
 
-/// Which of the stages with weights each stage is.
+/// The index of each stage among the stages with weights.
 const WEIGHT_OF: [Option<usize>; STAGES] = {
     let mut all = [None; STAGES];
     let mut at = 0;
@@ -47,7 +47,7 @@ pub(super) fn errors<S: Real, const N: usize, const P: usize>(
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// All stages, and the end of the step before it is closed.
+    /// Goes through all stages to the end of the step, before it is closed.
     pub(super) fn go_through_stages(
         &mut self,
         view: &ExplicitView<'_, S, D>,
@@ -117,7 +117,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Loads and weights at a time.
+    /// Evaluates loads and weights at a time.
     pub(super) fn evaluate_loads(
         &mut self,
         view: &ExplicitView<'_, S, D>,
@@ -132,7 +132,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(())
     }
 
-    /// The loads are the first of the forces.
+    /// Initialises the forces on masses with the loads.
     fn apply_loads(&mut self) {
         let masses = self.stage.places[..self.components.masses].iter_mut();
         for (place, &node) in masses.zip(&self.components.nodes) {
@@ -177,7 +177,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(())
     }
 
-    /// The rates of the closed state.
+    /// Finds the rates of the closed state.
     pub(super) fn finish(&mut self) -> Result<(), StepFailure> {
         for place in &mut self.stage.places[..self.components.masses] {
             place.begin_rates();

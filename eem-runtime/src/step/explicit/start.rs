@@ -21,7 +21,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
         if self.has_left || !self.is_ready {
-            // Steps write what moves; all else is the same in both states from now on.
+            // Steps write only variables that change; all others are equal in both states from now on.
             next.copy_from(view.state);
             self.load(view);
             if self.is_ready {
@@ -49,7 +49,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(())
     }
 
-    /// Begins the sums of the heat of each dashpot, with that at the start.
+    /// Begins the sums of the heat of each dashpot, with the contribution of the start.
     fn begin_heats(&mut self) {
         let stage = &mut self.stage;
         stage.heats.resize(stage.productions.len(), S::zero());
@@ -139,8 +139,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// The point about which a component keeps its angular momentum: its anchor or its centre of mass; the origin
-    /// with several anchors, where it keeps none.
+    /// The point about which the angular momentum of a component is conserved: its anchor or its centre of mass; the
+    /// origin with several anchors, where none is.
     pub(super) fn origin(places: &[Place<S, D>], component: &Component<S>) -> Origin<S, D> {
         match component.support {
             Support::Free => {

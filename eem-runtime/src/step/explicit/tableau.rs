@@ -12,7 +12,7 @@
 /// Number of stages.
 pub(super) const STAGES: usize = 12;
 
-/// c: when the stages are, as shares of the step.
+/// c: the times of the stages, as fractions of the step.
 pub(super) const TIMES: [f64; STAGES] = [
     0.0,
     0.05260015195876773,
@@ -28,7 +28,7 @@ pub(super) const TIMES: [f64; STAGES] = [
     1.0,
 ];
 
-/// a of each stage, for the stages that use it.
+/// a: the coefficients of each stage for the earlier stages that it uses.
 pub(super) const ROW_1: [f64; 1] = [0.05260015195876773];
 pub(super) const ROW_2: [f64; 2] = [0.0197250569845379, 0.0591751709536137];
 pub(super) const ROW_3: [f64; 2] = [0.02958758547680685, 0.08876275643042054];

@@ -4,9 +4,9 @@
 //! z_i = z⁰ + h Σ_j a_ij ż_j,   z¹ = z⁰ + ½h (ż_1 + ż_2),      z = (q, p, γ, s),   c = ½ ∓ √3/6
 //! ```
 //!
-//! (Hairer, Lubich & Wanner 2006, *Geometric numerical integration*, table II.1.1). Positions and momenta
-//! together are `q_i = q⁰ + h c_i p⁰/m − (h²/m) Σ_j (A²)_ij F_j`. It is symplectic where nothing is
-//! dissipated, keeps momenta up to what Newton's method leaves, and promises no law of thermodynamics.
+//! (Hairer, Lubich & Wanner 2006, *Geometric numerical integration*, table II.1.1). Positions and momenta together are
+//! `q_i = q⁰ + h c_i p⁰/m − (h²/m) Σ_j (A²)_ij F_j`. It is symplectic where nothing is dissipated, conserves momenta up
+//! to the residuals of Newton's method, and guarantees no law of thermodynamics.
 
 use crate::element::tableau::{Ending, EntropyBalance, Tableau};
 
@@ -36,7 +36,7 @@ const OWN: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 /// See the module.
 pub(crate) static TABLEAU: Tableau = RULE;
 
-/// The same, of which another rule is made.
+/// The coefficients, which [`eem_entropy_4`](super::eem_entropy_4) shares.
 pub(super) const RULE: Tableau = Tableau {
     times: &[FIRST, SECOND],
     known: 0,

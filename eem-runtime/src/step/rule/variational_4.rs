@@ -1,9 +1,9 @@
 //! The variational integrator of fourth order.
 //!
-//! Hamilton's principle for the action with thermacies α, α̇ = θ, by Simpson's rule with q and α
-//! quadratic in time (Kern, Romero, Conde Martín & García Orden 2021, §III.A, eqs. 21–24). Stages
-//! `i = 0, m, 1` are the nodes of the rule; λ is that of the nodes' positions there, `F = f ∂λ/∂q`
-//! less the loads. With `Φ = (Σ g²/η + Q)/θ` the equations of one step are
+//! Hamilton's principle for the action with thermacies α, α̇ = θ, by Simpson's rule with q and α quadratic in time (Kern,
+//! Romero, Conde Martín & García Orden 2021, §III.A, eqs. 21–24). Stages `i = 0, m, 1` are the nodes of the rule; λ
+//! follows from the positions of the nodes there, `F = f ∂λ/∂q` less the loads. With `Φ = (Σ g²/η + Q)/θ` the equations
+//! of one step are
 //!
 //! ```text
 //! v_0 = (−3q⁰ + 4q_m − q¹)/h,   v_m = (q¹ − q⁰)/h,   v_1 = (q⁰ − 4q_m + 3q¹)/h,   θ_m = ½(θ_0 + θ_1)
@@ -20,9 +20,9 @@
 //! q¹  = q⁰ + (h/m) (p⁰ − (h/6) (F_0 + 2F_m)),     p¹ = p⁰ − (h/6)(F_0 + 4F_m + F_1)
 //! ```
 //!
-//! The temperatures `θ_0`, `θ_1` are those of the stages and not those of the states, from which they differ by
-//! O(h²). What the linear θ leaves of the entropies is orthogonal to linear functions in Simpson's
-//! rule, so that the order four is that of the pair.
+//! The temperatures `θ_0`, `θ_1` are those of the stages and not those of the states, from which they differ by O(h²). As
+//! θ is linear in time, the balance of entropy leaves a residual; it is orthogonal to linear functions in Simpson's rule,
+//! so that the scheme has the order four of the pair.
 //!
 //! Viscous stretches are collocated (Lobatto IIIA), `γ̇_i = g_i/η(θ_i)` at all stages:
 //!
@@ -30,10 +30,10 @@
 //! γ_m = γ⁰ + (h/24)(5γ̇_0 + 8γ̇_m − γ̇_1),   γ¹ = γ⁰ + (h/6)(γ̇_0 + 4γ̇_m + γ̇_1)
 //! ```
 //!
-//! Here the scheme departs from the paper. L has no γ̇, so that the literal discrete equations for a
-//! quadratic γ carry a momentum conjugate to γ from step to step, which should be zero and is not
-//! kept there: for `g = −kγ` and `x = hk/η` their matrix has the trace `(8 + 2x²)/(4 + x)` and the determinant
-//! `(4 − x)/(4 + x)`, and beside the root `e^{−x}` one that grows like `e^{x/2}`.
+//! Here the scheme departs from the paper. L has no γ̇, so that the literal discrete equations for a quadratic γ carry a
+//! momentum conjugate to γ from step to step, which should be zero and is not kept there: for `g = −kγ` and `x = hk/η`
+//! their matrix has the trace `(8 + 2x²)/(4 + x)` and the determinant `(4 − x)/(4 + x)`, and besides the root `e^{−x}`
+//! one that grows like `e^{x/2}`.
 //!
 //! Momenta are kept exactly. The energy stays near its value while steps resolve the motion:
 //! vibrations of frequency ω are stable for `ωh < √8`, as with the pair, and not for any step as with

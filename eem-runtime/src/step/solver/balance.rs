@@ -16,10 +16,10 @@ pub(super) struct Balance<S, const D: usize> {
     pub(super) flight: [S; D],
     /// 2m/h, or m/(ch) for a stage, kg/s.
     inertia: S,
-    /// The reciprocal of its unit of length: its shortest element in the old state; 1 m without.
+    /// The reciprocal of the length of its shortest element in the old state, 1/m; 1 without elements.
     pub(super) per_length: S,
-    /// `−h F⁰` with the part F⁰ of the force that the old state and the loads decide, N s; zero while
-    /// nothing moves.
+    /// `−h F⁰` with the part F⁰ of the force that depends on the old state and the loads only, N s; zero while nothing
+    /// moves.
     pub(super) push: [S; D],
 }
 
@@ -46,7 +46,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
         points::<S, D>(view.state.momenta.values())[at].map(|momentum| mobility * momentum)
     }
 
-    /// What does not change during a step, for its set of unknowns and F⁰.
+    /// Sets inertia, flight and push for a step, its set of unknowns and F⁰.
     #[inline]
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>, set: &UnknownSet, force: [S; D]) {
         let time = S::from_f64(set.time);
@@ -75,7 +75,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
         array::from_fn(|axis| (displacement[axis] - self.flight[axis]) + rest[axis])
     }
 
-    /// How fast it moves in a step.
+    /// Its velocities in a step.
     #[inline]
     pub(super) fn speeds(
         &self,
@@ -94,7 +94,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
 
     /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement, and the magnitude of its terms.
     ///
-    /// It has the digits of Δp also where that is small beside p, and those of Δq where `Δp ≈ −2p⁰`.
+    /// It is accurate relative to Δp even where Δp is small compared with p, and relative to Δq where `Δp ≈ −2p⁰`.
     #[inline]
     pub(super) fn impulse(&self, displacement: [&[S; D]; 2]) -> [[S; D]; 2] {
         [

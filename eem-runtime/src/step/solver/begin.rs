@@ -23,7 +23,7 @@ use eem_material::number::scalar::{Mask, Real};
 pub(super) enum Start {
     /// The usual one of the scheme: predicted motion and internal variables, or the old state.
     Predicted,
-    /// The same with the old internal variables.
+    /// Predicted motion, old internal variables.
     Motion,
     /// The old state.
     Rest,
@@ -60,7 +60,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// Inertia and impulses that do not change during the step.
+    /// Sets inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
@@ -74,7 +74,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.nodes.len() / self.sets.len()
     }
 
-    /// Where the nodes of a set of unknowns are among all.
+    /// The indices of the nodes of a set of unknowns in `nodes`.
     pub(super) fn range_of_set(&self, set: usize) -> Range<usize> {
         set * self.moving()..(set + 1) * self.moving()
     }
@@ -94,7 +94,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         inertias
     }
 
-    /// Sets moved anchors to their positions at the end of the step.
+    /// Sets moved anchors to their positions at the end of the step, or at the stage of each set.
     fn place_moved_anchors(&mut self, view: &StepView<'_, S>) {
         for set in 0..self.sets.len() {
             let first = self.trial.first_of_set(set);
@@ -122,7 +122,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let is_predicted =
             start != Start::Rest && view.phase.moves() && self.scheme.predicts_its_start();
         let half_step = S::from_f64(0.5) * view.step;
-        let forecast = self.past.forecast();
+        let predictor = self.past.predictor();
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
             let (at, trial) = (node.place.node(), node.place.in_trial());
@@ -135,7 +135,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 displacement = node.flight;
             } else if is_predicted {
                 let mobility = S::from_f64(set.time) * view.step * node.place.per_mass;
-                let force = forecast.of(at);
+                let force = predictor.of(at);
                 displacement =
                     array::from_fn(|axis| mobility * (momenta[at][axis] + half_step * force[axis]));
             }
@@ -186,14 +186,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// The same where it was saved before.
+    /// Saves the history into an earlier one, without allocation.
     pub(crate) fn save_past_to(&self, past: &mut SavedPast<S>) {
         if self.stages.is_none() {
             self.past.save_to(past);
         }
     }
 
-    /// Goes on from a saved past.
+    /// Restores a saved history.
     pub(crate) fn restore(&mut self, past: &SavedPast<S>) {
         if self.stages.is_none() {
             self.past.restore(past);
@@ -201,8 +201,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 }
 
-/// The reciprocal of a unit of length; that of a node without elements, for which it is the largest
-/// number there is, is 1 m.
+/// The reciprocal of a unit of length, 1/m; 1 for a node without elements, whose unit is given as `S::MAX`.
 #[inline]
 pub(super) fn inverse_length<S: Real>(length: S) -> S {
     if length.equal(S::MAX).all() {
@@ -212,7 +211,7 @@ pub(super) fn inverse_length<S: Real>(length: S) -> S {
     }
 }
 
-/// The motion of an anchor up to the stage of a set.
+/// The displacement of a moved anchor from the old state to the stage of a set, m.
 fn motion_in_set<S: Real, const D: usize>(
     scheme: Scheme,
     set: usize,
@@ -254,7 +253,7 @@ fn force_of_set<S: Real, const D: usize>(
     force
 }
 
-/// The part of the force on a node that old state and loads decide.
+/// The part of the force on a node that depends on the old state and the loads only, N.
 #[inline]
 pub(super) fn old_force<S: Real, const D: usize>(forces: &[[S; D]], node: usize) -> [S; D] {
     forces.get(node).copied().unwrap_or([S::zero(); D])

@@ -38,7 +38,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(certificate.with_terms_of(groups, [view.state, next]))
     }
 
-    /// The same with thorough bounds; energy changes by discrete derivatives decide where those by values are too
+    /// Closes the step with thorough bounds; energy changes by discrete derivatives decide where those by values are too
     /// inaccurate.
     #[cold]
     fn close_thoroughly(
@@ -95,7 +95,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(Certificate::new(&motion, &tally, &internal, reach))
     }
 
-    /// With the shortest element of each node.
+    /// The scale of motion, from the shortest element of each node.
     fn reach(&self, step: S) -> Reach<S> {
         let mut reach = Reach::none();
         for node in &self.nodes {
@@ -104,7 +104,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         reach
     }
 
-    /// Which momenta the scene keeps.
+    /// The momenta that the scene conserves and the scheme proves.
     fn kept(&self, view: &StepView<'_, S>) -> Kept<S, D> {
         if !view.loads.moved.is_empty() || !self.scheme.is_exact() {
             return Kept::None;
@@ -116,7 +116,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// Impulses, and displacements where they follow from them.
+    /// Finds impulses, and displacements where these follow from impulses.
     fn find_motion(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -150,7 +150,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// New positions of the anchors that are moved, and the work that this takes.
+    /// Sets the new positions of moved anchors, and adds the work of their supports.
     fn move_anchors(
         &mut self,
         view: &StepView<'_, S>,
@@ -178,7 +178,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// `−h F` of the found forces.
+    /// Sets the impulses to `−h F`, with the forces F at the trial.
     fn find_impulse(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -221,7 +221,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 }
 
-/// The work `v̄·Δp` of moving the mass of a solid at an anchor, J.
+/// Adds the mass of a solid at a moved anchor to the certificate; returns the work `v̄·Δp` of the support on it, J.
 fn carry<S: Real, const D: usize>(
     node: usize,
     displacement: &[S; D],

@@ -1,4 +1,4 @@
-//! Newton's method from a trial state until a step that is closed there proves its laws.
+//! Newton's method, iterated until the step closed at the trial state proves its laws.
 
 use super::Solver;
 use super::effort::Effort;
@@ -66,7 +66,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.factors.judge(update, previous);
             let is_stuck = self.is_stuck(&mut progress, update, previous, settled);
             if S::LANES > 1 && is_stuck {
-                // Alone, some lanes might take another branch from here.
+                // Run alone, some lanes might take another branch from here.
                 break;
             }
             if self.has_other_starts && progress.is_hopeless() {
@@ -94,7 +94,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let certificate = match self.close(groups, view, next) {
             Ok(certificate) => certificate,
             Err(failure) => {
-                progress.draw(S::MAX);
+                progress.note_rejected(S::MAX);
                 if !self.scheme.is_exact() || S::LANES > 1 || progress.is_over() {
                     return Conclusion::Refused(failure);
                 }
@@ -111,12 +111,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
             return self.found(certificate);
         }
         if S::LANES > 1 {
-            progress.draws += 1;
+            progress.retries += 1;
             if !progress.is_over() {
                 return Conclusion::Open(certificate.is_enough());
             }
         } else {
-            progress.draw(self.final_residual);
+            progress.note_rejected(self.final_residual);
             let is_settled = progress.has_stopped() && certificate.is_lawful();
             if !is_settled && !progress.is_over() {
                 return Conclusion::Open(S::Mask::none());
@@ -142,7 +142,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Conclusion::Found
     }
 
-    /// The tangent at a trial where only responses have been evaluated, for another iteration.
+    /// Evaluates the tangent for another iteration, at a trial where only responses have been evaluated.
     #[cold]
     pub(super) fn linearize_again(
         &mut self,
@@ -155,7 +155,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// Whether rounding may be what keeps the last update from being smaller than the one before.
+    /// Whether the last update may be no smaller than the one before because of rounding.
     fn is_stuck(
         &self,
         progress: &mut Progress<S>,
@@ -168,7 +168,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             && self.coupling.may_be_rounding(update)
     }
 
-    /// Why there is no solution: what kept the last update from being applied, or its size.
+    /// The error of a failed iteration: the one that kept the last update from being applied in full, or its size.
     #[cold]
     fn not_converged(&mut self, update: Option<S>) -> StepFailure {
         match self.obstacle.take() {
@@ -179,7 +179,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// Solves the system of an iteration and applies its solution; the largest scaled update.
+    /// Solves the system of an iteration and applies its solution. Returns the largest scaled update.
     #[inline]
     fn iterate(
         &mut self,
@@ -206,8 +206,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         settled
     }
 
-    /// Evaluates at the trial state, to which the correction has been applied, or as much of it as
-    /// leaves every element in an admissible state. Returns whether that is all of it.
+    /// Evaluates the elements at the trial state, to which the last correction has been applied, and takes parts of the
+    /// correction back until every element is in an admissible state. Returns whether none was taken back.
     #[inline]
     pub(super) fn advance(
         &mut self,
@@ -243,7 +243,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         self.obstacle = Some(error);
         let share = half * share;
-        // As much as is left.
+        // The part that is taken back is as large as the part that stays.
         self.take_back(view, share);
         for group in groups {
             group.apply(share);
@@ -251,8 +251,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(share)
     }
 
-    /// The responses at the trial state, and what they add to the system of the next iteration if there is
-    /// to be one.
+    /// Evaluates the responses at the trial state and, if `goes_on`, adds their contributions to the system of the next
+    /// iteration.
     #[inline]
     pub(super) fn evaluate(
         &mut self,

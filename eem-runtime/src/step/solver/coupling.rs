@@ -17,24 +17,24 @@ use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Mask, Real};
 
-/// The coupled masses of a scene, and where they write.
+/// The masses that couple nodes of a scene, with the indices of their matrix entries.
 #[derive(Debug)]
 pub(super) struct Coupling<S, const D: usize> {
-    /// Set after set.
+    /// The pairs of moving nodes, set after set.
     pairs: Vec<CoupledPair<S, D>>,
     sets: usize,
-    /// Nodes that move with those that are moved beside them.
+    /// The pairs of a moving node and a moved anchor.
     driven: Vec<DrivenPair<S>>,
-    /// Per node that moves beside moved ones.
+    /// One per moving node that is coupled to moved anchors.
     drives: Vec<Drive<S, D>>,
-    /// `Δp` of the nodes that move, and the magnitude of its terms, N s; only where masses couple.
+    /// `Δp` of the moving nodes, and the magnitude of its terms, N s; empty unless masses couple nodes.
     impulses: Vec<[[S; D]; 2]>,
 }
 
-/// `Σ_m M_am Δv_m` of a node that moves beside moved ones, and the magnitude of its terms, N s.
+/// `Σ_m M_am Δv_m` of a moving node a that is coupled to moved anchors m, and the magnitude of its terms, N s.
 #[derive(Clone, Copy, Debug)]
 struct Drive<S, const D: usize> {
-    /// The node, among those that move.
+    /// The index of the node among the moving nodes.
     node: u32,
     /// In the rows of each set of unknowns.
     of_sets: [[[S; D]; 2]; MOST_SETS],
@@ -42,7 +42,7 @@ struct Drive<S, const D: usize> {
     of_step: [[S; D]; 2],
 }
 
-/// Two nodes that move, among those that do.
+/// Two coupled moving nodes, by their indices among the moving nodes.
 #[derive(Clone, Copy, Debug)]
 struct CoupledPair<S, const D: usize> {
     nodes: [u32; 2],
@@ -52,7 +52,7 @@ struct CoupledPair<S, const D: usize> {
     places: [[u32; D]; 2],
 }
 
-/// A node that moves, among those that do, and one that is moved.
+/// A moving node, by its index among the moving nodes, and a moved anchor that a mass couples to it.
 #[derive(Clone, Copy, Debug)]
 struct DrivenPair<S> {
     node: u32,
@@ -104,7 +104,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// Finds the effect of moved nodes on their neighbours in a step.
+    /// Finds the impulses of moved anchors on the nodes coupled to them in a step.
     pub(super) fn drive(&mut self, rule: Option<&Tableau>, view: &StepView<'_, S>) {
         for drive in &mut self.drives {
             *drive = Drive::none(drive.node);
@@ -135,10 +135,10 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         self.impulses.is_empty()
     }
 
-    /// The largest update that may be the last one, where without coupled masses it is the usual one.
+    /// The tolerance of the last update: the usual one, and at most ε^¾ with coupled masses.
     ///
-    /// A stiff body pulls `(ωh)²` times as hard as its inertia, so that what an update u leaves, u², has to
-    /// lie as far below ε: with `u = ε^¾` it may be ε^−½.
+    /// The forces of a stiff body are `(ωh)²` times its inertia, and so enlarge the error u² that an update u leaves; the
+    /// result has to be below ε. With `u = ε^¾`, `(ωh)²` may be ε^−½.
     pub(super) fn tolerance(&self, usual: S) -> S {
         if self.is_none() {
             return usual;
@@ -147,8 +147,8 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         usual.minimum(root * root.sqrt())
     }
 
-    /// Whether rounding may be what keeps an update from falling: with coupled masses only a small one, at most ε^⅝, as
-    /// the impulses of a stiff body, by which momenta are judged, would hide what a larger one leaves.
+    /// Whether an update may have stopped falling because of rounding. With coupled masses it must be at most ε^⅝:
+    /// momenta are judged relative to the impulses, which in a stiff body would hide the error of a larger update.
     pub(super) fn may_be_rounding(&self, update: S) -> bool {
         let root = S::EPSILON.sqrt();
         self.is_none() || update.at_most(root * root.sqrt().sqrt()).all()
@@ -221,8 +221,8 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// The product of the masses, by a factor, and vectors of nodes, and the magnitude of its terms from those of the
-    /// vectors, in the place of impulses; only where masses couple nodes.
+    /// Sets the impulses to a factor times the mass matrix times a vector of nodes, with the magnitudes of the terms;
+    /// `vector` returns its entries and their magnitudes. Does nothing unless masses couple nodes.
     fn multiply(
         &mut self,
         nodes: &[Balance<S, D>],
@@ -249,13 +249,12 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// The last `Δp` of a moving node, and the magnitude of its terms.
+    /// `Δp` of a moving node as last found, and the magnitude of its terms, N s; `None` unless masses couple nodes.
     pub(super) fn found(&self, moving: usize) -> Option<&[[S; D]; 2]> {
         self.impulses.get(moving)
     }
 
-    /// `Δp` of a node among those that move, at the trial for which it has been found where masses couple,
-    /// and the magnitude of its terms, N s.
+    /// `Δp` of a moving node at the trial, and the magnitude of its terms, N s; where masses couple nodes, as last found.
     #[inline]
     pub(super) fn impulse(
         &self,
@@ -270,8 +269,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     }
 }
 
-/// The pairs of a node that moves, whose first unknown is asked for, and one that is moved, of which there is a sorted
-/// list.
+/// The pairs of a moving node and a moved anchor. `moved` is sorted; `first` gives the first unknown of a node.
 fn driven<S: Real, const D: usize>(
     masses: &Masses<S>,
     moved: &[usize],
@@ -310,7 +308,7 @@ fn add_all<S: Real, const D: usize>(sums: &mut [[S; D]; 2], more: &[[S; D]; 2]) 
     }
 }
 
-/// Adds the impulse of a mass whose velocity changes.
+/// Adds the impulse of a mass, kg, whose velocity changes, m/s, and the magnitude of its terms.
 fn add_to<S: Real, const D: usize>([sum, terms]: &mut [[S; D]; 2], mass: S, change: &[S; D]) {
     for axis in 0..D {
         sum[axis] += mass * change[axis];
@@ -318,8 +316,8 @@ fn add_to<S: Real, const D: usize>([sum, terms]: &mut [[S; D]; 2], mass: S, chan
     }
 }
 
-/// By how much the velocity of a moved node differs from the old one at the stages, m/s, from those at the supports of a
-/// path.
+/// The change of the velocity of a moved anchor from the old state to each stage, m/s, from its velocities at the
+/// supports of a path.
 pub(super) fn changes_at_stages<S: Real, const D: usize>(
     path: &Path,
     node: usize,

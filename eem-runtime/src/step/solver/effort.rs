@@ -3,10 +3,10 @@
 use crate::step::newton::{NewtonIteration, NewtonSettings};
 use eem_material::number::scalar::{Mask, Real, unless};
 
-/// Parts of a step through which a solution is followed when it is not found at once.
+/// Number of parts of a step through which the solution is continued if Newton's method fails.
 pub(super) const CONTINUATION_STEPS: u8 = 8;
 
-/// Iterations for which memory is kept; settings that ask for more allocate when they get there.
+/// Iterations for which memory is reserved; more of them allocate.
 const LONGEST_HISTORY: usize = 4096;
 
 /// The effort of a step: its limits and its iterations.
@@ -29,7 +29,7 @@ pub(crate) struct Iteration<S> {
 }
 
 impl<S: Real> Iteration<S> {
-    /// None.
+    /// No iteration.
     fn none() -> Self {
         Self {
             residual: S::zero(),
@@ -56,7 +56,7 @@ impl<S: Real> Effort<S> {
         }
     }
 
-    /// Another iteration; those that had settled before did their last one then.
+    /// Records an iteration; lanes that had converged before keep their last one.
     #[inline]
     pub(crate) fn note(&mut self, residual: S, update: S, settled: S::Mask) {
         if S::LANES > 1
@@ -71,7 +71,7 @@ impl<S: Real> Effort<S> {
         }
     }
 
-    /// Another phase of the step is done, with this residual after the last update.
+    /// Ends a phase of the step, with this residual after the last update.
     #[inline]
     pub(crate) fn conclude(&mut self, residual: S) {
         let update = self.history.last().map_or(S::zero(), |last| last.update);
@@ -81,9 +81,9 @@ impl<S: Real> Effort<S> {
         };
     }
 
-    /// Forgets the last step.
+    /// Clears the record of the last step.
     pub(crate) fn restart(&mut self) {
-        // Two parts of a staggered step, each from two starts and through all parts at worst.
+        // At worst, two phases of a staggered step, each from two starts and through all continuation steps.
         let parts = 2 * usize::from(CONTINUATION_STEPS + 2);
         let most = self.settings.max_iterations.saturating_mul(parts);
         self.end = Iteration::none();

@@ -38,8 +38,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         largest.found()
     }
 
-    /// Applies the solution to the trial state, where it starts the next system, and finds the local
-    /// corrections that go with it; the largest scaled update.
+    /// Applies the solution and the local corrections that follow from it to the trial state, and starts the next system
+    /// there. Returns the largest scaled update.
     #[inline]
     pub(super) fn correct(
         &mut self,
@@ -54,7 +54,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let at = node.place.in_trial();
             let change = node.place.rows(solution);
             let (mut displacement, mut rest) = (trial.displacements[at], trial.carries[at]);
-            // One by one, as the solution has been stored: a wider load would stall.
+            // Entry by entry, as the solution was stored: a wider load would stall.
             for axis in 0..D {
                 let change = change[axis];
                 let applied = unless(settled, S::zero(), change);
@@ -96,7 +96,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.balance(view);
     }
 
-    /// Makes displacements larger by a factor, as a correction, and leaves everything else.
+    /// Multiplies displacements by a factor, as a correction; all other unknowns stay.
     pub(super) fn extrapolate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -142,7 +142,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 .interface
                 .set(interface.in_trial, unknowns[interface.row]);
         }
-        // Whatever fails, the global unknowns stay.
+        // With a zero solution, a correction that is taken back does not change the global unknowns.
         self.tangent.solution_mut().fill([S::zero()]);
         let mut before = S::MAX;
         loop {

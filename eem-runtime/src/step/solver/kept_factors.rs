@@ -7,8 +7,8 @@ use eem_material::number::scalar::{Mask, Real};
 
 /// Whether the factors of an earlier tangent of the same step can still be used.
 ///
-/// They can while updates shrink to a tenth, as the last one must anyway. The error after an update is then up to a
-/// tenth of it, and not its square, so that the last one must be smaller.
+/// They can while each update is at most a tenth of the one before, as the last one must be anyway. The error after an
+/// update is then up to a tenth of it instead of its square, so that the last update must be smaller.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct KeptFactors {
     /// Whether keeping factors pays in this scene.
@@ -58,13 +58,13 @@ impl KeptFactors {
         Ok(())
     }
 
-    /// The next iteration needs factors of its own.
+    /// Makes the next iteration find new factors.
     pub(super) const fn renew(&mut self) {
         self.are_near = false;
     }
 
-    /// The bound for the last update, in place of `tolerance` for an update by new factors: ε^¾, of which a tenth is
-    /// left.
+    /// The bound for the last update: `tolerance` with new factors, at most ε^¾ with kept ones, of which an error of a
+    /// tenth is left.
     #[inline]
     pub(super) fn tolerance<S: Real>(self, tolerance: S) -> S {
         if self.have_served {

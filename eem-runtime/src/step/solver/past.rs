@@ -7,22 +7,22 @@ use crate::element::group::Before;
 use crate::element::impulse::{Impulses, PLACES};
 use eem_material::number::scalar::{Mask, Real};
 
-/// The weight of the error of a predictor one step later. Any memory of some steps will do.
+/// The factor by which the error of a predictor decays in each step. Any value that averages over several steps will do.
 const MEMORY: f64 = 0.875;
 
 /// The forces of the last two steps, and the errors of their predictions.
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
-    /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the
-    /// step that is being closed, N s. Per node; of anchors only the impulse means something.
+    /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the step that is being
+    /// closed, N s. Per node; for an anchor only the impulse is meaningful.
     forces: Vec<[[S; D]; PLACES]>,
-    /// Which row of [`TURNS`] says where each of them is.
+    /// The row of [`TURNS`] that holds the index of each of these three.
     turn: usize,
     /// The error of each predictor, `Σ |ΔF/m|²`, with decreasing weights of earlier steps.
     errors: [S; 3],
-    /// The same before the last step.
+    /// `errors` before the last step.
     errors_before: [S; 3],
-    /// The same after the step that is being closed.
+    /// `errors` after the step that is being closed.
     errors_after: [S; 3],
     /// Viscous stretches and temperatures at the start of the last step, and its size; the same of the one before. Empty
     /// for a scheme that does not predict them.
@@ -31,19 +31,19 @@ pub(super) struct Past<S, const D: usize> {
     viscous: usize,
 }
 
-/// Where the forces of the last step, of the one before and of the next one are in each turn.
+/// The indices of the forces of the last step, of the one before and of the next one, for each value of `turn`.
 const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
 /// The predictor of the forces of the next step.
 #[derive(Debug)]
-pub(super) struct Forecast<'a, S, const D: usize> {
+pub(super) struct Predictor<'a, S, const D: usize> {
     forces: &'a [[[S; D]; PLACES]],
     turn: [usize; PLACES],
     weights: [S; 2],
 }
 
-impl<S: Real, const D: usize> Forecast<'_, S, D> {
-    /// That on a node.
+impl<S: Real, const D: usize> Predictor<'_, S, D> {
+    /// The predicted force on a node, N.
     #[inline]
     pub(super) fn of(&self, node: usize) -> [S; D] {
         let [last, before, _] = self.turn.map(|step| &self.forces[node][step]);
@@ -52,7 +52,7 @@ impl<S: Real, const D: usize> Forecast<'_, S, D> {
     }
 }
 
-/// Takes the forces of a step, node by node, in the place of its impulses.
+/// Replaces the impulses of a step by its forces, node by node.
 #[derive(Debug)]
 pub(super) struct Remembering<'a, S, const D: usize> {
     forces: &'a mut [[[S; D]; PLACES]],
@@ -61,7 +61,7 @@ pub(super) struct Remembering<'a, S, const D: usize> {
     found: &'a mut [S; 3],
 }
 
-/// The past as it is saved: forces per coordinate, of which those of anchors mean nothing.
+/// The history in a checkpoint. Forces are per coordinate, N; those of anchors are meaningless.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -76,7 +76,7 @@ pub(crate) struct SavedPast<S> {
 }
 
 impl<S: Real> SavedPast<S> {
-    /// That of a scheme which has none.
+    /// The history of a scheme without a predictor.
     pub(crate) fn none() -> Self {
         Self {
             forces: [Vec::new(), Vec::new()],
@@ -89,10 +89,10 @@ impl<S: Real> SavedPast<S> {
 /// The predictors of the force of a step: weights of the forces of the last step and of the one before.
 ///
 /// Zero, which is free flight; the last force; linear extrapolation.
-const FORECASTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
+const PREDICTORS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
 
 impl<S: Real, const D: usize> Past<S, D> {
-    /// Nothing has happened yet to so many nodes, viscous stretches and temperatures.
+    /// An empty history for these numbers of nodes, viscous stretches and temperatures.
     pub(super) fn none(nodes: usize, [viscous, temperatures]: [usize; 2]) -> Self {
         let size = match viscous + temperatures {
             0 => 0,
@@ -111,16 +111,16 @@ impl<S: Real, const D: usize> Past<S, D> {
 
     /// The predictor with the smallest error so far.
     #[inline]
-    pub(super) fn forecast(&self) -> Forecast<'_, S, D> {
+    pub(super) fn predictor(&self) -> Predictor<'_, S, D> {
         let [nothing, constant, linear] = self.errors;
         let is_linear = linear.less(constant) & linear.less(nothing);
         let is_constant = constant.less(nothing);
         let weights = array::from_fn(|k| {
-            let [nothing, constant, linear] = FORECASTS.map(|weights| S::from_f64(weights[k]));
+            let [nothing, constant, linear] = PREDICTORS.map(|weights| S::from_f64(weights[k]));
             let other = S::select(is_constant, constant, nothing);
             S::select(is_linear, linear, other)
         });
-        Forecast {
+        Predictor {
             forces: &self.forces,
             turn: TURNS[self.turn],
             weights,
@@ -134,8 +134,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         Impulses::new(&mut self.forces, next)
     }
 
-    /// Begins to take the forces of another step; until it is [kept](Self::keep), the last one stays the
-    /// last.
+    /// Begins to record the forces of a step, which enters the history only with [`keep`](Self::keep).
     #[inline]
     pub(super) fn remember(&mut self) -> Remembering<'_, S, D> {
         Remembering {
@@ -146,7 +145,8 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// The internal variables before the last step, for a step of this size; none before the first one.
+    /// The internal variables before the last step, for a step of this size; `None` before the first one, or if not
+    /// predicted.
     #[inline]
     pub(super) fn before(&self, step: S) -> Option<Before<'_, S>> {
         let [variables @ .., last] = &self.internal[0][..] else {
@@ -199,7 +199,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// Saves it again where a past of as many nodes was saved, without allocation.
+    /// Saves the history into an earlier one of the same scene, without allocation.
     pub(super) fn save_to(&self, saved: &mut SavedPast<S>) {
         let [last, before, _] = TURNS[self.turn];
         for (step, saved) in [last, before].into_iter().zip(&mut saved.forces) {
@@ -236,14 +236,14 @@ impl<S: Real, const D: usize> Remembering<'_, S, D> {
         &self.forces[node][next]
     }
 
-    /// The same, mutable.
+    /// The impulse of a node, mutable, N s.
     #[inline]
     pub(super) fn impulse_mut(&mut self, node: usize) -> &mut [S; D] {
         let [_, _, next] = self.turn;
         &mut self.forces[node][next]
     }
 
-    /// The impulse of a node becomes a force: by 1/h, with the reciprocal of its mass.
+    /// Multiplies the impulse of a node by 1/h, which makes it a force, and adds its prediction errors, as accelerations.
     #[inline]
     pub(super) fn take(&mut self, node: usize, per_step: S, per_mass: S) {
         let [last, before, next] = self.turn;
@@ -260,7 +260,7 @@ impl<S: Real, const D: usize> Remembering<'_, S, D> {
         }
     }
 
-    /// There are no more nodes.
+    /// Stores the errors of the predictors after the last node.
     #[inline]
     pub(super) fn finish(self) {
         *self.found = self.errors;
@@ -288,8 +288,8 @@ mod tests {
     }
 
     #[test]
-    fn the_best_forecast_is_the_one_that_was() {
-        let predicted = |forces: [f64; 3]| after(forces).forecast().of(0).map(f64::to_bits);
+    fn the_predictor_is_the_one_with_the_smallest_error() {
+        let predicted = |forces: [f64; 3]| after(forces).predictor().of(0).map(f64::to_bits);
         assert_eq!(predicted([4.0, -4.0, 4.0]), [0.0_f64.to_bits()]);
         assert_eq!(predicted([4.0, 4.0, 4.0]), [4.0_f64.to_bits()]);
         assert_eq!(predicted([1.0, 2.0, 3.0]), [4.0_f64.to_bits()]);

@@ -1,4 +1,4 @@
-//! Where the unknowns of the nodes and of the temperatures are in the global systems.
+//! The indices of the unknowns of nodes and of interface temperatures in the global systems.
 
 use core::array;
 
@@ -33,7 +33,7 @@ impl<S, const D: usize> MovingNode<S, D> {
         self.node as usize
     }
 
-    /// Where it is in the trial, which has all nodes of every set of unknowns.
+    /// Its index in the trial, which has all nodes of every set of unknowns.
     #[inline]
     pub(super) fn in_trial(&self) -> usize {
         self.trial as usize
@@ -84,13 +84,13 @@ fn no_such_row() -> ! {
 /// A coupled interface temperature.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Interface {
-    /// The thermal slot, and where it is in the trial.
+    /// The thermal slot, and its index in the trial.
     pub(super) slot: usize,
     pub(super) in_trial: usize,
     pub(super) row: usize,
 }
 
-/// The nodes with a mass, and where they write.
+/// The moving nodes, which are those with a mass, for a set of unknowns.
 pub(super) fn moving<S: Real, const D: usize>(
     masses: &Masses<S>,
     sites: &Sites<'_, S, D>,

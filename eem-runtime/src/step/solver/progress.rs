@@ -6,16 +6,16 @@ use crate::step::newton::{CONTRACTION, STAGNATION};
 use eem_material::number::scalar::{Mask, Real};
 
 /// Extra iterations after stagnation while the certificate fails; each changes the rounding errors.
-const REDRAWS: u32 = 3;
+const MOST_RETRIES: u32 = 3;
 
-/// The slowest decrease of the residual that counts as one.
+/// A residual counts as smaller only below this fraction of the smallest one so far.
 const SLOWEST: f64 = 0.75;
 
 /// The aim of an iteration.
 pub(super) enum Target<'a, S> {
-    /// A trial from which another one starts.
+    /// A trial, as the initial guess for another iteration.
     Trial,
-    /// The same, as sharp as rounding allows.
+    /// Such a trial, converged as far as rounding allows.
     SharpTrial,
     /// A new state.
     State(&'a mut State<S>),
@@ -25,7 +25,7 @@ pub(super) enum Target<'a, S> {
 pub(super) enum Conclusion<S: Real> {
     /// The step ends there.
     Found,
-    /// Another iteration is needed, but for those of several numbers where the mask holds.
+    /// Another iteration is needed, except in the lanes of the mask.
     Open(S::Mask),
     /// No iteration will help.
     Refused(StepFailure),
@@ -35,7 +35,7 @@ pub(super) enum Conclusion<S: Real> {
 /// are other starts.
 const PATIENCE: usize = 10;
 
-/// Whether Newton's method converges, and how long it has been where rounding stops it.
+/// Whether Newton's method converges, and how often rounding has stopped it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Progress<S> {
     /// Iterations of this attempt.
@@ -45,8 +45,8 @@ pub(super) struct Progress<S> {
     smallest: S,
     /// Consecutive updates that did not fall.
     stuck: u32,
-    /// Rejected states at rounding level, and the smallest residual of them.
-    pub(super) draws: u32,
+    /// Rejected states at rounding level since the residual last fell, and that residual, N s.
+    pub(super) retries: u32,
     residual: S,
 }
 
@@ -68,15 +68,15 @@ impl<S: Real> Progress<S> {
             last: S::MAX,
             smallest: S::MAX,
             stuck: 0,
-            draws: 0,
+            retries: 0,
             residual: S::MAX,
         }
     }
 
-    /// Counts another update; whether rounding may be what keeps it from being smaller.
+    /// Counts another update. Returns whether rounding may keep it from being smaller.
     ///
-    /// How small an update can be depends on the conditioning, so that its size does not decide: an update
-    /// that does not fall shows a state at which the balances are looked at.
+    /// The smallest possible update depends on the conditioning, so that its size does not decide: the balances are
+    /// checked wherever an update does not fall.
     pub(super) fn is_stuck(&mut self, update: S, before: Option<S>, settled: S::Mask) -> bool {
         self.iterations += 1;
         self.last = update;
@@ -94,29 +94,29 @@ impl<S: Real> Progress<S> {
         self.stuck > 0
     }
 
-    /// No update has been small for long.
+    /// Whether no update has been small in [`PATIENCE`] or more iterations.
     pub(super) fn is_hopeless(&self) -> bool {
         self.iterations >= PATIENCE && S::from_f64(CONTRACTION).less(self.smallest).all()
     }
 
-    /// Counts a refused state with this residual; one with a smaller residual than before shows that
-    /// iterating helps, however slowly.
-    pub(super) fn draw(&mut self, residual: S) {
+    /// Counts a rejected state with this residual. A clearly smaller residual restarts the count: iterating helps then,
+    /// however slowly.
+    pub(super) fn note_rejected(&mut self, residual: S) {
         if residual.less(S::from_f64(SLOWEST) * self.residual).all() {
-            self.draws = 0;
+            self.retries = 0;
             self.residual = residual;
         } else {
-            self.draws += 1;
+            self.retries += 1;
         }
     }
 
-    /// Rounding stops it.
+    /// Whether rounding stops the iteration.
     pub(super) fn has_stopped(&self) -> bool {
         self.stuck > 0
     }
 
-    /// All extra iterations are used up.
+    /// Whether all extra iterations are used up.
     pub(super) fn is_over(&self) -> bool {
-        self.draws > REDRAWS
+        self.retries > MOST_RETRIES
     }
 }

@@ -12,9 +12,9 @@
 //! (K + μ D) δ = R        D: the largest diagonal entry of each node
 //! ```
 //!
-//! It is one step by Euler's implicit rule, of a length h without end: the rows `2 m/h Δq + h F` of a step are h times
-//! forces, in which neither inertia nor viscosity is left, and `Δγ = h g/η` is `g = 0`. R, K and D are h times what they are
-//! called here.
+//! A state at rest is the end of one implicit Euler step of a huge size h. Then neither inertia nor viscosity is left in
+//! the rows `2 m/h Δq + h F` of a step, which are h times forces, and `Δγ = h g/η` becomes `g = 0`. In the code, R, K and
+//! D are h times those above.
 
 mod stability;
 mod system;
@@ -27,22 +27,23 @@ use crate::element::tally::{Care, Tally};
 use crate::step::error::StepFailure;
 use crate::step::newton::{NewtonSettings, is_last};
 
-/// The length h of a step without end: `2⁵⁰⁰ s = 3·10¹⁵⁰ s`, by which numbers are multiplied without rounding. Its
-/// reciprocal is given as zero, so that there is no inertia; dashpots are relaxed to rounding unless a viscosity is 10¹³⁰
-/// times a stiffness, in s.
+/// The size h of the step to a state at rest: `2⁵⁰⁰ s = 3·10¹⁵⁰ s`, a power of two, so that products with it are exact.
+/// Its reciprocal is set to zero, so that there is no inertia; dashpots are relaxed to rounding unless a viscosity is
+/// 10¹³⁰ times a stiffness, in s.
 pub(crate) const LONG: f64 = f64::from_bits((1023 + 500) << 52);
 
-/// A part of the load path that is cut this often in halves is lost.
+/// How often a load step is halved before the load path is given up.
 const CUTS: u32 = 8;
 
-/// Friction falls by these factors after a step at whose end the force along it is not backwards, and after one at whose
-/// end it is less than a tenth of that at its start; a step that goes too far is tried again with more of it.
+/// Friction is multiplied by the first factor after a step at whose end the force along it does not point backwards, and
+/// by the second if that force is less than a tenth of its value at the start. A step that goes too far is repeated with
+/// more friction.
 const FRICTION_FALLS: [f64; 2] = [0.25, 0.0625];
 
-/// A scene that has become so much larger does not come to rest.
+/// A scene whose extent has grown by this factor does not come to rest.
 const RUNAWAY: f64 = 1e6;
 
-/// Steps against friction, in units of the iterations of a load step.
+/// The largest number of steps against friction, in units of the most iterations of a load step.
 const FRICTION_STEPS: usize = 10;
 
 /// The iteration for a state at rest.
@@ -51,7 +52,7 @@ pub(crate) struct AtRest<'a, const D: usize> {
     groups: &'a mut [Box<dyn Group<f64, D>>],
     view: &'a StepView<'a, f64>,
     settings: NewtonSettings<f64>,
-    /// The ends of the arms of all elements.
+    /// The end nodes of the arms of all elements: the edges from their first nodes.
     arms: Vec<[usize; 2]>,
     /// R(q⁰), N.
     first: Vec<f64>,
@@ -69,7 +70,7 @@ pub(crate) struct RestEffort {
     pub(crate) friction_steps: usize,
 }
 
-/// The motion of each moving node, at most 1, against which there is least stiffness.
+/// The motion with the least stiffness, per moving node; its largest component is 1.
 pub(crate) struct Softest<const D: usize> {
     pub(crate) nodes: Vec<(usize, [f64; D])>,
     /// N/m.
@@ -83,7 +84,7 @@ pub(crate) struct Softest<const D: usize> {
 type Place<const D: usize> = (Vec<[f64; D]>, Vec<[f64; D]>);
 
 impl<'a, const D: usize> AtRest<'a, D> {
-    /// Starts at the state of a view whose step is [`LONG`], given the ends of the arms of elements.
+    /// Starts at the state of a view whose step is [`LONG`], given the end nodes of the arms of elements.
     pub(crate) fn new(
         solver: &'a mut Solver<f64, D>,
         groups: &'a mut [Box<dyn Group<f64, D>>],
@@ -106,7 +107,7 @@ impl<'a, const D: usize> AtRest<'a, D> {
         Ok(rest)
     }
 
-    /// Goes to the state at rest under all loads by this many load steps. Returns the share of the loads up to which the
+    /// Finds the state at rest under all loads in this many load steps. Returns the share of the loads up to which the
     /// path was followed.
     pub(crate) fn follow(&mut self, load_steps: u32) -> (f64, Result<(), StepFailure>) {
         let whole = load_steps.saturating_mul(1 << CUTS);

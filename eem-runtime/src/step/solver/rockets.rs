@@ -21,25 +21,25 @@ use eem_material::number::scalar::{Real, is_positive};
 #[derive(Debug)]
 pub(super) struct Rockets<S, const D: usize> {
     all: Vec<Rocket<D>>,
-    /// The stages of the scheme; without, they push in the middle of a step.
+    /// The stages of the scheme; without stages, rockets push along their line in the middle of the step.
     rule: Option<&'static Tableau>,
-    /// What was last found at a trial, per coordinate, stage after stage, N; empty without rockets.
+    /// The forces last found at a trial, per coordinate, stage after stage, N; empty without rockets.
     forces: Vec<S>,
 }
 
-/// Where a rocket writes.
+/// A rocket, with the indices of its rows and matrix entries.
 #[derive(Clone, Copy, Debug)]
 struct Rocket<const D: usize> {
     line: PushLine,
     /// The first row of the node that it pushes in each set of unknowns.
     rows: [u32; MOST_SETS],
-    /// The entries of that node in the tangent, row by row, in the columns of tail and head; for the rows of each set
-    /// and the columns of each.
+    /// The tangent entries in the rows of that node and the columns of tail and head, by set of the rows, set of the
+    /// columns, tail or head, row and column.
     places: [[[[[u32; D]; D]; 2]; MOST_SETS]; MOST_SETS],
 }
 
 impl<S: Real, const D: usize> Rockets<S, D> {
-    /// Those of a scheme with these stages.
+    /// The rockets of a scene, for a scheme with these stages.
     pub(super) fn new(
         rule: Option<&'static Tableau>,
         loads: &StepLoads<S>,
@@ -80,7 +80,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
         }
     }
 
-    /// Whether there are none.
+    /// Whether the scene has no rockets.
     pub(super) fn are_none(&self) -> bool {
         self.all.is_empty()
     }
@@ -93,7 +93,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
         &forces[stage * nodes..][..nodes]
     }
 
-    /// A load on a node at a stage with the force that was last found there, N.
+    /// Adds the forces of rockets last found at a stage to a load on a node, N.
     #[inline]
     pub(super) fn add_to(&self, load: [S; D], [stage, node]: [usize; 2]) -> [S; D] {
         if self.are_none() {
@@ -157,7 +157,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
         Ok(())
     }
 
-    /// Adds `h f` at a stage to the impulses, and the magnitude of what it is computed from.
+    /// Adds `h f` at a stage to the impulses, and its magnitude to `magnitudes`.
     #[inline]
     pub(super) fn add_impulses(
         &self,
@@ -180,7 +180,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
 }
 
 impl<const D: usize> Rocket<D> {
-    /// Its line where nodes have gone a share of these displacements.
+    /// The line of the rocket after this fraction of the displacements.
     fn line_at<S: Real>(
         &self,
         view: &StepView<'_, S>,
@@ -207,8 +207,8 @@ impl<const D: usize> Rocket<D> {
         Ok(line)
     }
 
-    /// Adds an impulse to the right-hand side of the rows of a set, and its negative derivative by the nodes of
-    /// another to the tangent.
+    /// Adds an impulse to the right-hand side of the rows of a set, and its negative derivative with respect to the nodes
+    /// in another set to the tangent.
     fn add_to<S: Real>(
         &self,
         [rows, columns]: [usize; 2],

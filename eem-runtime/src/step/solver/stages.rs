@@ -9,13 +9,13 @@ use eem_material::number::scalar::Real;
 #[derive(Debug)]
 pub(super) struct Stages<S, const D: usize> {
     pub(super) rule: &'static Tableau,
-    /// The system of a stage that feels its own force.
+    /// The system of a stage whose displacements depend on its own force.
     pub(super) secant: Option<LinearSystem<S, D>>,
-    /// Impulses `h` times loads less forces of the elements, per node and stage, N s.
+    /// `h` times (loads − forces of the elements), per node and stage, N s.
     pub(super) impulses: Vec<[[S; D]; MOST_STAGES]>,
     /// Displacements of all nodes at the end of the step, m.
     pub(super) ends: Vec<[S; D]>,
-    /// By how much the velocities of the nodes change in the step, m/s; only where masses couple nodes.
+    /// The changes of the velocities of all nodes in the step, m/s; empty unless masses couple nodes.
     pub(super) changes: Vec<[S; D]>,
 }
 

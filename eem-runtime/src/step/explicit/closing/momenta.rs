@@ -27,7 +27,7 @@ const fn most_turns<const D: usize>() -> usize {
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rigid<S, const D: usize> {
-    /// The anchor or the centre of mass, m, and its velocity where it is that of the masses, m/s.
+    /// The anchor or the centre of mass, m, and the velocity of the centre of mass, m/s; zero with an anchor.
     pub(super) origin: Origin<S, D>,
     pub(super) velocity: [S; D],
     /// The angular velocity, 1/s.
@@ -39,12 +39,12 @@ pub(super) struct Rigid<S, const D: usize> {
 struct Body<S, const D: usize> {
     /// The anchor or the centre of mass, m.
     origin: Origin<S, D>,
-    /// About it; none where nothing turns.
+    /// About `origin`; `None` if the component cannot turn, or no momentum is conserved.
     inertia: Option<Inertia<S, D>>,
 }
 
 impl<S: Real, const D: usize> Body<S, D> {
-    /// The motion with these momenta.
+    /// The rigid motion with these momenta.
     fn motion(
         &self,
         component: &Component<S>,
@@ -74,18 +74,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             origin: Self::origin(&self.stage.places, component),
             inertia: None,
         };
-        let lonely = match component.support {
+        let without_arm = match component.support {
             Support::Free => 1,
             Support::Anchor(_) => 0,
             Support::Several => return body,
         };
         let count = component.masses.len();
-        if D < 2 || count <= lonely {
+        if D < 2 || count <= without_arm {
             return body;
         }
         let masses = &self.stage.places[component.masses.clone()];
         let arm = |place: &Place<S, D>| body.origin.arm(place.q());
-        body.inertia = Some(if count == lonely + 1 {
+        body.inertia = Some(if count == without_arm + 1 {
             // The other mass of a pair is on the same line through the centre.
             let moment = masses.iter().fold(S::zero(), |sum, place| {
                 let arm = arm(place);
@@ -184,7 +184,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Whether the target of masses on a line has an angular momentum in planes perpendicular to the line, which no
-    /// momenta of them give.
+    /// momenta of the masses can give.
     fn leaves_plane(&self, index: usize, along: &[S; D]) -> bool {
         let target = self.angular_target(index);
         let mut across = target;
@@ -225,7 +225,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             };
             match own {
                 Inertia::Principal(principal) => turning(&principal, momenta, rounding.lane(lane)),
-                // Nothing is weak: the momenta do it, as they do for this lane alone.
+                // No inertia is weak: the momenta alone are corrected, as in a run of this lane alone.
                 _ => None,
             }
         };

@@ -12,8 +12,8 @@ use eem_material::number::compensated::Total;
 use eem_material::number::scalar::{Discord, Mask, Real};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Replaces the step of a component by a rigid motion of its old state, with all internal variables as
-    /// they were: a relative equilibrium, at the largest entropy that its energy and momenta allow.
+    /// Replaces the step of a component by a rigid motion of its old state, with the old internal variables: a relative
+    /// equilibrium, at the largest entropy that its energy and momenta allow.
     pub(super) fn turn_rigidly(
         &mut self,
         index: usize,
@@ -21,7 +21,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
         if S::LANES > 1 {
-            // Each has to be close to a turn of its own.
+            // Each lane would need a rotation of its own.
             return Err(Discord.into());
         }
         let largest = demand.largest_turn();
@@ -77,7 +77,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// momenta are then set to it.
     fn takes_turn(&mut self, index: usize, h: S, largest: S, scales: Scales<S>) -> bool {
         if D > 3 {
-            // It may turn in several planes at once.
+            // The component may turn in several planes at once.
             return false;
         }
         self.swap_start(index);
@@ -101,7 +101,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// The largest relative difference of the present stage vector from the turned old state.
+    /// The largest relative difference between the present stage vector and the rotated old state.
     fn difference_from_turn(
         &self,
         index: usize,
@@ -139,7 +139,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 }
 
-/// Position and momentum of a mass that has turned with its component since the start of the step.
+/// Position and momentum of a mass, from those at the start of the step by the rigid motion of its component.
 fn turned<S: Real, const D: usize>(place: &Place<S, D>, rigid: &Rigid<S, D>, h: S) -> [[S; D]; 2] {
     let [position, momentum] = &place.past.start;
     let speed = rigid.omega.square().sqrt();

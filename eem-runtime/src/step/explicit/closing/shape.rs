@@ -1,4 +1,4 @@
-//! Energy by motion, by shape, and by entropy at last.
+//! Corrections of the energy by motion, by shape and, as a last resort, by entropy.
 
 use super::super::components::{Component, Support};
 use super::super::vector::{add, dot};
@@ -20,8 +20,8 @@ const REST_OF_HEAT: f64 = 1e-9;
 /// Corrections by shape.
 const SHAPE_ITERATIONS: usize = 5;
 
-/// Roundings, in ε, of what an element has produced that are never taken back: each of its up to [`MOST_ITERATIONS`] changes,
-/// and the share of each path of heat, is rounded once.
+/// The part of the production of an element, in ε, that is never taken back, because of its rounding: each of up to
+/// [`MOST_ITERATIONS`] changes, and the share of each path of heat, is rounded once.
 const ROUNDED: f64 = 16.0;
 
 /// The energies available to correct a component, J.
@@ -32,7 +32,7 @@ struct Means<S, const D: usize> {
     motion: S,
     /// `2 T + h² Σ |F|²/m + h Σ g²/η + Σ 2hκ(Δθ)²/(θ_a + θ_b)`.
     all: S,
-    /// The mean acceleration by weights and elements of a free component, which moves no energy, m/s².
+    /// The acceleration of the centre of mass of a free component, which does not change its shape, m/s².
     drift: [S; D],
 }
 
@@ -78,7 +78,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             self.restore_momenta(index);
         }
         let is_left = is_left & !shifts;
-        if is_left.any() && !self.sinks(index, is_left, next)? {
+        if is_left.any() && !self.try_sink(index, is_left, next)? {
             return Ok(self.unless_rounding(index, is_left));
         }
         Ok(if is_closed.all() {
@@ -90,7 +90,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Last resort: converts the defect to entropy or back. False if no element can take it or the limit of corrections
     /// is reached.
-    fn sinks(
+    fn try_sink(
         &mut self,
         index: usize,
         is_left: S::Mask,
@@ -198,8 +198,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         own
     }
 
-    /// The gradient of the energy at fixed momenta, with its sign changed: the force less that of the
-    /// rotation.
+    /// The negative gradient of the energy at fixed momenta: the force less the centripetal force of the rotation and the
+    /// drift.
     fn inner_force(&self, at: usize, means: &Means<S, D>) -> [S; D] {
         let (place, rigid) = (&self.stage.places[at], &means.rigid);
         let arm = rigid.origin.arm(place.q());
@@ -280,7 +280,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let part = defect / produced;
             self.heat(index, part.maximum(-most), next);
             if part.at_most(-most).decide()? {
-                // What is left is rounding, of which no part is known.
+                // The rest is rounding, for which no factor is known.
                 self.scratch.progress[index].factor = S::zero();
             }
             return Ok(true);

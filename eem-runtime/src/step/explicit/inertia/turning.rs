@@ -2,10 +2,10 @@
 //!
 //! All arms of a body lie in the space of its principal axes with inertia, so that `J = Σ r ∧ p` has no component in
 //! planes perpendicular to them: the angular momentum of a single mass is perpendicular to its arm. Truncation and
-//! rounding of a step leave the arms a little beside that; no change of momenta mends it, and where the inertia in a
-//! plane is weak the change would be large. A rotation of positions and momenta changes no length, no speed and no
-//! energy of the elements. With the target T in the principal axes, rotations by the angles φ from the axes b to the
-//! axes a and c of the plane change
+//! rounding of a step leave the arms slightly off, so that the target has such a component. No change of momenta corrects
+//! it, and where the inertia in a plane is weak, the change would be large. A rotation of positions and momenta changes
+//! no length, no speed and no energy of the elements. With the target T in the principal axes, rotations by the angles φ
+//! from the axes b to the axes a and c of the plane change
 //!
 //! ```text
 //! T_ac  by  −Σ_b (φ_ba T_bc + φ_bc T_ab)
@@ -17,13 +17,13 @@ use super::moments::{NO_INERTIA, WEAK};
 use super::principal::Principal;
 use crate::algebra::bivector::{Bivector, planes};
 
-/// Rounds of corrections. With a single plane each squares what is left; several take turns.
+/// Rounds of corrections. With a single plane they converge quadratically; several planes are corrected in turn.
 const MOST_ROUNDS: usize = 100;
 
-/// The largest angle: beyond it the step has nothing to do with the motion.
+/// The largest angle: a step that needs a larger one does not resolve the motion.
 const LARGEST_ANGLE: f64 = 0.1;
 
-/// The axes of a body that is being turned, and how far they are from where they were.
+/// The axes of a body that is being rotated, and their changes so far.
 struct Turned<const D: usize> {
     axes: [[f64; D]; D],
     changes: [[f64; D]; D],
@@ -45,7 +45,7 @@ impl<const D: usize> Turned<D> {
         }
     }
 
-    /// Changes the component of the target in a plane by −`off`, to first order; nothing if that takes a large angle.
+    /// Changes the component of the target in a plane by −`off`, to first order; `None` if that takes a large angle.
     fn approach(&mut self, target: &Bivector<f64, D>, [a, c]: [usize; 2], off: f64) -> Option<()> {
         let (terms, square) = slopes(target, &self.axes, [a, c]);
         for b in (0..D).filter(|&b| b != a && b != c) {
@@ -97,7 +97,7 @@ pub(in super::super) fn turning<const D: usize>(
             let Some(goal) = goals.at([a, c]) else {
                 continue;
             };
-            // Momenta can add what is left in planes with some inertia.
+            // In planes with some inertia, momenta can add the rest.
             let has_none = principal.moments[a] + principal.moments[c] <= NO_INERTIA * trace;
             let off = target.between(&turned.axes[a], &turned.axes[c]) - goal;
             if off.abs() <= rounding || (round > 0 && !has_none) {

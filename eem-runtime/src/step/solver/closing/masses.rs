@@ -13,8 +13,8 @@ use crate::step::solver::Solver;
 use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// New positions and momenta, all finite. The impulses of the elements are replaced by those of the
-    /// increments, judged beside them, and remembered as forces.
+    /// Sets new positions and momenta, all finite. With increments, impulses from these replace those of the elements,
+    /// and the difference is judged. The impulses are recorded as forces for the predictor.
     pub(super) fn move_masses(
         &mut self,
         view: &StepView<'_, S>,
@@ -90,7 +90,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 }
 
-/// The new velocities of moved nodes, then those of the nodes whose masses are coupled, from all momenta.
+/// Sets the new velocities of moved anchors, then the momenta of nodes that masses couple, from all velocities.
 pub(super) fn follow_coupled_masses<S: Real, const D: usize>(
     view: &StepView<'_, S>,
     next: &mut State<S>,
@@ -103,7 +103,7 @@ pub(super) fn follow_coupled_masses<S: Real, const D: usize>(
     next.follow_velocities(D, view.masses);
 }
 
-/// The new position and the new momentum of a node, all finite, from its displacement and impulse.
+/// Sets the new position and momentum of a node from its displacement and impulse; an error unless all are finite.
 #[inline]
 pub(super) fn move_node<S: Real, const D: usize>(
     node: usize,
@@ -118,14 +118,14 @@ pub(super) fn move_node<S: Real, const D: usize>(
     let by_momentum = next
         .momenta
         .advance_point(node, &old.momenta, [impulse, &none]);
-    // What rounding takes from a sum is a number only if the sum is one.
+    // The compensation of a sum is finite only if the sum is.
     if (by_position + by_momentum).is_finite() {
         return Ok(());
     }
     find_unbounded::<S, D>(node, next)
 }
 
-/// The error with the first coordinate of a node that is no finite number.
+/// The error with the first coordinate of a node that is not finite.
 #[cold]
 fn find_unbounded<S: Real, const D: usize>(
     node: usize,

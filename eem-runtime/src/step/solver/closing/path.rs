@@ -4,9 +4,9 @@
 //! w_j = u_j − c_j (h/m) p⁰,   q¹ = q⁰ + (h/m) p⁰ + Σ_j displacements_j w_j,   p¹ = p⁰ + (m/h) Σ_j impulses_j w_j
 //! ```
 //!
-//! Forces do not enter: their rounding, which acts along the arms, has no torque on a path of which positions
-//! and momenta are those of its stages, and stiff forces do not amplify it. What Newton's method leaves of
-//! the balances of the stages is judged.
+//! with the displacements `u_j` of the stages. Forces do not enter, so that stiff forces do not amplify rounding. Their
+//! own rounding acts along the arms, and so has no torque on a path that gives positions and momenta at its stages. The
+//! residuals of the balances at the stages are judged.
 
 use core::array;
 
@@ -57,7 +57,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.final_residual = largest.found();
     }
 
-    /// New positions and momenta, all finite, and the work of loads.
+    /// Sets new positions and momenta, all finite, and adds the work of loads.
     pub(super) fn move_along_path(
         &mut self,
         stages: &mut Stages<S, D>,
@@ -70,7 +70,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for (index, moving) in self.nodes_of_set(0).iter().enumerate() {
             let (place, node) = (&moving.place, moving.place.node());
             let state = view.state;
-            // What rounding took from the momentum moves the node, too.
+            // The compensation of rounding of the momentum moves the node, too.
             let [flight, mut rest] = match stages.changes.get(node) {
                 None => {
                     let mobility = view.step * place.per_mass;
@@ -119,7 +119,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// `Σ_j weights_j w_j` of a node among those that move, m.
+    /// `Σ_j weights_j w_j` of the moving node with this index, m.
     fn gained(&self, index: usize, weights: &[f64]) -> [S; D] {
         let mut gained = [S::zero(); D];
         for (set, &weight) in weights.iter().enumerate() {
@@ -131,7 +131,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         gained
     }
 
-    /// Where masses couple nodes: the changes of their velocities, and what these mean for momenta.
+    /// Where masses couple nodes: finds the changes of their velocities, and the impulses that follow.
     fn change_velocities(
         &mut self,
         stages: &mut Stages<S, D>,

@@ -1,4 +1,4 @@
-//! The end of a step through stages: positions and momenta from the forces that were found there.
+//! The end of a step through stages: positions and momenta from the forces at the stages.
 
 use core::array;
 
@@ -47,7 +47,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// The impulses of all stages, and the displacements at the end of the step.
+    /// Finds the impulses of all stages and, except along paths, the displacements at the end of the step.
     fn find_stages(
         &mut self,
         stages: &mut Stages<S, D>,
@@ -88,7 +88,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                         (stages.combined(node, weights), view.step * mass.per_mass);
                     array::from_fn(|axis| mobility * (momenta[node][axis] + impulse[axis]))
                 }
-                // Their ends are where the paths end.
+                // `move_along_path` finds the displacements from those of the stages.
                 Ending::Increments { .. } => break,
             };
         }

@@ -117,7 +117,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         impulses
     }
 
-    /// By how much the velocity of a node differs from the old one at the stages, m/s; that of an anchor does not.
+    /// The change of the velocity of a node from the old state to each stage, m/s; zero for a fixed anchor.
     fn changes_of_mass(
         &self,
         node: usize,
@@ -136,7 +136,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 }
 
-/// `h ẋ` at the stages of a polynomial that vanishes at the start, from its values there.
+/// `h ẋ` at the stages of a polynomial x(t) that vanishes at the start of the step, from its values at the stages.
 fn differentiated<S: Real, const D: usize>(
     motion: &[&[f64]],
     values: &[[S; D]; MOST_STAGES],

@@ -5,7 +5,8 @@ use super::{AtRest, LONG, Softest};
 use crate::step::error::StepFailure;
 use eem_material::number::compact::compact;
 
-/// A shift is at most four times what makes K positive definite, so that other motions fade by 3/4 in each.
+/// The shift is at most four times the smallest that makes K positive definite, so that, relative to an unstable motion,
+/// motions of positive stiffness fall to 3/4 or less in each iteration.
 const INVERSE_ITERATIONS: usize = 60;
 
 impl<const D: usize> AtRest<'_, D> {
@@ -13,7 +14,7 @@ impl<const D: usize> AtRest<'_, D> {
     pub(crate) fn is_stable(&mut self) -> bool {
         let rounding = self.rounding();
         let is_stable = self.judge(-rounding);
-        // The system that was used up.
+        // The test has overwritten the system.
         self.renew().is_ok() && is_stable
     }
 
@@ -27,7 +28,7 @@ impl<const D: usize> AtRest<'_, D> {
                 return None;
             }
         }
-        // Numbers without a pattern.
+        // Quasi-random numbers, to start with a component along every motion.
         let rows = self.first.len();
         let mut x: Vec<_> = (1..=compact(rows))
             .map(|row| (f64::from(row) * 0.618_033_988_749_895).fract() + 0.1)
@@ -57,7 +58,7 @@ impl<const D: usize> AtRest<'_, D> {
         })
     }
 
-    /// K, symmetric, plus a shift in units of D.
+    /// Assembles the symmetric part of K plus a shift in units of D.
     fn assemble_alone(&mut self, shift: f64) -> Result<(), StepFailure> {
         self.renew()?;
         if !self.solver.rockets.are_none() {
@@ -71,8 +72,8 @@ impl<const D: usize> AtRest<'_, D> {
         self.assemble_alone(shift).is_ok() && self.solver.tangent.solve_and_judge() == Ok(true)
     }
 
-    /// What rounding may contribute to eigenvalues of K, relative to D: entries have the rounding of their elements, those
-    /// the rounding of arms, and the elimination has one per unknown.
+    /// What rounding may contribute to eigenvalues of K, relative to D: entries have the rounding of element
+    /// contributions, these have that of arms, and the elimination adds one rounding per unknown.
     fn rounding(&self) -> f64 {
         let nodes = self.solver.nodes.iter();
         let per_length = nodes.fold(0.0_f64, |most, node| most.max(node.per_length));

@@ -5,7 +5,7 @@ use core::array;
 use super::{AtRest, LONG};
 use crate::step::error::StepFailure;
 
-/// An update goes no farther than to where the force along it is this share of the first one, backwards.
+/// An update is shortened if the force along it is, at its end, backwards and above this fraction of that at its start.
 const OVERSHOOT: f64 = 0.8;
 
 /// The smallest part of an update that is tried.
@@ -33,7 +33,7 @@ pub(super) struct Update {
 }
 
 impl Update {
-    /// Whether forces at its end push it back.
+    /// Whether the force along it at its end points backwards and exceeds [`OVERSHOOT`].
     pub(super) fn goes_too_far(&self) -> bool {
         self.left < -OVERSHOOT
     }
@@ -48,7 +48,7 @@ pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
 }
 
 impl<const D: usize> AtRest<'_, D> {
-    /// The system at the trial.
+    /// Builds the system at the trial.
     pub(super) fn renew(&mut self) -> Result<(), StepFailure> {
         self.solver.balance(self.view);
         self.assemble()
@@ -69,7 +69,7 @@ impl<const D: usize> AtRest<'_, D> {
             let size = diagonal.fold(0.0_f64, |size, place| size.max(values[place].abs()));
             self.sizes.push(size);
         }
-        // Nodes without stiffness, or with that of viscous forces in a step without end, η/h.
+        // Nodes without stiffness, or only with that of viscous forces, η/h.
         let least = LONG.sqrt();
         let sizes = self.sizes.iter();
         let largest = sizes.fold(0.0_f64, |most, &size| most.max(size));
@@ -98,7 +98,7 @@ impl<const D: usize> AtRest<'_, D> {
         all.fold(0.0, |most, (q, moved)| most.max((q + moved).abs()))
     }
 
-    /// Whether R is what the rounding of positions explains.
+    /// Whether the rounding of positions explains R.
     pub(super) fn is_balanced(&self) -> bool {
         let unit = ROUNDINGS * f64::EPSILON * self.extent();
         let nodes = self.solver.nodes.iter().zip(&self.sizes);
@@ -134,8 +134,8 @@ impl<const D: usize> AtRest<'_, D> {
     }
 
     /// An update with friction, or by Newton's method without. It is applied as far as elements are admissible and,
-    /// without friction, forces along it do not turn round. After an error none of it is, unless the tangent is singular:
-    /// then there is no system.
+    /// without friction, forces along it do not turn round. After an error nothing is applied; if the tangent is
+    /// singular, the system has to be built again.
     pub(super) fn update(&mut self, friction: f64) -> Result<Update, StepFailure> {
         let (forces, place) = (self.forces(), self.place());
         self.shift(friction);
@@ -145,7 +145,7 @@ impl<const D: usize> AtRest<'_, D> {
         let size = self.solver.correct(self.groups, self.view);
         let change = self.solution();
         if !size.is_finite() {
-            // What is not finite cannot be taken back.
+            // An update that is not finite cannot be taken back.
             self.start(Some(&place))?;
             return Err(StepFailure::NotConverged { update: size });
         }
