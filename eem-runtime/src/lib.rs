@@ -46,12 +46,12 @@
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
 //! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
 //! | find states at rest differently | `step/solver/rest.rs`; `run/equilibrium`: settings, thermal balance, names of free motions |
-//! | differentiate something else, or by something else | `run/gradient`, `run/simulation/gradient`, by inputs in `inputs.rs` (adjoint) and `directions.rs` (tangents); memory: `run/gradient/snapshots.rs`; equations of a step: `step/adjoint.rs`, `pull_back.rs` and `push_forward.rs` in `element/group` |
+//! | differentiate other quantities, or by other inputs | `run/gradient`, `run/simulation/gradient`, by inputs in `inputs.rs` (adjoint) and `directions.rs` (tangents); memory: `run/gradient/snapshots.rs`; equations of a step: `step/adjoint.rs`, `pull_back.rs` and `push_forward.rs` in `element/group` |
 //! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material` |
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
 //! | check a material before use | `domain` in `eem-material` |
 
-// Each uses those before it; the documentation shows their methods in this order.
+// Each module uses those before it; the documentation shows their methods in this order.
 mod algebra;
 mod element;
 

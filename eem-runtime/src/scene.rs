@@ -97,7 +97,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
 }
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// What is wrong with the calls so far: handles of other scenes, loads on anchors, cells of solids that cannot be.
+    /// The errors of the calls so far: handles of other scenes, loads on anchors, invalid cells of solids.
     /// [`Simulation::new`](crate::Simulation::new) reports these, too, and checks all numbers.
     ///
     /// ```
@@ -166,7 +166,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         )
     }
 
-    /// The set of elements of one type and kind, created if necessary, and its group.
+    /// The index of the group for elements of one type and kind, created if necessary, and the group.
     fn set_of<B: Loose<S, D>>(&mut self, kind: u64, new: impl FnOnce() -> B) -> (usize, &mut B) {
         let mut groups = self.groups.iter();
         let same = groups.position(|group| group.as_any().is::<B>() && group.kind() == kind);
@@ -193,7 +193,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.errors.push(error.into());
     }
 
-    /// Whether a handle is of this scene; if not, that is an error.
+    /// Whether a handle is of this scene; if not, an error is recorded.
     fn expect_own<H: Handle>(&mut self, handle: &H) -> bool {
         let own = self.lineage.owns(handle);
         if !own {
@@ -236,8 +236,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 }
 
-/// Handles of a scene are also handles of its copies; those of what is added to one of them later are its own. Loads
-/// are shared: a closure that keeps something behind a lock keeps it for all.
+/// Handles of a scene are valid for its copies too; handles of parts that are added to one of them later are valid only there.
+/// Loads are shared: what a closure keeps behind a lock is common to all copies.
 ///
 /// ```
 /// use eem::prelude::*;

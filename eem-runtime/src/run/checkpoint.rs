@@ -95,7 +95,7 @@ pub struct Checkpoint<S = f64> {
     pub(crate) seals: Vec<Digest>,
 }
 
-/// What controllers have set: nodes and elements, and as many values.
+/// What controllers have set: indices of nodes and elements, and their values in N, m/s and K, component by component.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -112,7 +112,7 @@ pub(crate) struct SavedLoads<S> {
 }
 
 impl<S> SavedLoads<S> {
-    /// Nothing.
+    /// No values.
     pub(crate) const fn none() -> Self {
         Self {
             forced: Vec::new(),
@@ -125,8 +125,8 @@ impl<S> SavedLoads<S> {
     }
 }
 
-/// The energies of the elements as the last step found them: evaluated again they have other roundings, by which the next
-/// step would judge itself.
+/// The energies of the elements as the last step evaluated them. Evaluated again, they would differ by rounding, which
+/// would enter the certificate of the next step.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -134,7 +134,7 @@ impl<S> SavedLoads<S> {
     serde(deny_unknown_fields)
 )]
 pub(crate) struct SavedEnergies<S> {
-    /// The state that they belong to.
+    /// The digest of the state to which they belong.
     pub(crate) of: Digest,
     pub(crate) list: Vec<Energy<S>>,
 }
@@ -188,8 +188,8 @@ impl<S: Copy> Checkpoint<S> {
 }
 
 impl<S: Real> Checkpoint<S> {
-    /// An error unless it can be a checkpoint of the simulation that has this one. Elements and anchors are still to be
-    /// compared with the scene.
+    /// An error unless it can be a checkpoint of the simulation whose present checkpoint is `simulation`. Elements and anchors
+    /// are still to be compared with the scene.
     pub(crate) fn check(&self, simulation: &Self) -> Result<(), RestoreError> {
         if self.scheme != simulation.scheme {
             return Err(RestoreError::Scheme {
@@ -202,7 +202,7 @@ impl<S: Real> Checkpoint<S> {
         self.check_numbers(simulation)
     }
 
-    /// The same with digests of the entries that follow from the steps.
+    /// The same checkpoint with digests of the entries that follow from the steps.
     pub(crate) fn sealed(mut self) -> Self {
         self.seals = self.digests().map(|(_, digest)| digest).collect();
         self

@@ -90,8 +90,8 @@ impl Equilibrium {
         Self { phase, ..self }
     }
 
-    /// Viscous stretches and strains stay as they are: the state right after the loads have come. Their dashpots are not
-    /// at rest in it.
+    /// Viscous stretches and strains stay as they are: the state right after the loads are applied, in which dashpots still
+    /// have forces.
     #[must_use]
     pub fn held(self) -> Self {
         let phase = Phase::Held;
@@ -99,7 +99,7 @@ impl Equilibrium {
     }
 
     /// Temperatures are those at which every element receives as much heat as it gives, through its paths to other
-    /// elements and to reservoirs. Thermostats keep theirs, and so do elements without paths.
+    /// elements and to reservoirs. Elements with thermostats and elements without paths keep theirs.
     #[must_use]
     pub fn thermal_balance(self) -> Self {
         Self {
@@ -108,14 +108,14 @@ impl Equilibrium {
         }
     }
 
-    /// The number of load steps, 4 by default. Those that fail are cut in halves.
+    /// The number of load steps, 4 by default. A load step that fails is halved.
     #[must_use]
     pub fn load_steps(self, load_steps: u32) -> Self {
         Self { load_steps, ..self }
     }
 
-    /// Newton's method: the largest update that can be the last one, in lengths of elements, and the most iterations of a
-    /// load step. There are at most ten times as many steps against friction.
+    /// Settings of Newton's method: the largest update that can be the last one, relative to the lengths of elements, and the
+    /// maximum number of iterations of a load step. A motion against friction has at most ten times as many steps.
     #[must_use]
     pub fn newton(self, newton: NewtonSettings<f64>) -> Self {
         Self { newton, ..self }
@@ -149,15 +149,15 @@ pub struct EquilibriumReport {
     /// The share of the loads up to which states at rest were followed: 1, or less if the state was then found by motion
     /// against friction.
     pub followed: f64,
-    /// Load steps.
+    /// The number of load steps.
     pub load_steps: usize,
-    /// Newton iterations of all load steps.
+    /// The number of Newton iterations in all load steps.
     pub iterations: usize,
-    /// Steps of the motion against friction.
+    /// The number of steps of the motion against friction.
     pub friction_steps: usize,
 }
 
-/// The function that finds an equilibrium: compiled with this crate in one to three dimensions, where it is used in others.
+/// The function that finds an equilibrium. In one to three dimensions it is compiled with this crate, else where it is used.
 struct Functions<const D: usize> {
     find: fn(&mut Scene<D>, Equilibrium) -> Result<EquilibriumReport, EquilibriumError>,
 }
@@ -188,15 +188,15 @@ impl<const D: usize> Functions<D> {
 
 /// # Equilibrium
 impl<const D: usize> Scene<D> {
-    /// Moves the scene into a stable state at rest under its loads at the start, to start a run from. In double precision.
+    /// Moves the scene into a stable state at rest under its loads at the start, to start a run from. Only in double precision.
     ///
     /// ```text
     /// Σ ∂ψ/∂q = m g + F(t₀) + thrust(t₀) n(q),   v = 0
     /// ```
     ///
-    /// Positions of masses become those of this state, velocities zero; viscous stretches and temperatures are
-    /// [relaxed](Equilibrium::relaxed) or [held](Equilibrium::held), and held or in [thermal
-    /// balance](Equilibrium::thermal_balance). Anchors stay. Dashpots in parallel with springs have no force at rest.
+    /// Positions of masses become those of this state, velocities zero. Viscous stretches are [relaxed](Equilibrium::relaxed) or
+    /// [held](Equilibrium::held); temperatures stay, or come into [thermal balance](Equilibrium::thermal_balance). Anchors stay.
+    /// Dashpots in parallel with springs have no force at rest.
     ///
     /// The state is the one that is connected with the present positions by the load path: forces that are not balanced
     /// there are released in [load steps](Equilibrium::load_steps), and solutions are followed as long as they are stable,
@@ -207,8 +207,8 @@ impl<const D: usize> Scene<D> {
     ///
     /// # Errors
     ///
-    /// [`EquilibriumError`]; the scene is unchanged then. A motion that nothing holds, or against which the state is
-    /// unstable, is named with its nodes.
+    /// [`EquilibriumError`]; the scene is unchanged then. The error names the nodes of a motion that no force resists, or along
+    /// which the state is unstable.
     ///
     /// ```
     /// use eem::materials::Hooke;
@@ -257,7 +257,7 @@ impl<const D: usize> Scene<D> {
         Ok(EquilibriumReport { heat, ..report })
     }
 
-    /// Temperatures are no unknowns.
+    /// The numbering of unknowns and state variables; temperatures are no unknowns.
     fn layout_without_heat(&self) -> Layout {
         let is_mass = self.nodes.iter().map(|node| node.mass.is_some());
         let elements = self.elements.iter();
@@ -282,7 +282,7 @@ impl<const D: usize> Scene<D> {
             Some(Prescribed { middle, end })
         });
         loads.prescribed = prescribed.collect();
-        // Its rows are `2 m/h Δq − 2 p⁰ + h F`, of which h F is left.
+        // The rows of this scheme are `2 m/h Δq − 2 p⁰ + h F`; at rest only h F is left.
         let scheme = Scheme::Midpoint;
         let (ends, rockets) = (self.ends(), self.loads.rocket_lines());
         let elements = (&ends, layout);
@@ -323,7 +323,7 @@ impl<const D: usize> Scene<D> {
         self.follow(&mut rest, settings.load_steps, state)
     }
 
-    /// The ends of the arms of all elements.
+    /// The edges of all elements from their first node to the others, each once, as pairs of nodes.
     fn arms(&self) -> Vec<[usize; 2]> {
         let elements = self.elements.iter().map(|entry| &entry.nodes[..]);
         let arms = elements.filter_map(<[usize]>::split_first);

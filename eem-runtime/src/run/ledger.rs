@@ -17,8 +17,8 @@ use eem_material::number::scalar::Real;
 /// The balance sheet of a scene.
 ///
 /// The schemes in entropy form and [`EemTemperature`](crate::Scheme::EemTemperature) store the entropy s of an
-/// element as a sum of what it receives, and compute the temperature from it. The ledger contains these sums, of
-/// which the total never falls, and also the entropies `s(λ, γ, θ)` of the model at the present state. The two
+/// element as a sum of what it receives, and compute the temperature from it. The ledger contains these sums, whose
+/// total never falls, and also the entropies `s(λ, γ, θ)` of the model at the present state. The two
 /// differ by rounding:
 ///
 /// ```text

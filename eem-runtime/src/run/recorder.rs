@@ -65,7 +65,7 @@ pub struct Recorder<const D: usize, S: Real = f64> {
     iterations: usize,
     /// The next row.
     row: Vec<f64>,
-    /// The sums at the last row, of quantities since then, and those at the row before.
+    /// For quantities of which rows have the changes: their sums at the last row, and at the row before it.
     sums: [Vec<Sum<S>>; 2],
 }
 
@@ -97,7 +97,7 @@ impl Column {
         }
     }
 
-    /// The values of the one with this name.
+    /// The values of the column with this name.
     pub(crate) fn find<'a>(columns: &'a [Self], name: &str) -> Option<&'a [f64]> {
         let mut columns = columns.iter();
         Some(columns.find(|column| column.name == name)?.values())
@@ -238,7 +238,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     ///
     /// [`SceneError::ForeignHandle`] if `run` belongs to another scene than the recorder. Nothing is recorded then.
     pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
-        // A row has one value per quantity.
+        // A row has one value per column, not one per lane.
         run.diverge();
         if run.scene() != self.scene {
             let handle = "the recorder".to_owned();

@@ -84,7 +84,7 @@ use stepper::{Parts, Stepper};
 pub struct Simulation<const D: usize, S: Real = f64> {
     scene: Lineage,
     scheme: Scheme,
-    /// That of the present steps, if `scheme` is `Scheme::Auto`.
+    /// The scheme of the present steps; it differs from `scheme` for `Scheme::Auto`.
     in_use: Scheme,
     automatic: Automatic,
     step: S,
@@ -105,24 +105,24 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     state: Box<State<S>>,
     /// Memory for the new state; after a step the old one.
     next: Box<State<S>>,
-    /// The last step succeeded, and the elements still have the values of its ends.
+    /// Whether the last step succeeded, and the elements still have the values at its ends.
     has_stepped: bool,
     /// The time at which the run began, s.
     start: S,
-    /// Where the anchors were that a controller has moved, m.
+    /// The positions of anchors before a controller moved them for the first time, m, by node.
     homes: BTreeMap<usize, [S; D]>,
-    /// The states since a history is kept.
+    /// The states since the call of `keep_history`; `None` without it.
     #[cfg(feature = "gradients")]
     history: Option<Box<Record<S>>>,
     #[cfg(feature = "gradients")]
     watch: Option<Box<Watch>>,
-    /// Somebody asks for sums of dissipation and heat.
+    /// Whether `meter_heat` or a recorder needs the sums of dissipation and heat.
     wants_meters: AtomicBool,
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
     corrections: Corrections<S>,
-    /// Something failed in lanes, some of which might have succeeded alone, so that no further result counts. Never
-    /// set for a single number.
+    /// Whether something failed in lanes, so that no further result counts: some lanes might have succeeded alone.
+    /// Never set for a single number.
     has_diverged: AtomicBool,
 }
 
@@ -131,7 +131,7 @@ type StepResult<S> = Result<StepReport<S>, StepError>;
 
 /// A step that was tried.
 enum Tried<S> {
-    /// It is made.
+    /// It succeeded.
     Made(StepReport<S>),
     /// Its error, in units of the tolerance, is too large; nothing has changed.
     Rejected(S),
@@ -192,7 +192,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let entries = &mut scene.elements;
         let stepper = Stepper::new(groups, systems, parts, &mut state, |state, elements| {
             let found = find_entropies(elements, state, parts);
-            // They are large, and contained in masses, state and groups.
+            // The entries of the scene are large, and now contained in masses, state and groups.
             found.map(|()| drop((mem::take(nodes), mem::take(pairs), mem::take(entries))))
         });
         let stepper = stepper.map_err(|(errors, groups)| {

@@ -192,7 +192,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Whether a node is of this scene, and a mass or an anchor as required; if not, that is an error.
+    /// Whether a node is of this scene, and a mass or an anchor as required; if not, an error is recorded.
     pub(super) fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
         if !self.expect_own(&node) {
             return false;

@@ -40,9 +40,9 @@ pub struct Body<H: Shape<D>, const D: usize> {
     pub(super) mesh: Mesh<H, D>,
     pub(super) nodes: Vec<Node>,
     pub(super) points: Vec<Element>,
-    /// m; one in space.
+    /// Thickness, m; one in space.
     pub(super) thickness: f64,
-    /// W/(m K).
+    /// Conductivity, W/(m K).
     pub(super) conductivity: Option<f64>,
     #[cfg(feature = "gradients")]
     pub(super) is_lumped: bool,

@@ -16,9 +16,9 @@ use eem_material::number::scalar::Real;
 #[derive(Clone, Debug)]
 pub struct Bulk<const D: usize, S = f64> {
     pub(super) density: S,
-    /// m; one in space.
+    /// Thickness, m; one in space.
     pub(super) thickness: f64,
-    /// W/(m K).
+    /// Conductivity, W/(m K).
     pub(super) conductivity: Option<f64>,
     pub(super) allow_skew_cells: bool,
     pub(super) fibres: Vec<[S; D]>,

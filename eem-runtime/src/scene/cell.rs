@@ -16,15 +16,15 @@ use eem_mesh::{integrals, per_node};
 /// The properties of a cell besides its material and nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CellProperties<'a, S, const D: usize> {
-    /// kg/m³.
+    /// ρ, kg/m³.
     pub(super) density: S,
-    /// m in the plane, one in space.
+    /// Thickness in the plane, m; one in space.
     pub(super) thickness: S,
     /// The directions of the fibres.
     pub(super) fibres: &'a [[S; D]],
-    /// Whether masses do not couple nodes.
+    /// Whether the mass is lumped, so that it does not couple nodes.
     pub(super) lumped: bool,
-    /// Whether it is invalid, which is already an error.
+    /// Whether the solid is invalid; an error is then already recorded.
     pub(super) is_invalid: bool,
 }
 
@@ -68,7 +68,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
         points
     }
 
-    /// The points of a cell, whose mass is added to its nodes; an error unless one is already recorded.
+    /// The points of a cell, whose mass is added to its nodes. `Err(None)` if the error is already recorded.
     fn expect_cell<H: Shape<D>, const N: usize>(
         &mut self,
         nodes: &H::PerNode<Node>,

@@ -210,7 +210,7 @@ impl From<StateError> for SceneError {
 }
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// Momentum, kinetic energy and weight of a mass.
+    /// An error unless momentum, kinetic energy and weight of a mass are finite.
     fn check_products(&self, node: Node, entry: &NodeEntry<S, D>) -> Result<(), SceneError> {
         let Some(mass) = entry.mass else {
             return Ok(());
@@ -238,7 +238,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// The initial heat flow of each conductance, and the sum of all flows to an element.
+    /// An error unless the initial heat flow of each conductance, and the sum of the flows of each element, are finite.
     fn check_heat_flows(&self) -> Result<(), SceneError> {
         let temperature = |element: Element| self.elements[element.index()].temperature;
         let mut received = vec![S::zero(); self.elements.len()];
@@ -278,7 +278,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         Ok(())
     }
 
-    /// Motions of anchors begin where the anchors were created.
+    /// Motions of anchors must begin where the anchors were created.
     fn check_motions(&self, errors: &mut Vec<SceneError>) {
         let positions = self.nodes.iter().map(|node| &node.position);
         let scale = extent(positions.flat_map(|position| position.iter()));
@@ -298,7 +298,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Thermostats begin at the initial temperature.
+    /// Thermostats must begin at the initial temperature.
     fn check_thermostats(&self, errors: &mut Vec<SceneError>) {
         for (element, temperature) in &self.loads.temperatures {
             let Some(initial) = self.elements[element.index()].temperature else {
@@ -316,7 +316,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 }
 
-/// Whether rounding explains a difference from a function of this size. False for NaN.
+/// Whether rounding explains a difference of values of this size. False for NaN.
 fn is_rounding<S: Real>(difference: S, size: S) -> bool {
     let bound = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON * size;
     difference.abs().at_most(bound).all()

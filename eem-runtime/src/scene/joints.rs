@@ -13,7 +13,7 @@ pub(super) struct Joint<const D: usize> {
     other: Element,
     /// Sorted by the first coordinate.
     nodes: Vec<Shared<D>>,
-    /// m.
+    /// The largest distance of merged nodes, m.
     within: f64,
 }
 

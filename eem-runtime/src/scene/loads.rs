@@ -30,25 +30,25 @@ pub(crate) type OfTime<S, const D: usize> = Arc<dyn Fn(S) -> SVector<S, D> + Sen
 /// A scalar (temperature in K, thrust in N) as a function of time in s.
 pub(crate) type ScalarOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
 
-/// What a load gives: `F` is a function of time in s.
+/// The values of a load in the course of time; `F` is the type of a function of time in s.
 #[derive(Clone)]
 pub(crate) enum Course<F, T> {
     /// A function of the user.
     Function(F),
-    /// The same at all times.
+    /// The same value at all times.
     Constant(T),
     /// A value that holds until another one is set: a force, the velocity of an anchor, or a temperature that is reached at
     /// the end of a step.
     Set(T),
 }
 
-/// The value on the way from one to another, at a share of the step.
+/// The value between one at the beginning and one at the end of a step, at a share of it.
 fn between<S: Real>(from: S, to: S, share: S) -> S {
     S::branch(share.equal(S::one()), || to, || from + share * (to - from))
 }
 
 impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
-    /// The position of an anchor at a time, so long after it was at `from`.
+    /// The position of an anchor at a time, m, `elapsed` seconds after it was at `from`.
     pub(crate) fn position(&self, time: S, from: &[S; D], elapsed: S) -> SVector<S, D> {
         match self {
             Self::Function(of) => of(time),
@@ -61,7 +61,7 @@ impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
 }
 
 impl<S: Real> Course<ScalarOfTime<S>, S> {
-    /// The value at a time, at this share of a step that begins at `from`.
+    /// The value at a time, at this share of a step that begins with the value `from`.
     pub(crate) fn at(&self, time: S, from: S, share: S) -> S {
         match self {
             Self::Function(of) => of(time),
@@ -93,7 +93,7 @@ pub(crate) struct Loads<S: Real, const D: usize> {
     pub(crate) rockets: Vec<Rocket<S>>,
     pub(crate) motions: Vec<(Node, VectorCourse<S, D>)>,
     pub(crate) temperatures: Vec<(Element, TemperatureCourse<S>)>,
-    /// Reservoirs whose temperature changes.
+    /// Indices of reservoirs whose temperature is a function of time.
     pub(crate) ovens: Vec<(usize, ScalarOfTime<S>)>,
 }
 

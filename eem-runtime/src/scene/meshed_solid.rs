@@ -99,7 +99,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The nodes of a mesh whose first point is `element`: new ones, and those of solids to which it is joined. If a joint
-    /// is invalid, that is an error, and all are new.
+    /// is invalid, an error is recorded, and all nodes are new.
     fn nodes_of_mesh<H: Shape<D>>(
         &mut self,
         mesh: &Mesh<H, D>,

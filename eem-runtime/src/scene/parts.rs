@@ -94,10 +94,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.reservoir_at(self.reservoirs.len() - 1)
     }
 
-    /// A heat reservoir whose temperature is a function of time, K of s: an oven, or the weather. What it gives is heat of the
-    /// ledger, as that of thermostats; it keeps none.
+    /// A heat reservoir whose temperature is a function of time, K of s: an oven, or the weather. The ledger
+    /// counts the heat that it gives like that of thermostats, instead of storing its entropy.
     ///
-    /// A step sees the temperature in its middle, with every scheme: the laws hold exactly, and the error of the oven is of
+    /// A step of every scheme uses the temperature at its middle: the laws hold exactly, and the error of the oven is of
     /// order 2 in the step.
     ///
     /// ```

@@ -109,7 +109,7 @@ pub enum SolidError {
     JointDistance {
         /// The first points of the solid and of the other one.
         elements: [Element; 2],
-        /// m.
+        /// The distance, m.
         within: f64,
     },
     /// No node is near enough to join two solids.
@@ -120,7 +120,7 @@ pub enum SolidError {
     NotJoined {
         /// The first points of the solid and of the other one.
         elements: [Element; 2],
-        /// m.
+        /// The distance within which nodes are joined, m.
         within: f64,
         /// The least distance of two of their nodes, m.
         nearest: f64,
@@ -133,7 +133,7 @@ pub enum SolidError {
     JoinedNodes {
         /// Its first point.
         element: Element,
-        /// m, the largest if there are several.
+        /// The distance within which nodes are joined, m; the largest if there are several.
         within: f64,
         /// The error of the joined mesh.
         error: MeshError,

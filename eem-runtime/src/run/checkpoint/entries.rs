@@ -1,6 +1,6 @@
 //! All numbers of a checkpoint as one list of entries, with their rules and digests.
 //!
-//! Nobody can choose what a run has accumulated, nor the rates with which an explicit scheme continues: they follow
+//! The sums that a run has accumulated, and the rates with which an explicit scheme continues, must not be edited: they follow
 //! from steps that a checkpoint does not contain. Computing the rates again would not give their bits, because a step
 //! finds them in another way than the start of a run. So each such entry has a digest.
 
@@ -19,7 +19,7 @@ enum Rule {
     Sum,
     Finite,
     Positive,
-    /// Sums of squares may overflow.
+    /// Not negative, but possibly infinite: sums of squares may overflow.
     NotNegative,
     FiniteNotNegative,
     /// Only the digest is checked.
@@ -31,9 +31,9 @@ struct Entry<'a, S> {
     name: &'static str,
     numbers: Box<dyn Iterator<Item = S> + 'a>,
     rule: Rule,
-    /// The number of values, if a simulation of the same scene has as many.
+    /// The number of values, if every simulation of the same scene has the same number.
     count: Option<usize>,
-    /// Whether it follows from the steps.
+    /// Whether it follows from the steps, and has a digest.
     is_sealed: bool,
 }
 
@@ -57,7 +57,7 @@ impl<'a, S: Real> Entry<'a, S> {
         Self::new(name, Rule::Sum, pairs).counted(sums.values().len())
     }
 
-    /// By bytes, which are numbers of any type.
+    /// Counts as lists of their bytes, which every number type represents exactly.
     fn counts(name: &'static str, counts: impl IntoIterator<Item = u64> + 'a) -> Self {
         let bytes = counts.into_iter().flat_map(u64::to_le_bytes);
         Self::new(name, Rule::None, bytes.map(|byte| S::from_f64(byte.into())))
@@ -77,7 +77,7 @@ impl<'a, S: Real> Entry<'a, S> {
         self
     }
 
-    /// It is checked apart whether the simulation has as many.
+    /// `Simulation::audit_meters` checks the number of its values.
     fn metered(mut self) -> Self {
         self.count = None;
         self.sealed()

@@ -69,7 +69,7 @@ pub enum RestoreError {
         /// Whether it has one in the checkpoint.
         in_checkpoint: bool,
     },
-    /// The Newton settings of the checkpoint are invalid.
+    /// The settings of Newton's method or of step control in the checkpoint are invalid.
     #[error(transparent)]
     Settings(#[from] SceneError),
     /// A value in the checkpoint is invalid.
@@ -95,7 +95,7 @@ pub enum RestoreError {
         /// The stored compensation of its rounding.
         carry: f64,
     },
-    /// An entry is not what the run has saved, though it follows from the steps and not from the state.
+    /// An entry that follows only from the steps, not from the state, is not the one that the run has saved.
     #[error(
         "the checkpoint has been edited: {entry} must be what the run has saved; change positions, momenta, viscous stretches and temperatures with their entropies, and everything else by methods of the simulation"
     )]
@@ -111,7 +111,7 @@ pub enum RestoreError {
         "what controllers have set in the checkpoint does not fit the scene: build the scene with the thermostats that it had"
     )]
     Loads,
-    /// The scenes have other numbers: the parameters of a material, a mass, a conductance.
+    /// The numbers of the scenes differ: the parameters of a material, a mass, a conductance.
     #[error(
         "the checkpoint is one of a scene with other {kind}: build the scene with the numbers that it had"
     )]
@@ -156,7 +156,7 @@ pub enum RestoreError {
         /// The time of the checkpoint, s.
         time: f64,
     },
-    /// An anchor has a momentum.
+    /// An anchor has a momentum, or a velocity that its motion does not give it.
     #[error(
         "component {axis} of the momentum of the anchor node {node} is {value} kg m/s in the checkpoint, it must be zero",
         value = Readable(*value)
@@ -166,7 +166,7 @@ pub enum RestoreError {
         node: usize,
         /// The axis, from 0.
         axis: usize,
-        /// The component, kg m/s.
+        /// The component, kg m/s; of a velocity m/s.
         value: f64,
     },
     /// An element does not have the temperature that a thermostat gives it.

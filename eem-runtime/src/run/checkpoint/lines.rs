@@ -1,4 +1,4 @@
-//! The lines of a file with a checkpoint. Each function writes what it is given, or reads it.
+//! The lines of a file with a checkpoint. Each function writes the part `own`, or reads it if `own` is `None`.
 
 use super::fingerprint::{ElementOutline, Numbers, Outline};
 use super::text::{Read, Text};
@@ -14,7 +14,7 @@ use crate::step::solver::SavedPast;
 use eem_material::number::scalar::Real;
 
 impl<S: Real> Checkpoint<S> {
-    /// All of it.
+    /// Writes or reads the whole checkpoint.
     pub(super) fn lines(text: &mut Text<'_>, own: Option<&Self>) -> Read<Self> {
         let newton = own.map(|own| own.newton);
         Ok(Self {

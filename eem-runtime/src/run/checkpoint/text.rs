@@ -1,7 +1,7 @@
 //! A text of lines that keeps every bit: a name and its items per line.
 //!
-//! Numbers are the shortest decimals that are read as the same number. Every function takes what is to be written, and
-//! returns it; without it, the next line is read.
+//! Numbers are the shortest decimals that are read as the same number. Every function writes the value `own` and returns it;
+//! if `own` is `None`, it reads the value from the next line.
 
 use core::fmt::{Display, Write};
 use core::str::{FromStr, Lines};
@@ -9,7 +9,7 @@ use core::str::{FromStr, Lines};
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::scalar::Real;
 
-/// A line that is not as expected, from 1, and the name it should have.
+/// The number, from 1, of a line that is not as expected, and the name that it should have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Fault {
     pub(super) line: usize,
@@ -23,12 +23,12 @@ pub(super) type Read<T> = Result<T, Fault>;
 pub(super) struct Text<'a> {
     written: String,
     lines: Lines<'a>,
-    /// The last line.
+    /// The number of the last line.
     number: usize,
 }
 
 impl<'a> Text<'a> {
-    /// One to write, or to read what follows so many lines.
+    /// A text to write, or to read: `rest` follows after `number` lines.
     pub(super) fn new(rest: &'a str, number: usize) -> Self {
         Self {
             written: String::new(),
@@ -42,7 +42,7 @@ impl<'a> Text<'a> {
         self.written
     }
 
-    /// A line of items that parts of a line can be read as.
+    /// A line of items, of which `show` writes one and `read` reads one.
     fn line<T>(
         &mut self,
         name: &'static str,
@@ -83,7 +83,7 @@ impl<'a> Text<'a> {
         own: Option<&[S]>,
     ) -> Read<Vec<S>> {
         let show = |number: &S, text: &mut String| {
-            // A string takes everything.
+            // Writing to a string does not fail.
             _ = write!(text, "{:?}", number.to_f64());
         };
         self.line(name, own, show, |item| {
@@ -91,7 +91,7 @@ impl<'a> Text<'a> {
         })
     }
 
-    /// As many numbers as there are.
+    /// N numbers.
     pub(super) fn array<S: Real, const N: usize>(
         &mut self,
         name: &'static str,
@@ -107,7 +107,7 @@ impl<'a> Text<'a> {
         Ok(number)
     }
 
-    /// One number or none.
+    /// N numbers or none.
     pub(super) fn few<S: Real, const N: usize>(
         &mut self,
         name: &'static str,
@@ -131,7 +131,7 @@ impl<'a> Text<'a> {
         self.line(name, own, show, |item| item.parse().ok())
     }
 
-    /// One of them.
+    /// One such item.
     pub(super) fn item<T: Display + FromStr + Clone>(
         &mut self,
         name: &'static str,
@@ -189,7 +189,7 @@ impl<'a> Text<'a> {
         Ok(pairs.map(|&[value, carry]| Sum { value, carry }).collect())
     }
 
-    /// The last line is not as expected.
+    /// The fault that the last line is not as expected.
     pub(super) const fn fault(&self, expected: &'static str) -> Fault {
         let line = self.number;
         Fault { line, expected }

@@ -29,7 +29,7 @@ pub enum EquilibriumError {
     /// A load at the start is not finite, or an element has no force in the initial state.
     #[error(transparent)]
     Start(StepFailure),
-    /// A motion that no force holds: a body without supports, or a mechanism.
+    /// A motion that no force resists: a body without supports, or a mechanism.
     #[error(
         "nothing holds {motion} (stiffness {:.1e} N/m): add supports or springs, or loads that stretch them",
         motion.stiffness
@@ -80,7 +80,7 @@ pub enum EquilibriumError {
     HeatNotBalanced,
 }
 
-/// What an element that cannot follow says.
+/// The reason that an element gives why it has no state, as the end of a message.
 fn reason(failure: &StepFailure) -> String {
     match failure {
         StepFailure::State(error) => format!(": {error}"),

@@ -17,8 +17,8 @@ use crate::scene::Scene;
 /// The second solution corrects the rounding of the first.
 const SOLUTIONS: usize = 2;
 
-/// Replaces the temperatures of elements with paths of heat by those of thermal balance; the largest heat that an element
-/// still receives, W. Those with thermostats, and those without paths, keep theirs.
+/// Replaces the temperatures of elements with paths of heat by those of thermal balance, and returns the largest heat that an
+/// element still receives, W. Elements with thermostats or without paths keep their temperatures.
 pub(super) fn balance<const D: usize>(
     scene: &Scene<D>,
     layout: &Layout,
@@ -26,15 +26,15 @@ pub(super) fn balance<const D: usize>(
 ) -> Result<f64, EquilibriumError> {
     let conduction = Conduction::new(&scene.conductors, &scene.reservoir_temperatures(), layout);
     let slot_of = |element: usize| layout.elements[element].thermal;
-    let mut is_given = vec![false; temperatures.len()];
+    let mut is_fixed = vec![false; temperatures.len()];
     for (element, _) in &scene.loads.temperatures {
         if let Some(slot) = slot_of(element.index()) {
-            is_given[slot] = true;
+            is_fixed[slot] = true;
         }
     }
-    refuse_insulated(scene, (&conduction, layout), &is_given)?;
+    refuse_insulated(scene, (&conduction, layout), &is_fixed)?;
     let slots =
-        (0..temperatures.len()).filter(|&slot| !is_given[slot] && has_path(&conduction, slot));
+        (0..temperatures.len()).filter(|&slot| !is_fixed[slot] && has_path(&conduction, slot));
     let slots: Vec<_> = slots.collect();
     let mut unknowns = vec![None; temperatures.len()];
     for (unknown, &slot) in slots.iter().enumerate() {
@@ -91,23 +91,23 @@ fn has_path(conduction: &Conduction<f64>, slot: usize) -> bool {
         .any(|link| link.conductance > 0.0)
 }
 
-/// An error if paths of heat join elements that none joins with a reservoir or a thermostat.
+/// An error if an element has paths of heat, but none that leads, directly or through others, to a reservoir or a thermostat.
 fn refuse_insulated<const D: usize>(
     scene: &Scene<D>,
     (conduction, layout): (&Conduction<f64>, &Layout),
-    is_given: &[bool],
+    is_fixed: &[bool],
 ) -> Result<(), EquilibriumError> {
-    let mut is_warmed = is_given.to_vec();
-    for (slot, is_warmed) in is_warmed.iter_mut().enumerate() {
+    let mut is_linked = is_fixed.to_vec();
+    for (slot, is_linked) in is_linked.iter_mut().enumerate() {
         let mut links = conduction.links(slot).iter();
-        *is_warmed |= links
+        *is_linked |= links
             .any(|link| link.conductance > 0.0 && matches!(link.partner, Partner::Reservoir(_)));
     }
-    let warmed = is_warmed
+    let linked = is_linked
         .iter()
         .enumerate()
-        .filter(|(_, is_warmed)| **is_warmed);
-    let mut found: Vec<_> = warmed.map(|(slot, _)| slot).collect();
+        .filter(|(_, is_linked)| **is_linked);
+    let mut found: Vec<_> = linked.map(|(slot, _)| slot).collect();
     while let Some(slot) = found.pop() {
         for link in conduction
             .links(slot)
@@ -115,16 +115,16 @@ fn refuse_insulated<const D: usize>(
             .filter(|link| link.conductance > 0.0)
         {
             if let Partner::Slot(partner) = link.partner
-                && !is_warmed[partner]
+                && !is_linked[partner]
             {
-                is_warmed[partner] = true;
+                is_linked[partner] = true;
                 found.push(partner);
             }
         }
     }
     let mut slots = layout.elements.iter().map(|slots| slots.thermal);
     let insulated = slots
-        .position(|slot| slot.is_some_and(|slot| !is_warmed[slot] && has_path(conduction, slot)));
+        .position(|slot| slot.is_some_and(|slot| !is_linked[slot] && has_path(conduction, slot)));
     match insulated {
         None => Ok(()),
         Some(element) => Err(EquilibriumError::Insulated {

@@ -1,4 +1,4 @@
-//! Names for motions that nothing holds.
+//! Descriptions of motions that no force resists.
 
 use core::array;
 use core::fmt;
@@ -8,8 +8,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::element::handle::Node;
 use crate::scene::Scene;
 
-/// Two motions are the same if they differ by at most this share of the largest displacement: the search for a free
-/// motion has more digits.
+/// Two motions are the same if they differ by at most this fraction of the largest displacement; the search for a free
+/// motion is more accurate.
 const LIKENESS: f64 = 1e-4;
 
 /// The most nodes in a message.
@@ -40,7 +40,7 @@ impl fmt::Display for MotionKind {
     }
 }
 
-/// A motion that nothing holds, or against which the scene is unstable.
+/// A motion that no force resists, or along which the scene is unstable.
 ///
 /// ```
 /// use eem::materials::Hooke;
@@ -119,7 +119,7 @@ pub(super) fn name<const D: usize>(
     }
 }
 
-/// The nodes that elements connect with one, with this.
+/// A node and all nodes that elements connect with it.
 fn body_of<const D: usize>(scene: &Scene<D>, node: usize) -> Vec<usize> {
     let mut elements = vec![Vec::new(); scene.nodes.len()];
     for (index, entry) in scene.elements.iter().enumerate() {
@@ -169,8 +169,8 @@ fn mean<const D: usize>(places: &[Moved<D>]) -> Moved<D> {
     (centre.map(|sum| sum / count), shift.map(|sum| sum / count))
 }
 
-/// The rigid motion `t + W (r − c)` nearest to these displacements at positions about their centre c, by least squares,
-/// decides.
+/// The kind of the rigid motion `t + W (r − c)` that fits these displacements best, by least squares, with the centre c of the
+/// positions r; a deformation if the fit is not close.
 fn kind_of<const D: usize>(places: &[Moved<D>]) -> MotionKind {
     let (centre, shift) = mean(places);
     let planes: Vec<_> = (0..D).flat_map(|a| (0..a).map(move |b| [a, b])).collect();
@@ -195,7 +195,7 @@ fn kind_of<const D: usize>(places: &[Moved<D>]) -> MotionKind {
             }
         }
     }
-    // A line does not turn about itself.
+    // The cut-off `least` leaves out the rotation of a line about itself.
     let solved = if planes.is_empty() {
         None
     } else {

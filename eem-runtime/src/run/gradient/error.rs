@@ -181,7 +181,7 @@ pub enum GradientError {
         /// The change along the run.
         tangent: f64,
     },
-    /// The function that watches gradients has ended it.
+    /// The function that watches gradients has stopped the computation.
     #[error("the derivatives were stopped by the function that `watch_gradients` was given")]
     Stopped,
     /// The linear system does not fit in memory, or a handle is of another scene.
@@ -193,7 +193,7 @@ pub enum GradientError {
 }
 
 impl GradientError {
-    /// An element has no such parameter; a text without derivatives has none.
+    /// The error that an element has no such parameter; a material of a text without derivatives has no parameters at all.
     pub(crate) fn no_parameter(element: &Element, name: &str, known: &[&'static str]) -> Self {
         let model = element.model();
         if known.is_empty() {

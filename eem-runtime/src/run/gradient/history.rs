@@ -14,7 +14,7 @@ use eem_material::number::scalar::Real;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct History(pub(crate) Limit);
 
-/// A function that may end the search for derivatives.
+/// A user's function that may stop the computation of derivatives.
 pub(crate) type Watch = dyn FnMut() -> ControlFlow<()> + Send + Sync;
 
 /// The limit of a history.
@@ -34,14 +34,14 @@ impl Default for History {
 }
 
 impl History {
-    /// So many bytes; 2³⁰ by default. Half of them are for states, of which one takes the bytes of its time, positions,
-    /// velocities, viscous stretches and temperatures, and for the sizes of steps, 8 bytes each.
+    /// At most this many bytes; 2³⁰ by default. Half of them are for states, with time, positions, velocities, viscous
+    /// stretches, temperatures and entropies of reservoirs, and for the sizes of steps, 8 bytes each.
     #[must_use]
     pub const fn bytes(bytes: usize) -> Self {
         Self(Limit::Bytes(bytes))
     }
 
-    /// So many states c besides the first one, for `(c + 3)!/(c! 3!)` steps at most: 176 851 with 100. Each step is made again
+    /// This many states c besides the first one, for `(c + 3)!/(c! 3!)` steps at most: 176 851 with 100. Each step is made again
     /// up to four times. The sizes of steps take 8 bytes each.
     #[must_use]
     pub const fn snapshots(snapshots: usize) -> Self {
@@ -49,15 +49,15 @@ impl History {
     }
 }
 
-/// The states at the ends of consecutive steps: of each the numbers that its derivatives depend on.
+/// The states at the ends of consecutive steps: of each only the numbers on which derivatives depend.
 #[derive(Clone, Debug)]
 pub(crate) struct Kept<S> {
     /// The times of the states, s.
     times: Vec<S>,
-    /// The numbers of one state after the other, in pieces of this number of states.
+    /// The numbers of one state after the other, in pieces of `states_per_piece` states.
     pieces: Vec<Vec<S>>,
     states_per_piece: usize,
-    /// How many numbers a state has.
+    /// The number of numbers of a state.
     numbers: usize,
 }
 
@@ -65,7 +65,7 @@ pub(crate) struct Kept<S> {
 const PIECE: usize = 1 << 16;
 
 impl<S: Real> Kept<S> {
-    /// From a state on, for so many states at most.
+    /// States from this one on; at most `most` of them will be kept.
     pub(crate) fn new(state: &State<S>, most: usize) -> Self {
         let numbers = numbers_of(state);
         let per_piece = PIECE / (numbers * size_of::<S>()).max(1);
@@ -89,7 +89,7 @@ impl<S: Real> Kept<S> {
         self.times.len() - 1
     }
 
-    /// Forgets all but so many steps.
+    /// Forgets all but the first `steps` steps.
     pub(crate) fn return_to(&mut self, steps: usize) {
         let states = steps + 1;
         self.times.truncate(states);
@@ -114,7 +114,7 @@ impl<S: Real> Kept<S> {
         self.times.push(state.time.value);
     }
 
-    /// The last state was set to this time, s.
+    /// Sets the time of the last state, s.
     pub(crate) fn arrive(&mut self, time: S) {
         if let Some(last) = self.times.last_mut() {
             *last = time;
@@ -131,14 +131,14 @@ impl<S: Real> Kept<S> {
         })
     }
 
-    /// The numbers of the state after so many steps.
+    /// The numbers of the state after `steps` steps.
     fn numbers_after(&self, steps: usize) -> &[S] {
         let piece = &self.pieces[steps / self.states_per_piece];
         let first = steps % self.states_per_piece * self.numbers;
         &piece[first..first + self.numbers]
     }
 
-    /// Writes what is kept of the state after so many steps to one of the same scene. Entropies, energies and sums are not kept.
+    /// Writes what is kept of the state after `steps` steps to `state`, which has the same scene: no entropies, energies and sums.
     pub(crate) fn load<const D: usize>(
         &self,
         steps: usize,
@@ -177,7 +177,7 @@ impl<S: Real> Kept<S> {
     }
 }
 
-/// The numbers that are kept of a state: the others follow from them, or have no derivatives.
+/// The numbers that are kept of a state. All others follow from them, or have no derivatives.
 fn parts<S: Real>(state: &State<S>) -> [&[S]; 5] {
     let velocities = state.velocities.values();
     let moves = if velocities.is_empty() {

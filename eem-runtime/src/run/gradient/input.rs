@@ -1,4 +1,4 @@
-//! What a run is differentiated by.
+//! Inputs, with respect to which a run is differentiated.
 
 use core::fmt;
 use std::sync::Arc;
@@ -71,7 +71,7 @@ impl<const D: usize, S: Real> Input<D, S> {
         Self::new(InputOf::Parameter(elements, name.into()))
     }
 
-    /// A mass, whose velocity at the start is kept, kg.
+    /// A mass, kg; its velocity at the start is kept.
     #[must_use]
     pub const fn mass(node: Node) -> Self {
         Self::new(InputOf::Mass(node))
@@ -98,19 +98,19 @@ impl<const D: usize, S: Real> Input<D, S> {
         Self::new(InputOf::Conductance(path))
     }
 
-    /// The temperature of a reservoir, K; of an oven one that is added to its function.
+    /// The temperature of a reservoir, K; for an oven, a constant that is added to its function.
     #[must_use]
     pub const fn reservoir_temperature(reservoir: Reservoir) -> Self {
         Self::new(InputOf::Reservoir(reservoir))
     }
 
-    /// A component, from 0, of the position of a node at the start, m; of an anchor of its place, also while it is moved.
+    /// A component, from 0, of the position of a node at the start, m; for an anchor, of a shift of its position at all times.
     #[must_use]
     pub const fn position(node: Node, axis: usize) -> Self {
         Self::new(InputOf::Position(node, axis))
     }
 
-    /// A component, from 0, of the velocity of a node at the start, m/s. Of anchors only those have one that move beside solids.
+    /// A component, from 0, of the velocity of a node at the start, m/s. Of all anchors, only moved ones next to solids have one.
     #[must_use]
     pub const fn velocity(node: Node, axis: usize) -> Self {
         Self::new(InputOf::Velocity(node, axis))
@@ -136,13 +136,13 @@ impl<const D: usize, S: Real> Input<D, S> {
         Self::new(InputOf::Force(node, Arc::new(move |t| by(t).into())))
     }
 
-    /// A parameter of a thrust, given `∂F/∂α`; of the rockets of a node in the order of their creation, from 0.
+    /// A parameter of a thrust, given `∂F/∂α`. `rocket` counts the rockets of the node in the order of their creation, from 0.
     pub fn thrust(node: Node, rocket: usize, by: impl Fn(S) -> S + Send + Sync + 'static) -> Self {
         Self::new(InputOf::Thrust(node, rocket, Arc::new(by)))
     }
 
-    /// A parameter of the position of a moved anchor, given `∂X/∂α`. Beside a solid, a derivative of its velocity
-    /// at the start is an input of its own, [`velocity`](Self::velocity).
+    /// A parameter of the position of a moved anchor, given `∂X/∂α`. Next to a solid, its velocity at the start is an input
+    /// of its own, [`velocity`](Self::velocity).
     pub fn motion<V: Into<SVector<S, D>>>(
         anchor: Node,
         by: impl Fn(S) -> V + Send + Sync + 'static,
@@ -200,7 +200,7 @@ impl<const D: usize, S: Real> Input<D, S> {
         }
     }
 
-    /// Its unit, unless it depends on a material or was given.
+    /// Its unit; empty if it depends on a material or only the user knows it.
     pub(crate) const fn unit(&self) -> &'static str {
         match &self.of {
             InputOf::Mass(_) => "kg",

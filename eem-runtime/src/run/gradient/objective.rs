@@ -1,4 +1,4 @@
-//! What is differentiated: sums of quantities at times, of integrals and of squares of misfits.
+//! Objectives, which are differentiated: sums of quantities at times, of integrals and of squares of misfits.
 
 use core::ops::Add;
 
@@ -34,7 +34,7 @@ pub(crate) struct Term<const D: usize, S: Real> {
 #[derive(Clone, Debug)]
 pub(crate) enum When {
     End,
-    /// s.
+    /// At this time, s.
     At(f64),
     Integral,
     /// Times, data and their standard deviations.
@@ -80,8 +80,8 @@ impl<const D: usize, S: Real> Objective<D, S> {
         Self::new(quantity, When::Misfit(records.into_iter().collect()))
     }
 
-    /// The time at the end of the run, s: of an event, whose derivatives
-    /// [`gradient_at_event`](crate::Simulation::gradient_at_event) finds. All others are zero but those by the sizes of steps.
+    /// The time at the end of the run, s. If an event ends it, [`gradient_at_event`](crate::Simulation::gradient_at_event) finds
+    /// the derivatives; otherwise only those by the sizes of steps are not zero.
     #[must_use]
     pub const fn time() -> Self {
         Self {
@@ -90,7 +90,7 @@ impl<const D: usize, S: Real> Objective<D, S> {
         }
     }
 
-    /// Takes this component, from 0, of all its vectors.
+    /// Takes this component, from 0, of all its vector quantities.
     #[must_use]
     pub fn component(mut self, component: usize) -> Self {
         for term in &mut self.terms {

@@ -19,16 +19,16 @@ use crate::scene::error::SceneError;
 use crate::step::adjoint::PerVariable;
 use eem_material::number::scalar::Real;
 
-/// The value of an [`Objective`](crate::Objective) and its derivatives by all inputs of a run, each in the unit of the
-/// objective over that of the input.
+/// The value of an [`Objective`](crate::Objective) and its derivatives with respect to all inputs of a run, each in the unit of
+/// the objective over that of the input.
 ///
-/// `Display` prints the value and the derivatives by the parameters of every element, a line each with the unit, and a note where
-/// derivatives grow by more than a million; [`iter`](Self::iter) has all that are numbers.
+/// `Display` prints the value and the derivatives by the parameters of every element, a line each with the unit, and a note if
+/// derivatives grow by more than a million; [`iter`](Self::iter) has the derivatives by all inputs that are numbers.
 #[derive(Clone, Debug)]
 pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) scene: Lineage,
     pub(crate) value: f64,
-    /// That of the objective.
+    /// The unit of the objective.
     pub(crate) unit: String,
     pub(crate) growth: f64,
     pub(crate) start: PerVariable<S>,
@@ -41,7 +41,7 @@ pub struct Gradient<const D: usize, S: Real = f64> {
     pub(crate) conductances: Vec<S>,
     pub(crate) reservoirs: Vec<S>,
     pub(crate) elements: Vec<OfElement<S>>,
-    /// By the sizes of steps, at their ends, with the values of functions of time kept.
+    /// By the sizes of steps, with the times at their ends, s, and with the values of functions of time kept.
     pub(crate) sizes: Vec<(S, S)>,
     /// The time at the start, s, and the loads that are functions of time.
     pub(crate) started: S,
@@ -58,7 +58,7 @@ pub struct Gradient<const D: usize, S: Real = f64> {
 /// The name of an input, the derivative by it, and its unit.
 type Derivative = (String, f64, String);
 
-/// The growth from which it is noted.
+/// The growth above which `Display` adds a note.
 const NOTED: f64 = 1e6;
 
 /// The derivatives by the parameters of an element.
@@ -68,7 +68,7 @@ pub(crate) struct OfElement<S> {
     pub(crate) slots: Slots,
     pub(crate) dashpots: usize,
     pub(crate) names: &'static [&'static str],
-    /// None of a model without units.
+    /// Empty for a model without units.
     pub(crate) units: &'static [&'static str],
     pub(crate) viscous_unit: &'static str,
     pub(crate) values: Vec<S>,
@@ -81,8 +81,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         self.value
     }
 
-    /// How much more a relative change of an earlier state does to the objective than one of the state at the end, at most. It
-    /// grows without limit along chaotic motions. Errors of the gradient are about ε times the growth.
+    /// The largest effect of a relative change of a state on the objective, over the effect of the same change of the last state.
+    /// It grows without limit along chaotic motions. Errors of the gradient are about ε times the growth.
     #[must_use]
     pub const fn growth(&self) -> f64 {
         self.growth
@@ -140,7 +140,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         })
     }
 
-    /// By the masses of nodes that have no other.
+    /// By the masses of nodes that belong to no solid.
     fn own_masses(&self) -> impl Iterator<Item = Derivative> + '_ {
         let of_solids: BTreeSet<usize> = self.pairs.iter().flat_map(|(nodes, _)| *nodes).collect();
         let moving = self
@@ -199,7 +199,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Err(GradientError::NoParameterDerivatives { model })
     }
 
-    /// The derivative by the position of a node at the start; of an anchor by its place.
+    /// The derivative by the position of a node at the start; for an anchor, by a shift of its position at all times.
     ///
     /// # Errors
     ///
@@ -209,8 +209,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Ok(vector(&self.start.positions, node))
     }
 
-    /// The derivative by the velocity of a node at the start. Of anchors only those have one that move beside solids;
-    /// there it belongs to the motion at the start, besides [`by_motion`](Self::by_motion).
+    /// The derivative by the velocity of a node at the start. Of all anchors, only moved ones next to solids have one, that of
+    /// their motion at the start. Its effect is not part of [`by_motion`](Self::by_motion).
     ///
     /// # Errors
     ///
@@ -220,7 +220,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Ok(vector(&self.start.velocities, node))
     }
 
-    /// The derivative by a mass, with its velocity kept; zero for an anchor. Solids have theirs by
+    /// The derivative by a mass, with its velocity kept; zero for an anchor. For solids use
     /// [`by_density`](Self::by_density).
     ///
     /// # Errors
@@ -292,7 +292,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Ok(self.conductances[path.index])
     }
 
-    /// The derivative by the temperature of a reservoir; of an oven by one that is added to its function.
+    /// The derivative by the temperature of a reservoir; for an oven, by a constant that is added to its function.
     ///
     /// # Errors
     ///
@@ -308,8 +308,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         self.gravity
     }
 
-    /// The derivatives by the force on a mass in each step, with the time in its middle, s. That by a parameter of a force is found by
-    /// [`Series::contract`].
+    /// The derivatives by the force on a mass in each step, with the time in its middle, s. [`Series::contract`] gives the
+    /// derivative by a parameter of the force.
     ///
     /// # Errors
     ///
@@ -319,8 +319,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         series(&self.forces, node.index, || format!("{node} has no force"))
     }
 
-    /// The derivatives by the thrust of a rocket in each step, with the time in its middle, s; of the rockets of a node in the order
-    /// of their creation, from 0.
+    /// The derivatives by the thrust of a rocket in each step, with the time in its middle, s. `rocket` counts the rockets of the
+    /// node in the order of their creation, from 0.
     ///
     /// # Errors
     ///
@@ -347,8 +347,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     }
 
     /// The derivatives by the position of a moved anchor at the ends of all steps, with their times, s. Their sum is
-    /// [`by_position`](Self::by_position). Beside solids positions at the thirds of steps count too, from which
-    /// its velocity is found, and that at the start, see [`by_velocity`](Self::by_velocity).
+    /// [`by_position`](Self::by_position). Next to solids there are also positions at the thirds of steps, from which the
+    /// velocity of the anchor follows; for that at the start see [`by_velocity`](Self::by_velocity).
     ///
     /// # Errors
     ///

@@ -33,7 +33,7 @@ impl Sensitivities {
     }
 
     /// The derivatives of a component by an input, both counted from 0: components in the order of the quantities that were asked for,
-    /// all of one before those of the next. None if there are no such ones.
+    /// all of one before those of the next. `None` without such a component or input.
     #[must_use]
     pub fn of(&self, component: usize, input: usize) -> Option<&[f64]> {
         let own = input < self.inputs;

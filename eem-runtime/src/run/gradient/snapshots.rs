@@ -21,8 +21,8 @@ use eem_material::number::scalar::{Mask, Real};
 /// How often a step is made again, at most, before the pass that keeps states.
 const MOST_PASSES: usize = 3;
 
-/// The share of the memory for snapshots. With c of them and n states, c n steps are made again only once; that is the most where both
-/// take the same memory.
+/// Snapshots take one of this many equal parts of the memory. With c snapshots and n states, c n steps are made again only once;
+/// the product is largest if both take the same memory.
 const SHARE_OF_SNAPSHOTS: usize = 2;
 
 /// The distance of the first snapshots where there is memory for many states: copying them costs little there.
@@ -50,7 +50,7 @@ pub(crate) struct Record<S> {
     /// Every `stride`-th state, in their order.
     snapshots: Vec<Snapshot<S>>,
     stride: usize,
-    /// Those that are needed only on the way back.
+    /// Snapshots that are kept only on the way back.
     passing: Vec<Snapshot<S>>,
     /// All states, while they fit.
     all: Option<Kept<S>>,
@@ -59,7 +59,7 @@ pub(crate) struct Record<S> {
     limits: Limits,
 }
 
-/// What may be kept.
+/// How much may be kept.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
     /// Bytes for states and sizes of steps, and those of one state; `None` for a single state.
@@ -69,7 +69,7 @@ struct Limits {
 }
 
 impl Limits {
-    /// The states that fit beside the sizes of so many steps.
+    /// The number of states that fit besides the sizes of this many steps.
     fn fit<S>(&self, steps: usize) -> usize {
         self.states.map_or(1, |[bytes, state]| {
             bytes.saturating_sub(steps.saturating_mul(size_of::<S>())) / state
@@ -77,7 +77,7 @@ impl Limits {
     }
 }
 
-/// What is made again next: the steps from a snapshot up to a state; all their states are kept, or the last one as a snapshot.
+/// The steps that are made again next, from a snapshot up to a state. All their states are kept, or the last one as a snapshot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pass {
     pub(crate) steps: [usize; 2],
@@ -109,7 +109,7 @@ fn bytes_of_snapshot<S: Real>(state: &State<S>, past: &SavedPast<S>) -> usize {
 }
 
 impl<S: Real> Record<S> {
-    /// From a state on, with what its next step depends on.
+    /// A history from this state on; `past` is what its next step is predicted from.
     pub(crate) fn new(state: &State<S>, past: SavedPast<S>, limit: History) -> Self {
         let own = Kept::bytes_of(state);
         let snapshot = bytes_of_snapshot(state, &past);
@@ -162,7 +162,7 @@ impl<S: Real> Record<S> {
         self.sizes[step]
     }
 
-    /// The time that the state after so many steps was set to, s.
+    /// The time to which the state after `steps` steps was set, s; `None` if it was not.
     pub(crate) fn arrival(&self, steps: usize) -> Option<S> {
         let found = self.arrivals.binary_search_by_key(&steps, |&(at, _)| at);
         found.ok().map(|place| self.arrivals[place].1)
@@ -180,7 +180,7 @@ impl<S: Real> Record<S> {
             .chain(later)
     }
 
-    /// The time after a step of this size, to the state after so many.
+    /// The time after a step of this size, s, which is the last of `steps` steps.
     fn next_time(&self, mut time: Sum<S>, size: S, steps: usize) -> Sum<S> {
         time.add(size);
         self.arrival(steps).map_or(time, Sum::new)
@@ -192,7 +192,7 @@ impl<S: Real> Record<S> {
         self.schemes.iter().map(of)
     }
 
-    /// The time at which the last steps with this scheme began; the end if they are of another one.
+    /// The time at which the last sequence of steps of this scheme began, s; the end if the last step is of another scheme.
     pub(crate) fn end_before(&self, scheme: Scheme) -> S {
         let last = self.schemes.last().filter(|&&(_, own)| own == scheme);
         self.time_of(last.map_or(self.len(), |&(first, _)| first))
@@ -209,7 +209,7 @@ impl<S: Real> Record<S> {
         sizes.fold(from.1, |time, (&size, at)| self.next_time(time, size, at))
     }
 
-    /// Whether the last state is this one, as far as that is known.
+    /// Whether the last state is this one, judged by its time alone once not all states are kept.
     pub(crate) fn ends_in(&self, state: &State<S>) -> bool {
         self.time == state.time && self.all.as_ref().is_none_or(|all| all.ends_in(state))
     }
@@ -238,8 +238,8 @@ impl<S: Real> Record<S> {
         }
     }
 
-    /// Keeps a step between two states, unless the first one is not the last that was kept, or memory does not suffice.
-    /// Whether a snapshot is due.
+    /// Keeps a step from `old` to `state`, unless the history does not end in `old`, or memory does not suffice. True if a
+    /// snapshot is due.
     pub(crate) fn keep(&mut self, size: S, scheme: Scheme, [old, state]: [&State<S>; 2]) -> bool {
         self.return_to(old.time.value);
         let steps = self.len() + 1;
@@ -265,7 +265,7 @@ impl<S: Real> Record<S> {
         steps.is_multiple_of(self.stride)
     }
 
-    /// Keeps the present state as a snapshot if every second one makes room, or there is room.
+    /// Keeps the present state as a snapshot if there is room, possibly after dropping every second snapshot.
     pub(crate) fn snapshot(&mut self, state: &State<S>, past: impl FnOnce() -> SavedPast<S>) {
         let index = self.len();
         if self.snapshots.len() > self.limits.snapshots {
@@ -283,10 +283,10 @@ impl<S: Real> Record<S> {
         }
     }
 
-    /// A state is set to a time instead of this one, s.
+    /// Records that the last state, if its time is `before`, is set to another time, s.
     pub(crate) fn arrive(&mut self, before: Sum<S>, time: S) {
         let len = self.len();
-        // Not one that was not kept.
+        // The last step was not kept.
         if len == 0 || self.time != before {
             return;
         }
@@ -300,7 +300,7 @@ impl<S: Real> Record<S> {
         }
     }
 
-    /// Whether so many steps can be reversed.
+    /// Whether this many steps can be reversed.
     fn is_within_reach(&self, steps: usize) -> bool {
         let states = self.limits.fit::<S>(steps);
         steps <= reach(self.limits.snapshots, MOST_PASSES).saturating_mul(states)
@@ -326,7 +326,7 @@ impl<S: Real> Record<S> {
         self.passing.push(snapshot);
     }
 
-    /// The next pass on the way back, before the state after so many steps, which is not the first one.
+    /// The next pass on the way back from the state after `end` steps, which is not the first one.
     pub(crate) fn next_pass(&mut self, end: usize) -> Pass {
         self.passing.retain(|snapshot| snapshot.index < end);
         let states = self.limits.fit::<S>(self.len()).max(1);
@@ -342,8 +342,8 @@ impl<S: Real> Record<S> {
             let mut passes = 1..=MOST_PASSES;
             let within = |passes: usize| reach(free, passes).saturating_mul(states);
             if let Some(passes) = passes.find(|&passes| steps <= within(passes)) {
-                // These steps are made again twice, so they are as few as possible: what is left of whole parts, or what
-                // the snapshots after them do not reach.
+                // The steps up to the new snapshot are made again once more, so they are as few as possible: the remainder
+                // after whole parts, or the steps that the snapshots after them do not reach.
                 let part = within(passes - 1);
                 let least = steps.saturating_sub(reach(free - 1, passes).saturating_mul(states));
                 let first = ((steps - 1) % part + 1).max(least);
@@ -352,10 +352,10 @@ impl<S: Real> Record<S> {
                     keeps_all: false,
                 };
             }
-            // Snapshots that are not needed any more make room, then the one at which these steps begin.
+            // Drops snapshots for room: first those behind `end`, no longer needed, then the one at which these steps begin.
             let behind = self.snapshots.last().is_some_and(|last| last.index >= end);
             if !behind && self.snapshots.len() == 1 {
-                // Not reached: all that was kept is within reach.
+                // Unreachable: all steps that were kept are within reach.
                 return Pass {
                     steps: [start, end],
                     keeps_all: true,
@@ -379,7 +379,7 @@ impl<S: Real> Record<S> {
         )
     }
 
-    /// The way back is over.
+    /// Drops the snapshots of the way back, which is over.
     pub(crate) fn forget_passing(&mut self) {
         self.passing.clear();
     }

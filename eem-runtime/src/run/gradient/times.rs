@@ -21,13 +21,14 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         }
     }
 
-    /// The same with the values of functions of time kept that each step had; all there is where these are constant in steps.
+    /// The derivatives by the sizes of the steps, where each step keeps its values of functions of time. No term is missing if
+    /// these are constant within steps.
     #[must_use]
     pub fn by_step_size_at_kept_loads(&self) -> &[(S, S)] {
         &self.sizes
     }
 
-    /// The derivative by the time at the end, by the size of the last step; zero without a step.
+    /// The derivative by the time at the end, which is that by the size of the last step; zero without a step.
     ///
     /// # Errors
     ///
@@ -38,9 +39,9 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     }
 
     /// The derivatives by the sizes of the steps where loads are functions of time: a longer step moves all later values of a load,
-    /// and those in it by their share. For each function the derivative by the time is given, as that by a parameter:
-    /// [`Input::force`], [`Input::thrust`], [`Input::motion`], [`Input::thermostat`] or [`Input::oven`]. The last one is the derivative by
-    /// the time at the end.
+    /// and those in it by their share. Give the derivative of each function by the time in the form of a parameter:
+    /// [`Input::force`], [`Input::thrust`], [`Input::motion`], [`Input::thermostat`] or [`Input::oven`]. The last entry is the
+    /// derivative by the time at the end.
     ///
     /// # Errors
     ///
@@ -99,7 +100,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         }
     }
 
-    /// Adds the changes of the objective as the values of a load move in time, with their times.
+    /// Adds the derivatives of the objective by shifts in time of the values of a load, with the times of these values.
     fn add_moved(&self, rate: &Input<D, S>, moved: &mut Vec<(S, S)>) -> Result<(), GradientError> {
         match &rate.of {
             InputOf::Force(node, of) => moved.extend(self.by_force(*node)?.products(&**of)),

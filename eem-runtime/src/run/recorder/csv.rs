@@ -34,7 +34,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         self.write_rows(0, writer)
     }
 
-    /// The same into a file, which is replaced if there is one.
+    /// Writes header and rows to a file; an existing file is replaced.
     ///
     /// # Errors
     ///

@@ -76,7 +76,7 @@ pub enum Quantity<const D: usize, S: Real = f64> {
     /// The heat that the dashpots of an element have dissipated since the last row, as the steps booked it, J; see
     /// [`Simulation::dissipation`].
     Dissipation(Element),
-    /// The same of one dashpot (from 0) of an element, J; see [`Simulation::dissipation_of`].
+    /// The heat that one dashpot (from 0) of an element has dissipated since the last row, J; see [`Simulation::dissipation_of`].
     DissipationOf(Element, usize),
     /// The entropy that an element has produced since the last row, J/K; see [`Simulation::produced_entropy`].
     EntropyProduction(Element),
@@ -224,7 +224,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         (0..components).map(column).collect()
     }
 
-    /// An error unless the simulation has this quantity. Does not call functions.
+    /// An error unless the simulation has this quantity. Requests the sums that it needs, and does not call custom functions.
     pub(super) fn check(&self, run: &Simulation<D, S>) -> Result<(), SceneError> {
         match self {
             Self::Custom(_) => Ok(()),
@@ -265,7 +265,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         format!("`Quantity::{name}`")
     }
 
-    /// The sum of which a row has the change since the last one; none of other quantities.
+    /// The sum whose change since the last row is recorded; `None` for other quantities.
     fn metered(&self, run: &Simulation<D, S>) -> Result<Option<Sum<S>>, SceneError> {
         match self {
             Self::Dissipation(element) => run.dissipation_sum(*element).map(Some),
@@ -278,7 +278,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         }
     }
 
-    /// Adds the sums of which a row has the changes, those of a sum one by one.
+    /// Appends the sums whose changes are recorded; for [`Quantity::Sum`] those of its terms, one by one.
     pub(super) fn add_metered(
         &self,
         run: &Simulation<D, S>,
@@ -291,7 +291,8 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         Ok(())
     }
 
-    /// Appends its present values to a row, with the ledger kept for the other quantities, and the sums at the last row.
+    /// Appends its present values to `row`. The ledger is computed once for all quantities of a row; `last` has the sums at
+    /// the last row.
     pub(super) fn append(
         &self,
         run: &Simulation<D, S>,
@@ -346,7 +347,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
                 row.push(u32::try_from(iterations).map_or(f64::INFINITY, f64::from));
             }
             Self::Custom(custom) => push(&[(custom.function)(run)]),
-            // Above.
+            // Appended above.
             Self::Dissipation(_)
             | Self::DissipationOf(..)
             | Self::EntropyProduction(_)

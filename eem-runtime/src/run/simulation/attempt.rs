@@ -11,7 +11,7 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Attempt;
 use eem_material::number::scalar::{Discord, Mask, Real};
 
-/// How often a step is halved in search of one that can be made.
+/// How often a step is halved in search of a size that succeeds.
 const HALVINGS: usize = 10;
 
 /// The data shared by all elements during a step of a size; borrows only the fields that it names.
@@ -98,7 +98,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Writes the next state.
     fn find_next(&mut self, size: S, demand: Demand<S>) -> Result<Attempt<S>, StepFailure> {
         if self.has_diverged() {
-            // An experiment that ignores failed steps and waits for something would loop forever.
+            // Otherwise an experiment that ignores failed steps and waits for a time or state would loop forever.
             return Err(Discord.into());
         }
         let end = self.time() + size;

@@ -11,10 +11,10 @@ use crate::scene::loads::{Course, MOTION_ROUNDINGS, extent};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::{Mask, Real};
 
-/// The distance in time, in ε of the time, at which a function of time may have been evaluated for a state.
+/// How far from the time of a state a function of time may have been evaluated for it, in ε of that time.
 ///
-/// A step evaluates at `t + h` without the compensation of t, one ε with its own rounding; it then adds both up,
-/// another; and a run moves the time to its end by at most two more.
+/// A step evaluates functions at `t + h` without the compensation of t: one ε, with the rounding of the sum. The compensated
+/// sum of t and h is another ε, and a run moves its last time to the end time by at most two more.
 const TIME_ROUNDINGS: f64 = 4.0;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -61,7 +61,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// An error unless the scene can have a state of finite numbers after a step of this size.
+    /// An error unless the scene can be in a state, whose numbers are finite, after a step of this size, s.
     pub(super) fn audit(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
         if state.time.value.less(self.start).any() {
             return Err(RestoreError::Value {
@@ -90,7 +90,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// Where masses couple nodes, momenta are those of the velocities, which anchors have only if they are moved.
+    /// Where masses couple nodes, `p = M v` must hold, and only moved anchors may have a velocity.
     fn audit_velocities(&self, state: &State<S>) -> Result<(), RestoreError> {
         let velocities: Vec<_> = state.velocities.sums().collect();
         let motions = self.loads.motions.iter();
@@ -114,7 +114,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// Anchors are where they were created or where their motion puts them, and have no momentum but that of solids.
+    /// Anchors must be where they were created or where their motion puts them, and have no momentum but that of solids.
     fn audit_anchors(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
         let scale = extent(state.positions.values().iter());
         let (time, created) = (state.time.value, self.state.positions.values());
@@ -135,7 +135,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let created = home.map_or(created[at], |home| home[axis]);
                 let (value, carry) = positions[at];
                 if matches!(motion, Some(Course::Set(_))) {
-                    // Where the controller has brought it.
+                    // The position depends on what controllers have set before.
                     continue;
                 }
                 let motion = motion.and_then(|motion| match motion {
@@ -161,7 +161,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// Thermostats have brought their elements to the prescribed temperatures.
+    /// Elements with thermostats must have the prescribed temperatures.
     fn audit_thermostats(&self, state: &State<S>) -> Result<(), RestoreError> {
         let time = state.time.value;
         for (element, temperature) in &self.loads.temperatures {
@@ -185,7 +185,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// An error unless a momentum and its compensation are zero.
+/// An error unless a momentum or velocity and its compensation are zero.
 fn audit_zero<S: Real>(
     node: usize,
     axis: usize,
@@ -210,8 +210,8 @@ fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, [time, begin]: [S; 2], 
     if (value - now).abs().at_most(bound).all() {
         return true;
     }
-    let beside = S::from_f64(TIME_ROUNDINGS) * S::EPSILON * time;
-    let ends = [time - beside, time + beside].map(function);
+    let distance = S::from_f64(TIME_ROUNDINGS) * S::EPSILON * time;
+    let ends = [time - distance, time + distance].map(function);
     let begin = function(begin);
     let bound = bound.maximum(roundings * begin.abs());
     let low = ends.into_iter().fold(now, S::minimum) - bound;

@@ -15,7 +15,7 @@ use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::SavedPast;
 use eem_material::number::scalar::Real;
 
-/// A scheme in use, with its history and the energies as it found them.
+/// The scheme in use, with its history and the energies of the elements as it evaluated them.
 pub(super) struct SchemeAtWork<S> {
     pub(super) scheme: Scheme,
     past: SavedPast<S>,
@@ -85,7 +85,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         found
     }
 
-    /// Counts the evaluations beyond `before`, for a step of this time, s.
+    /// Counts the evaluations beyond `before`, for a step of this size, s; zero if it failed.
     fn count(&mut self, before: u64, time: f64) {
         let evaluations = self.stepper.evaluations() - before;
         let scheme = (self.in_use, self.layout.unknowns);
@@ -193,7 +193,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         true
     }
 
-    /// The scheme in use with its history, which [`resume_scheme`](Self::resume_scheme) gives back.
+    /// The scheme in use with its history, which [`resume_scheme`](Self::resume_scheme) restores.
     pub(super) fn scheme_at_work(&self) -> SchemeAtWork<S> {
         let (past, explicit) = self.stepper.past(&self.state);
         SchemeAtWork {
@@ -211,7 +211,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// Gives the scheme in use its history, in the state that it left.
+    /// Restores the history of the scheme in use and its energies; the state must be that of `scheme_at_work`.
     pub(super) fn resume_scheme(&mut self, before: &SchemeAtWork<S>) {
         self.stepper.restore(&before.past, before.explicit.as_ref());
         self.state.energies.copy_from_slice(&before.energies);

@@ -84,7 +84,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// Replaces the scheme in use, without step control. If there is no memory for it, nothing changes.
+    /// Replaces the scheme in use, but not its step control. If there is no memory for it, nothing changes.
     pub(super) fn use_scheme(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
         let (layout, ends) = (self.numbering(), self.ends());
         let automatic = &mut self.automatic;
@@ -101,7 +101,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let elements = self.stepper.take_elements();
         let state = &mut self.state;
         let Ok(stepper) = Stepper::new(elements, systems, parts, state, |state, elements| {
-            // As after a restart: each scheme evaluates them in its own way.
+            // As after a restart: each scheme evaluates energies in its own way.
             for group in elements {
                 group.find_energies(state);
             }
@@ -137,7 +137,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// A run that cannot go on with another scheme, as it was, and why.
+/// A run that cannot continue with another scheme, unchanged, and the reason.
 ///
 /// `?` converts it to its [`SceneError`].
 ///

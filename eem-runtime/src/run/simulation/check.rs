@@ -7,7 +7,7 @@ use crate::scene::error::SceneError;
 use crate::step::scheme::{Closing, Scheme};
 use eem_material::number::scalar::{Real, is_positive};
 
-/// What not every scheme can step.
+/// The features of a scene that not every scheme can step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Needs {
     has_solids: bool,
@@ -18,7 +18,7 @@ pub(super) struct Needs {
 }
 
 impl Needs {
-    /// Those of a scene.
+    /// The features of this scene.
     pub(super) fn of<const D: usize, S: Real>(scene: &Scene<D, S>) -> Self {
         let group = |index: usize| scene.groups.get(index);
         let has_drag = |index| group(index).is_some_and(|group| group.shape().drag);
@@ -34,7 +34,7 @@ impl Needs {
         }
     }
 
-    /// Whether only implicit schemes of order 2 are chosen by `Scheme::Auto`.
+    /// Whether `Scheme::Auto` chooses only implicit schemes of order 2.
     pub(super) const fn are_implicit(&self) -> bool {
         self.has_solids || self.rocket.is_some() || self.drag.is_some()
     }

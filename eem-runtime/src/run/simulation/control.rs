@@ -21,7 +21,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// A step that fails, is not accurate or does not prove its laws is repeated with a smaller size.
     /// [`step`](Self::step), [`run_until`](Self::run_until), events, recorders and checkpoints work as with
-    /// constant steps. A report covers both halves of a step.
+    /// constant steps. Schemes that do not estimate their error make each step in two halves, with one
+    /// report for both.
     ///
     /// # Errors
     ///
@@ -65,7 +66,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// An error unless steps of a scheme, and of the one that it uses first, can be controlled like this.
+    /// An error unless steps of a scheme, and of the one that it uses first, can be controlled with this tolerance.
     pub(super) fn check_control(
         &self,
         memory: Option<SavedControl<S>>,

@@ -14,15 +14,15 @@ use nalgebra::SVector;
 
 /// # Controllers
 ///
-/// What is set holds for all steps until something else is set, is booked as work and heat like every load, and is part of
-/// checkpoints. Set it between steps, for instance before each [`step`](Self::step).
+/// A value that is set holds for all steps until another one is set. It is booked as work and heat like every load, and is part
+/// of checkpoints. Set it between steps, for instance before each [`step`](Self::step).
 ///
 /// With step control, the step in which a value jumps is as small as the jump needs: 10⁻⁴ s after a force of the size of the
 /// others, 10⁻⁷ s after a temperature that rises by 1 K, for a vibration of 1 s at a tolerance of 10⁻⁶. Controllers that set values
 /// often are cheaper with fixed steps.
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Sets a force on a mass, N, beside its weight. It is constant until another one is set, so that the work of a step is
-    /// `f·Δq`.
+    /// Sets a force on a mass, N, in addition to its weight. It is constant until another one is set, so that the work of a
+    /// step is `f·Δq`.
     ///
     /// # Errors
     ///
@@ -168,7 +168,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// The error of setting what a function of the scene gives.
+    /// The error of setting a load that the scene already has as a function of time or as a constant.
     fn given(&self, handle: &dyn ToString, quantity: &'static str) -> SceneError {
         self.diverge();
         let handle = handle.to_string();
@@ -204,7 +204,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// The next step does not begin with the loads at the end of the last one.
+    /// Makes the next step evaluate its initial loads instead of taking those at the end of the last step.
     pub(super) fn forget_loads(&mut self) {
         self.has_loads = !self.loads.are_none();
         if let Stepper::Explicit(explicit) = &mut self.stepper {
@@ -292,7 +292,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// The values that are set.
+/// The values that controllers have set.
 fn set_ones<S: Real, const D: usize>(
     all: &[(Node, VectorCourse<S, D>)],
 ) -> impl Iterator<Item = (Node, &SVector<S, D>)> {
@@ -302,7 +302,7 @@ fn set_ones<S: Real, const D: usize>(
     })
 }
 
-/// Sets a value of a node. Whether it is the first one; `None` if a function gives it.
+/// Sets the value of a node. True if the node had none before; `None` if the scene gives its value.
 fn set<S: Real, const D: usize>(
     all: &mut Vec<(Node, VectorCourse<S, D>)>,
     node: Node,

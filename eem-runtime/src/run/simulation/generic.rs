@@ -17,10 +17,9 @@ use eem_material::number::scalar::Real;
 /// L = −Lᵀ,   M = Mᵀ ≥ 0,   L ∇S = 0,   M ∇E = 0
 /// ```
 ///
-/// in the order of creation (Öttinger 2005; García Orden & Romero 2012). With temperatures in the place of entropies it is
-/// that of Conde Martín, Betsch & García Orden (2016), see
-/// [`generic_in_temperature`](Simulation::generic_in_temperature). With discrete derivatives in the place of ∇, `z¹ − z⁰ = h (L DE + M DS)`. Loads and
-/// thermostats are not part of it.
+/// in the order of creation (Öttinger 2005; García Orden & Romero 2012). For the form with temperatures in the place of
+/// entropies (Conde Martín, Betsch & García Orden 2016) see [`generic_in_temperature`](Simulation::generic_in_temperature).
+/// With discrete derivatives in the place of ∇, `z¹ − z⁰ = h (L DE + M DS)`. Loads and thermostats are not part of the form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generic<S: Real> {
     /// `∇E` or `DE`.
@@ -55,7 +54,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.generic_and_elements().0
     }
 
-    /// The same with the contributions of the elements.
+    /// Gradients and matrices at the present state, and the contributions of the elements.
     pub(super) fn generic_and_elements(&mut self) -> (Generic<S>, Vec<ElementGeneric<S>>) {
         // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
@@ -90,7 +89,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Some(self.generic_from(&elements, &mean))
     }
 
-    /// v, m/s; zero for anchors.
+    /// The velocities of all nodes, m/s; zero for anchors.
     pub(super) fn velocities_in(&self, state: &State<S>) -> Vec<S> {
         let velocity = |(node, mass): (usize, Option<S>)| {
             mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))

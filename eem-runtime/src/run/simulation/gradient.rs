@@ -41,7 +41,7 @@ use way::{Way, Weighted, add};
 
 /// # Gradients
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Keeps the states of all further steps for [`gradient`](Self::gradient). It costs memory and changes no bit.
+    /// Keeps the states of all further steps for [`gradient`](Self::gradient). This costs memory, but changes no bit of the run.
     pub fn keep_history(&mut self, history: History) {
         let (past, _) = self.stepper.past(&self.state);
         self.history = Some(Box::new(Record::new(&self.state, past, history)));
@@ -56,8 +56,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The derivatives of an objective by all inputs of the run since [`keep_history`](Self::keep_history): parameters of
-    /// materials, masses, gravity, conductances, temperatures of reservoirs, and the state at the start.
+    /// The derivatives of an objective with respect to all inputs of the run since [`keep_history`](Self::keep_history):
+    /// parameters of materials, masses, gravity, conductances, temperatures of reservoirs, and the state at the start.
     ///
     /// They are those of the steps that were made, with their sizes kept, to rounding times the growth of errors along the
     /// motion. All of them together cost less than the run, or a few runs where steps are made again, however many inputs there
@@ -132,7 +132,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.watch = Some(Box::new(watch));
     }
 
-    /// An error if somebody who watches ends it.
+    /// Calls the function of [`watch_gradients`](Self::watch_gradients); an error if it stops the computation.
     fn look(&mut self) -> Result<(), GradientError> {
         match self.watch.as_mut().map(|watch| watch()) {
             Some(ControlFlow::Break(())) => Err(GradientError::Stopped),
@@ -140,14 +140,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The derivatives of an objective at an event, the end of the history, whose time follows the inputs so that another
-    /// objective φ keeps its value there:
+    /// The derivatives of an objective J at an event, which ends the history. The time of the event changes with the inputs α
+    /// such that another objective φ keeps its value there:
     ///
     /// ```text
     /// dJ/dα + ν dφ/dα,      ν = −(dJ/dh)/(dφ/dh)      with the size h of the last step
     /// ```
     ///
-    /// [`Objective::time`] has the derivatives of the time of the event.
+    /// For [`Objective::time`] as J these are the derivatives of the time of the event.
     ///
     /// # Errors
     ///
@@ -196,7 +196,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })
     }
 
-    /// Calls a function with the history, after which everything is as before.
+    /// Calls a function with the history, and restores everything afterwards.
     fn on_history<T>(
         &mut self,
         act: impl FnOnce(&mut Self, &mut Record<S>) -> Result<T, GradientError>,
@@ -250,7 +250,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(found)
     }
 
-    /// Goes back over the last steps, so many if there are.
+    /// Goes back over this many of the last steps, or over all if there are fewer.
     fn go_back(
         &mut self,
         kept: &mut Record<S>,
@@ -292,7 +292,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(way)
     }
 
-    /// The way back, at its beginning.
+    /// A way back before its first step.
     fn way_back(&mut self) -> Result<Way<D, S>, GradientError> {
         let outline = self.outline();
         let layout = &outline.layout;
@@ -325,11 +325,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })
     }
 
-    /// From the derivatives by the new state of a step to those by its old one.
+    /// Takes a step back: from the derivatives with respect to its new state to those with respect to its old one.
     fn reverse(&mut self, made: Made<'_, S>, way: &mut Way<D, S>) -> Result<(), GradientError> {
         self.find_loads(made, &mut way.conduction, &mut way.rockets);
         for (oven, _) in &self.loads.ovens {
-            // Its entropy is booked as heat after the step.
+            // An oven keeps no entropy: what it receives is booked as heat after the step.
             way.adjoint.costate.reservoirs[*oven] = S::zero();
         }
         let (adjoint, found) = (&mut way.adjoint, &mut way.found);
@@ -418,7 +418,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Err(GradientError::HistoryBroken { time })
     }
 
-    /// What a relative change of a state does to the objective, `|λ_q||q| + |λ_v||v| + |λ_γ||q| + |λ_θ||θ|`.
+    /// The effect of a relative change of a state on the objective, at most: `|λ_q||q| + |λ_v||v| + |λ_γ||q| + |λ_θ||θ|`.
     fn effect(&self, costate: &PerVariable<S>, state: &State<S>) -> f64 {
         let norm = |values: &[S]| norm_of(values.iter().copied()).to_f64();
         let masses = self.masses.iter().enumerate();
@@ -432,7 +432,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             + norm(&costate.temperatures) * norm(&state.temperatures)
     }
 
-    /// Whether thermostats hold the temperatures, by thermal slot.
+    /// Whether a thermostat prescribes the temperature, by thermal slot.
     fn held(&self, layout: &Layout) -> Vec<bool> {
         let mut held = vec![false; layout.thermal];
         for (element, _) in &self.loads.temperatures {

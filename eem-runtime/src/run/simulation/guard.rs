@@ -1,6 +1,6 @@
 //! Guards that restore a value after a failure, or after a panic of a user's function.
 
-/// A value on which a function is called at the end, also after a panic, unless it is [kept](Self::keep).
+/// A value on which a function is called when the guard is dropped, also after a panic, unless it is [kept](Self::keep).
 pub(super) struct Guard<T, F: FnOnce(&mut T)> {
     pub(super) value: T,
     restore: Option<F>,

@@ -20,7 +20,7 @@ use crate::step::explicit::Demand;
 use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Work arrays for both ways.
+    /// Work arrays for a whole step and for its two halves.
     pub(super) fn new_halves(&self) -> Halves<S> {
         let (past, _) = self.stepper.past(&self.state);
         Halves {
@@ -63,7 +63,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(Tried::Rejected(report.error))
     }
 
-    /// Two steps of half a size, or none.
+    /// Two steps of half a size. If one fails, the state is that before both.
     pub(super) fn step_in_halves(&mut self, halves: &Halves<S>, size: S) -> StepResult<S> {
         let half = S::from_f64(0.5) * size;
         let first = self.step_by(half)?;
@@ -71,7 +71,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(first.and(second))
     }
 
-    /// Goes back to the beginning of the last step.
+    /// Goes back to the beginning of the step for which `halves` was filled.
     pub(super) fn return_to(&mut self, halves: &Halves<S>) {
         self.has_stepped = false;
         self.state.copy_all_from(&halves.before);

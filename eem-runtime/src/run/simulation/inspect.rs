@@ -108,7 +108,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// For a foreign handle.
+    /// For a foreign handle; [`SceneError::NotASpring`] for a point of a solid.
     pub fn stretch(&self, element: Element) -> Result<S, SceneError> {
         self.expect_spring(element, "stretch")?;
         Ok(self.view(element)?.measure)
@@ -118,7 +118,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// For a foreign handle.
+    /// As [`stretch`](Self::stretch).
     pub fn force(&self, element: Element) -> Result<S, SceneError> {
         self.expect_spring(element, "force")?;
         Ok(self.view(element)?.force)
@@ -301,7 +301,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// For a foreign handle; [`SceneError::Oven`] for an [oven](crate::Scene::oven), which keeps none.
+    /// For a foreign handle; [`SceneError::Oven`] for an [oven](crate::Scene::oven), which stores none.
     pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<S, SceneError> {
         self.expect_own(&reservoir)?;
         if self
@@ -459,7 +459,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         slot.ok_or(SceneError::NotThermal { element })
     }
 
-    /// The scene from which it was made.
+    /// The scene from which the simulation was made.
     pub(crate) const fn scene(&self) -> SceneId {
         self.scene.scene()
     }

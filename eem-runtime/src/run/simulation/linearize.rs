@@ -24,11 +24,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Residual and tangent of the next step at given unknowns.
     ///
     /// ```text
-    /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F(u),      u = (q¹ − q⁰ of the masses, Θ of elements in contact)
+    /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F(u),      u = (q¹ − q⁰ of the masses, Θ of elements that conduct heat to others)
     /// ```
     ///
-    /// in the order of creation, [`unknowns`](Self::unknowns) of them. For [`Scheme::Variational4`] they
-    /// are those of the middle and then those of the end, `(q_m − q⁰, Θ_0, q¹ − q⁰, Θ_1)`, and
+    /// in the order of creation; their number is [`unknowns`](Self::unknowns). For [`Scheme::Variational4`] the
+    /// unknowns are those of the middle and then those of the end, `(q_m − q⁰, Θ_0, q¹ − q⁰, Θ_1)`, and
     ///
     /// ```text
     /// R_m = (2m/h)(q_m − q⁰) − p⁰ + (h/12)(2F_0 + F_m),   R_1 = (m/h)(q¹ − q⁰) − p⁰ + (h/6)(F_0 + 2F_m)

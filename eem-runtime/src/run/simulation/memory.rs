@@ -1,4 +1,4 @@
-//! Memory of step control and of the choice of a scheme between steps.
+//! Histories and work arrays of step control and of the choice of a scheme.
 
 use super::check::Needs;
 use crate::algebra::memory::MemoryLimit;
@@ -59,7 +59,7 @@ pub(super) struct Halves<S> {
     pub(super) kinds: Kinds,
 }
 
-/// Memory of `Scheme::Auto`, and what a change of the scheme needs.
+/// The history of `Scheme::Auto`, and what a change of the scheme needs.
 pub(super) struct Automatic {
     pub(super) choice: Choice,
     pub(super) needs: Needs,

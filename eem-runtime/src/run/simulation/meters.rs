@@ -1,4 +1,4 @@
-//! What elements have dissipated and produced, and what paths of heat have conducted, as the steps have booked it.
+//! Sums of the heat that dashpots dissipate, the entropy that elements produce, and the heat that paths conduct.
 
 use core::sync::atomic::Ordering;
 
@@ -12,7 +12,7 @@ use eem_material::number::scalar::Real;
 
 /// # Dissipation and heat
 ///
-/// Sums since they were begun, by [`meter_heat`](Self::meter_heat) or by a [`Recorder`](crate::Recorder) of such quantities.
+/// The sums begin with [`meter_heat`](Self::meter_heat), or with a [`Recorder`](crate::Recorder) of such quantities.
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Begins the sums of dissipation, entropy production and conducted heat, if they have not begun.
     ///
@@ -69,13 +69,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The numbers of entries of the sums.
+    /// The numbers of sums: of dissipation, entropy production and conducted heat.
     fn meter_counts(&self) -> [usize; 3] {
         let dashpots = self.layout.viscous + self.places.len();
         [dashpots, self.layout.thermal, self.conduction.count()]
     }
 
-    /// An error unless sums of a checkpoint are as many as here.
+    /// An error unless a checkpoint has as many sums as this simulation.
     pub(super) fn audit_meters(&self, meters: &Meters<S>) -> Result<(), RestoreError> {
         let expected = if meters.are_on {
             self.meter_counts()
@@ -109,7 +109,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The heat that the dashpots of an element have dissipated since the sums began, J; zero before.
     ///
-    /// A step books `η γ̇² h` of a dashpot, by the explicit scheme the integral of `g γ̇` over its stages.
+    /// A step books `η γ̇² h` for a dashpot; the explicit scheme books the integral of `g γ̇` over its stages.
     ///
     /// # Errors
     ///
@@ -131,8 +131,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(total(all.map(|dashpot| meters.dissipated.sum(dashpot))))
     }
 
-    /// The same of one dashpot (from 0) of an element, J. Those in parallel with the spring come last, as one; the components of
-    /// a viscous strain come before them.
+    /// The heat that one dashpot (from 0) of an element has dissipated since the sums began, J; zero before. The dashpots in
+    /// parallel with the spring count as one, the last; the components of a viscous strain come before it.
     ///
     /// # Errors
     ///

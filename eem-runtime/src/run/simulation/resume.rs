@@ -57,7 +57,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         .sealed()
     }
 
-    /// Empty for the explicit scheme, which judges steps by books of its own.
+    /// The energies of the elements. Empty for the explicit scheme, which judges steps by the sums of `SavedExplicit`.
     fn saved_energies(&self) -> SavedEnergies<S> {
         let list = match self.in_use.closing() {
             Closing::Explicit => Vec::new(),
@@ -104,7 +104,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         restored
     }
 
-    /// The same once the scheme of the checkpoint is in use.
+    /// Restores a checkpoint whose scheme is in use.
     fn restore_in_scheme(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
         checkpoint.check(&self.checkpoint_here())?;
         self.audit(&checkpoint.state, checkpoint.step)?;
@@ -123,7 +123,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.worst = None;
         self.corrections = Corrections::none();
-        // They are those of another state if that has been edited.
+        // The rates and sums of the explicit scheme belong to another state if the state has been edited.
         let explicit = checkpoint.explicit.as_ref();
         let explicit = explicit.filter(|saved| saved.state == self.state.digest());
         self.stepper.restore(&checkpoint.past, explicit);

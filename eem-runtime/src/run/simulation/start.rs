@@ -18,8 +18,8 @@ use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
 use eem_material::number::scalar::Real;
 
-/// The initial state, without entropies, given the first step, or at rest; errors for motions without an initial
-/// velocity.
+/// The initial state, without entropies: with velocities if the first step, s, is given, else at rest. Errors for motions
+/// without an initial velocity.
 pub(crate) fn initial_state<const D: usize, S: Real>(
     scene: &Scene<D, S>,
     layout: &Layout,
@@ -113,7 +113,7 @@ fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, [start, step]: [S
     })
 }
 
-/// Finds the entropies of the initial state; errors for everything that makes it impossible.
+/// Finds the entropies of the initial state; all its errors if it is impossible.
 pub(super) fn find_entropies<const D: usize, S: Real>(
     elements: &mut [&mut dyn Elements<S, D>],
     state: &mut State<S>,

@@ -63,8 +63,8 @@ impl<S: Real, const D: usize> Parts<'_, S, D> {
 }
 
 impl<S: Real, const D: usize> Stepper<S, D> {
-    /// For elements in a state. `begin` is called with them before memory for the solver is reserved; if it fails, they
-    /// are returned.
+    /// A stepper for elements in a state. `begin` is called with the elements before memory for the solver is reserved; if it
+    /// fails, the elements are returned.
     pub(super) fn new<E>(
         elements: Models<S, D>,
         systems: Systems<S, D>,
@@ -106,7 +106,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         Ok(Self::Newton(Box::new(newton)))
     }
 
-    /// Takes its elements out, after which it cannot step.
+    /// Takes the elements out of the stepper, which cannot step afterwards.
     pub(super) fn take_elements(&mut self) -> Models<S, D> {
         match self {
             Self::Newton(newton) => {

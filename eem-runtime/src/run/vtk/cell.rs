@@ -32,7 +32,7 @@ pub(super) struct Cell {
     pub(super) nodes: Vec<usize>,
     /// The number of its shape in the format.
     pub(super) kind: u8,
-    /// Its integration points; none for a node.
+    /// Its integration points, or the spring; empty for a node.
     pub(super) elements: Vec<Element>,
     is_spring: bool,
     is_thermal: bool,
@@ -41,7 +41,7 @@ pub(super) struct Cell {
 
 impl Cell {
     /// Appends its values in a state to the columns of [`DATA`]: sums of energy and production, means of all others, and
-    /// NaN where there is none.
+    /// NaN where a cell has no value.
     pub(super) fn append<const D: usize, S: Real>(
         &self,
         run: &Simulation<D, S>,
@@ -151,7 +151,7 @@ pub(super) fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
     cells
 }
 
-/// The number of a shape with so many nodes in the format.
+/// The number in the format of a shape with this number of nodes.
 const fn kind(nodes: usize, dimension: usize) -> u8 {
     match (nodes, dimension) {
         (1, _) => 1,

@@ -5,11 +5,11 @@ use core::fmt::{self, Display, Write as _};
 /// An unstructured grid with data on points and cells.
 #[derive(Debug, Default)]
 pub(super) struct Grid {
-    /// m.
+    /// Positions, m.
     pub(super) points: Vec<[f64; 3]>,
     kinds: Vec<u8>,
     connectivity: Vec<usize>,
-    /// The end of the nodes of each cell.
+    /// The end of the nodes of each cell in `connectivity`.
     offsets: Vec<usize>,
     /// Vectors per point, by name.
     pub(super) vectors: Vec<(&'static str, Vec<[f64; 3]>)>,

@@ -66,7 +66,7 @@ impl<S: Real> Bracket<S> {
         is_inside.all().then_some(guess)
     }
 
-    /// Narrows the bracket by the value at a size. True if the event lies before that size.
+    /// Narrows the bracket by the value at a size. True if the event lies at or before that size.
     pub(super) fn narrow(&mut self, size: S, value: S) -> bool {
         self.widths = [self.widths[1], self.high - self.low];
         let is_behind = if self.is_rising {

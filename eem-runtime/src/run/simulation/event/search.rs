@@ -23,9 +23,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Steps until the time `end`, s, or until the first of some events.
     ///
     /// The run stops just behind the event, at most the tolerance of the event after the change of sign, or
-    /// where its function is zero, and gives its place among `events`: the first, if several have happened
-    /// ([`Event::has_happened`]). Going on from there does not find the same event again. A
-    /// function that is zero at the beginning has no sign yet: its first other value gives it.
+    /// where its function is zero, and returns its index in `events`: the first, if several have happened
+    /// ([`Event::has_happened`]). A run that continues from there does not find the same event again. A
+    /// function that is zero at the beginning has no sign until its first nonzero value.
     ///
     /// Signs are compared at the ends of steps: of three changes within a step one is found, not necessarily the first;
     /// of two none. Everything else is as in [`run_until`](Self::run_until).
@@ -57,9 +57,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.run_until_event_with(end, events, |_, _| ControlFlow::Continue(()))
     }
 
-    /// The same, and calls `observer` after every step, as [`run_until_with`](Self::run_until_with) does.
+    /// Like [`run_until_event`](Self::run_until_event), and calls `observer` after every step, as
+    /// [`run_until_with`](Self::run_until_with) does.
     ///
-    /// It sees the shortened step that ends at an event, not the trials of the search.
+    /// The observer sees the shortened step that ends at an event, not the trials of the search.
     ///
     /// # Errors
     ///
@@ -166,7 +167,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(report)
     }
 
-    /// Searches in a step of half the size, which is kept, after the step that ends at the event has failed.
+    /// Used when the step that would end at the event has failed: makes a step of half the size instead, which is kept, and
+    /// searches for events in it.
     fn end_at_event_in_half(
         &mut self,
         events: &mut [Event<'_, D, S>],

@@ -10,7 +10,7 @@ use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Calls a function that makes steps, after which everything is as before.
+    /// Calls a function that makes steps, and restores everything afterwards.
     pub(super) fn with_steps_again<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> T {
         let before = self.snapshot();
         let reservoirs = self.conduction.reservoirs.clone();
@@ -23,7 +23,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         act(&mut *guard.value)
     }
 
-    /// The states of some steps before the state after so many, made again.
+    /// Makes steps again that end in the state `last` after `end` steps, and returns their states.
     pub(super) fn states_before(
         &mut self,
         (end, last): (usize, &State<S>),
@@ -52,7 +52,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The steps after so many up to so many, made again from the present state; each new state is passed to a function.
+    /// Makes the steps `from..to` again, from the present state, and passes each new state to a function.
     pub(super) fn make_again(
         &mut self,
         [from, to]: [usize; 2],
@@ -70,7 +70,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// The present state, with what the next step depends on.
+    /// The present state, after `index` steps, with what the next step depends on.
     pub(super) fn snapshot_of(&self, index: usize) -> Snapshot<S> {
         let (past, _) = self.stepper.past(&self.state);
         Snapshot {
@@ -80,7 +80,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// Goes back to a state.
+    /// Goes back to the state of a snapshot.
     pub(super) fn return_to_state(&mut self, snapshot: &Snapshot<S>) {
         self.state.copy_all_from(&snapshot.state);
         self.stepper.restore(&snapshot.past, None);

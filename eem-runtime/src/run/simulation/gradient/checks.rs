@@ -16,16 +16,16 @@ use crate::scene::error::SceneError;
 use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
-/// The same numbers in every check, and the change of the objective along them.
+/// A generator of random numbers, the same in every check, and the change of the objective if inputs change by them.
 struct Draw {
     seed: u64,
     change: f64,
-    /// `Σ |terms|` of it.
+    /// The sum of the magnitudes of the terms of `change`.
     magnitude: f64,
 }
 
 impl Draw {
-    /// A change of an input between −1 and 1 of its size, given the derivative by it.
+    /// A random change of an input, between −1 and 1 times its size; its effect, with the derivative `by`, is added to `change`.
     fn of<S: Real>(&mut self, by: S, size: S) -> S {
         // Steele, Lea & Flood (2014), splitmix64.
         self.seed = self.seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
@@ -53,7 +53,7 @@ impl Draw {
         Arc::new(move |time| at(&values, time).unwrap_or(S::zero()))
     }
 
-    /// The same of vectors.
+    /// Changes of the values of a vector function of time.
     fn vectors<S: Real, const D: usize>(
         &mut self,
         by: &Series<SVector<S, D>, S>,
@@ -68,14 +68,14 @@ impl Draw {
     }
 }
 
-/// The value at one of the times, in order.
+/// The value at this time; `None` unless it is one of the sorted times.
 fn at<T: Copy, S: Real>(values: &[(S, T)], time: S) -> Option<T> {
     let time = time.to_f64();
     let found = values.binary_search_by(|(own, _)| own.to_f64().total_cmp(&time));
     found.ok().map(|place| values[place].1)
 }
 
-/// The largest magnitude, or one.
+/// The largest magnitude, or one if all are zero.
 fn size_of<S: Real>(values: impl IntoIterator<Item = S>) -> S {
     let largest = values.into_iter().map(|value| value.to_f64().abs());
     let largest = largest.fold(0.0, f64::max);
@@ -122,7 +122,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Err(GradientError::Disagrees { adjoint, tangent })
     }
 
-    /// The change of the objective with the gradient and along the run, and the sum of the magnitudes of the terms of the former.
+    /// The change of the objective according to the gradient and that along the run, and the sum of the magnitudes of the terms
+    /// of the former.
     #[doc(hidden)]
     pub fn changes_along(
         &mut self,
@@ -151,7 +152,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })
     }
 
-    /// All inputs change by a part of their size, and the objective as its gradient says.
+    /// Random changes of all inputs, by parts of their sizes, and the change of the objective according to its gradient.
     fn any_change(
         &self,
         gradient: &Gradient<D, S>,
@@ -175,13 +176,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let speed = size_of(masses.flat_map(|(node, mass)| {
             mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
         }));
-        let warmth = size_of(state.temperatures.iter().copied());
+        let theta = size_of(state.temperatures.iter().copied());
         let entropy = size_of(state.reservoir_entropies.values().iter().copied());
         let (start, by) = (&mut change.start, &gradient.start);
         start.positions = draw.all(&by.positions, length);
         start.velocities = draw.all(&by.velocities, speed);
         start.viscous = draw.all(&by.viscous, length);
-        start.temperatures = draw.all(&by.temperatures, warmth);
+        start.temperatures = draw.all(&by.temperatures, theta);
         start.reservoirs = draw.all(&by.reservoirs, entropy);
         self.drop_velocities(&mut change);
         let mass = size_of(self.masses.iter().flatten());
@@ -191,7 +192,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let gravity = size_of(self.loads.gravity.iter().copied());
         change.gravity = gradient.gravity.map(|by| draw.of(by, gravity));
         change.heat.conductances = draw.all(&gradient.conductances, S::one());
-        change.heat.reservoirs = draw.all(&gradient.reservoirs, warmth);
+        change.heat.reservoirs = draw.all(&gradient.reservoirs, theta);
         for (own, &[group, place]) in gradient.elements.iter().zip(&self.places) {
             let group = self.stepper.elements(group as usize);
             let mut values = Vec::new();
@@ -215,11 +216,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         for (element, by) in &gradient.temperatures {
             if let Some(slot) = outline.layout.elements[*element].thermal {
-                change.temperatures.push((slot, draw.values(by, warmth)));
+                change.temperatures.push((slot, draw.values(by, theta)));
             }
         }
         for (oven, by) in &gradient.ovens {
-            change.ovens.push((*oven, draw.values(by, warmth)));
+            change.ovens.push((*oven, draw.values(by, theta)));
         }
         Ok((change, draw))
     }

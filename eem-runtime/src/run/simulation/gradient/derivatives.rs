@@ -21,28 +21,29 @@ pub(super) enum Of<'a, S> {
     Temperature(usize),
     /// The entropy of a reservoir.
     Entropy(usize),
-    /// The mass of a node, and the one with this place among those of pairs.
+    /// The mass of a node.
     Mass(usize),
+    /// The mass of a pair of nodes, by its index in [`Outline::pairs`].
     Pair(usize),
     /// A component of gravity.
     Gravity(usize),
     /// The temperature of a reservoir.
     Reservoir(usize),
-    /// The parameters of an element, with the derivative by each, to be multiplied.
+    /// The parameters of an element, with the derivative by each, still without the factor passed to [`See`].
     Parameters(usize, &'a [S]),
 }
 
-/// What receives derivatives.
+/// A function that receives derivatives.
 type See<'a, S> = dyn FnMut(Of<'_, S>, S) + 'a;
 
-/// What derivatives refer to in all states.
+/// Properties of the scene to which derivatives in all states refer.
 pub(super) struct Outline<S> {
     pub(super) layout: Layout,
-    /// Sums of the rows of the mass matrix.
+    /// Sums of the rows of the mass matrix, kg.
     pub(super) sums: Vec<S>,
     /// The nodes of the masses of pairs and of anchors, in order.
     pub(super) pairs: Vec<[usize; 2]>,
-    /// What elements without a temperature have lost until the end, J.
+    /// The heat that elements without a temperature have lost until the end, J.
     lost_heat: S,
 }
 
@@ -131,7 +132,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.loads.ovens.iter().any(|&(own, _)| own == index)
     }
 
-    /// `θ_r σ_r`, of an oven nothing: what it gives is booked as heat after each step.
+    /// The heat of a reservoir, `θ_r σ_r`; none for an oven: what it gives is booked as heat after each step.
     fn see_heat(&self, (state, weight): (&State<S>, S), index: usize, see: &mut See<'_, S>) {
         if self.is_oven(index) {
             return;
@@ -223,7 +224,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// The derivatives of an internal energy at fixed temperature: `∂e = f ∂π − g ∂γ + θ ∂s`.
+/// The derivatives of an internal energy as a function of positions, γ and θ: `∂e = f ∂π − g ∂γ + θ ∂s`.
 fn see_energy<S: Real>(element: &ElementGeneric<S>, weight: S, see: &mut See<'_, S>) {
     for &(at, force) in &element.forces {
         see(Of::Position(at), weight * force);

@@ -13,7 +13,7 @@ use crate::step::adjoint::{Direction, HeatChange, PerVariable};
 use eem_material::number::scalar::{Mask, Real};
 use nalgebra::SVector;
 
-/// A list of zeros with one number that is not.
+/// A list of zeros, with a one at this place.
 fn one_of<S: Real>(count: usize, place: usize) -> Vec<S> {
     let mut all = vec![S::zero(); count];
     if let Some(own) = all.get_mut(place) {
@@ -23,7 +23,7 @@ fn one_of<S: Real>(count: usize, place: usize) -> Vec<S> {
 }
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Nothing changes.
+    /// The change in which no input changes.
     pub(super) fn no_change(&self, outline: &Outline<S>) -> Change<D, S> {
         let reservoirs = self.conduction.reservoirs.len();
         Change {
@@ -44,7 +44,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// An input changes by one.
+    /// The change in which one input changes by one.
     pub(super) fn change_by(
         &self,
         input: &Input<D, S>,
@@ -133,7 +133,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(change)
     }
 
-    /// A parameter of a function of time changes by one.
+    /// Adds to `change` that a parameter of a function of time changes by one.
     fn change_of_function(
         &self,
         of: &InputOf<D, S>,
@@ -197,7 +197,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         motions.any(|(own, _)| own.index == node)
     }
 
-    /// Anchors have no velocity at the start unless they are moved, where masses couple them with others.
+    /// Drops changes of initial velocities that anchors do not have: only moved ones that masses couple with other nodes have one.
     pub(super) fn drop_velocities(&self, change: &mut Change<D, S>) {
         for node in self.masses.anchors() {
             if !(self.masses.are_coupled() && self.is_moved(node)) {
@@ -220,7 +220,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         slot.ok_or_else(|| SceneError::NotThermal { element }.into())
     }
 
-    /// A parameter of an element changes by one.
+    /// The changes of the parameters of an element if one of them changes by one.
     fn parameter_of(&self, element: Element, name: &str) -> Result<Vec<S>, GradientError> {
         self.expect(&element)?;
         let [group, _] = self.places[element.index()];
@@ -266,8 +266,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// What changes in a step from outside: the new state of anchors and of temperatures that are held, the heat of paths, and the
-    /// momentum balances of masses with their loads.
+    /// Sets what changes in a step from outside: the new state of anchors and of prescribed temperatures, the conduction of heat,
+    /// and the momentum balances of masses with their loads.
     pub(super) fn enter(&self, made: Made<'_, S>, way: &mut Forward<D, S>) {
         let (h, [old, new]) = made;
         let middle = old.time.value + S::from_f64(0.5) * h;
@@ -330,7 +330,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The new positions and velocities of anchors whose motion changes.
+    /// Sets the changes of new positions and velocities for anchors whose motion changes.
     fn move_anchors(
         &self,
         (h, [old, new]): Made<'_, S>,

@@ -1,4 +1,4 @@
-//! What is carried forward through a history.
+//! The way forward through a history: what is carried from step to step.
 
 use super::change::Change;
 use super::derivatives::Outline;
@@ -9,11 +9,11 @@ use eem_material::number::scalar::Real;
 /// The way forward through a history.
 pub(super) struct Forward<const D: usize, S: Real> {
     pub(super) outline: Outline<S>,
-    /// With the temperatures of ovens in the present step.
+    /// The conduction, with the temperatures of ovens in the present step.
     pub(super) conduction: Conduction<S>,
     /// The rockets in the present step.
     pub(super) rockets: Vec<RocketStep<S, D>>,
-    /// Whether thermostats hold the temperatures, by thermal slot.
+    /// Whether a thermostat prescribes the temperature, by thermal slot.
     pub(super) held: Vec<bool>,
     pub(super) anchors: Vec<usize>,
     /// The directions: all their inputs, their heat in the present step, and the changes of the state.

@@ -13,7 +13,8 @@ use nalgebra::SVector;
 /// A step that was made: its size, its old state and its new one.
 pub(super) type Made<'a, S> = (S, [&'a State<S>; 2]);
 
-/// The cubic through four positions of a moved anchor, `q̇ = Σ weight (q_end − q_k)/(2h)`, at these thirds of the step.
+/// The velocity of a moved anchor at the end of a step, from the cubic through four positions,
+/// `q̇ = Σ weight (q_end − q_k)/(2h)`: the time of q_k in thirds of the step, and its weight.
 pub(super) const CUBIC: [(f64, f64); 3] = [(2.0, 18.0), (1.0, -9.0), (0.0, 2.0)];
 
 fn vector<S: Real, const D: usize>(values: &[S], node: usize) -> SVector<S, D> {
@@ -39,8 +40,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }));
     }
 
-    /// By the velocities of moved anchors at the end of a step; of the derivatives by the old state only those by velocities
-    /// of masses and of moved anchors remain.
+    /// Finds the derivatives by the velocities of moved anchors at the end of a step, and drops those by the old velocities of
+    /// anchors that do not move.
     pub(super) fn find_by_speeds(way: &mut Way<D, S>) {
         way.by_speeds.clear();
         let adjoint = &mut way.adjoint;
@@ -55,13 +56,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// `Δv − h g` of a node with a mass or beside one: what forces do per mass.
+    /// `Δv − h g` of a node, m/s: the change of its velocity without gravity. Where masses couple nodes, `mass` is not used.
     pub(super) fn pushed(&self, (h, states): Made<'_, S>, node: usize, mass: S) -> SVector<S, D> {
         let [old, new] = states.map(|state| state.velocity::<D>(node, mass));
         SVector::from_fn(|axis, _| new[axis] - old[axis] - h * self.loads.gravity[axis])
     }
 
-    /// By masses, gravity, conductances and temperatures of reservoirs.
+    /// Adds the derivatives of a step by masses, gravity, conductances and temperatures of reservoirs.
     pub(super) fn add_step(&self, made: Made<'_, S>, way: &mut Way<D, S>) {
         let (h, [old, _]) = made;
         let (weights, found) = (&way.adjoint.weights, &mut way.found);
@@ -111,7 +112,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// By the values of functions of time; from the last one on.
+    /// Appends the derivatives of a step by the values of functions of time, the last value first.
     pub(super) fn add_series(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
         let (start, end) = (old.time.value, new.time.value);
         let middle = start + S::from_f64(0.5) * h;
@@ -156,14 +157,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// By its size, with the values of functions of time kept:
+    /// Appends the derivative of a step by its size, with the values of functions of time kept:
     ///
     /// ```text
     /// (v¹·λ_v⁰ − v⁰·λ_v¹)/h + λ_X·ΔX/h + Σ λ_σ (1/θ_r) Σ κ_r (θ* − θ_r)        and the terms of the points
     /// ```
     ///
-    /// with the positions X of anchors that move at a velocity that is set. Where masses couple moved anchors with others, these have
-    /// `Δv·M w_v/h`, and the velocity of a function, a difference over h, another −1/h.
+    /// with the positions X of anchors whose velocity a controller has set. Moved anchors that masses couple with other nodes add
+    /// `Δv·M w_v/h`; if their motion is a function, its velocity v¹ is a difference over h, which adds `−v¹·∂J/∂v¹/h`.
     pub(super) fn add_size(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
         let (by_old, by_new) = (&way.adjoint.costate, &way.adjoint.after);
         let weights = &way.adjoint.weights;

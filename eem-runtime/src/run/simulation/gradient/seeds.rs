@@ -15,17 +15,17 @@ use crate::step::adjoint::PerVariable;
 use eem_material::number::scalar::{Real, is_positive};
 use nalgebra::SVector;
 
-/// What objectives ask of the states, from the last one on.
+/// The quantities of objectives, and the states at which they count, from the last one on.
 pub(super) struct Seeds<'a, const D: usize, S: Real> {
     pub(super) terms: Vec<Asked<'a, D, S>>,
     /// The factor of the time at the end.
     time: f64,
-    /// The value of the first objective, of the states that were seen.
+    /// The value of the first objective, as far as the states passed so far contribute.
     pub(super) value: f64,
 }
 
-/// What a quantity counts in a state: the derivative of the objective by it, its share in its own objective, and its value
-/// if that is an integral.
+/// How a quantity counts in a state: the derivative of the weighted sum of objectives by it, its contribution to its own
+/// objective, and its value if the term is an integral.
 pub(super) struct Weighed {
     pub(super) weight: f64,
     own: f64,
@@ -35,10 +35,10 @@ pub(super) struct Weighed {
 /// A quantity of an objective.
 pub(super) struct Asked<'a, const D: usize, S: Real> {
     term: &'a Term<D, S>,
-    /// That of the objective.
+    /// The factor of the objective.
     factor: f64,
-    /// Whether it is the first one.
-    counts: bool,
+    /// Whether the objective is the first one, whose value counts.
+    is_first: bool,
     moments: Vec<Moment>,
 }
 
@@ -65,24 +65,24 @@ impl<'a, const D: usize, S: Real> Seeds<'a, D, S> {
     ) -> Result<Self, GradientError> {
         let (mut terms, mut time, mut value) = (Vec::new(), 0.0, 0.0);
         for (place, &(factor, objective)) in objectives.iter().enumerate() {
-            let counts = place == 0;
+            let is_first = place == 0;
             for term in &objective.terms {
                 terms.push(Asked {
                     term,
                     factor,
-                    counts,
+                    is_first,
                     moments: moments(kept, &term.when)?,
                 });
             }
             time += factor * objective.time;
-            if counts && objective.time != 0.0 {
+            if is_first && objective.time != 0.0 {
                 value += objective.time * kept.time().to_f64();
             }
         }
         Ok(Self { terms, time, value })
     }
 
-    /// From the first state on.
+    /// The same for states from the first one on.
     pub(super) fn forwards(mut self) -> Self {
         for asked in &mut self.terms {
             asked.moments.reverse();
@@ -92,7 +92,7 @@ impl<'a, const D: usize, S: Real> Seeds<'a, D, S> {
 }
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// A quantity in a state of the history, whose energies are not known.
+    /// The value of a quantity in a state of the history, whose energies are not kept.
     fn value_in(&mut self, state: &mut State<S>, term: &Term<D, S>) -> Result<f64, GradientError> {
         if matches!(term.quantity, Quantity::TotalEnergy) {
             self.find_energies(state)?;
@@ -126,7 +126,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         refused.map_or(Ok(()), |error| Err(error.into()))
     }
 
-    /// What a quantity of an objective counts in the state after so many steps, if it does.
+    /// How a quantity of an objective counts in the state after `steps` steps; `None` if it does not.
     pub(super) fn weigh(
         &mut self,
         (steps, state): (usize, &mut State<S>),
@@ -169,7 +169,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(counts.then_some(found))
     }
 
-    /// Adds the values and the derivatives of the quantities in the state after so many steps.
+    /// Adds the values and the derivatives of the quantities in the state after `steps` steps.
     pub(super) fn add_seeds(
         &mut self,
         (steps, state): (usize, &mut State<S>),
@@ -201,7 +201,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     *by_size += S::from_f64(share);
                 }
             }
-            if asked.counts {
+            if asked.is_first {
                 sum += weighed.own;
             }
             let Way {
@@ -211,7 +211,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 ..
             } = way;
             let see = &mut |of: Of<'_, S>, by| add_to((&mut *adjoint, found), of, by);
-            // Also without weight: a quantity without derivatives is an error, whatever its value.
+            // Also with weight zero: a quantity without derivatives is an error, whatever its value.
             let weight = S::from_f64(weighed.weight);
             self.see_derivatives((state, weight), asked.of(), outline, see)?;
         }

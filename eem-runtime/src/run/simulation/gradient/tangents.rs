@@ -21,7 +21,7 @@ use crate::run::simulation::stepper::Stepper;
 use crate::step::adjoint::Tangents;
 use eem_material::number::scalar::Real;
 
-/// What is done with every state of a history: the number of steps before it, and itself.
+/// A function that is called with every state of a history and the number of steps before it.
 type Visit<'a, const D: usize, S> = dyn FnMut(
         &mut Simulation<D, S>,
         (usize, &mut State<S>),
@@ -34,8 +34,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The derivatives of quantities by some inputs in all states since [`keep_history`](Self::keep_history): a table with the
     /// time and a column for each quantity and input, `z by stiffness of element 0 (Spring)`; of a vector for each component.
     ///
-    /// They are those of the steps that were made, as in a [`gradient`](Self::gradient): there one number is differentiated by all
-    /// inputs, here any number of quantities at all times by a few inputs, of which each takes a part of the time of the run.
+    /// They are those of the steps that were made, as in a [`gradient`](Self::gradient). That differentiates one number by all inputs;
+    /// this method differentiates any number of quantities at all times by a few inputs, each at a fraction of the time of the run.
     ///
     /// # Errors
     ///
@@ -135,7 +135,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.see_derivatives(weighted, of, &way.outline, see)
     }
 
-    /// Goes through a history, with the changes of its states in some directions.
+    /// Goes through a history from its first state on, with the changes of its states in some directions.
     pub(super) fn go_forward(
         &mut self,
         kept: &Record<S>,
@@ -173,7 +173,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// The same through some steps after so many, with their states.
+    /// Goes through the steps between these states, of which the first follows `from` steps.
     fn follow(
         &mut self,
         kept: &Record<S>,
@@ -191,7 +191,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// The way forward, at its beginning.
+    /// A way forward before its first step.
     fn way_forward(
         &mut self,
         start: &State<S>,
@@ -224,7 +224,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })
     }
 
-    /// From the changes of the old state of a step to those of its new one.
+    /// Takes a step: from the changes of its old state to those of its new one.
     fn push(&mut self, made: Made<'_, S>, way: &mut Forward<D, S>) -> Result<(), GradientError> {
         self.find_loads(made, &mut way.conduction, &mut way.rockets);
         self.enter(made, way);
@@ -240,7 +240,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let time = made.1[1].time.value.to_f64();
         for direction in &mut way.directions {
             for (oven, _) in &self.loads.ovens {
-                // Its entropy is booked as heat after the step.
+                // An oven keeps no entropy: what it receives is booked as heat after the step.
                 direction.new.reservoirs[*oven] = S::zero();
             }
             mem::swap(&mut direction.old, &mut direction.new);

@@ -1,4 +1,4 @@
-//! What is carried back through a history.
+//! The way back through a history: what is carried from step to step.
 
 use super::derivatives::{Of, Outline};
 use crate::element::conduction::{Conduction, Partner};
@@ -11,10 +11,10 @@ use nalgebra::SVector;
 /// The way back through a history.
 pub(super) struct Way<const D: usize, S: Real> {
     pub(super) outline: Outline<S>,
-    /// With the temperatures of ovens in the present step.
+    /// The conduction, with the temperatures of ovens in the present step.
     pub(super) conduction: Conduction<S>,
     pub(super) paths: Vec<(usize, Partner)>,
-    /// Whether thermostats hold the temperatures, by thermal slot.
+    /// Whether a thermostat prescribes the temperature, by thermal slot.
     pub(super) held: Vec<bool>,
     /// The anchors that masses couple with other nodes, and whether they are moved.
     pub(super) anchors: Vec<(usize, bool)>,
@@ -24,11 +24,11 @@ pub(super) struct Way<const D: usize, S: Real> {
     /// others, and by the temperatures of reservoirs.
     pub(super) by_speeds: Vec<(usize, SVector<S, D>)>,
     pub(super) by_reservoirs: Vec<S>,
-    /// With the derivatives by the present state.
+    /// The adjoint, with the derivatives by the present state.
     pub(super) adjoint: Adjoint<S, D>,
-    /// By the size of the step before it, as far as the objective depends on that itself.
+    /// The derivative by the size of the step before the present state, as far as the objective itself contains this size.
     pub(super) by_size: S,
-    /// By the size of the last step.
+    /// The terms of the derivative by the size of the last step.
     pub(super) last: Option<Terms<S>>,
     pub(super) found: Gradient<D, S>,
 }
@@ -36,7 +36,7 @@ pub(super) struct Way<const D: usize, S: Real> {
 /// Objectives with factors. The value of the first one is that of the gradient.
 pub(super) type Weighted<'a, const D: usize, S> = &'a [(f64, &'a Objective<D, S>)];
 
-/// Adds a derivative to those by a state or, of an input, to the others.
+/// Adds a derivative by a state variable to those by the present state, or one by an input to those by inputs.
 pub(super) fn add_to<const D: usize, S: Real>(
     (adjoint, found): (&mut Adjoint<S, D>, &mut Gradient<D, S>),
     of: Of<'_, S>,
@@ -57,7 +57,7 @@ pub(super) fn add_to<const D: usize, S: Real>(
     }
 }
 
-/// `sum + factor values`.
+/// Adds `factor values` to `sum`.
 pub(super) fn add<S: Real>(sum: &mut [S], factor: S, values: &[S]) {
     for (sum, &value) in sum.iter_mut().zip(values) {
         *sum += factor * value;

@@ -93,7 +93,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// Series for these indices, each once.
+/// Empty series for these indices, each once.
 fn empty<T, S>(indices: impl Iterator<Item = usize>) -> Vec<(usize, Series<T, S>)> {
     let indices: BTreeSet<usize> = indices.collect();
     indices
