@@ -125,8 +125,8 @@ impl EndState {
     ///
     /// with the largest component of the difference in the numerator and the Euclidean norm of all components of
     /// `exact` in the denominator, for momenta the largest norm on the way. Temperatures are compared one by one, differences
-    /// of viscous strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal states
-    /// differ by zero, also if all values vanish.
+    /// of viscous strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal
+    /// states differ by zero, also if all values vanish.
     #[must_use]
     pub fn difference(&self, exact: &Self, quantity: StateQuantity) -> Option<f64> {
         let [own, values] = [self, exact].map(|state| state.values(quantity));
