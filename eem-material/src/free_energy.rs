@@ -329,7 +329,7 @@ pub trait FreeEnergy<S: Scalar> {
 
     /// `Σ w_i ∂(response_i)/∂μ` of the response in temperature form at fixed `x0` and `x1`, for every parameter μ.
     ///
-    /// A derivative has the unit of the response over the unit of the parameter.
+    /// Here and below, a derivative has the unit of the differentiated function over that of the parameter.
     fn temperature_form_adjoint(
         &self,
         _x0: &Self::Variables,

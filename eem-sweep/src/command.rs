@@ -257,16 +257,16 @@ fn attempt(command: &Command, sweep: &Sweep<'_>) -> Result<u8, SweepError> {
         Command::Run(work) => {
             let options = work.options()?;
             let report = sweep.run(&work.place.directory, &options)?;
-            Ok(told(&options.selection, report))
+            Ok(conclude(&options.selection, report))
         }
         Command::Rerun(Again { work, .. }) => {
             let options = work.options()?;
             let report = sweep.rerun_failed(&work.place.directory, &options)?;
-            Ok(told(&options.selection, report))
+            Ok(conclude(&options.selection, report))
         }
         Command::GiveUp(Leave { place, members }) => {
             let report = sweep.give_up(&place.directory, members)?;
-            Ok(told(members, report))
+            Ok(conclude(members, report))
         }
         Command::Status(look) => {
             let status = sweep.status(&look.place.directory)?;
@@ -300,7 +300,8 @@ fn attempt(command: &Command, sweep: &Sweep<'_>) -> Result<u8, SweepError> {
     }
 }
 
-fn told(selection: &Selection, report: RunReport) -> u8 {
+/// Prints the report of a run, and returns the exit code.
+fn conclude(selection: &Selection, report: RunReport) -> u8 {
     let RunReport {
         members,
         skipped,

@@ -148,7 +148,7 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
 }
 
 /// The same for a file that a kill or a full disk may destroy: it is not synced.
-pub(crate) fn replace_at_ease(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub(crate) fn replace_without_sync(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let temporary = temporary_name(path);
     let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     written.inspect_err(|_| {

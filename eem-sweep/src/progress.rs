@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
 
-use crate::files::replace_at_ease;
+use crate::files::replace_without_sync;
 
 /// How long a run may take before a bar appears.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -113,7 +113,7 @@ impl Teller {
         let clock = SystemTime::now().duration_since(UNIX_EPOCH);
         self.now.updated = clock.map_or(0, |time| time.as_secs());
         let text = serde_json::to_vec(&self.now).unwrap_or_default();
-        let _reported_by_parts = replace_at_ease(&self.path, &text);
+        let _reported_by_parts = replace_without_sync(&self.path, &text);
         self.show();
     }
 
@@ -148,7 +148,7 @@ fn bar(label: &str, members: u64) -> ProgressBar {
 }
 
 /// The latest progress of all processes, in the order of their selections; files that cannot be read are left out.
-pub(crate) fn told(directory: &Path) -> Vec<ShardProgress> {
+pub(crate) fn of_all_processes(directory: &Path) -> Vec<ShardProgress> {
     let entries = fs::read_dir(folder(directory));
     let paths = entries.into_iter().flatten().flatten().map(|e| e.path());
     let files = paths.filter(|path| path.extension().is_some_and(|end| end == "json"));

@@ -9,7 +9,7 @@ use crate::begun::begun;
 use crate::error::SweepError;
 use crate::inputs::Inputs;
 use crate::places::{Places, extend};
-use crate::progress::{ShardProgress, told};
+use crate::progress::{ShardProgress, of_all_processes};
 use crate::sweep::Sweep;
 use crate::walk::walk;
 
@@ -54,7 +54,7 @@ impl Sweep<'_> {
             repeated: 0,
             missing: String::new(),
             begun: String::new(),
-            processes: told(directory),
+            processes: of_all_processes(directory),
         };
         let mut found = Vec::new();
         walk(&shelf, &shelf.parts()?, |record| {
