@@ -1,14 +1,14 @@
 //! A free energy of joint invariants of E and Γ, as a function of the components of both.
 //!
-//! A material depends on invariants only: partitioned derivatives by components would depend on the axes. With
-//! the conjugates `f_m` of the invariants between two states,
+//! A material depends on invariants only: partitioned derivatives with respect to components would depend on the axes.
+//! From the conjugates `f_m` of the invariants between two states follow those of the components,
 //!
 //! ```text
 //! f_E = Σ f_m P^E_m,   g_Γ = −Σ f_m P^Γ_m,   f_E:ΔE − g_Γ:ΔΓ = Σ f_m Δm   exactly
 //! ```
 //!
-//! are those of the components, which elements treat as any other measures and viscous strains: the
-//! components of Γ are dashpots with the same viscosity, so that `Σ η γ̇²` is `Γ̇:V⁻¹Γ̇`.
+//! Elements treat components as any other measures and viscous strains: the components of Γ are dashpots, whose viscosity
+//! is that of their flow (deviatoric or volumetric), so that `Σ η γ̇²` is `Γ̇:V⁻¹Γ̇`.
 
 mod chain;
 
@@ -23,8 +23,8 @@ use chain::Chain;
 /// x = (strains, components of E, γ of scalar dashpots, components of Γ, θ),
 /// ```
 ///
-/// R algorithmic quantities, and room for A and B numbers of the old state in the two forms. Units are those of the
-/// material, per volume.
+/// and R algorithmic quantities. A and B are the numbers of values of the old state that the entropy form and the
+/// temperature form reuse. Units are those of the material, per volume.
 ///
 /// ```
 /// use eem::{FreeEnergy, StrainEnergy};
@@ -58,7 +58,7 @@ pub struct ComponentEnergy<
 impl<M, const N: usize, const K: usize, const R: usize, const A: usize, const B: usize>
     ComponentEnergy<M, N, K, R, A, B>
 {
-    /// Of a material.
+    /// Wraps a material.
     pub fn new(material: M) -> Self {
         Self { material }
     }
@@ -132,7 +132,7 @@ impl<
         self.material.free_energy(&self.material.variables(x))
     }
 
-    // Rounding of the invariants counts as well.
+    // The rounding of the invariants is included.
     fn energy_magnitude(&self, x: &[S; N]) -> S {
         let (tensors, variables) = (M::tensors(x), self.material.variables(x));
         let gradient = self.material.gradient(&variables);
@@ -171,7 +171,7 @@ impl<
         self.material.caloric_at(self.material.variables(&x))
     }
 
-    // The states between two are mixed of strains and invariants.
+    // Mixed states consist of old and new strains and invariants, not of components.
     fn caloric_between(
         &self,
         x0: &[S; N],

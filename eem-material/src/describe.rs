@@ -161,9 +161,9 @@ impl Cost {
     }
 }
 
-/// Columns of a name in a list.
+/// The width of the column of names.
 const NAME: usize = 20;
-/// Columns of a number or a role in a list.
+/// The width of a column of numbers or roles.
 const COLUMN: usize = 14;
 
 impl Display for Description {
@@ -207,7 +207,7 @@ impl Display for Description {
     }
 }
 
-/// The title of a section, unless there is nothing in it.
+/// The title of a section, unless the section is empty.
 fn heading(f: &mut Formatter<'_>, title: &str, entries: usize) -> fmt::Result {
     if entries == 0 {
         return Ok(());

@@ -169,7 +169,7 @@ pub fn check_domain<S: Real, M: FreeEnergy<S>>(
     search::search(&space, samples, &|x| examine(model, &space, x))
 }
 
-/// Heat capacity, then viscosities, that of the stretch last, of a valid state.
+/// The heat capacity of a valid state, then the viscosities of its dashpots, then that of the stretch, as far as it has them.
 fn examine<S: Real, M: FreeEnergy<S>>(
     model: &M,
     space: &Space,

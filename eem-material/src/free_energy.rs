@@ -64,9 +64,9 @@ pub trait FreeEnergy<S: Scalar> {
     const VISCOUS_STRAIN: usize = 0;
     /// Whether the heat capacity does not depend on the temperature.
     const HAS_CONSTANT_CAPACITY: bool = false;
-    /// Whether the derivatives by the parameters are there, from
+    /// Whether derivatives with respect to the parameters exist: the functions from
     /// [`temperature_form_adjoint`](Self::temperature_form_adjoint) to [`drag_adjoint`](Self::drag_adjoint). The derive
-    /// generates them with the feature `gradients` of `eem`. Where this is `false` they are all NaN, and nothing calls
+    /// generates them with the feature `gradients` of `eem`. If `false`, they return NaN, and the runtime does not call
     /// them.
     ///
     /// ```
@@ -88,7 +88,7 @@ pub trait FreeEnergy<S: Scalar> {
     /// }
     /// ```
     const HAS_PARAMETER_DERIVATIVES: bool = false;
-    /// Functions of several elements in one call, where they take less time than one by one.
+    /// Functions that evaluate several elements in one call, if that takes less time than one by one.
     const ROWS: Option<Rows<S, Self>> = None;
     /// The name of the struct.
     const MODEL: &'static str;
@@ -97,14 +97,14 @@ pub trait FreeEnergy<S: Scalar> {
     /// Their units as written, `1` for none; empty unless the model has units.
     const PARAMETER_UNITS: &'static [&'static str] = &[];
 
-    /// `[S; P]`, an entry for each of the P [`PARAMETERS`](Self::PARAMETERS), in their order; where these are known only when a
-    /// program runs, as many as there may be, of which those of [`parameter_names`](Self::parameter_names) count.
+    /// `[S; P]`, an entry for each of the P [`PARAMETERS`](Self::PARAMETERS), in their order. If these are known only at run
+    /// time, P is the largest possible number, and the entries beyond the parameters are unused.
     type Parameters: Array<S>;
     /// `[S; N]`, the variables.
     type Variables: Array<S>;
     /// `[[S; N]; N]`.
     type Hessian: Array<Self::Variables>;
-    /// `[S; K]`; one or two more for the flows of a viscous strain, see [`JointEnergy`](crate::JointEnergy).
+    /// `[S; K]`, with one or two more entries for the flows of a viscous strain, see [`JointEnergy`](crate::JointEnergy).
     type Viscosities: Array<S>;
     /// `[S; 1]` with a dashpot in parallel with the spring (Kelvin–Voigt), else `[S; 0]`.
     type Drag: Array<S>;
@@ -125,30 +125,30 @@ pub trait FreeEnergy<S: Scalar> {
     where
         Self: Sized;
 
-    /// The name of the material in messages: [`MODEL`](Self::MODEL), unless it is known only when a program runs.
+    /// The name of the material in messages: [`MODEL`](Self::MODEL), unless it is known only at run time.
     fn model(&self) -> &'static &'static str {
         &Self::MODEL
     }
 
-    /// What tells free energies of one type apart: a digest of the formulas, 0 where the type says everything. Springs of
-    /// two kinds are treated like springs of two types.
+    /// Distinguishes free energies of one type: a digest of the formulas, or 0 if the type determines them. Springs of
+    /// different kinds are treated like springs of different types.
     fn kind(&self) -> u64 {
         0
     }
 
-    /// The number of parameters: of [`PARAMETERS`](Self::PARAMETERS), unless it is known only when a program runs.
+    /// The number of [`PARAMETERS`](Self::PARAMETERS), unless it is known only at run time.
     #[inline]
     fn parameter_count(&self) -> usize {
         Self::PARAMETERS.len()
     }
 
-    /// The names of the parameters by which there are derivatives: [`PARAMETERS`](Self::PARAMETERS), unless they are known only
-    /// when a program runs.
+    /// The names of the parameters with respect to which derivatives exist: [`PARAMETERS`](Self::PARAMETERS), unless they are
+    /// known only at run time.
     fn parameter_names(&self) -> &'static [&'static str] {
         Self::PARAMETERS
     }
 
-    /// [`HAS_CONSTANT_CAPACITY`](Self::HAS_CONSTANT_CAPACITY), unless it is known only when a program runs.
+    /// [`HAS_CONSTANT_CAPACITY`](Self::HAS_CONSTANT_CAPACITY), unless it is known only at run time.
     #[inline]
     fn has_constant_capacity(&self) -> bool {
         Self::HAS_CONSTANT_CAPACITY
@@ -280,11 +280,11 @@ pub trait FreeEnergy<S: Scalar> {
         self.entropy_form(old, x1, corners).0
     }
 
-    /// By how much the entropies of the [`Corners`](Self::Corners) at trial temperatures exceed those that they must
-    /// have, and their heat capacities, J/K.
+    /// Residuals of the entropies of the [`Corners`](Self::Corners) at trial temperatures, and the heat capacities there,
+    /// J/K.
     ///
-    /// The entropies that they must have are those of `x0` for the first half and of `x1` for the second. The derive
-    /// sums up divided differences, which keep the digits of small changes.
+    /// A residual is the entropy less that of `x0` in the first half of the corners, and less that of `x1` in the second.
+    /// The derive sums up divided differences, which keep the digits of small changes.
     fn mixed_states(
         &self,
         x0: &Self::Variables,
@@ -329,7 +329,7 @@ pub trait FreeEnergy<S: Scalar> {
 
     /// `Σ w_i ∂(response_i)/∂μ` of the response in temperature form at fixed `x0` and `x1`, for every parameter μ.
     ///
-    /// A derivative by a parameter has the unit of what is differentiated over the unit of the parameter.
+    /// Here and below, a derivative has the unit of the differentiated function over that of the parameter.
     fn temperature_form_adjoint(
         &self,
         _x0: &Self::Variables,
@@ -375,8 +375,8 @@ pub trait FreeEnergy<S: Scalar> {
         absent()
     }
 
-    /// `Σ w_i ∂²ψ/∂x_i∂μ` for every parameter μ: of forces and of the entropy of a state, with the signs of
-    /// [`gradient`](Self::gradient).
+    /// `Σ w_i ∂²ψ/∂x_i∂μ` for every parameter μ: the weighted derivatives of the forces and the entropy of a state, with the
+    /// signs of [`gradient`](Self::gradient).
     fn gradient_adjoint(
         &self,
         _x: &Self::Variables,
@@ -385,7 +385,7 @@ pub trait FreeEnergy<S: Scalar> {
         absent()
     }
 
-    /// `∂e/∂μ` at fixed `x` for every parameter μ, with the temperature if there is one.
+    /// `∂e/∂μ` at fixed `x`, thus at fixed temperature, for every parameter μ.
     fn energy_by_parameters(&self, _x: &Self::Variables) -> Self::Parameters {
         absent()
     }
@@ -401,24 +401,24 @@ pub trait FreeEnergy<S: Scalar> {
     }
 }
 
-/// Derivatives that nobody has generated.
+/// NaN, for derivatives that have not been generated.
 fn absent<S: Scalar, A: Array<S>>() -> A {
     A::filled(S::from_f64(f64::NAN))
 }
 
-/// A response and its derivative by the variables.
+/// A response and its derivatives with respect to the new variables.
 pub type Form<S, M> = (
     <M as FreeEnergy<S>>::Response,
     <M as FreeEnergy<S>>::Tangent,
 );
 
-/// What a function is given of each element, by its index.
+/// The arguments of a function for an element, by the index of the element.
 pub type Each<'e, T> = dyn Fn(usize) -> T + 'e;
 
-/// A function of elements with their models and one argument each.
+/// Evaluates a function of the model and one argument for several elements: as many as there are results in the slice.
 pub type OfEach<M, A, T> = for<'a> fn(&Each<'_, (&'a M, &'a A)>, &mut [T]);
 
-/// A function of what is kept of the old states of elements, their new variables, and what else is sought along.
+/// The same for a function of the model, the values kept of the old state, the new variables, and temperatures of corners.
 pub type OfEachStep<S, M, Old, Memory, T> = for<'a> fn(
     &Each<
         '_,
@@ -432,32 +432,32 @@ pub type OfEachStep<S, M, Old, Memory, T> = for<'a> fn(
     &mut [T],
 );
 
-/// The functions that are evaluated most often, of elements with models of one type and [kind](FreeEnergy::kind): the
-/// results have the bits of the functions of one element. There are as many as there is room for.
+/// The functions that are evaluated most often, for several elements with models of one type and
+/// [kind](FreeEnergy::kind). The results have the bits of the functions for one element.
 #[derive(Debug)]
 pub struct Rows<S: Scalar, M: FreeEnergy<S> + ?Sized> {
-    /// The most elements that it pays to give to one call.
+    /// The largest number of elements for which one call is worthwhile.
     pub most: usize,
-    /// [`FreeEnergy::temperature_form`] and what belongs to it.
+    /// [`FreeEnergy::temperature_form`] and its companions.
     pub temperature_form: FormRows<S, M, M::TemperatureFormOld, ()>,
-    /// [`FreeEnergy::entropy_form`] and what belongs to it.
+    /// [`FreeEnergy::entropy_form`] and its companions.
     pub entropy_form: FormRows<S, M, M::EntropyFormOld, M::Corners>,
     /// [`FreeEnergy::mixed_states`].
     pub mixed_states: OfEachStep<S, M, M::EntropyFormOld, M::Corners, [M::Corners; 2]>,
-    /// [`FreeEnergy::viscosity`]; temperatures mean nothing without one.
+    /// [`FreeEnergy::viscosity`]; a model without temperature ignores the argument.
     pub viscosity: OfEach<M, S, (M::Viscosities, M::Viscosities)>,
     /// [`FreeEnergy::caloric_at`], at the temperature of the variables.
     pub caloric_at: OfEach<M, M::Variables, (Caloric<S>, S)>,
 }
 
-/// A form with its tangent, the response alone, and what both keep of the old state.
+/// A form with its tangent, the response alone, and the values of the old state that both reuse.
 #[derive(Debug)]
 pub struct FormRows<S: Scalar, M: FreeEnergy<S> + ?Sized, Old, Memory> {
-    /// From the old variables.
+    /// The values of the old state, from the old variables.
     pub old: OfEach<M, M::Variables, Old>,
-    /// From what is kept, the new variables, and temperatures of mixed states if the form has them.
+    /// The response and its tangent.
     pub form: OfEachStep<S, M, Old, Memory, Form<S, M>>,
-    /// The same without the tangent.
+    /// The response without the tangent.
     pub response: OfEachStep<S, M, Old, Memory, M::Response>,
 }
 

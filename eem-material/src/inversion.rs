@@ -42,7 +42,7 @@ pub struct Inversion<S> {
 ///
 /// An unstable range is noticed if an evaluation falls into it or finds a lower entropy behind it, but not if a
 /// step jumps over it to a branch with larger entropy. Until two evaluations enclose the solution, a step changes
-/// the temperature at most by a factor e.
+/// ln θ at most by a limit: 1 at first, doubled whenever a step reaches it.
 ///
 /// Where Newton's method would leave the enclosing interval or stagnates, bisection replaces it (Dekker 1969; Brent
 /// 1973). Where the entropy behaves like a power of the temperature, Newton's method is applied to `ln S`.
@@ -88,13 +88,13 @@ pub fn invert<S: Real>(
     })
 }
 
-/// The first correction of ln θ above which the start is poor and a search begins.
+/// If the first correction of ln θ is larger, the start is poor and a search begins.
 const LARGEST_CORRECTION: f64 = 0.25;
 
-/// Roundings of the largest terms of an entropy, in the evaluation of which several add up.
+/// A residual may be rounding noise below this many ε of the sum of |terms of S|.
 const ENTROPY_ROUNDINGS: f64 = 4.0;
 
-/// The largest ratio of a correction to the one before with which Newton's method continues.
+/// Newton's method continues while a correction is at most this fraction of the one before.
 const CONTRACTION: f64 = 0.25;
 
 /// Newton's method in ln θ from a temperature near the solution, `θ ← θ e^((s − S)/C)`; also returns the other values

@@ -17,7 +17,7 @@ use crate::number::scalar::Scalar;
 /// Components of a symmetric tensor of space.
 pub const COMPONENTS: usize = 6;
 
-/// Components of one without a trace.
+/// Components of a symmetric tensor without trace, the first of all.
 pub const DEVIATORIC: usize = 5;
 
 /// An invariant of the viscous strain Γ, or of E and Γ.
@@ -48,11 +48,11 @@ pub enum Joint {
 /// assert_eq!(<Fluid as FreeEnergy<f64>>::MEASURES, 3);
 /// ```
 pub trait JointEnergy {
-    /// The invariants, in the order of the arguments. Their number, and whether the trace is among them, are those of the
-    /// type; which they are may be known only when a program runs, see [`joints`](Self::joints).
+    /// The invariants, in the order of the arguments. The type determines their number and whether the trace is among
+    /// them; which they are may be known only at run time, see [`joints`](Self::joints).
     const JOINT: &'static [Joint];
 
-    /// [`JOINT`](Self::JOINT), unless it is known only when a program runs.
+    /// [`JOINT`](Self::JOINT), unless the invariants are known only at run time.
     #[inline]
     fn joints(&self) -> &[Joint] {
         Self::JOINT
@@ -143,7 +143,7 @@ impl<S: Scalar> Tensors<S> {
         }
     }
 
-    /// The sum of the absolute values of its terms.
+    /// The sum of the absolute values of the terms of an invariant.
     pub(super) fn size(&self, joint: Joint) -> S {
         let sizes = |components: &[S; COMPONENTS]| components.map(S::abs);
         match joint {
@@ -153,7 +153,7 @@ impl<S: Scalar> Tensors<S> {
         }
     }
 
-    /// `∂m/∂E` along `b_k`; the mean-value gradient where this is a mean of two states.
+    /// `∂m/∂E` along `b_k`; for a mean of two states the discrete gradient between them.
     pub(super) fn by_strain(&self, joint: Joint, k: usize) -> S {
         match joint {
             Joint::Trace | Joint::Square => S::zero(),
@@ -161,7 +161,7 @@ impl<S: Scalar> Tensors<S> {
         }
     }
 
-    /// `∂m/∂Γ` along `b_k`; the mean-value gradient where this is a mean of two states.
+    /// `∂m/∂Γ` along `b_k`; for a mean of two states the discrete gradient between them.
     pub(super) fn by_viscous(&self, joint: Joint, k: usize) -> S {
         match joint {
             Joint::Trace if k == DEVIATORIC => S::from_f64(TRACE),

@@ -3,7 +3,7 @@
 use crate::free_energy::{Array, Caloric, FreeEnergy, Rates};
 use crate::number::scalar::Real;
 
-/// The free energy of a volume. Energy, entropy, forces and viscosities are multiplied by it; temperatures are not.
+/// The free energy of a volume. Energy, entropy, forces and viscosities are multiplied by the volume, temperatures are not.
 #[derive(Clone, Debug)]
 pub struct PointEnergy<S, M> {
     density: M,
@@ -12,7 +12,7 @@ pub struct PointEnergy<S, M> {
 }
 
 impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
-    /// Of a material with this free energy per volume.
+    /// The free energy of a `volume` in m³, from that per volume.
     pub fn new(density: M, volume: S) -> Self {
         Self { density, volume }
     }

@@ -232,7 +232,7 @@ impl Msh {
         Ok(places)
     }
 
-    /// Every node belongs to an element, if only to a point.
+    /// An error unless every node belongs to an element, which may be a point.
     fn check_orphans(&self) -> Result<(), MshError> {
         let elements = self.blocks.iter().flat_map(|block| &block.elements);
         let named: BTreeSet<u64> = elements.flat_map(|(_, nodes)| nodes).copied().collect();

@@ -1,4 +1,4 @@
-//! Integrals over the reference configuration of a cell, found once, by Gauss rules of two to four points per axis.
+//! Integrals over the reference configuration of a cell, computed once, by Gauss rules of two to four points per axis.
 
 use crate::shape::Shape;
 use crate::tensor::{Symmetric, Tensor};
@@ -8,7 +8,7 @@ use eem_material::number::scalar::Real;
 /// `N_a` and `∂N_a/∂ξ` of all nodes.
 pub type Functions<S, const D: usize> = Vec<(S, [S; D])>;
 
-/// The shape functions at a place of the parent cell.
+/// The shape functions at a position in the parent cell.
 pub fn functions<H: Shape<D>, S: Real, const D: usize>(place: [S; D]) -> Functions<S, D> {
     let nodes = 0..H::NODES.len();
     nodes.map(|node| H::function(node, place)).collect()
@@ -20,7 +20,7 @@ pub fn rule<H: Shape<D>, const D: usize>() -> Vec<([f64; D], f64)> {
     gauss(H::PER_AXIS)
 }
 
-/// `∂X/∂ξ`, m, of the arms of the reference configuration.
+/// `∂X/∂ξ`, m, from the positions of the nodes in the reference configuration.
 pub fn jacobian<S: Real, const D: usize>(
     reference: &[[S; D]],
     functions: &[(S, [S; D])],
@@ -60,9 +60,9 @@ pub fn masses<H: Shape<D>, S: Real, const D: usize>(
     masses
 }
 
-/// Lumps the mass on the diagonal: the sum of a row for linear shape functions, for which it is exact; as some sums are
-/// negative for others, the whole mass in proportion to the diagonal (Hinton, Rock & Zienkiewicz 1976). Off-diagonal entries
-/// become zero.
+/// Lumps the mass on the diagonal; off-diagonal entries become zero. With linear shape functions a node gets the sum of its
+/// row. With others some of these sums are negative, so the whole mass is distributed in proportion to the diagonal (Hinton,
+/// Rock & Zienkiewicz 1976).
 pub fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S, D>) {
     let rows = masses.as_ref().iter();
     let sums: Vec<S> = rows

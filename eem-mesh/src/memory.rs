@@ -1,4 +1,4 @@
-//! The memory of the machine, which is asked for before much of it is reserved.
+//! The memory of the machine, which is queried before much of it is reserved.
 //!
 //! An operating system that overcommits memory (Linux does) reserves anything, and ends the program later.
 

@@ -34,12 +34,12 @@ pub trait Shape<const D: usize>: Copy + Debug + Send + Sync + 'static {
     const NAME: &'static str;
     /// The nodes of the parent cell [−1, 1]ᴰ.
     const NODES: &'static [[i8; D]];
-    /// The nodes of each face, corners first, against the clock seen from outside.
+    /// The nodes of each face, corners first, counterclockwise seen from outside.
     const FACES: &'static [&'static [usize]];
     /// Gauss points per axis.
     const PER_AXIS: usize;
 
-    /// `N_a` and `∂N_a/∂ξ` of a node at a place of the parent cell.
+    /// `N_a` and `∂N_a/∂ξ` of a node at a position in the parent cell.
     #[inline]
     fn function<S: Real>(node: usize, place: [S; D]) -> (S, [S; D]) {
         // A cell has mid-side nodes if it has more nodes than corners.

@@ -1,13 +1,13 @@
 //! Tensors of the plane and of space.
 //!
-//! Symmetric tensors are stored as xx, yy, xy and as xx, yy, zz, xy, xz, yz. The mean-value gradient D of the determinant,
+//! Symmetric tensors are stored as xx, yy, xy and as xx, yy, zz, xy, xz, yz. The discrete gradient D of the determinant,
 //!
 //! ```text
 //! D = cof(C_m) + cof(ΔC)/12,   D:ΔC = det C¹ − det C⁰,   ∂D = ⅓(C⁰ + 2C¹) ⨯ ∂E¹
 //! ```
 //!
-//! with `A ⨯ B` the part of `cof(A + B)` that is linear in both (Bonet, Gil & Ortigosa 2015), is `cof(C_m)` in the plane,
-//! where the determinant is quadratic in C.
+//! with the mean `C_m` of C⁰ and C¹, and with `A ⨯ B` the part of `cof(A + B)` that is linear in both (Bonet, Gil &
+//! Ortigosa 2015), is `cof(C_m)` in the plane, where the determinant is quadratic in C.
 
 use core::array;
 
@@ -18,12 +18,12 @@ use eem_material::number::scalar::Real;
 /// A tensor, row by row.
 pub type Tensor<S, const D: usize> = [[S; D]; D];
 
-/// A symmetric tensor in `D` dimensions. Out of the plane nothing stretches, `F₃₃ = 1`.
+/// A symmetric tensor in `D` dimensions; two are for plane strain, `F₃₃ = 1`.
 pub trait Symmetric<S: Real, const D: usize>: Array<S> {
     /// The unit tensor.
     fn unit() -> Self;
 
-    /// The tensor `b_k` of [`basis`], as far as it is in these dimensions.
+    /// The tensor `b_k` of [`basis`], without its components in other dimensions.
     fn basis(k: usize) -> Self;
 
     /// `½(FᵀF − 1)`.

@@ -1,4 +1,4 @@
-//! The order of elimination of a pattern, and what its factors take, before their memory is reserved.
+//! The order of elimination of a pattern, and the memory that its factors need, before it is reserved.
 
 use crate::branch::Branch;
 use crate::division::Division;

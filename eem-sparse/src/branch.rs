@@ -25,7 +25,7 @@ pub(crate) struct Memory<'a> {
 }
 
 impl Memory<'_> {
-    /// Splits each array after so many numbers.
+    /// Splits each array after the given number of entries.
     fn split_at(self, [lower, upper, pivots]: [usize; 3]) -> (Self, Self) {
         let (lower, later_lower) = self.lower.split_at_mut(lower);
         let (upper, later_upper) = self.upper.split_at_mut(upper);
@@ -44,7 +44,7 @@ impl Memory<'_> {
     }
 }
 
-/// A front with at most this many nodes below finds the row of a node by search; for larger fronts the rows
+/// If no front of a branch has more nodes below than this, the row of a node is found by search; otherwise rows
 /// are written to a table, see `Rows`.
 const MOST_SEARCHED: usize = 2;
 
@@ -95,7 +95,7 @@ impl Waiting {
 }
 
 impl Branch {
-    /// Memory for a division and blocks of this many rows; `None` if it cannot be had.
+    /// Memory for a division and blocks of this many rows; `None` if it cannot be allocated.
     pub(crate) fn new(fronts: &Fronts, division: Division, length: usize) -> Option<Self> {
         let Division { parts, own } = division;
         let Extent { lower, upper, .. } = fronts.extent(own.clone(), 1);
@@ -111,7 +111,7 @@ impl Branch {
         let parts = parts.into_iter();
         let parts = parts.map(|part| Self::new(fronts, part, length));
         let parts = parts.collect::<Option<Vec<_>>>()?;
-        // Small fronts find their rows by search, and so do the few fronts after parts.
+        // Rows are found by search in branches of small fronts, and in the few fronts after parts.
         let is_noted = parts.is_empty() && height > MOST_SEARCHED * length;
         let noted = if is_noted { places } else { 0..0 };
         let of_parts = total(&parts);
@@ -248,7 +248,7 @@ fn factor_together<P: Precision, const L: usize>(
     );
 }
 
-/// A vector of zeros; `None` if its memory cannot be had.
+/// A vector of zeros; `None` if its memory cannot be allocated.
 pub(crate) fn zeros(count: usize) -> Option<Vec<f64>> {
     let mut zeros = Vec::new();
     zeros.try_reserve_exact(count).ok()?;
@@ -265,7 +265,7 @@ mod tests {
     /// Nodes along a side of the lattice.
     const SIDE: usize = 90;
 
-    /// The factors of the matrix of a lattice, not symmetric, found by so many threads.
+    /// The factors of a matrix of a lattice, which is not symmetric, found by this many threads.
     fn factors(division: fn(&Fronts) -> Division, threads: usize) -> [Vec<u64>; 3] {
         let pattern = Pattern::new(SIDE * SIDE, |pair| {
             for at in 0..SIDE * SIDE {

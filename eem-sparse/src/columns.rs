@@ -1,9 +1,9 @@
-//! Columns of numbers that come from outside or go there: all of them have to be finite.
+//! Columns of numbers from and for the caller: all of them have to be finite.
 
 use crate::error::{Error, Operand};
 use crate::precision::Precision;
 
-/// An error that names the first number that is not finite.
+/// An error with the position of the first number that is not finite.
 pub(crate) fn all_finite(
     what: Operand,
     mut numbers: impl Iterator<Item = f64>,

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! as each front leaves the Schur complement of its block to the later ones (Haynsworth 1968). Without exchanged rows,
-//! the pivots of a block are the diagonal of U; otherwise the block is multiplied out, and Cholesky's method tells.
+//! the pivots of a block are the diagonal of U; otherwise the block is multiplied out, and Cholesky's method decides.
 
 /// Whether the diagonal block of a front with these factors is positive definite. `columns` are those of L with the
 /// diagonal block, of `tall` rows; `work` is overwritten.

@@ -1,4 +1,4 @@
-//! Dense matrices by halves: products of the halves, which are most of the work, are those of `matrixmultiply`.
+//! Elimination of dense matrices by halves: most of the work is products of halves, computed by `matrixmultiply`.
 //!
 //! Matrices are views of columns in memory, each column contiguous.
 
@@ -7,7 +7,7 @@ use ndarray::{ArrayView2, ArrayViewMut1, ArrayViewMut2, Axis, ShapeBuilder};
 
 use crate::threads;
 
-/// At most so many columns are eliminated by loops.
+/// At most this many columns are eliminated by loops.
 const BLOCK: usize = 8;
 
 /// Work is split in two tasks if each has more multiplications than this, about a millisecond.
@@ -152,7 +152,7 @@ pub(crate) fn subtract_product(
     );
 }
 
-/// Where to split so many columns with so many multiplications each; `None` if that does not pay.
+/// Where to split columns with `each` multiplications per column; `None` if that does not pay.
 fn half(columns: usize, each: usize) -> Option<usize> {
     let half = (columns / 2).next_multiple_of(ALIGNED);
     (threads::DIVIDE && half < columns && half * each > PIECE).then_some(half)
@@ -172,7 +172,7 @@ pub(crate) fn subtract(column: &mut [f64], lower: &[f64]) {
 mod tests {
     use super::*;
 
-    /// Columns of numbers of different size and sign, and those below the diagonal small.
+    /// Columns of numbers of different size and sign, small below the diagonal.
     fn numbers(rows: usize, columns: usize) -> Vec<f64> {
         let entry = |at: usize| {
             let (row, column) = (at % rows, at / rows);

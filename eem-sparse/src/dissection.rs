@@ -23,7 +23,7 @@ const SMALL: usize = 500;
 /// A cut is accepted if the smaller side has at least 1/5 of the unknowns.
 const LARGEST_SHARE: usize = 5;
 
-/// The number of an unknown in a separator, and the distance of an unknown that was not reached.
+/// Stands for the number of an unknown in a separator, and for the distance of an unknown that was not reached.
 const NONE: u32 = u32::MAX;
 
 /// The unknowns in the order of their elimination; `None` if `amd` finds none.

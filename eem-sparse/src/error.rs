@@ -15,7 +15,7 @@ use core::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The memory for the factors cannot be had.
+    /// The memory for the factors cannot be allocated.
     #[error("not enough memory for the factors")]
     OutOfMemory,
     /// Blocks of this size are not supported.
@@ -27,17 +27,17 @@ pub enum Error {
     /// Too few or too many entries of the matrix, or rows of the right-hand side.
     #[error("expected {expected} numbers, found {found}")]
     Count {
-        /// What the pattern has.
+        /// The number that the pattern has.
         expected: usize,
-        /// What was given.
+        /// The number given.
         found: usize,
     },
     /// A number that is infinite or NaN, before or after the elimination.
     #[error("{what} {position} is not finite")]
     NotFinite {
-        /// Which array it is in.
+        /// The array with the number.
         what: Operand,
-        /// Where it is in the array.
+        /// Its position in the array.
         position: usize,
     },
     /// No solution fits all equations, as the matrix is singular or has a condition number beyond the
@@ -48,7 +48,7 @@ pub enum Error {
         row: usize,
         /// The componentwise backward error of that row; infinite if there was no solution at all.
         backward_error: f64,
-        /// The largest one that is rounding.
+        /// The largest backward error that counts as rounding.
         bound: f64,
     },
 }

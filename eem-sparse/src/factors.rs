@@ -15,7 +15,7 @@ pub(crate) struct Factors {
     lower: Vec<f64>,
     /// The rows of U of each front to the right of its diagonal block.
     upper: Vec<f64>,
-    /// For each row of a diagonal block, the row that became it.
+    /// For each row of a factored diagonal block, its row before the exchanges.
     pivots: Vec<u32>,
     /// The working memory of the elimination.
     root: Branch,
@@ -24,7 +24,7 @@ pub(crate) struct Factors {
 }
 
 impl Factors {
-    /// Memory for the factors with blocks of this many rows; `None` if it cannot be had.
+    /// Memory for the factors with blocks of this many rows; `None` if it cannot be allocated.
     pub(crate) fn new(fronts: &Fronts, length: usize) -> Option<Self> {
         let extent = fronts.extent(0..fronts.len(), length);
         Some(Self {
@@ -36,7 +36,7 @@ impl Factors {
         })
     }
 
-    /// How many numbers L and U have.
+    /// The number of entries of L and U.
     pub(crate) fn entries(&self) -> usize {
         self.lower.len() + self.upper.len()
     }

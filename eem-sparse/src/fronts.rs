@@ -56,7 +56,7 @@ pub(crate) struct Extent {
 }
 
 impl Fronts {
-    /// Orders and analyses a pattern; `None` if its memory cannot be had.
+    /// Orders and analyses a pattern; `None` if `amd` finds no order.
     pub(crate) fn new(pattern: &Pattern) -> Option<Self> {
         if pattern.columns().len() == pattern.nodes() {
             return Some(Self::uncoupled(pattern.nodes()));

@@ -38,7 +38,7 @@ impl<P: Precision, const L: usize> Matrix<'_, P, L> {
     }
 }
 
-/// Which row of the current front a place of the order of elimination has, counted in nodes.
+/// The rows of the current front, counted in nodes, that places of the order of elimination have.
 #[derive(Debug)]
 pub(crate) struct Rows {
     /// The first place of the branch.

@@ -130,9 +130,9 @@ impl Pattern {
         }
     }
 
-    /// The same pattern between every two of so many sets of its unknowns, set after set.
+    /// The pattern of several copies of the unknowns, set after set: every entry couples each set with each.
     ///
-    /// Unknown u of a set of n, `u + k n`, shares its entries with all sets.
+    /// Unknown u of set k has the number `u + k n`, where n is the number of unknowns here. Blocks have one row.
     ///
     /// ```
     /// let repeated = eem_sparse::Pattern::new(2, |_| {}).repeated(2);

@@ -5,9 +5,9 @@
 //! pivot   in an own column, the largest entry of own rows, unless one of a later row is much larger
 //! ```
 //!
-//! A column without a pivot, and a row that was none, are left to the next front with the Schur complement, where
-//! more rows can be pivots (Duff & Reid 1983). The last front has all of them. It takes more time and memory than
-//! the elimination without delays. Nothing is checked here: the caller checks.
+//! A column without a pivot, and a row that became none, are left to the next front with the Schur complement, where
+//! more rows can be pivots (Duff & Reid 1983). In the last front all rows can. This takes more time and memory than
+//! the elimination without delays. The caller checks the solution.
 
 use core::array;
 use core::mem;
@@ -26,7 +26,7 @@ use crate::precision::Precision;
 /// A pivot is at least this share of the largest entry of its column, so L has no larger entry than 1 / SHARE.
 const SHARE: f64 = 0.25;
 
-/// So many columns are eliminated by loops before others are changed.
+/// At most this many columns are eliminated by loops before later columns are updated.
 const BLOCK: usize = 32;
 
 /// The factors of one front. Unknowns are numbered in the order of elimination by fronts.
@@ -55,7 +55,7 @@ struct Left {
 #[derive(Debug)]
 pub(crate) struct Pivoting {
     factors: Vec<Factor>,
-    /// The unknowns by columns, where right-hand sides are by rows.
+    /// The solution, numbered by columns; right-hand sides are numbered by rows.
     solution: Vec<f64>,
 }
 

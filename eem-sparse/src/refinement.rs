@@ -1,4 +1,4 @@
-//! Whether a solution is one to rounding, and iterative refinement of those that are not.
+//! The check whether a solution is accurate to rounding, and iterative refinement of those that are not.
 //!
 //! The measure is the componentwise backward error (Arioli, Demmel & Duff 1989)
 //!
@@ -45,7 +45,7 @@ pub(crate) struct Failure {
     pub(crate) bound: f64,
 }
 
-/// A matrix and one right-hand side of it, by the number of the node.
+/// A matrix, and a right-hand side as a function of the number of the node.
 #[derive(Clone, Copy)]
 pub(crate) struct Equations<'a, P: Precision, B, const L: usize> {
     pub(crate) matrix: Matrix<'a, P, L>,
@@ -99,7 +99,7 @@ impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B,
         are_solved
     }
 
-    /// Whether they are if tiny unknowns count as a rounding of the largest, where columns permit that.
+    /// The same if tiny unknowns count as a rounding of the largest; false unless columns are of similar size.
     #[cold]
     fn are_solved_but_for_tiny(&self, x: &[[f64; L]], memory: &mut Vec<f64>) -> bool {
         let unknowns = x.as_flattened();

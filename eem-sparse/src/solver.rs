@@ -32,14 +32,13 @@ pub struct Solver {
     pattern: Pattern,
     fronts: Fronts,
     factors: Factors,
-    /// From the first matrix on that needs it.
     /// A column of X in the order of elimination.
     solution: Vec<f64>,
-    /// Its residual, or the size of columns; empty until a solution fails the check.
+    /// Its residual, or the largest entries of the columns of A; empty until a solution fails the check.
     residual: Vec<f64>,
 }
 
-/// What solutions took besides the elimination.
+/// The work for solutions in addition to the elimination.
 ///
 /// Both counts are zero if the elimination by fronts was accurate enough. See [`Factored::solve`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,8 +71,8 @@ impl Solver {
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfMemory`]. A system that promises more memory than it has, as Linux does, may end the program
-    /// later instead: compare [`Analysis::bytes`] with what it has before.
+    /// [`Error::OutOfMemory`]. An operating system that promises more memory than it has, as Linux does, may end the
+    /// program later instead: compare [`Analysis::bytes`] with the free memory first.
     pub fn reserve(analysis: Analysis) -> Result<Self, Error> {
         let Analysis { pattern, fronts } = analysis;
         let factors = Factors::new(&fronts, pattern.block_length());
@@ -115,7 +114,7 @@ impl Solver {
         &self.fronts.order
     }
 
-    /// How many numbers the factors have, L and U together; the entries of the matrix included.
+    /// The number of entries of the factors L and U, those of the matrix included.
     ///
     /// ```
     /// use eem_sparse::{Pattern, Solver};
@@ -165,8 +164,8 @@ impl Solver {
         })
     }
 
-    /// Whether the matrix that was factored last is positive definite to rounding, if it is symmetric: of n unknowns, the
-    /// smallest eigenvalue may be off by some n ε times the largest. False for a matrix with infinite entries or NaN.
+    /// Whether the matrix that was factored last, which must be symmetric, is positive definite to rounding: with n
+    /// unknowns, the smallest eigenvalue is known to some n ε times the largest. False for infinite entries or NaN.
     ///
     /// ```
     /// use eem_sparse::{Pattern, Solver};
@@ -184,7 +183,7 @@ impl Solver {
         self.factors.are_of_positive_definite(&self.fronts, length)
     }
 
-    /// Overwrites `W` right-hand sides with what the last factors make of them, unchecked.
+    /// Overwrites `W` right-hand sides with their solutions by the last factors, without the check.
     ///
     /// ```
     /// use eem_sparse::{Pattern, Solver};
@@ -213,7 +212,7 @@ impl Solver {
         }
     }
 
-    /// An error unless there are so many rows.
+    /// An error unless there is a row for each unknown.
     fn expect_rows(&self, found: usize) -> Result<(), Error> {
         let expected = self.pattern.unknowns();
         if found == expected {
@@ -266,8 +265,8 @@ impl<P: Precision> Factored<'_, P> {
     ///
     /// before it is rounded to the precision in which it is stored. Magnitudes below the smallest normal
     /// number count as that number. If the largest entries of all columns of A are within a factor 1/ε
-    /// of each other, components of x below `ε max |x|` count as `ε max |x|`. A solution that does not pass is refined up to three times; then
-    /// elimination with delayed pivots solves, with the same check.
+    /// of each other, components of x below `ε max |x|` count as `ε max |x|`. A solution that does not pass is
+    /// refined up to three times. If it still fails, elimination with delayed pivots solves, with the same check.
     ///
     /// ```
     /// use eem_sparse::{Error, Pattern, Solver};

@@ -5,7 +5,7 @@
 /// Whether work is split into tasks at all.
 pub(crate) const DIVIDE: bool = cfg!(feature = "parallel");
 
-/// Runs a task on a thread of the pool, unless that is the only one: what it joins need not wake one each time.
+/// Runs a task on a thread of the pool, unless the pool has only one: then its joins need not wake a thread each time.
 #[cfg(feature = "parallel")]
 pub(crate) fn enter(task: impl FnOnce() + Send) {
     if rayon::current_num_threads() > 1 {

@@ -14,7 +14,7 @@ use eem_runtime::{Scene, SceneError, Scheme, Simulation, StepError, StepReport, 
 /// The first step of a run with a tolerance, in units of the end time.
 const FIRST: f64 = 1.0 / 64.0;
 
-/// The steps of a run with a tolerance in the progress of a study, as they are not known before.
+/// The steps that are planned for a run with a tolerance, as their number is not known before.
 const TYPICAL_STEPS: u32 = 1000;
 
 /// The most steps of a run.
@@ -31,7 +31,7 @@ pub(crate) type Build<'a, const D: usize, S> = dyn Fn() -> Scene<D, S> + 'a;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Course {
     pub(crate) setting: Setting,
-    /// s.
+    /// The end time, s.
     end: f64,
     /// The number of equal steps, or a typical number of controlled ones.
     pub(crate) planned: u32,
@@ -75,7 +75,7 @@ impl Course {
         Ok(run)
     }
 
-    /// All steps, or those up to the first that fails, or at which `watch` breaks off.
+    /// Makes all steps, up to the first that fails or after which `watch` breaks.
     pub(crate) fn go<const D: usize, S: Real>(
         &self,
         run: &mut Simulation<D, S>,
@@ -147,7 +147,7 @@ pub(crate) enum NoEnd {
 }
 
 impl NoEnd {
-    /// As the error of a study, in a run of this setting.
+    /// The error of a study, from a run of this setting.
     pub(crate) fn of(self, setting: Setting) -> StudyError {
         match self {
             Self::Scene(source) => StudyError::Scene { setting, source },
@@ -242,7 +242,7 @@ impl<'a> Laws<'a> {
         row.energy_defect = larger(row.energy_defect, defect);
         row.step_bound = larger(row.step_bound, share(report.bound.to_f64(), energy));
         let entropy = ledger.entropy.to_f64();
-        // Not −0 of a run that produces none.
+        // `0.0 −` makes 0 of −0, which a run without production would have.
         row.least_entropy_change = 0.0 - larger(-row.least_entropy_change, self.entropy - entropy);
         self.entropy = entropy;
     }

@@ -80,7 +80,7 @@ pub enum StudyError {
         /// The error of the scene.
         r#source: SceneError,
     },
-    /// The function that watches it has ended it.
+    /// The function that watches the study has ended it.
     #[error("the study was stopped by the function that `watch` was given")]
     Stopped,
     /// A reference belongs to another scene.

@@ -3,10 +3,10 @@
 use core::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// A function of the numbers of steps made and planned.
+/// The function that watches a study: its arguments are the numbers of steps made and planned.
 pub(crate) type Watch<'a> = dyn FnMut(u64, u64) -> ControlFlow<()> + 'a;
 
-/// How long a run goes on between two calls, about.
+/// The time between two calls in a run, about.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// The most steps between two looks at the clock, which takes as long as a small part of a step.
@@ -47,7 +47,7 @@ impl<'a> Progress<'a> {
         self.planned = self.planned.saturating_sub(steps);
     }
 
-    /// Begins a run of so many steps, as they are planned.
+    /// Begins a run of which this number of steps is planned.
     pub(crate) fn begin(&mut self, steps: u64) {
         self.run = [0, steps];
     }
@@ -75,7 +75,7 @@ impl<'a> Progress<'a> {
         if passed < PATIENCE {
             return ControlFlow::Continue(());
         }
-        // A run may have more steps than planned, and the next one goes on from those planned.
+        // A run may make more steps than planned, but adds only these to the count at its end.
         let [made, most] = self.run;
         self.call(made.min(most))
     }

@@ -84,7 +84,7 @@ pub struct EndState {
     values: [Vec<f64>; 4],
     /// Which viscous variables are strains of solids.
     are_strains: Vec<bool>,
-    /// kg m/s.
+    /// The largest `|p|₂` on the way to the state, kg m/s.
     largest_momentum: f64,
 }
 
@@ -99,8 +99,8 @@ impl EndState {
         }
     }
 
-    /// The same state with the largest `|p|₂` on the way to it, kg m/s, to which errors of momenta are relative. Without
-    /// this it is that of the state, or of all steps of a run whose steps are controlled. A [`Study`](crate::Study) knows it.
+    /// The same state with the largest `|p|₂` on the way to it, kg m/s, to which errors of momenta are relative. By default
+    /// it is that of the state or, with step control, of all steps. A [`Study`](crate::Study) finds it for all its runs.
     #[must_use]
     pub fn with_largest_momentum(self, momentum: f64) -> Self {
         Self {
@@ -124,9 +124,9 @@ impl EndState {
     /// ```
     ///
     /// with the largest component of the difference in the numerator and the Euclidean norm of all components of
-    /// `exact` in the denominator, that of momenta the largest on the way; temperatures are compared one by one, viscous
-    /// strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal states
-    /// differ by zero, also if all values vanish.
+    /// `exact` in the denominator, for momenta the largest norm on the way. Temperatures are compared one by one, differences
+    /// of viscous strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal
+    /// states differ by zero, also if all values vanish.
     #[must_use]
     pub fn difference(&self, exact: &Self, quantity: StateQuantity) -> Option<f64> {
         let [own, values] = [self, exact].map(|state| state.values(quantity));
@@ -162,7 +162,7 @@ pub(crate) fn share(part: f64, whole: f64) -> f64 {
     }
 }
 
-/// The larger of two numbers, NaN if one of them is.
+/// The larger of two numbers, NaN if one of them is NaN.
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }

@@ -1,4 +1,4 @@
-//! The results of one setting, and statements about its errors, which need a reference that is known well enough.
+//! The results of one setting, and statements about its errors, which need a sufficiently accurate reference.
 
 use crate::quantity::{DOUBT, PerQuantity, StateQuantity, larger};
 use crate::setting::Setting;
@@ -132,7 +132,7 @@ impl Statement {
     }
 }
 
-/// The largest number of these kinds; NaN if there is one.
+/// The largest number of these kinds; NaN if one of them is NaN.
 pub(crate) fn largest(numbers: &PerQuantity, quantities: &[StateQuantity]) -> Option<f64> {
     let there = quantities
         .iter()

@@ -68,7 +68,7 @@ impl Setting {
         Self::new(scheme, StepChoice::Fixed(step))
     }
 
-    /// So many steps of a scheme, each half of the one before: `h, h/2, h/4, …` with h = `largest`, s.
+    /// `count` settings of a scheme, each step half of the one before: `h, h/2, h/4, …` with h = `largest`, s.
     ///
     /// ```
     /// use eem::{Scheme, Setting};
@@ -88,7 +88,7 @@ impl Setting {
         Self::new(scheme, StepChoice::Tolerance(tolerance))
     }
 
-    /// So many tolerances of a scheme, each a tenth of the one before: `r, r/10, r/100, …` with r = `largest`.
+    /// `count` settings of a scheme, each tolerance a tenth of the one before: `r, r/10, r/100, …` with r = `largest`.
     ///
     /// ```
     /// use eem::{Scheme, Setting};
@@ -154,7 +154,7 @@ impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = self.name();
         match self.steps {
-            // Without being asked for it controls its steps.
+            // `Auto` controls its steps by default.
             StepChoice::Fixed(step) if self.scheme == Scheme::Auto => {
                 write!(f, "{name} with constant h = {} s", Readable(step))
             }

@@ -155,8 +155,8 @@ impl<'a, const D: usize> Study<'a, D> {
         self
     }
 
-    /// Calls `watch` after every run, and some ten times in a second of one, with the number of steps made and planned. More are
-    /// planned when the references must be refined. If it returns [`ControlFlow::Break`], the study ends with
+    /// Calls `watch` after every run, and about ten times per second during a run, with the numbers of steps made and planned.
+    /// More are planned when the references must be refined. If `watch` returns [`ControlFlow::Break`], the study ends with
     /// [`StudyError::Stopped`].
     #[must_use]
     pub fn watch(mut self, watch: impl FnMut(u64, u64) -> ControlFlow<()> + 'a) -> Self {

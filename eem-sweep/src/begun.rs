@@ -1,9 +1,9 @@
-//! Notes of the members that a process has begun, which it takes away when they are reported.
+//! Notes of the members that a process has begun, which it removes when they are reported.
 //!
-//! What is left over is of processes that were killed, or of members that have killed theirs: by a stack overflow,
-//! by `abort`, by more memory than there is. Such members come last when they are run again, in smaller batches the
-//! smaller those were in which they were begun, and those alone in a batch with fewer beside them each time. So nobody
-//! else waits for a member that cannot be run. Records do not depend on the order; a note that is lost costs time only.
+//! A note that is left over is of a process that was killed, possibly by one of these members: by a stack overflow, by
+//! `abort`, or for lack of memory. Such members come last when they are run again, in batches of a sixteenth of the
+//! size. If a member was alone in its batch more than once, the number of threads is halved each further time. So other
+//! members do not wait for one that cannot be run. Records do not depend on the order; a lost note only costs time.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -19,25 +19,25 @@ use crate::progress;
 /// How names of notes end.
 const ENDING: &str = "begun";
 
-/// A batch in which a process has ended is run again in so many.
+/// A batch during which a process ended is divided into this many when it is run again.
 const SHARE: usize = 16;
 
 /// The note of one thread.
 pub(crate) struct Note(PathBuf);
 
 impl Note {
-    /// Nothing is begun yet; `name` is that of the run.
+    /// The note of a thread that has begun nothing; `name` is that of the run.
     pub(crate) fn new(directory: &Path, name: &str) -> Self {
         let chance = RandomState::new().build_hasher().finish();
         let name = format!("{name}.{}-{chance:016x}.{ENDING}", process::id());
         Self(progress::folder(directory).join(name))
     }
 
-    /// These places are begun, and all before are reported.
+    /// Notes that these places are begun; all before are reported.
     pub(crate) fn begin(&self, places: &[usize]) {
         let ranges = Places::new(places.iter().map(|&place| place..place + 1).collect());
         let text = serde_json::to_vec(ranges.ranges()).unwrap_or_default();
-        // Without it they are not put last.
+        // If writing fails, they are not put last.
         let _lost = fs::write(&self.0, text);
     }
 }
@@ -48,7 +48,7 @@ impl Drop for Note {
     }
 }
 
-/// All notes with their files; one whose process was killed while it wrote it says nothing.
+/// All notes with their files; a note is empty if its process was killed while writing it.
 fn notes(directory: &Path) -> Vec<(PathBuf, Places)> {
     let entries = fs::read_dir(progress::folder(directory));
     let paths = entries.into_iter().flatten().flatten().map(|e| e.path());
@@ -61,7 +61,7 @@ fn notes(directory: &Path) -> Vec<(PathBuf, Places)> {
     paths.map(read).collect()
 }
 
-/// Those of `missing` that somebody has begun.
+/// The places of `missing` that a process has begun.
 pub(crate) fn begun(directory: &Path, missing: &Places) -> Places {
     let notes = notes(directory).into_iter();
     let ranges = notes.flat_map(|(_, note)| note.ranges().to_vec()).collect();
@@ -71,14 +71,14 @@ pub(crate) fn begun(directory: &Path, missing: &Places) -> Places {
 /// Members that are run in the same way.
 pub(crate) struct Class {
     pub(crate) places: Places,
-    /// How many are reported at once; none if nobody has begun them.
+    /// How many are reported at once; `None` if no process has begun them.
     pub(crate) batch: Option<usize>,
     /// How often the number of threads is halved.
     pub(crate) halvings: u32,
 }
 
-/// The places of `missing` in the order in which they are run: first those that nobody has begun, last those that were
-/// begun alone most often.
+/// The places of `missing` in the order in which they are run: first those that no process has begun, last those that
+/// were begun alone most often.
 pub(crate) fn classes(directory: &Path, missing: &Places) -> Vec<Class> {
     // Of each place the smallest batch, and how often that had one member.
     let mut found: BTreeMap<usize, (Reverse<usize>, u32)> = BTreeMap::new();
@@ -129,7 +129,7 @@ mod tests {
         let note = |places: &[usize]| {
             let note = Note::new(&directory, "all");
             note.begin(places);
-            // As a process leaves it that is killed.
+            // As a killed process leaves it.
             std::mem::forget(note);
         };
         let many: Vec<usize> = (100..164).collect();

@@ -17,15 +17,15 @@ use crate::run::{RunOptions, RunReport};
 use crate::selection::Selection;
 use crate::sweep::Sweep;
 
-/// Members have failed; all records are there.
+/// Exit code: members have failed; every member has a record.
 const FAILED: u8 = 3;
 
-/// Members are missing.
+/// Exit code: members are missing.
 const INCOMPLETE: u8 = 6;
 
-/// What a program that runs a sweep can be asked to do. Programs with options of their own take it as their
-/// subcommand and hand it to [`execute`]; others call [`main`](fn@main). They need `clap` 4 with the feature `derive`
-/// in `Cargo.toml`.
+/// The commands of a program that runs a sweep. A program with options of its own takes them as its subcommand and
+/// passes it to [`execute`]; for this it needs `clap` 4 with the feature `derive` in `Cargo.toml`. Others call
+/// [`main`](fn@main).
 ///
 /// ```
 /// use clap::Parser;
@@ -47,15 +47,15 @@ const INCOMPLETE: u8 = 6;
 /// ```
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
-    /// Runs members that nobody has reported yet; can be repeated whatever has happened.
+    /// Runs members that have not been reported yet; can be repeated whatever has happened.
     Run(Work),
     /// Says how many members have been reported, and what is missing.
     Status(Look),
-    /// Writes one table of all members after proving that none is missing or there twice.
+    /// Writes one table of all members after proving that each has exactly one record.
     Merge(Join),
     /// Runs members again that have failed.
     Rerun(Again),
-    /// Reports members as failed at which every process ends, so that the others can be merged.
+    /// Reports members that end every process as failed, so that the others can be merged.
     GiveUp(Leave),
 }
 
@@ -73,8 +73,8 @@ struct Place {
 pub struct Work {
     #[command(flatten)]
     place: Place,
-    /// One of n shards, counted from 0; `auto` is what a whole Slurm array or MPI say, `auto/n` the task of HyperQueue,
-    /// PBS or GNU parallel, or some tasks of a Slurm array of n once more.
+    /// One of n shards, counted from 0; `auto` takes it from a whole Slurm array or MPI, `auto/n` from HyperQueue, PBS or
+    /// GNU parallel, or from tasks of a Slurm array of n that are submitted again.
     #[arg(long, value_name = "i/n", group = "selection", value_parser = shard)]
     shard: Option<Shard>,
     /// Members with ids from a to below b.
@@ -94,12 +94,12 @@ pub struct Work {
     batch: Option<NonZeroUsize>,
 }
 
-/// What is asked of the status.
+/// How the status is printed.
 #[derive(Clone, Debug, Args)]
 pub struct Look {
     #[command(flatten)]
     place: Place,
-    /// As JSON.
+    /// Print JSON.
     #[arg(long)]
     json: bool,
 }
@@ -114,7 +114,7 @@ pub struct Join {
     into: Option<PathBuf>,
 }
 
-/// What is run again.
+/// Which members are run again.
 #[derive(Clone, Debug, Args)]
 pub struct Again {
     /// Members that have failed.
@@ -124,7 +124,7 @@ pub struct Again {
     work: Work,
 }
 
-/// What is given up.
+/// Which members are given up.
 #[derive(Clone, Debug, Args)]
 pub struct Leave {
     #[command(flatten)]
@@ -190,12 +190,12 @@ struct Line {
 /// PROGRAM give-up --dir DIR --members LIST
 /// ```
 ///
-/// All of it can be repeated, and killed at any time. Exit codes, which engines understand:
+/// Every command can be repeated, and killed at any time. Exit codes, which engines understand:
 ///
 /// | code | meaning | what to do |
 /// |---|---|---|
 /// | 0 | done | – |
-/// | 2 | the command line, or what `--shard auto` finds, makes no sense | correct it |
+/// | 2 | the command line, or what `--shard auto` finds, is invalid | correct it |
 /// | 3 | members have failed; the records of all are there | look at `failure` and `message` |
 /// | 4 | refused: another program, inputs or settings, a damaged file, a member with two results | as the message says |
 /// | 5 | a file cannot be written or read: a full disk, no permission | as it says, then the same command again |
@@ -243,7 +243,7 @@ pub fn main(sweep: &Sweep<'_>) -> ExitCode {
     ExitCode::from(execute(&Line::parse().command, sweep))
 }
 
-/// Does what a command says and returns the exit code, for which see [`main`](fn@main).
+/// Executes a command and returns the exit code, see [`main`](fn@main).
 #[must_use]
 pub fn execute(command: &Command, sweep: &Sweep<'_>) -> u8 {
     attempt(command, sweep).unwrap_or_else(|error| {
@@ -257,16 +257,16 @@ fn attempt(command: &Command, sweep: &Sweep<'_>) -> Result<u8, SweepError> {
         Command::Run(work) => {
             let options = work.options()?;
             let report = sweep.run(&work.place.directory, &options)?;
-            Ok(told(&options.selection, report))
+            Ok(conclude(&options.selection, report))
         }
         Command::Rerun(Again { work, .. }) => {
             let options = work.options()?;
             let report = sweep.rerun_failed(&work.place.directory, &options)?;
-            Ok(told(&options.selection, report))
+            Ok(conclude(&options.selection, report))
         }
         Command::GiveUp(Leave { place, members }) => {
             let report = sweep.give_up(&place.directory, members)?;
-            Ok(told(members, report))
+            Ok(conclude(members, report))
         }
         Command::Status(look) => {
             let status = sweep.status(&look.place.directory)?;
@@ -300,7 +300,8 @@ fn attempt(command: &Command, sweep: &Sweep<'_>) -> Result<u8, SweepError> {
     }
 }
 
-fn told(selection: &Selection, report: RunReport) -> u8 {
+/// Prints the report of a run, and returns the exit code.
+fn conclude(selection: &Selection, report: RunReport) -> u8 {
     let RunReport {
         members,
         skipped,
@@ -313,7 +314,7 @@ fn told(selection: &Selection, report: RunReport) -> u8 {
     if failed == 0 { 0 } else { FAILED }
 }
 
-/// Prints a line; a closed pipe is no reason to fail, the exit code still says how it went.
+/// Prints a line. A closed pipe is not an error: the exit code still tells the outcome.
 fn say(line: impl Display) {
     let _closed_pipe = writeln!(stdout(), "{line}");
 }

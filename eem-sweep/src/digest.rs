@@ -1,4 +1,4 @@
-//! Digests of 128 bits, by which a shard proves that it belongs to a sweep. They find accidents, not forgers.
+//! Digests of 128 bits, by which a shard proves that it belongs to a sweep. They detect accidents, not forgery.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -10,7 +10,7 @@ use xxhash_rust::xxh3::Xxh3;
 pub(crate) struct Digest(Xxh3);
 
 impl Digest {
-    /// Of nothing so far.
+    /// The digest of no bytes.
     pub(crate) fn new() -> Self {
         Self(Xxh3::new())
     }

@@ -1,4 +1,4 @@
-//! Records in memory, for programs that go on with them.
+//! Visits the records of a sweep, for programs that evaluate them.
 
 use std::path::Path;
 

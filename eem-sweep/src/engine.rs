@@ -14,7 +14,7 @@ pub enum EngineError {
         /// The variables.
         looked_for: String,
     },
-    /// Several have.
+    /// Several engines have set their variables.
     #[error("--shard auto: {first} and {second} have both started this process; write --shard i/n")]
     Several {
         /// An engine.
@@ -49,7 +49,7 @@ pub enum EngineError {
         /// Its value.
         value: String,
     },
-    /// There are not so many shards.
+    /// The number of the task is not that of a shard.
     #[error(
         "--shard auto/{count}: {engine} says that this is task {index}, but tasks are counted from {first} to {last}; \
          number them so, or write --shard i/{count} with i from 0",
@@ -60,7 +60,7 @@ pub enum EngineError {
         engine: &'static str,
         /// The task.
         index: u64,
-        /// The shards.
+        /// The number of shards.
         count: u64,
         /// The number of the first task.
         first: u64,
@@ -74,7 +74,7 @@ struct Engine {
     /// The number of the first task.
     first: u64,
     count: Option<&'static str>,
-    /// The smallest and the largest number of the tasks that were submitted together, where users choose them.
+    /// The smallest and the largest number of the tasks that were submitted together, if users choose these numbers.
     ends: Option<[&'static str; 2]>,
 }
 
@@ -88,7 +88,7 @@ const fn engine(name: &'static str, index: &'static str, first: u64) -> Engine {
     }
 }
 
-/// The engines that are known; of Open MPI and MPICH one is running.
+/// The engines that are known. A process of MPI has the variables of Open MPI or those of MPICH.
 const ENGINES: [Engine; 6] = [
     engine("HyperQueue", "HQ_TASK_ID", 0),
     engine("GNU parallel", "PARALLEL_SEQ", 1),
@@ -108,8 +108,8 @@ const ENGINES: [Engine; 6] = [
     engine("a PBS array", "PBS_ARRAY_INDEX", 0),
 ];
 
-/// The shard (i, n) of this process, `variable` being what the environment says; `count` is the number of shards
-/// where the caller knows it.
+/// The shard (i, n) of this process. `variable` reads a variable of the environment; `count` is the number of shards, if
+/// the caller knows it.
 pub(crate) fn shard(
     variable: impl Fn(&str) -> Option<String>,
     count: Option<u64>,
@@ -197,7 +197,7 @@ mod tests {
         assert_eq!(of(&slurm("3", "1", "8", "8"), None), Ok((2, 8)));
         assert_eq!(of(&slurm("7", "0", "7", "8"), None), Ok((7, 8)));
         assert_eq!(of(&slurm("3", "1", "8", "8"), Some(8)), Ok((2, 8)));
-        // Some of eight once more: 3 and 5, 3 to 5, 5 alone, the first alone, every other one.
+        // Some of eight tasks, submitted again: 3 and 5, 3 to 5, 5 alone, the first alone, every other one.
         for (min, max, count) in [
             ("3", "5", "2"),
             ("3", "5", "3"),

@@ -1,4 +1,4 @@
-//! What can go wrong with a sweep as a whole, and what to do then.
+//! Errors of a sweep as a whole, and what to do about them.
 
 use std::fmt;
 use std::io;
@@ -110,7 +110,7 @@ pub enum SweepError {
     /// The target of the table is not a file.
     #[error("{} is no regular file; choose another name with --into", path.display())]
     NoFile {
-        /// What is there.
+        /// The path.
         path: PathBuf,
     },
     /// The table would lie among the files of the sweep.
@@ -146,7 +146,7 @@ pub enum SweepError {
         /// The largest id.
         last: u64,
     },
-    /// There are fewer shards.
+    /// A requested shard does not exist.
     #[error("there is no shard {index}/{count}: {}", shards(*count))]
     NoShard {
         /// The shard.

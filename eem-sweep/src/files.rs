@@ -1,8 +1,8 @@
-//! Files that are there whole or not at all, whatever kills the process or fills the disk.
+//! Files that are complete or absent, even if the process is killed or the disk is full.
 //!
-//! A file is written under a temporary name beside its place, brought to disk, and only then given its name; the
-//! directory is brought to disk before the call returns. Temporary names begin with a dot and are different in
-//! every call of every process of every machine, so that nobody waits for anybody and nothing has to be unlocked.
+//! A file is written under a temporary name in the same directory, synced to disk, and only then given its name; the
+//! directory is synced before the call returns. Temporary names begin with a dot and differ in every call of every
+//! process on every machine, so that no process waits for another and there are no locks.
 
 use std::fs::{self, File};
 use std::hash::{BuildHasher, Hasher, RandomState};
@@ -18,10 +18,10 @@ use crate::error::SweepError;
 /// How temporary names end.
 const TEMPORARY: &str = ".tmp";
 
-/// A temporary file that nobody has written to for so long is of a process that is dead.
+/// The process of a temporary file that has not been written to for this time is taken for dead.
 const DEAD: Duration = Duration::from_hours(1);
 
-/// Names an error of the operating system, which does not say what it is about.
+/// Adds action and path to an error of the operating system, which names neither.
 pub(crate) fn failed(
     action: &'static str,
     path: &Path,
@@ -47,7 +47,7 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     folder.unwrap_or(Path::new("."))
 }
 
-/// All bytes of a regular file, none if it is not there; pipes and devices, which may never end, are refused.
+/// All bytes of a regular file; `None` if it does not exist. Pipes and devices, which may never end, are refused.
 pub(crate) fn read(path: &Path) -> Result<Option<Vec<u8>>, SweepError> {
     let bytes = fs::metadata(path).and_then(|data| {
         if data.is_file() {
@@ -82,7 +82,7 @@ impl Draft {
         })
     }
 
-    /// Gives it its name if nothing has that yet; says whether it did, or the name was taken.
+    /// Gives the file its name unless that is taken; returns whether it did.
     pub(crate) fn publish(&mut self) -> Result<bool, SweepError> {
         self.named(|temporary, path| {
             let taken = match fs::hard_link(temporary, path) {
@@ -102,7 +102,7 @@ impl Draft {
         })
     }
 
-    /// Gives it its name, whatever has that now.
+    /// Gives the file its name, in the place of an older file if there is one.
     pub(crate) fn replace(&mut self) -> Result<(), SweepError> {
         self.named(|temporary, path| fs::rename(temporary, path))
     }
@@ -147,8 +147,8 @@ pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
     draft.replace()
 }
 
-/// The same where a kill or a full disk may cost it: it is not waited until it is on the disk.
-pub(crate) fn replace_at_ease(path: &Path, bytes: &[u8]) -> io::Result<()> {
+/// The same for a file that a kill or a full disk may destroy: it is not synced.
+pub(crate) fn replace_without_sync(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let temporary = temporary_name(path);
     let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     written.inspect_err(|_| {
@@ -156,7 +156,7 @@ pub(crate) fn replace_at_ease(path: &Path, bytes: &[u8]) -> io::Result<()> {
     })
 }
 
-/// What is said of a file, as JSON of several lines.
+/// The contents of a file, as JSON of several lines; `path` is for an error.
 pub(crate) fn json(path: &Path, said: &impl Serialize) -> Result<Vec<u8>, SweepError> {
     let text = serde_json::to_vec_pretty(said);
     let mut text = text.map_err(|error| failed("form", path)(error.into()))?;
@@ -187,9 +187,9 @@ fn is_temporary(name: &str) -> bool {
     })
 }
 
-/// Removes temporary files that killed processes have left: those that are so old that nobody can be writing them.
+/// Removes temporary files of killed processes: those that are too old for a process to be still writing them.
 pub(crate) fn remove_dead(folder: &Path) {
-    // What cannot be removed is in nobody's way.
+    // A file that cannot be removed does no harm.
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let age = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
         if is_temporary(&entry.file_name().to_string_lossy()) && age().is_some_and(|age| age > DEAD)
@@ -199,7 +199,7 @@ pub(crate) fn remove_dead(folder: &Path) {
     }
 }
 
-/// Brings names to disk; only Unix has directories that can be opened.
+/// Syncs the names in a directory; only Unix can open directories.
 fn sync_directory(folder: &Path) -> io::Result<()> {
     if cfg!(unix) {
         File::open(folder)?.sync_all()?;

@@ -1,4 +1,4 @@
-//! How records are written: one table per part, in CSV or as an Arrow IPC file, and how they are read again.
+//! Writing and reading of records: one table per part, in CSV or as an Arrow IPC file.
 
 #[cfg(feature = "arrow")]
 mod arrow;
@@ -30,7 +30,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// How names of its files end.
+    /// The extension of its files.
     ///
     /// ```
     /// assert_eq!(eem::sweep::Format::Csv.extension(), "csv");
@@ -65,7 +65,7 @@ pub(crate) enum Writer<W: Write> {
     Arrow(Box<arrow::Writer<W>>),
 }
 
-/// An error of a format that should not have been chosen.
+/// The error of a format that this program was built without.
 #[cfg(not(feature = "arrow"))]
 fn no_arrow() -> io::Error {
     io::Error::new(
@@ -95,7 +95,7 @@ impl<W: Write> Writer<W> {
         }
     }
 
-    /// Writes the row at which a reader of the same format is.
+    /// Writes the current row of a reader of the same format.
     pub(crate) fn copy(&mut self, reader: &Reader) -> io::Result<()> {
         match (self, reader) {
             (Self::Text(writer), Reader::Text(reader)) => writer.line(reader.line()),
@@ -108,7 +108,7 @@ impl<W: Write> Writer<W> {
         }
     }
 
-    /// Writes what is left.
+    /// Writes what is left, and ends the table.
     pub(crate) fn finish(self) -> io::Result<()> {
         match self {
             Self::Text(mut writer) => writer.finish(),
@@ -145,7 +145,7 @@ impl Reader {
         }
     }
 
-    /// The id of the row; none after the last one.
+    /// The id of the row; `None` after the last one.
     pub(crate) fn id(&self) -> Option<u64> {
         match self {
             Self::Text(reader) => reader.id(),
@@ -163,7 +163,7 @@ impl Reader {
         }
     }
 
-    /// Fills in the outputs of the row, or says why there are none.
+    /// Fills in the outputs of the row, or returns the failure.
     pub(crate) fn result(
         &self,
         heads: &Heads,

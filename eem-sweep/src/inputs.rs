@@ -1,4 +1,4 @@
-//! What the members of a sweep differ in: columns of numbers with ids that every process agrees on.
+//! The inputs in which the members of a sweep differ: columns of numbers, and ids that are the same in every process.
 
 mod error;
 mod latin;
@@ -48,7 +48,7 @@ impl Inputs {
     ///
     /// # Errors
     ///
-    /// [`InputError`] if an axis has no value, two names are equal, or there are 2³² members.
+    /// [`InputError`] if an axis has no value, or there are 2³² members. Two equal names are an error of the sweep.
     pub fn grid<N: Into<String>>(
         axes: impl IntoIterator<Item = (N, Vec<f64>)>,
     ) -> Result<Self, InputError> {
@@ -87,8 +87,8 @@ impl Inputs {
     ///
     /// # Errors
     ///
-    /// [`InputError`] if there is no member or no range, a range is empty, two names are equal, or there are 2³²
-    /// members.
+    /// [`InputError`] if there is no member or no range, a range is empty, or there are 2³² members. Two equal names are
+    /// an error of the sweep.
     pub fn latin_hypercube<N: Into<String>>(
         members: usize,
         seed: u64,
@@ -115,7 +115,7 @@ impl Inputs {
     ///
     /// # Errors
     ///
-    /// [`InputError`] if there is no row, rows have different lengths, or two names are equal.
+    /// [`InputError`] if there is no row, or rows have different lengths. Two equal names are an error of the sweep.
     pub fn rows<N: Into<String>, R: AsRef<[f64]>>(
         columns: impl IntoIterator<Item = N>,
         rows: impl IntoIterator<Item = R>,
@@ -148,7 +148,7 @@ impl Inputs {
         Self::checked(columns, Source::Table(table))
     }
 
-    /// Refuses what has no member or two columns of one name.
+    /// An error if there is no member.
     fn checked(columns: Vec<String>, source: Source) -> Result<Self, InputError> {
         let inputs = Self { columns, source };
         if inputs.members() == 0 {
@@ -191,7 +191,7 @@ impl Inputs {
         }
     }
 
-    /// Adds the values of a member.
+    /// Appends the values of a member.
     pub(crate) fn push_values(&self, place: usize, values: &mut Vec<f64>) {
         match &self.source {
             Source::Grid(axes) => {
@@ -223,8 +223,8 @@ impl Inputs {
         Row::new(self.id(place), &self.columns, values)
     }
 
-    /// A digest of all that decides the rows: of a Latin hypercube its recipe and a sample of its rows, so that
-    /// no process has to compute those of the others.
+    /// A digest of everything that determines the rows: of a Latin hypercube the seed, the ranges and a sample of rows, so
+    /// that no process has to compute the rows of others.
     pub(crate) fn digest(&self) -> String {
         const SAMPLE: usize = 64;
         let mut digest = Digest::new();

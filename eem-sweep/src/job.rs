@@ -25,7 +25,7 @@ pub(crate) type Tick<'t> = &'t mut (dyn FnMut(usize) + Send);
 pub(crate) struct Job<'a> {
     /// How many members take hardly longer than one: those that move together in SIMD lanes.
     pub(crate) bundle: usize,
-    /// Runs the members, whose ids and inputs are there; the heads are those of the inputs.
+    /// Runs the members of a batch, which has their ids and inputs; the texts are the names of the input columns.
     pub(crate) run: Run<'a>,
     /// Whether an input can be made of a row.
     check: Check<'a>,
@@ -45,7 +45,7 @@ impl Job<'_> {
     }
 }
 
-/// What an ensemble returns.
+/// The results of an ensemble.
 pub(crate) type Results<T> = Vec<Result<T, MemberError>>;
 
 /// The job whose inputs `input` makes of rows, and which `run` gives to an ensemble.
@@ -68,7 +68,7 @@ pub(crate) fn job<'a, I, T: Record>(
     }
 }
 
-/// The job that runs nothing, and reports all members as given up; there are so many outputs.
+/// The job that runs nothing, and reports all members as given up; `outputs` is the number of output columns.
 pub(crate) fn giving_up(outputs: usize) -> Job<'static> {
     let failure = Failure::new(FailureKind::GivenUp, None, "the caller has given it up");
     Job {
@@ -83,7 +83,7 @@ pub(crate) fn giving_up(outputs: usize) -> Job<'static> {
     }
 }
 
-/// An ensemble on the calling thread; others have batches of their own.
+/// An ensemble on the calling thread only: other threads have batches of their own.
 fn ensemble(stepping: Stepping, tick: Tick<'_>) -> Ensemble<'_> {
     let ensemble = Ensemble::new(stepping.scheme, stepping.step);
     let ensemble = ensemble.newton(stepping.newton).threads(1);
@@ -93,7 +93,7 @@ fn ensemble(stepping: Stepping, tick: Tick<'_>) -> Ensemble<'_> {
     })
 }
 
-/// Makes inputs of the rows, runs those that there are, and fills in outputs and failures.
+/// Makes inputs of the rows, runs the members that have one, and fills in outputs and failures.
 fn run_batch<I, T: Record>(
     columns: &[String],
     batch: &mut Batch,

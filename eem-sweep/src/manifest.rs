@@ -20,7 +20,7 @@ const NAME: &str = "sweep.json";
 /// The layout of files that this version of the crate writes.
 const LAYOUT: u32 = 2;
 
-/// How often, and after what time each, a file is looked at again that has a name and no contents yet.
+/// How often a file without contents is read again, and the pause before each time.
 const LOOKS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(50);
 
@@ -31,16 +31,16 @@ pub(crate) struct Manifest {
     pub(crate) name: String,
     program: String,
     pub(crate) members: usize,
-    /// A digest.
+    /// The digest of the inputs.
     inputs: String,
     input_columns: Vec<String>,
     output_columns: Vec<String>,
     /// Scheme, step and Newton's method.
     stepping: BTreeMap<String, String>,
-    /// The caller's.
+    /// The settings of the caller.
     settings: BTreeMap<String, String>,
     pub(crate) format: Format,
-    /// Of all the above.
+    /// The digest of all the above.
     pub(crate) digest: String,
 }
 
@@ -85,7 +85,7 @@ impl Manifest {
         digest.hex()
     }
 
-    /// What manifests are compared by.
+    /// The names and values by which manifests are compared.
     fn items(&self) -> Vec<(String, String)> {
         let mut items = vec![
             ("layout of files".to_owned(), self.layout.to_string()),
@@ -126,8 +126,8 @@ impl Manifest {
         pairs.filter(|pair| pair.there != pair.here).collect()
     }
 
-    /// The manifest of a directory, which `identity` and the format asked for must match; written if there is none
-    /// and `begin` says so.
+    /// The manifest of a directory, which must match `identity` and the requested format; written if there is none and
+    /// `begin` is true.
     pub(crate) fn agree(
         directory: &Path,
         identity: Identity,
@@ -141,12 +141,12 @@ impl Manifest {
             if !manifest.format.is_available() {
                 return Err(SweepError::NoArrow);
             }
-            // Whoever has lost the manifest writes the same one again; nobody else gets the directory.
+            // If the manifest was lost, the same sweep writes it again; another one is refused because of the parts.
             refuse_foreign(&directory.join(PARTS), &manifest.digest)?;
             let text = files::json(&path, &manifest)?;
             let mut draft = Draft::new(&path)?;
             draft.write_all(&text).map_err(failed("write", &path))?;
-            // Whoever came first: what is there now counts.
+            // Another process may have been first; the file that is there now counts.
             draft.publish()?;
             there = read(&path)?;
         }
@@ -179,7 +179,7 @@ fn read(path: &Path) -> Result<Option<Manifest>, SweepError> {
     let bytes = loop {
         match files::read(path)? {
             None => return Ok(None),
-            // Where there are no hard links, it is empty for a moment.
+            // Without hard links, the file of another process is empty for a moment.
             Some(bytes) if bytes.is_empty() && looks < LOOKS => sleep(PAUSE),
             Some(bytes) => break bytes,
         }

@@ -64,7 +64,7 @@ impl Sweep<'_> {
         ];
         refuse_own(&path, &own)?;
         let note = beside(&path);
-        // Some of what is in the way can be seen before the work.
+        // Most files in the way can be detected before the work.
         is_there(&path)?;
         refuse_other_note(&note)?;
         let parts = shelf.parts()?;
@@ -74,12 +74,12 @@ impl Sweep<'_> {
         let merged = write_table(&opened, &parts, &mut draft, &path)?;
         let tables = Tables::of(directory);
         let remembered = tables.remember(&merged.table);
-        // A table elsewhere can be made of a sweep that can only be read; it cannot be made again in its place.
+        // A read-only sweep can be merged into a table elsewhere, but that table cannot be replaced later.
         if into.is_none() {
             remembered?;
         }
         if tables.refuse_others(&path)? || !draft.publish()? {
-            // Another call may have put its table there in the meantime; a link to nowhere is nobody's table.
+            // Another call may have put its table there in the meantime; a dangling link is not a table.
             if !tables.refuse_others(&path)? {
                 return Err(SweepError::Exists { path });
             }
@@ -95,7 +95,7 @@ impl Sweep<'_> {
         Ok(merged)
     }
 
-    /// All members must be there.
+    /// An error unless all members are reported.
     fn refuse_gaps(&self, directory: &Path, reported: &Places) -> Result<(), SweepError> {
         let members = self.inputs().members();
         let missing = Places::one(0..members).without(reported);
@@ -128,7 +128,7 @@ fn refuse_own(path: &Path, folders: &[PathBuf]) -> Result<(), SweepError> {
     }
 }
 
-/// Whether there is a file of this name; what is none is refused, as reading a pipe may never end.
+/// Whether there is a file of this name. Anything else than a regular file is refused: reading a pipe may never end.
 fn is_there(path: &Path) -> Result<bool, SweepError> {
     match fs::metadata(path) {
         Ok(data) if data.is_file() => Ok(true),
@@ -140,8 +140,8 @@ fn is_there(path: &Path) -> Result<bool, SweepError> {
     }
 }
 
-/// The tables that have been merged from a directory: an empty file each, whose name is the digest. It is there before
-/// its table is, so that no kill leaves a table that nobody knows.
+/// The tables that have been merged from a directory: for each an empty file whose name is the digest. It is written
+/// before its table, so that a kill never leaves an unknown table.
 struct Tables(PathBuf);
 
 impl Tables {
@@ -169,7 +169,7 @@ impl Tables {
     }
 }
 
-/// The file with what was found, beside the table.
+/// The file with the findings, next to the table.
 fn beside(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".json");
@@ -187,7 +187,7 @@ fn refuse_other_note(note: &Path) -> Result<(), SweepError> {
     })
 }
 
-/// Writes all rows and says what was found; `path` is for messages.
+/// Writes all rows and returns the findings; `path` is for messages.
 fn write_table(
     opened: &Opened<'_>,
     parts: &[Part],
@@ -223,7 +223,7 @@ fn write_table(
     Ok(merged)
 }
 
-/// Forms the digest of what passes.
+/// Passes bytes on, and forms their digest.
 struct Hashing<'a> {
     to: &'a mut dyn Write,
     digest: Digest,

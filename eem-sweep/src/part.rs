@@ -1,4 +1,4 @@
-//! Parts: the files with records that processes have reported, and what their names say.
+//! Parts: the files with records that processes have reported, and the information in their names.
 
 use std::fs;
 use std::io::ErrorKind;
@@ -28,7 +28,7 @@ pub(crate) struct Part {
     pub(crate) members: usize,
     /// 0 for members that are given up, 1 for the first run of a member, more for the runs that supersede it.
     pub(crate) generation: u32,
-    /// Of its contents and of all else that its name says.
+    /// The digest of its contents and of all else that its name says.
     content: String,
 }
 
@@ -152,7 +152,7 @@ impl Shelf<'_> {
         Ok(Places::new(ranges))
     }
 
-    /// The rows of a part, which is read as a whole, and refused if a byte is not what it was.
+    /// The rows of a part, which is read as a whole, and refused if a byte has changed.
     pub(crate) fn open(&self, part: &Part) -> Result<Reader, SweepError> {
         let bytes = files::read(&part.path)?;
         let damaged = |reason: &str| SweepError::Damaged {
@@ -179,7 +179,7 @@ struct Name<'n> {
 }
 
 impl<'n> Name<'n> {
-    /// None if it is the name of something else.
+    /// `None` if it is the name of something else.
     fn read(name: &'n str) -> Option<Self> {
         let mut pieces = name.split('.');
         let (first, last) = pieces.next()?.split_once('-')?;

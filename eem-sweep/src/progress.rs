@@ -1,4 +1,4 @@
-//! How far a process is: a file that others can read, and a bar on the terminal if it takes more than two seconds.
+//! The progress of a process: a file that others can read, and a bar on the terminal after two seconds.
 
 use std::env;
 use std::fs;
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
 
-use crate::files::replace_at_ease;
+use crate::files::replace_without_sync;
 
 /// How long a run may take before a bar appears.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -18,20 +18,20 @@ const PATIENCE: Duration = Duration::from_secs(2);
 /// How often the file is written.
 const INTERVAL: Duration = Duration::from_secs(1);
 
-/// How far one process was when it wrote this last.
+/// The progress of a process when it wrote its file last.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ShardProgress {
     /// Which members it runs: `shard-2-of-8`.
     pub selection: String,
     /// How many it has to run.
     pub members: usize,
-    /// How many are done, reported or at hand.
+    /// How many are done, reported or not.
     pub done: usize,
     /// How many of them have been reported, so that no kill can lose them.
     pub reported: usize,
     /// How many of these have failed.
     pub failed: usize,
-    /// Since the process began, s.
+    /// The time since the process began, s.
     pub seconds: f64,
     /// When this was written, s since 1970.
     pub updated: u64,
@@ -41,12 +41,12 @@ pub struct ShardProgress {
     pub process: u32,
 }
 
-/// Where processes tell how far they are.
+/// The folder where processes write their progress.
 pub(crate) fn folder(directory: &Path) -> PathBuf {
     directory.join("progress")
 }
 
-/// Tells how far a run is.
+/// Writes and shows the progress of a run.
 pub(crate) struct Teller {
     path: PathBuf,
     started: Instant,
@@ -57,10 +57,10 @@ pub(crate) struct Teller {
 }
 
 impl Teller {
-    /// Nothing is done yet.
+    /// The progress of a run before its first member.
     pub(crate) fn new(directory: &Path, selection: &str, members: usize, wants_bar: bool) -> Self {
         let folder = folder(directory);
-        // Progress is for people: where it cannot be written, the records say why.
+        // Progress is for people. If it cannot be written, nor can records, whose error says why.
         let _reported_by_parts = fs::create_dir_all(&folder);
         let host = env::var("HOSTNAME").ok();
         let host = host.or_else(|| fs::read_to_string("/etc/hostname").ok());
@@ -84,7 +84,7 @@ impl Teller {
         }
     }
 
-    /// So many members are done that are not reported yet.
+    /// Sets how many members are done and not reported yet.
     pub(crate) fn at_hand(&mut self, members: usize) {
         self.now.done = self.now.reported + members;
         let is_due = self.told.is_none_or(|told| told.elapsed() >= INTERVAL);
@@ -100,7 +100,7 @@ impl Teller {
         self.at_hand((self.now.done).saturating_sub(self.now.reported));
     }
 
-    /// The last word.
+    /// Writes the progress for the last time.
     pub(crate) fn finish(&mut self) {
         if self.now.members > 0 {
             self.tell();
@@ -113,7 +113,7 @@ impl Teller {
         let clock = SystemTime::now().duration_since(UNIX_EPOCH);
         self.now.updated = clock.map_or(0, |time| time.as_secs());
         let text = serde_json::to_vec(&self.now).unwrap_or_default();
-        let _reported_by_parts = replace_at_ease(&self.path, &text);
+        let _reported_by_parts = replace_without_sync(&self.path, &text);
         self.show();
     }
 
@@ -147,8 +147,8 @@ fn bar(label: &str, members: u64) -> ProgressBar {
         .with_prefix(label.to_owned())
 }
 
-/// What all processes have told last, in the order of their selections; files that cannot be read are left out.
-pub(crate) fn told(directory: &Path) -> Vec<ShardProgress> {
+/// The latest progress of all processes, in the order of their selections; files that cannot be read are left out.
+pub(crate) fn of_all_processes(directory: &Path) -> Vec<ShardProgress> {
     let entries = fs::read_dir(folder(directory));
     let paths = entries.into_iter().flatten().flatten().map(|e| e.path());
     let files = paths.filter(|path| path.extension().is_some_and(|end| end == "json"));

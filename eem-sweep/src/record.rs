@@ -1,4 +1,4 @@
-//! What is kept of a member: numbers in columns, or why there are none.
+//! The record of a member: numbers in columns, or its failure.
 
 use eem_runtime::{MemberFailure, StepFailure};
 use serde::{Deserialize, Serialize};
@@ -103,7 +103,7 @@ macro_rules! kinds {
 kinds! {
     /// The row was refused by the function that makes an input of it.
     Input = "input",
-    /// The scene was refused, or what was asked of the simulation does not exist.
+    /// The scene was refused, or a query was for something that the scene does not have.
     Scene = "scene",
     /// Newton's method used up its iterations.
     NotConverged = "not-converged",
@@ -121,7 +121,7 @@ kinds! {
     Step = "step",
     /// The member panicked.
     Panic = "panic",
-    /// The member was given up, as processes end at it.
+    /// The member was given up, because it ends its process.
     GivenUp = "given-up",
     /// An error of the caller's own.
     Other = "other",
@@ -153,7 +153,7 @@ impl FailureKind {
 }
 
 impl Failure {
-    /// With its message in one line, as a record is a line.
+    /// A failure with its message in one line, as a record is a line.
     pub(crate) fn new(kind: FailureKind, time: Option<f64>, message: &str) -> Self {
         let message = message.split(['\n', '\r']).map(str::trim);
         let message: Vec<&str> = message.filter(|line| !line.is_empty()).collect();
@@ -171,7 +171,7 @@ pub(crate) struct Batch {
     pub(crate) ids: Vec<u64>,
     /// Row after row.
     pub(crate) inputs: Vec<f64>,
-    /// Row after row; of no meaning where there is a failure.
+    /// Row after row; meaningless in rows with a failure.
     pub(crate) outputs: Vec<f64>,
     pub(crate) failures: Vec<Option<Failure>>,
 }

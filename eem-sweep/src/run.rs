@@ -15,7 +15,7 @@ use crate::sweep::{Opened, Sweep};
 use crate::team::{self, Sizes, Task};
 use crate::walk::walk;
 
-/// The generation of members that are given up: whoever is at work on one supersedes it.
+/// The generation of members that are given up: a record of a process that is still running one supersedes it.
 const GIVEN_UP: u32 = 0;
 
 /// The generation of the first run of a member.
@@ -65,10 +65,10 @@ pub struct RunReport {
 impl Sweep<'_> {
     /// Runs the selected members that nobody has reported yet, and reports them in `directory`.
     ///
-    /// It can be called again whatever has happened: what was reported is skipped, and members at which a process
-    /// has ended come last, in small batches. Processes that run at the same
-    /// time should be given different members; if they have some in common, these are run twice, and
-    /// [`merge`](Self::merge) proves that both have the same bits.
+    /// It can be called again whatever has happened: reported members are skipped, and members during which a process
+    /// ended come last, in small batches. Processes that run at the same time should be given different members;
+    /// those that they have in common are run twice, and [`merge`](Self::merge) proves that both records have the
+    /// same bits.
     ///
     /// # Errors
     ///
@@ -110,7 +110,7 @@ impl Sweep<'_> {
             ..RunReport::default()
         };
         let name = format!("rerun-{}", options.selection);
-        // Notes of members that nobody has reported say which come last.
+        // Notes of members that have not been reported are kept: they say which come last.
         let work = (
             &seen.reported,
             &seen.failed,
@@ -122,8 +122,8 @@ impl Sweep<'_> {
     }
 
     /// Reports the selected members that nobody has reported yet as failed ([`GivenUp`](crate::FailureKind::GivenUp))
-    /// without running them: those at which every process ends, by a stack that overflows or for want of memory.
-    /// [`rerun_failed`](Self::rerun_failed) runs them all the same.
+    /// without running them. This is for members that end every process, by a stack overflow or for lack of memory.
+    /// [`rerun_failed`](Self::rerun_failed) runs them nevertheless.
     ///
     /// # Errors
     ///
@@ -156,8 +156,8 @@ impl Sweep<'_> {
         })
     }
 
-    /// Runs places, and reports them as parts of a generation; then all that are `settled` are reported, and notes of
-    /// them are of no use. `name` is that of files about the run.
+    /// Runs places, and reports them as parts of a generation. All `settled` places are reported then, so their notes are
+    /// removed. `name` is that of files about the run.
     fn run_places(
         &self,
         directory: &Path,
@@ -194,7 +194,7 @@ impl Sweep<'_> {
     }
 }
 
-/// What there is of some members.
+/// The records that some members have.
 struct Seen {
     reported: Places,
     /// Those whose last record is a failure.

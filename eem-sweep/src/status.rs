@@ -9,7 +9,7 @@ use crate::begun::begun;
 use crate::error::SweepError;
 use crate::inputs::Inputs;
 use crate::places::{Places, extend};
-use crate::progress::{ShardProgress, told};
+use crate::progress::{ShardProgress, of_all_processes};
 use crate::sweep::Sweep;
 use crate::walk::walk;
 
@@ -31,7 +31,7 @@ pub struct Status {
     pub repeated: usize,
     /// The ids without a record, possibly shortened; empty if there are none.
     pub missing: String,
-    /// The ids among these that a process has begun: it is working on them, or has died there.
+    /// The ids among these that a process has begun: it is working on them, or ended while it was.
     pub begun: String,
     /// The latest reports of all processes.
     pub processes: Vec<ShardProgress>,
@@ -54,7 +54,7 @@ impl Sweep<'_> {
             repeated: 0,
             missing: String::new(),
             begun: String::new(),
-            processes: told(directory),
+            processes: of_all_processes(directory),
         };
         let mut found = Vec::new();
         walk(&shelf, &shelf.parts()?, |record| {
@@ -72,9 +72,9 @@ impl Sweep<'_> {
     }
 }
 
-/// The ids of members for people, the first ranges of many.
+/// The ids of members as text for people; if there are many ranges, the first of them.
 pub(crate) fn named(places: &Places, inputs: &Inputs) -> String {
-    // Ids ascend: those of a range are consecutive if so many lie between its ends.
+    // Ids ascend: those of a range are consecutive if its ends differ by its length less one.
     let pieces = places.ranges().iter().flat_map(|range| {
         let between = inputs.id(range.end - 1) - inputs.id(range.start);
         let is_run = between == range.len() as u64 - 1;

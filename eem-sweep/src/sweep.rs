@@ -1,4 +1,4 @@
-//! A sweep as data, and what is run for it.
+//! A sweep: its inputs, scheme and settings, and the experiment that it runs.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -214,7 +214,7 @@ impl Sweep<'_> {
         &self.plan.inputs
     }
 
-    /// Whose directory it is; `begin` makes it a directory of this sweep if there is none.
+    /// Opens a directory of this sweep. `begin` says whether to begin the sweep if the directory holds none.
     pub(crate) fn open(
         &self,
         directory: &Path,
@@ -271,7 +271,7 @@ impl Sweep<'_> {
             return Ok(version.clone());
         }
         let unknown = || files::failed("find the executable of", Path::new("this process"));
-        // What runs, also if its file has been replaced or removed meanwhile.
+        // The running program, even if its file has been replaced or removed.
         let path = if cfg!(target_os = "linux") {
             PathBuf::from("/proc/self/exe")
         } else {

@@ -17,21 +17,21 @@ use crate::places::Places;
 use crate::progress::Teller;
 use crate::record::Batch;
 
-/// How long a batch should take: what a killed process loses of each thread.
+/// The time that a batch should take: a killed process loses as much per thread.
 const BATCH: Duration = Duration::from_secs(1);
 
 /// The most members of a batch whose size is not given, which bounds the memory.
 const MOST: usize = 4096;
 
-/// A batch has at most so many times as many members as the last, as a few of them say little about the others.
+/// The largest factor by which a batch may exceed the last one, as a few members say little about the others.
 const GROWTH: usize = 8;
 
-/// How many members the batches have.
+/// The number of members of the batches.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Sizes {
-    /// So many.
+    /// Always this many.
     Fixed(usize),
-    /// What takes about a second: `next` now, but whole bundles of members that move together.
+    /// As many as take about a second: `next` at present; after the first, whole bundles of members that move together.
     Adapted { next: usize, bundle: usize },
 }
 
@@ -41,7 +41,7 @@ impl Sizes {
         Self::Adapted { next: 1, bundle }
     }
 
-    /// Members of the next batch when so many are left to so many threads.
+    /// Members of the next batch when `left` members remain for `threads` threads.
     fn next(&self, left: usize, threads: usize) -> usize {
         match *self {
             Self::Fixed(size) => size,
@@ -50,7 +50,7 @@ impl Sizes {
         }
     }
 
-    /// After so many members have taken so long.
+    /// Adapts the size after a batch of `members` has taken this time.
     fn adapt(&mut self, members: usize, took: Duration) {
         if let Self::Adapted { next, bundle } = self {
             let share = BATCH.as_secs_f64() / took.as_secs_f64().max(f64::MIN_POSITIVE);
@@ -61,18 +61,18 @@ impl Sizes {
     }
 }
 
-/// Where and as what members are reported.
+/// How members are run, and where they are reported.
 #[derive(Clone, Copy)]
 pub(crate) struct Task<'t> {
     pub(crate) directory: &'t Path,
-    /// That of the run, for files about it.
+    /// The name of the run, for files about it.
     pub(crate) name: &'t str,
     pub(crate) shelf: Shelf<'t>,
     pub(crate) job: &'t Job<'t>,
     pub(crate) generation: u32,
 }
 
-/// What threads take from, and tell.
+/// The members that are left and the progress, which threads share.
 struct Queue<'q, P> {
     places: P,
     left: usize,
@@ -92,8 +92,8 @@ struct Team<'t, P> {
     at_hand: AtomicUsize,
 }
 
-/// Runs members on so many threads, one of which is the calling one, and reports them; says how many there were, and
-/// how many have failed. An error ends it when all threads have reported what they are at.
+/// Runs members on this many threads, one of which is the calling one, and reports them. Returns how many there were, and
+/// how many have failed. After an error, threads report their present batch and take no other.
 pub(crate) fn run(
     task: Task<'_>,
     places: &Places,
@@ -132,7 +132,7 @@ pub(crate) fn run(
 }
 
 impl<'t, P: Iterator<Item = usize> + Send> Team<'t, P> {
-    /// What one thread does.
+    /// Runs batches on one thread until none is left.
     fn work(&self) {
         let Task { shelf, job, .. } = self.task;
         let note = Note::new(self.task.directory, self.task.name);
@@ -168,7 +168,7 @@ impl<'t, P: Iterator<Item = usize> + Send> Team<'t, P> {
         }
     }
 
-    /// A thread that panics has left nothing half done.
+    /// The queue. A thread that panics leaves it consistent.
     fn queue(&self) -> MutexGuard<'_, Queue<'t, P>> {
         self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -184,17 +184,17 @@ impl<'t, P: Iterator<Item = usize> + Send> Team<'t, P> {
         queue.places.by_ref().take(size).collect()
     }
 
-    /// So many members more are done.
+    /// Counts further members that are done.
     fn tick(&self, members: usize) {
         let before = self.at_hand.fetch_add(members, Ordering::Relaxed);
-        // Nobody waits in order to tell.
+        // No thread waits to report progress.
         if let Ok(mut queue) = self.queue.try_lock() {
             queue.teller.at_hand(before + members);
         }
     }
 }
 
-/// Ids and inputs of members.
+/// Fills in ids and inputs of members.
 fn fill(batch: &mut Batch, inputs: &Inputs, places: &[usize]) {
     batch.ids.clear();
     batch.inputs.clear();
@@ -204,7 +204,7 @@ fn fill(batch: &mut Batch, inputs: &Inputs, places: &[usize]) {
     }
 }
 
-/// Reports a batch: one file, there whole or not at all.
+/// Reports a batch: one file, complete or absent.
 fn write_part(task: &Task<'_>, chosen: &[usize], batch: &Batch) -> Result<(), SweepError> {
     let (Some(&first), Some(&last)) = (chosen.first(), chosen.last()) else {
         return Ok(());

@@ -89,8 +89,8 @@ impl PartialEq for Open<'_> {
 
 impl Eq for Open<'_> {}
 
-/// Visits the record of every member that some part has, in ascending order. Of several the one of the last
-/// generation counts; those of one generation must have the same bits.
+/// Visits the record of every member that some part has, in ascending order. If a member has several, the one of the
+/// last generation counts; records of one generation must have the same bits.
 pub(crate) fn walk(
     shelf: &Shelf<'_>,
     parts: &[Part],

@@ -1,6 +1,6 @@
-//! The solver for what several test programs have in their scenes.
+//! The solver, compiled for models that several test programs use.
 //!
-//! Nobody calls this: code for models and dimensions that is here, in the debug profile, is not made again in a program.
+//! These functions are never called. In the debug profile, programs reuse the generic code that is compiled here.
 
 use eem::kinematics::{Hex8, Hex20, Quad4, Quad8};
 use eem::materials::{Hencky, LogarithmicStiffness, SaintVenantKirchhoff, ThermoelasticSolid};
@@ -18,7 +18,7 @@ const ELASTIC: SaintVenantKirchhoff = SaintVenantKirchhoff {
     shear: 1.0,
 };
 
-/// In the plane.
+/// Models of springs and solids in the plane.
 pub fn plane(
     mut scene: Scene<2>,
     ends: [Node; 2],
@@ -36,7 +36,7 @@ pub fn plane(
     Ok(Simulation::new(scene, Scheme::EemEntropy, 1.0)?.step()?)
 }
 
-/// In space.
+/// Models of springs and solids in space.
 pub fn space(
     mut scene: Scene<3>,
     ends: [Node; 2],

@@ -1,4 +1,4 @@
-//! Arithmetic with as many bits as one wants; divided differences as plain quotients.
+//! Arithmetic with any number of bits; divided differences are plain quotients.
 
 use std::cell::RefCell;
 
@@ -6,11 +6,11 @@ pub use astro_float_num::BigFloat;
 use astro_float_num::{Consts, RoundingMode};
 use eem_symbolic::{Arithmetic, Function, Number, ProgramKernel};
 
-/// Precision unless a test asks for another one.
+/// The default precision, bits.
 const BITS: usize = 512;
 /// Offset of numerical derivatives: errors of 2⁻³⁰⁰ from the formula and 2⁻³⁶⁰ from rounding.
 const OFFSET: i32 = -150;
-/// Ends that are closer than that are one point; the increments of the tests are larger, or zero.
+/// Ends that are closer than this, relative to their size, are one point; the increments of the tests are larger, or zero.
 const SAME: i32 = -200;
 const ROUNDING: RoundingMode = RoundingMode::None;
 

@@ -1,16 +1,16 @@
 //! Free energies behind a table of functions.
 //!
-//! The solver is compiled for each model, with each rule of integration. For springs of this module it is compiled here, for
-//! each number of dashpots, whatever their models are: the same numbers, more slowly.
+//! The solver is compiled for each model, with each scheme. For springs of this module it is compiled only here, once for each
+//! number of dashpots. Any model can be behind the table: results are the same, but slower.
 
 use std::sync::Arc;
 
 use eem::prelude::*;
 use eem::{Array, Caloric};
 
-/// The functions of a free energy of slices; the dashpot beside a spring is not among them.
+/// The functions of a free energy, on slices; without a dashpot in parallel with the spring.
 pub trait Table: Send + Sync {
-    /// Measures of the deformation, dashpots, and temperature or none.
+    /// The numbers of measures of the deformation, of dashpots and of temperatures (0 or 1).
     fn variables(&self) -> [usize; 3];
     /// The numbers that programs take before the state.
     fn parameters(&self) -> Vec<f64>;
@@ -122,7 +122,7 @@ impl<F: FreeEnergy<f64> + Send + Sync> Table for F {
     }
 }
 
-/// Springs with so many dashpots, with a temperature or without.
+/// A type of springs for each number of dashpots, with and without temperature.
 macro_rules! springs {
     ($($name:ident: $dashpots:literal, $thermal:literal,
         [$n:literal variables, $corners:literal corners, $responses:literal responses];)*) => {
@@ -243,7 +243,7 @@ macro_rules! springs {
             }
         )*
 
-        /// A spring of any model without a dashpot beside it, in the plane.
+        /// Adds a spring of any model without a dashpot in parallel, in the plane.
         pub fn spring(scene: &mut Scene<2>, model: Arc<dyn Table>, ends: [Node; 2]) -> Element {
             match model.variables() {
                 $([1, $dashpots, thermal] if (thermal == 1) == $thermal => {

@@ -1,4 +1,4 @@
-//! What can be wrong with a law whose texts are right.
+//! Errors of laws whose texts are right.
 
 use eem_language::text::Faults;
 
@@ -23,14 +23,14 @@ pub enum LawError {
         /// The parameter.
         name: String,
     },
-    /// A value for what is no parameter.
+    /// A value for a name that is not that of a parameter.
     #[error("there is no parameter `{name}` for the value {value:?}: {help}")]
     Unknown {
         /// The name as it was given.
         name: String,
         /// Its value.
         value: f64,
-        /// The names that there are.
+        /// The names of the parameters.
         help: String,
     },
     /// Two values for one parameter.
@@ -50,7 +50,7 @@ pub enum LawError {
         name: String,
         /// Its value as it was given.
         value: f64,
-        /// Nothing, or that it is so in the numbers of the scene.
+        /// Empty, or that the value is not finite in the numbers of the scene.
         in_scene: &'static str,
     },
     /// A number in a derivative of ψ does not fit an `f64`.
@@ -69,28 +69,28 @@ pub enum LawError {
         /// The largest number.
         most: usize,
     },
-    /// The type of the material is that of another law.
+    /// The type of the material is for laws with other variables.
     #[error("the law has {law}; the type of the material has {material}")]
     Shape {
-        /// What the law is a function of.
+        /// The variables of the law.
         law: String,
-        /// What a law of the type is a function of.
+        /// The variables of a law of the type.
         material: String,
     },
     /// A formula needs more numbers at a time than there is room for.
     #[error("the formulas need {numbers} numbers at a time, at most {most}: shorten them")]
     TooLarge {
-        /// How many.
+        /// The number needed.
         numbers: usize,
-        /// How many there may be.
+        /// The largest number.
         most: usize,
     },
     /// Numbers that do not make whole states.
     #[error("{numbers} numbers do not make whole states of {variables}")]
     States {
-        /// How many numbers.
+        /// The number of numbers.
         numbers: usize,
-        /// How many a state has.
+        /// The number of variables of a state.
         variables: usize,
     },
     /// A name that a law cannot have.

@@ -21,10 +21,10 @@ use staged::{kept, of_state};
 /// The functions of [`FreeEnergy`](eem_material::FreeEnergy).
 #[derive(Debug)]
 pub(crate) struct Functions<S> {
-    /// The name of the law, and what tells it apart from others.
+    /// The name of the law, and the digest of its name and texts.
     pub(crate) name: &'static &'static str,
     pub(crate) kind: u64,
-    /// Those of a point of a solid.
+    /// Strains and joint invariants of a solid; empty for a spring.
     pub(crate) strains: Box<[Strain]>,
     pub(crate) joints: Box<[Joint]>,
     pub(crate) parameters: Box<[S]>,
@@ -40,20 +40,20 @@ pub(crate) struct Functions<S> {
     pub(crate) viscosity: Option<Tape<S>>,
     pub(crate) drag: Option<Tape<S>>,
     pub(crate) caloric_at: Option<Staged<S>>,
-    /// None without a temperature.
+    /// `None` without a temperature.
     pub(crate) rates_at: Option<Staged<S>>,
-    /// Forces and ψ without a temperature.
+    /// Forces and ψ; `None` with a temperature.
     pub(crate) rates_of_state: Option<Tape<S>>,
     pub(crate) entropy_form: Form<S>,
     pub(crate) mixed_states: Option<Staged<S>>,
     pub(crate) temperature_form: Option<Form<S>>,
     compiled: Arc<Compiled>,
-    /// Made when they are asked for; nothing if they cannot be.
+    /// Made at the first request; `None` if they cannot be made.
     by_parameters: OnceLock<Option<ByParameters<S>>>,
 }
 
 impl<S: Scalar> Functions<S> {
-    /// The tapes of the programs of these texts, with so many variables and responses.
+    /// The tapes of the programs of these texts; `variables` and `responses` are numbers.
     pub(crate) fn new(
         (name, kind): (&'static &'static str, u64),
         (strains, joints): (Box<[Strain]>, Box<[Joint]>),
@@ -117,7 +117,7 @@ impl<S: Scalar> Functions<S> {
         })
     }
 
-    /// The derivatives by the parameters; nothing with too many parameters, too long formulas or too large factors.
+    /// Derivatives with respect to the parameters; `None` with too many parameters, too long formulas or too large factors.
     pub(crate) fn by_parameters(&self) -> Option<&ByParameters<S>> {
         let make = || {
             if self.parameters.len() > MOST_PARAMETERS {
@@ -129,7 +129,7 @@ impl<S: Scalar> Functions<S> {
         self.by_parameters.get_or_init(make).as_ref()
     }
 
-    /// The names of the parameters by which there are derivatives: all or none.
+    /// The names of the parameters with respect to which derivatives exist: all or none.
     pub(crate) fn parameter_names(&self) -> &'static [&'static str] {
         if self.by_parameters().is_none() {
             return &[];

@@ -66,7 +66,7 @@ pub struct Law {
     /// In the order of the parameters of the model.
     values: Arc<[f64]>,
     name: &'static &'static str,
-    /// One `Arc<Functions<S>>` for every S that was asked for.
+    /// One `Arc<Functions<S>>` for every requested S.
     made: Arc<Mutex<Vec<Box<dyn Any + Send + Sync>>>>,
 }
 
@@ -75,8 +75,8 @@ impl Law {
     ///
     /// # Errors
     ///
-    /// A parameter without a value or with two, a value of what is no parameter, a value that is not finite; a number of a
-    /// derivative that does not fit an `f64`.
+    /// If a parameter has no value or two, a value belongs to no parameter or is not finite, or a number in a derivative does
+    /// not fit an `f64`.
     ///
     /// ```
     /// use eem::typed::{Law, Source, compile};
@@ -105,11 +105,11 @@ impl Law {
     /// The same law with a name, which messages and handles of its elements show. The elements of two laws with different
     /// names are treated like those of two types.
     ///
-    /// A name is kept until the program ends, so that it has at most 64 bytes, and a program may use 1024 of them.
+    /// A name is kept until the program ends, so it has at most 64 bytes, and a program may use at most 1024 names.
     ///
     /// # Errors
     ///
-    /// [`LawError::Name`] if there are more, or it is empty or longer.
+    /// [`LawError::Name`] if the name is empty or longer, or the program uses more names.
     ///
     /// ```
     /// use eem::typed::{Law, Source, compile};
@@ -129,7 +129,7 @@ impl Law {
         })
     }
 
-    /// Its name, `Law` if it has not been given one.
+    /// The name of the law, `Law` unless it has been given another.
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.name
@@ -139,7 +139,7 @@ impl Law {
     ///
     /// # Errors
     ///
-    /// A value of what is no parameter, two values for one, a value that is not finite.
+    /// If a value belongs to no parameter or is not finite, or a parameter has two values.
     ///
     /// ```
     /// use eem::typed::{Law, Source, compile};
@@ -162,7 +162,7 @@ impl Law {
         })
     }
 
-    /// What the texts were compiled to: arguments, formulas, warnings.
+    /// The compiled texts: arguments, formulas, warnings.
     ///
     /// ```
     /// use eem::typed::{Law, Source, compile};
@@ -177,8 +177,8 @@ impl Law {
         &self.compiled
     }
 
-    /// ψ of many states, one after the other in the order of [`Compiled::arguments`], J. For drawing; in a scene it is
-    /// evaluated by [`model`](Self::model), with the same bits.
+    /// ψ of many states, J, for drawing. The states follow one another, each in the order of [`Compiled::arguments`]. In a
+    /// scene [`model`](Self::model) evaluates ψ, with the same bits.
     ///
     /// # Errors
     ///
@@ -197,7 +197,7 @@ impl Law {
         self.tabulate(states, 1, |functions| &functions.free_energy)
     }
 
-    /// `∂ψ/∂x` of many states, as long as these: force, less the forces of dashpots, less the entropy.
+    /// `∂ψ/∂x = (f, −g, −s)` of many states, an entry per variable: forces, negative dashpot forces, negative entropy.
     ///
     /// # Errors
     ///
@@ -261,14 +261,14 @@ impl Law {
     /// The law as a material: for [`Scene::spring`](eem_runtime::Scene::spring), [`Scene::solid`](eem_runtime::Scene::solid)
     /// and whatever else takes a [`FreeEnergy`](eem_material::FreeEnergy).
     ///
-    /// The type says of what the law is a function: [`ThermalSpring1`](crate::ThermalSpring1) and others of springs,
-    /// [`solid!`](crate::solid) of a solid. It is made once for every type of numbers and shared then. For another element
-    /// clone it.
+    /// The type says which variables the law has: [`ThermalSpring1`](crate::ThermalSpring1) and the like for springs,
+    /// [`solid!`](crate::solid) for solids. Its tapes are made once for every number type and shared. Clone it for another
+    /// element.
     ///
     /// # Errors
     ///
     /// [`LawError::Shape`] if the law is not one of that type, [`LawError::NotFinite`] if a value is not finite as `S`,
-    /// [`LawError::TooLarge`] if the formulas are.
+    /// [`LawError::TooLarge`] if the formulas are too large.
     ///
     /// ```
     /// use eem::FreeEnergy;

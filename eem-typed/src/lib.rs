@@ -4,10 +4,10 @@
 //! texts ── compile ─▶ Compiled ── values ─▶ Law ── model ─▶ Typed: FreeEnergy ── Scene::spring, Scene::solid ─▶ elements
 //! ```
 //!
-//! [`compile`] reads a [`Source`] and draws every mistake at its place; [`Law::new`] gives the parameters their values;
-//! [`Law::model`] makes a material of a type that the program knows when it is compiled, a spring such as
-//! [`ThermalSpring1`] or a [`solid!`], and [`Law::add_spring`] a spring of any shape: with a temperature or none, at most
-//! three dashpots in series and one beside.
+//! [`compile`] reads a [`Source`] and marks every mistake in the text; [`Law::new`] gives the parameters their values;
+//! [`Law::model`] makes a material of a type that is known at compile time, a spring such as [`ThermalSpring1`] or a
+//! [`solid!`]; [`Law::add_spring`] adds a spring of any shape: with or without temperature, with at most three dashpots in
+//! series and one in parallel.
 //!
 //! ```
 //! use eem::prelude::*;
@@ -27,7 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Operations are read one by one, so that a step of the pendulum with one dashpot costs 2.2 times that of the derived
+//! Operations are interpreted one by one, so a step of the pendulum with one dashpot costs 2.2 times that of the derived
 //! material (`EemTemperature`), or 2.7 times (`EemEntropy`). With `EemTemperature`, springs of one law are evaluated 32 at a
 //! time: a step of a lattice of 10⁴ springs costs 1.3 to 1.4 times that of derived ones. A law takes some 11 ms to compile
 //! and make: do that once, and clone the spring.
@@ -37,10 +37,10 @@
 //! | to | look in |
 //! |---|---|
 //! | add an operation or an elementary function | `tape/instruction.rs`, `tape/fold.rs`, `tape/lower.rs`: the compiler lists them |
-//! | change which operations are joined, or how registers are given | `tape/lower.rs`, `tape/allocate.rs` |
+//! | change which operations are joined, or how registers are allocated | `tape/lower.rs`, `tape/allocate.rs` |
 //! | change what is kept of the old state | `functions/staged.rs` |
 //! | evaluate several springs at a time | `run_rows` in `tape.rs`, `typed/rows.rs`; the caller is `element/group/by_rows.rs` in `eem-runtime` |
-//! | change derivatives by parameters | `functions/by_parameters.rs`, their names in `names.rs`; programs are made at the first derivative |
+//! | change derivatives with respect to parameters | `functions/by_parameters.rs`, their names in `names.rs`; programs are made at the first derivative |
 //! | add a shape | the table of springs, and `solid!`, in `shapes.rs`; what a type says of its law: `shape.rs` |
 
 mod error;

@@ -5,13 +5,13 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::error::LawError;
 
-/// The name of a law that has none.
+/// The name of a law that has been given none.
 pub(crate) const NAMELESS: &&str = &"Law";
 
-/// Bytes that a name may have.
+/// The most bytes of a name.
 const LONGEST: usize = 64;
 
-/// Different names that a program may use, so that 64 KiB are kept at most.
+/// The most different names of a program, so that at most 64 KiB are kept.
 const MOST: usize = 1024;
 
 /// The name, kept until the program ends: the same for the same text.
@@ -41,10 +41,10 @@ pub(crate) fn name(text: &str) -> Result<&'static &'static str, LawError> {
     Ok(name)
 }
 
-/// Bytes that all lists of names may take.
+/// The most bytes of all lists of names.
 const BYTES: usize = 4 << 20;
 
-/// A list of names, kept until the program ends: the same for the same names. Nothing if the program has used too many others.
+/// A list of names, kept until the program ends: the same for the same names. Empty if the program has used too many others.
 pub(crate) fn list(names: &[&str]) -> &'static [&'static str] {
     static LISTS: Mutex<(usize, BTreeMap<String, &'static [&'static str]>)> =
         Mutex::new((0, BTreeMap::new()));

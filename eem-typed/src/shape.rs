@@ -1,4 +1,4 @@
-//! What a law must have in common with its type: what it is a function of.
+//! What a law must have in common with its type: its variables.
 
 use core::fmt;
 
@@ -46,23 +46,23 @@ impl<const M: usize, const N: usize, const K: usize, const R: usize> Measures fo
     const AT_POINT: [usize; 4] = [M, N, K, R];
 }
 
-/// The numbers of what a law is a function of.
+/// How many variables and viscosities of each kind a law has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
-    /// None of a spring.
+    /// 0 for a spring.
     pub(crate) strains: usize,
     /// Invariants of a viscous strain.
     pub(crate) joints: usize,
-    /// Viscosities of that: with two of them, the volume flows as well.
+    /// Viscosities of the viscous strain: 2 if the volume flows as well.
     pub(crate) flows: usize,
-    /// Dashpots in series, and beside.
+    /// Dashpots in series, and in parallel.
     pub(crate) dashpots: usize,
     pub(crate) drag: usize,
     pub(crate) thermal: bool,
 }
 
 impl Shape {
-    /// Of texts.
+    /// The shape of compiled texts.
     pub(crate) fn of(compiled: &Compiled) -> Self {
         let (model, joints) = (compiled.model(), compiled.joints());
         let flows = if joints.contains(&Joint::Trace) { 2 } else { 1 };
@@ -82,7 +82,7 @@ impl Shape {
         stretch + self.strains + self.joints + self.dashpots + self.thermal as usize
     }
 
-    /// The components of a viscous strain: six where the volume flows, five without.
+    /// The number of components of a viscous strain: six if the volume flows, else five; 0 without one.
     pub(crate) const fn components(&self) -> usize {
         match self.flows {
             0 => 0,

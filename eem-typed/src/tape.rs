@@ -1,8 +1,8 @@
 //! Straight-line programs as tapes: instructions of registers, evaluated one by one on any scalar.
 //!
-//! Every operation is the method of [`Scalar`] that generated code calls, so that a tape has its bits. What depends on
-//! parameters alone is computed once, when the tape is made ([`fold`]). A product with one reader is computed by
-//! the instruction that reads it (`a b + c`), rounded by itself.
+//! Every operation is the method of [`Scalar`] that generated code calls, so that results have the same bits. Values that
+//! depend on parameters alone are computed once, when the tape is made ([`fold`]). A product with one reader is computed by
+//! the instruction that reads it (`a b + c`), but rounded separately.
 
 mod allocate;
 mod fold;
@@ -17,18 +17,18 @@ pub(crate) use fold::fold;
 use instruction::{File, Instruction, Register};
 pub(crate) use lower::Wanted;
 
-/// Files of registers that a tape may use: powers of two, so that no index is beyond the end.
+/// Sizes of register files: powers of two, so that a mask keeps every index within the file.
 const SMALL: usize = 64;
 const MEDIUM: usize = 128;
 const LARGE: usize = 512;
 const LARGEST: usize = 4096;
 
-/// Numbers of a register that are computed at a time, where there is one for each of several elements: more do not fit the
-/// processor's registers, fewer do not hide how long an operation takes.
+/// If a register holds a number for each of several elements, so many numbers are computed at a time: more do not fit the
+/// processor's registers, fewer do not hide the latency of an operation.
 const BLOCK: usize = 4;
 const BLOCKS: usize = 8;
 
-/// The elements of a row of registers, and how many of them pay it: a row takes as long as some five elements one by one.
+/// The most elements of a row, and the fewest for which a row pays: it takes as long as some five elements one by one.
 pub(crate) const ROW: usize = BLOCK * BLOCKS;
 const WORTH_A_ROW: usize = 6;
 
@@ -74,7 +74,7 @@ impl<S: Scalar> Tape<S> {
         self.outputs.len()
     }
 
-    /// Evaluates the tape for inputs one after the other, into results one after the other.
+    /// Evaluates the tape. Its inputs are the slices `inputs` in sequence, its results go to the slices `results` in sequence.
     #[inline]
     pub(crate) fn run<const I: usize, const O: usize>(
         &self,
@@ -94,7 +94,7 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    /// The same for some elements, by their indices, each instruction for all of them: with the same bits.
+    /// The same for several elements, given by their indices: each instruction for a row of them, with the same bits.
     pub(crate) fn run_rows<'a, R, const I: usize, const O: usize>(
         &self,
         inputs: impl Fn(usize) -> [&'a [S]; I],
@@ -117,7 +117,7 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    /// The same with so many registers, of `Q` blocks of `B` numbers.
+    /// The same with `P` registers, each of `Q` blocks of `B` numbers, one per element.
     fn run_in<
         'a,
         const P: usize,
@@ -142,7 +142,7 @@ impl<S: Scalar> Tape<S> {
         let (first, last) = (self.constants.len(), results.len() - 1);
         for element in 0..B * Q {
             let mut registers = file[first..first + self.inputs].iter_mut();
-            // What is computed beyond the last element belongs to nobody.
+            // Beyond the last element its inputs are repeated, and the results are not used.
             for input in inputs(element.min(last)) {
                 for (&number, register) in input.iter().zip(registers.by_ref()) {
                     register[element / B][element % B] = number;
@@ -161,7 +161,7 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    /// Executes the instructions. It is large, and compiled once for each size of the file, not for every caller.
+    /// Executes the instructions. Not inlined: it is large, and this way compiled once for each size of the file.
     #[inline(never)]
     fn execute<const P: usize, const B: usize, const Q: usize>(&self, file: &mut File<S, B, Q, P>) {
         for instruction in &self.instructions {

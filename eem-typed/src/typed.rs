@@ -69,7 +69,7 @@ impl<
     const R: usize,
 > Typed<S, H, N, K, V, D, C, R>
 {
-    /// What a law of this type is a function of.
+    /// The variables of a law of this type.
     pub(crate) const SHAPE: Shape = {
         assert!(R == N || R == N + 1, "there is one temperature or none");
         let [strains, _, dashpots, _] = H::AT_POINT;
@@ -89,7 +89,7 @@ impl<
         }
     };
 
-    /// Of functions that have this shape.
+    /// The material of functions that have this shape.
     pub(crate) fn new(functions: Arc<Functions<S>>) -> Self {
         const {
             assert!(N == Self::SHAPE.variables(), "N = M + K + T");
@@ -123,7 +123,8 @@ impl<
         number[0]
     }
 
-    /// A derivative by parameters, or along them: NaN if there are none, zero of what is not there.
+    /// A derivative with respect to parameters, or along a direction of them: NaN if the law has no derivatives, zero if it
+    /// lacks the function that is differentiated.
     fn derivative<const I: usize, A: Array<S>>(
         &self,
         tape: impl Fn(&ByParameters<S>) -> Option<&Tape<S>>,
@@ -139,12 +140,12 @@ impl<
         found
     }
 
-    /// The parameters that there are.
+    /// The entries of a direction for the parameters of this law.
     fn own<'a>(&self, direction: &'a [S; MOST_PARAMETERS]) -> &'a [S] {
         &direction[..self.functions.parameters.len()]
     }
 
-    /// The temperature as an input of viscosities, which have none without one.
+    /// The temperature as the input of viscosities; no input if the law has no temperature.
     fn temperature_input(theta: &S) -> &[S] {
         if Self::THERMAL {
             slice::from_ref(theta)
@@ -153,7 +154,7 @@ impl<
         }
     }
 
-    /// Forces, heat capacity and slopes, and then other results.
+    /// Forces, heat capacity and slopes; further results of the tape go to `others`.
     fn rates_of<const I: usize>(
         tape: &Tape<S>,
         inputs: [&[S]; I],
@@ -184,7 +185,7 @@ impl<
     const ROWS: Option<Rows<S, Self>> = Some(Self::rows());
     const MODEL: &'static str = NAMELESS;
     const HAS_PARAMETER_DERIVATIVES: bool = true;
-    /// Names are those of the law.
+    /// Empty: the names are known at run time, see `parameter_names`.
     const PARAMETERS: &'static [&'static str] = &[];
 
     type Parameters = [S; MOST_PARAMETERS];
@@ -261,7 +262,7 @@ impl<
 
     fn caloric_at(&self, x: [S; N]) -> impl Fn(S) -> (Caloric<S>, S) {
         let staged = self.functions.caloric_at.as_ref();
-        // Where the first value is known, often no other is needed.
+        // Computed at the first call: a caller who knows the value at its first temperature often needs no other.
         let kept = OnceCell::new();
         move |theta| {
             let (mut found, mut free_energy) = ([S::zero(); 3], [S::zero()]);

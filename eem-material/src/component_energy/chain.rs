@@ -6,7 +6,7 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::joint::{DEVIATORIC, Joint, JointEnergy, Tensors};
 use crate::number::scalar::Real;
 
-/// Derivatives by variables: a row per quantity.
+/// Derivatives with respect to the variables: a row per quantity.
 type Rows<S, const N: usize, const R: usize> = [[S; N]; R];
 
 /// A material with joint invariants, as a function of components.
@@ -17,13 +17,13 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     /// Number of components of Γ: six if it has a trace.
     const COMPONENTS: usize = DEVIATORIC + has_trace(Self::JOINT) as usize;
 
-    /// The index of the first component of E, and of Γ.
+    /// The indices of the first components of E and Γ.
     const FIRST: [usize; 2] = {
         let dashpots = Self::STRAINS + Self::COMPONENTS;
         [Self::STRAINS, dashpots + Self::DASHPOTS]
     };
 
-    /// The index of a variable or a conjugate of the material that is no invariant.
+    /// The index, among those of components, of a variable or conjugate of the material that belongs to no invariant.
     fn index(of_material: usize) -> usize {
         let invariants = Self::JOINT.len();
         if of_material < Self::STRAINS {
@@ -113,8 +113,8 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
         self.weights(&old.mean(&new), of_components, -S::one())
     }
 
-    /// The derivatives of conjugates by the new components, from those of the material; the gradients change by
-    /// the given fraction of those at the new state.
+    /// The derivatives of conjugates with respect to the new components, from those of the material. `fraction` is the
+    /// weight of the new state in the gradients `along`: ½ for the mean of two states, 1 for a single state.
     fn slopes<const N: usize, const W: usize>(
         &self,
         [along, new]: [&Tensors<S>; 2],

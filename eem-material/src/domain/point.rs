@@ -124,8 +124,8 @@ impl Space {
         self.ranges.len()
     }
 
-    /// The report of the smallest heat capacity and viscosities found. The last viscosity of a spring with more than one
-    /// per dashpot is that of the dashpot in parallel; a solid has viscosities of its dashpots and of a viscous strain.
+    /// The report of the smallest heat capacity and viscosities found. If a spring has more viscosities than dashpots, the
+    /// last one is that of the dashpot in parallel; in a solid the last ones are those of a viscous strain.
     pub(super) fn report(&self, evaluations: usize, mut leasts: Vec<Least>) -> DomainReport {
         let shape = self.shape;
         let mut viscosities = leasts.split_off(usize::from(shape.thermal));

@@ -6,14 +6,14 @@ use crate::number::scalar::Scalar;
 
 /// Number of the worst points from which the search descends.
 const STARTS: usize = 4;
-/// First and last step of the search, parts of the box.
+/// First and last step of the descent, in the unit cube.
 const STEPS: [f64; 2] = [0.125, 1e-6];
 /// Limit of the moves from one start, for quantities that fall in tiny steps.
 const MOVES: usize = 500;
 
-/// Corners are taken in the first variables only: there would be too many in all.
+/// Corners are examined in this many variables only: in all there would be too many.
 const CORNERED: usize = 10;
-/// Iterations to the root φ of `φ^(d+1) = φ + 1`: each gains more than a bit.
+/// Iterations for the root φ of `φ^(d+1) = φ + 1`: each gains more than one bit.
 const ITERATIONS: usize = 64;
 
 /// Heat capacity and viscosities of a state, or why it is invalid.
@@ -26,7 +26,7 @@ struct Examined {
     found: Vec<f64>,
 }
 
-/// Counts the examinations.
+/// Examines states, and counts them.
 struct Examiner<'e> {
     space: &'e Space,
     examine: &'e Examine<'e>,
@@ -41,7 +41,7 @@ impl Examiner<'_> {
     }
 
     /// Goes to smaller values of one quantity along the axes, with steps that are halved where
-    /// none of them gains (compass search, Fermi & Metropolis 1952).
+    /// none of them finds a smaller value (compass search, Fermi & Metropolis 1952).
     fn descend(&mut self, start: &Examined, quantity: usize) -> Result<Examined, DomainError> {
         let [mut step, last] = STEPS;
         let (mut best, mut moves) = (start.clone(), 0);
@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn the_sequence_fills_the_cube_evenly() {
-        // 1000 points: every one of 64 cells has its 15.6 of them, give or take a few.
+        // 1000 points in 64 cells: 15.6 in a cell on average.
         let mut cells = [0_u32; 64];
         for unit in even(3, 1000) {
             let quarter = |u: f64| [0.25, 0.5, 0.75].iter().filter(|&&end| u >= end).count();

@@ -17,11 +17,11 @@ const NOISE: f64 = 4.0;
 /// Two logarithms of temperatures are the same within this many ε of `max(1, |ln θ|)`.
 const RESOLUTION: f64 = 2.0;
 
-/// The largest relative change of the heat capacity over a correction that is not checked by an evaluation, if it
-/// changes at the rate Σ|terms of S|.
+/// The largest relative change of the heat capacity over the last correction, after which nothing is evaluated.
+/// Σ|terms of S| is taken for dC/dx.
 const TRUST: f64 = 0.25;
 
-/// Entropies that differ by this factor at the start suggest a power law. It decides one step only.
+/// If the entropy at the start and the target differ by this factor, the first step assumes a power law.
 const LARGE_FACTOR: f64 = 8.0;
 
 /// The entropy at one temperature.
@@ -85,7 +85,7 @@ impl<S: Real> Point<S> {
         S::select(is_sound, correction, S::zero())
     }
 
-    /// Newton's correction for `ln S`, exact for `S ∝ θⁿ`; that for `S` unless both entropies are positive.
+    /// Newton's correction for `ln S`, exact for `S ∝ θⁿ`; unless both entropies are positive, that for `S`.
     fn logarithmic_newton(&self, target: S) -> S {
         let are_positive = S::zero().less(self.entropy) & S::zero().less(target);
         if are_positive.all() {
@@ -131,8 +131,8 @@ struct Search<S> {
     is_logarithmic: bool,
     /// Whether the last step was that of a model inside the bracket.
     modelled: bool,
-    /// How many such steps made the residual larger, and how many bisections
-    /// are still due for the last of them.
+    /// How many steps of a model inside the bracket made the residual larger,
+    /// and how many bisections are still due for the last of them.
     failures: u32,
     bisections_due: u32,
     evaluations: usize,
@@ -184,7 +184,7 @@ impl<S: Real> Search<S> {
     /// Starts from a stable point.
     fn new(target: S, first: Point<S>) -> Self {
         let infinity = S::one() / S::zero();
-        // All normal numbers with normal reciprocals, but for a factor e².
+        // ln of the largest number, less 2, so that θ and 1/θ are normal numbers.
         let widest = S::MAX.ln() - S::from_f64(2.0);
         let large = S::from_f64(LARGE_FACTOR);
         let [is_above, is_below] = [

@@ -1,4 +1,4 @@
-//! Indices in half the memory.
+//! Indices of 32 bits, half the size of a `usize`.
 
 /// An index in 32 bits; more entries would need hundreds of gigabytes.
 #[must_use]

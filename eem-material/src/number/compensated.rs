@@ -31,7 +31,7 @@ impl<S: Scalar> Compensated<S> {
         Self { values, carries }
     }
 
-    /// Sums as they were stored; `None` unless there are as many compensations as values.
+    /// Sums as they were stored; `None` unless there are as many carries as values.
     #[must_use]
     pub fn of(values: Vec<S>, carries: Vec<S>) -> Option<Self> {
         (values.len() == carries.len()).then_some(Self { values, carries })
@@ -80,15 +80,15 @@ impl<S: Scalar> Compensated<S> {
         self.carries.fill(S::zero());
     }
 
-    /// One sum of `old` and an increment.
+    /// Sets one sum to that of `old` plus an increment.
     #[inline]
     pub fn advance(&mut self, index: usize, old: &Self, increment: S) {
         let sum = old.sum(index).plus(increment);
         (self.values[index], self.carries[index]) = (sum.value, sum.carry);
     }
 
-    /// The sums of one point of `D` coordinates, of `old` and increments, each a value and its rest; returns the sum of the
-    /// carries.
+    /// Sets the sums of one point of `D` coordinates to those of `old` plus increments, each a value and its rest. Returns the
+    /// sum of the new carries.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few numbers in registers")]
     pub fn advance_point<const D: usize>(
@@ -138,7 +138,7 @@ impl<S: Scalar> Compensated<S> {
         self.sum(index).change(old.sum(index))
     }
 
-    /// Copies the sums of `other`, which has as many, without allocation.
+    /// Copies the sums of `other` without allocation; `self` has as many, or none and is left empty.
     pub fn copy_from(&mut self, other: &Self) {
         if self.values.is_empty() {
             return;
@@ -195,8 +195,8 @@ impl<S: Scalar> Sum<S> {
     }
 }
 
-/// Adds to a value and its carry a change that is large compared with the carry: a correction of Newton's method. One
-/// addition less than [`Sum::add`], which keeps every digit of the carry.
+/// Adds to a value and its carry a change that is large compared with the carry: a correction of Newton's method. Takes
+/// one addition less than [`Sum::add`], but may lose the last digits of the carry.
 #[inline]
 pub fn correct<S: Scalar>(value: &mut S, carry: &mut S, change: S) {
     (*value, *carry) = two_sum(*value, *carry + change);

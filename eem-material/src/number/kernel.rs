@@ -25,13 +25,13 @@
 //! Three rules make the formulas work. The distance `d = |b − a|` is a
 //! difference of inputs, exact for close ends, never of values of `f`. A
 //! formula is based at the end that dominates, so that the argument of each
-//! building block is positive and its condition at most one. Sums have terms of
-//! equal sign, and an exact zero of `f[a,b]` is an explicit factor.
+//! building block is positive and its condition at most one. The terms of a sum
+//! have the same sign, and a factor that vanishes exactly where `f[a,b]` does is explicit.
 //!
 //! The idea is that of Kahan & Fateman, *Symbolic computation of divided
-//! differences*, SIGSAM Bull. 33 (1999); for `exp`
+//! differences*, SIGSAM Bull. 33 (1999); for `exp` of McCurdy, Ng & Parlett,
 //! *Accurate computation of divided differences of the exponential function*, Math.
-//! Comp. 43 (1984) 501–528; as a program transformation Reps & Rall,
+//! Comp. 43 (1984) 501–528; as a program transformation of Reps & Rall,
 //! Higher-Order and Symbolic Computation 16 (2003).
 
 mod exponential;

@@ -1,7 +1,7 @@
 //! SIMD lanes: four numbers as one, for four scenes that differ in numbers only.
 //!
 //! Every lane has the bits that it would have alone. Arithmetic, roots and comparisons are those of the processor; elementary
-//! functions are those of the platform's library, lane by lane. Lanes have no order: comparisons return a mask, and a branch
+//! functions are those of `f64`, lane by lane. Lanes have no order: comparisons return a mask, and a branch
 //! on it must handle lanes that differ.
 
 #[cfg(test)]
@@ -51,7 +51,7 @@ macro_rules! forward {
     };
 }
 
-/// The number of lanes. More gain nothing with the instructions that every processor has.
+/// The number of lanes. With the instructions that every processor has, more lanes gain nothing.
 const LANES: usize = MOST_LANES;
 
 /// Four numbers, see the module.
@@ -103,7 +103,7 @@ impl PartialEq for Lanes {
     }
 }
 
-/// Functions of the platform's library.
+/// Evaluates elementary functions of `f64` lane by lane.
 macro_rules! by_lane {
     ($($method:ident),*; $($method2:ident),*) => {
         $(
@@ -139,7 +139,7 @@ impl Scalar for Lanes {
         LaneMask::from_packed(self.packed().simd_lt(other.packed()))
     }
 
-    /// One closure if all lanes agree, as in most branches, which are for rare cases.
+    /// Calls one closure if all lanes agree. They usually do: most branches are for rare cases.
     #[inline]
     fn branch(
         mask: LaneMask,

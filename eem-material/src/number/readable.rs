@@ -2,12 +2,12 @@
 
 use core::fmt;
 
-/// Magnitudes that are printed without an exponent: at most three zeros behind the point and six
+/// Magnitudes that are printed without an exponent: at most three zeros after the point and six
 /// digits before it.
 const PLAIN: core::ops::Range<f64> = 1e-4..1e6;
 
 /// A number as error messages print it: the fewest digits that give back the same `f64`, with an exponent outside of 1e-4 …
-/// 1e6. A precision (`{:.6}`) is the number of digits behind the point, of the mantissa if there is an exponent.
+/// 1e6. A precision (`{:.6}`) is the number of digits after the point, of the mantissa if there is an exponent.
 #[derive(Clone, Copy, Debug)]
 pub struct Readable(pub f64);
 

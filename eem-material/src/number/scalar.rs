@@ -75,8 +75,8 @@ pub trait Scalar:
 
     /// `then()` where the mask holds and `otherwise()` elsewhere.
     ///
-    /// A single number calls one closure. Lanes call both and blend, so that
-    /// neither closure may panic or have effects.
+    /// A single number calls one closure. Lanes that differ call both and blend,
+    /// so neither closure may panic or have effects.
     fn branch(
         mask: Self::Mask,
         then: impl FnOnce() -> Self,
@@ -184,7 +184,7 @@ pub fn natural_power<S: Scalar>(base: S, n: u32) -> S {
     power
 }
 
-/// Numbers in SIMD lanes take different branches.
+/// The error if numbers in SIMD lanes would take different branches.
 ///
 /// A single number never returns this error. If an `Experiment` returns it with `?`, the
 /// `Ensemble` runs its members one by one.
@@ -326,13 +326,13 @@ pub trait Real: Scalar<Mask: Mask> + Sealed {
     }
 }
 
-/// Finite and greater than zero.
+/// Finite and greater than zero, in every lane.
 #[inline]
 pub fn is_positive<S: Real>(value: S) -> bool {
     (S::zero().less(value) & value.at_most(S::MAX)).all()
 }
 
-/// `kept` in the lanes that have converged, `new` in all others. A scalar number is not evaluated again once it has.
+/// `kept` in the lanes that have converged, `new` in all others. A single number is not evaluated again after convergence.
 #[inline]
 pub fn unless<S: Real>(converged: S::Mask, kept: S, new: S) -> S {
     if S::LANES == 1 {

@@ -16,7 +16,7 @@ pub enum MshError {
     Read {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         reason: String,
     },
     /// The format of the file is not supported.
@@ -38,7 +38,7 @@ pub enum MshError {
         "line {line} of the mesh is `{found}`, outside of all sections, where only heads like `$Nodes` are"
     )]
     Outside {
-        /// From 1.
+        /// The number of the line, from 1.
         line: usize,
         /// The text of the line.
         found: String,
@@ -58,7 +58,7 @@ pub enum MshError {
         "line {line} of the mesh begins a second section `${name}`, the first begins in line {first}: leave one of them"
     )]
     SecondSection {
-        /// Their name.
+        /// The name of both.
         name: String,
         /// Where the first begins, from 1.
         first: usize,
@@ -70,11 +70,11 @@ pub enum MshError {
     Line {
         /// The section.
         section: String,
-        /// From 1.
+        /// The number of the line, from 1.
         line: usize,
         /// The text of the line.
         found: String,
-        /// Its error.
+        /// What is wrong with it.
         fault: LineFault,
     },
     /// An element has a node that does not exist.
@@ -119,7 +119,7 @@ pub enum MshError {
         /// The entity.
         entity: i32,
     },
-    /// A mesh in the plane is not in one.
+    /// The nodes of a mesh in the plane do not have the same z.
     #[error(
         "node {node} is at z = {z} m and others at {first} m: a mesh in the plane has one z",
         z = Readable(*z), first = Readable(*first)
@@ -127,9 +127,9 @@ pub enum MshError {
     Plane {
         /// The node.
         node: u64,
-        /// m.
+        /// Its z, m.
         z: f64,
-        /// That of the first node, m.
+        /// The z of the first node, m.
         first: f64,
     },
     /// Two nodes are in the same place.
@@ -163,7 +163,7 @@ pub enum MshError {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum LineFault {
-    /// It has too many or too few numbers, or invalid ones.
+    /// The line has too many or too few numbers, or invalid ones.
     #[error("these are not the numbers that have to be there")]
     Numbers,
     /// The section continues after its last block.
@@ -194,14 +194,14 @@ pub enum LineFault {
         /// The dimension.
         found: u64,
     },
-    /// The elements of an entity have another dimension than itself.
+    /// The elements of an entity have another dimension than the entity.
     #[error("the entity has the dimension {found}, and its {elements} have the dimension {needed}")]
     Dimension {
-        /// That of the entity.
+        /// The dimension of the entity.
         found: usize,
         /// Its elements.
         elements: &'static str,
-        /// Theirs.
+        /// The dimension of the elements.
         needed: usize,
     },
     /// The number that tells whether nodes have coordinates within their entity is invalid.

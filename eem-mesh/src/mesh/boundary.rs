@@ -68,7 +68,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         sides.map(around).collect()
     }
 
-    /// These faces of cells, in ascending order.
+    /// The `Face` of these faces of cells, which ascend.
     pub(crate) fn face_of(&self, sides: Vec<[usize; 2]>) -> Result<Face, MeshError> {
         if sides.is_empty() {
             return Err(MeshError::NoFace);
@@ -94,7 +94,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         H::FACES[face].iter().map(|&node| nodes[node])
     }
 
-    /// The faces that belong to one cell.
+    /// The faces that belong to only one cell, each as this cell and the number of the face.
     #[doc(hidden)]
     #[must_use]
     pub fn surface(&self) -> Vec<[usize; 2]> {

@@ -1,4 +1,4 @@
-//! The rules for a mesh.
+//! The checks of a mesh.
 
 use super::error::MeshError;
 use super::geometry::power_of_two;
@@ -8,7 +8,7 @@ use crate::shape::Shape;
 use crate::tensor::Symmetric;
 use eem_material::free_energy::Array;
 
-/// The first error of a mesh.
+/// Returns the first error of a mesh.
 pub(super) fn check<H: Shape<D>, const D: usize>(
     nodes: &[[f64; D]],
     cells: &[H::PerNode<usize>],
@@ -23,7 +23,7 @@ pub(super) fn check<H: Shape<D>, const D: usize>(
     sides::for_same::<H, D, _>(cells, nodes.len(), |same| check_same::<H, D>(cells, same))
 }
 
-/// `det ∂X/∂ξ` is positive at all points and nodes. For a quadrilateral of four nodes it is then positive everywhere.
+/// An error unless `det ∂X/∂ξ` is positive at all points and nodes, and so everywhere in a quadrilateral of four nodes.
 fn check_sizes<H: Shape<D>, const D: usize>(
     nodes: &[[f64; D]],
     cells: &[H::PerNode<usize>],

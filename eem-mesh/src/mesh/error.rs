@@ -18,7 +18,7 @@ pub enum MeshError {
         axis: usize,
         /// The cut, from 0.
         cut: usize,
-        /// m.
+        /// The position of the cut, m.
         value: f64,
     },
     /// The ends of a block along an axis do not ascend.
@@ -29,12 +29,12 @@ pub enum MeshError {
     Range {
         /// The axis, from 0.
         axis: usize,
-        /// m.
+        /// The first end, m.
         from: f64,
-        /// m.
+        /// The second end, m.
         to: f64,
     },
-    /// Nodes cannot be numbered.
+    /// There are too many nodes to number them.
     #[error(
         "{cells} cells have {nodes} nodes, which take {bytes} bytes, and no more than 4294967295 nodes can be numbered: use fewer cells"
     )]
@@ -105,7 +105,7 @@ pub enum MeshError {
         node: usize,
         /// The axis, from 0.
         axis: usize,
-        /// m.
+        /// The coordinate, m.
         value: f64,
     },
     /// A cell is inside out at one of its points.
@@ -182,7 +182,7 @@ pub enum MeshError {
     /// The distance in the search for a node is invalid.
     #[error("a node is looked for within {within} m, which must be zero or positive", within = Readable(*within))]
     Distance {
-        /// m.
+        /// The distance, m.
         within: f64,
     },
     /// There is no node at a position.

@@ -17,7 +17,7 @@ pub struct Face {
 }
 
 impl Face {
-    /// The nodes of the mesh that belong to it, in ascending order.
+    /// The nodes of the mesh that belong to these faces, in ascending order.
     #[must_use]
     pub fn nodes(&self) -> &[usize] {
         &self.nodes
@@ -41,11 +41,11 @@ pub struct SubFace<const D: usize> {
     pub point: usize,
     /// `|A|`; m², m in the plane.
     pub area: f64,
-    /// `t/k`; m, one in the plane.
+    /// `t/k`; m, dimensionless in the plane.
     pub shape_factor: f64,
-    /// m.
+    /// The centre, m.
     pub(super) centre: [f64; D],
-    /// `|A·d|/(|A| |d|)`
+    /// `|A·d|/(|A| |d|)`.
     pub(super) cosine: f64,
 }
 
@@ -67,7 +67,7 @@ pub fn facing<const D: usize>(
 /// of 18°, or of a shear of a third.
 const LEAST_COSINE: f64 = 0.95;
 
-/// One face in so many may be skew. A cell sheared by a third conducts about 0.3 k across its grid. If one face in
+/// One face in this many may be skew. A cell sheared by a third conducts about 0.3 k across its grid. If one face in
 /// twenty does, the flow has an error of at most 0.3/20, about 2 %, as on a mesh of four cells per side.
 const ONE_IN: usize = 20;
 

@@ -5,8 +5,8 @@ use crate::tensor::Symmetric;
 use eem_material::free_energy::{Array, Entry};
 use eem_material::number::scalar::Scalar;
 
-/// The normal, as long as the area, of an edge in the plane or of a quadrilateral in space (half the product of its
-/// diagonals).
+/// The area vector (normal, of the length of the area) of an edge in the plane, or of a quadrilateral in space (half the
+/// cross product of its diagonals).
 pub(super) fn area_vector<H: Shape<D>, const D: usize>(corners: &[[f64; D]]) -> [f64; D] {
     let difference =
         |a: [f64; D], b: [f64; D]| -> [f64; D] { core::array::from_fn(|axis| b[axis] - a[axis]) };

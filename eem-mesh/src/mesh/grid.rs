@@ -35,7 +35,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let lattice = Lattice::of(cells)?;
         let cuts: [Vec<f64>; D] = core::array::from_fn(|axis| {
             let [from, to] = ranges[axis];
-            // A mesh has no more nodes.
+            // `Lattice::of` has refused more.
             let parts = u32::try_from(cells[axis]).unwrap_or(u32::MAX);
             let all = f64::from(parts);
             let cut = |at: u32| {
@@ -96,7 +96,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     }
 }
 
-/// A cut, or the middle between two, counted in halves.
+/// The position `at/2` cuts along an axis, m: a cut, or the middle between two.
 pub(super) fn level(cuts: &[f64], at: usize) -> f64 {
     let below = cuts[at / 2];
     match at % 2 {
@@ -105,13 +105,13 @@ pub(super) fn level(cuts: &[f64], at: usize) -> f64 {
     }
 }
 
-/// At least two cuts along each axis, which ascend.
+/// An error unless there are at least two cuts along each axis, which ascend.
 fn check_cuts<const D: usize>(cuts: [&[f64]; D]) -> Result<(), MeshError> {
     let mut axes = cuts.iter().enumerate();
     axes.try_for_each(|(axis, cuts)| check_axis(axis, cuts))
 }
 
-/// At least two cuts, which ascend.
+/// An error unless there are at least two cuts, which ascend.
 pub(super) fn check_axis(axis: usize, cuts: &[f64]) -> Result<(), MeshError> {
     let mut before = f64::NEG_INFINITY;
     for (cut, &value) in cuts.iter().enumerate() {

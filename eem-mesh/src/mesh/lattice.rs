@@ -13,7 +13,7 @@ use crate::shape::Shape;
 #[derive(Debug)]
 pub(super) struct Lattice<H, const D: usize> {
     cells: [usize; D],
-    /// Whether there are nodes at positions that are odd along these axes, by the sum of `2^axis`.
+    /// Whether there are nodes at positions that are odd along some axes, indexed by the sum of `2^axis` of these.
     has: Vec<bool>,
     /// The first node of each row, and the number of nodes.
     starts: Vec<usize>,
@@ -55,7 +55,7 @@ impl<H: Shape<D>, const D: usize> Lattice<H, D> {
         Ok(lattice)
     }
 
-    /// The sum of `2^axis` of the axes, except the first, that are odd in a row.
+    /// The sum of `2^axis` of the axes, except the first, along which the position of a row is odd.
     fn parities(&self, mut row: usize) -> usize {
         let mut odd = 0;
         for (axis, count) in self.cells.iter().enumerate().skip(1) {
@@ -102,7 +102,7 @@ impl<H: Shape<D>, const D: usize> Lattice<H, D> {
     }
 }
 
-/// The size of a mesh before it is made; `u128::MAX` stands for that or more.
+/// The size of a mesh before it is made; a number `u128::MAX` stands for that or more.
 #[derive(Clone, Copy, Debug)]
 struct Size {
     cells: u128,

@@ -22,7 +22,7 @@ fn cuts(per_axis: usize) -> &'static [f64] {
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// Pairs of points with `κ/k`, within and between cells; m, one in the plane. And their skewness.
+    /// Pairs of points with `κ/k` (m; dimensionless in the plane), within and between cells, and the skewness of their faces.
     #[doc(hidden)]
     #[must_use]
     pub fn network(&self) -> (Vec<([usize; 2], f64)>, Skewness) {
@@ -63,7 +63,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         (skewness.skew, skewness.faces)
     }
 
-    /// The sub-faces on the surface.
+    /// The sub-faces on a face of the mesh.
     #[doc(hidden)]
     #[must_use]
     pub fn outside(&self, face: &Face) -> Vec<SubFace<D>> {

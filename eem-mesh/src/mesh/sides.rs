@@ -2,7 +2,7 @@
 
 use crate::shape::Shape;
 
-/// The most nodes that a face has, that of a `Hex20`.
+/// The most nodes of a face, those of a `Hex20`.
 const MOST: usize = 8;
 
 /// The nodes of a face in ascending order, then `usize::MAX`.

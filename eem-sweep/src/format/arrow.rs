@@ -77,7 +77,7 @@ impl<W: Write> Writer<W> {
         Ok(())
     }
 
-    /// Writes the row at which a reader is.
+    /// Writes the current row of a reader.
     pub(super) fn row(&mut self, reader: &Reader) -> io::Result<()> {
         let Some((batch, row)) = reader.at() else {
             return Ok(());
@@ -125,7 +125,7 @@ impl<W: Write> Writer<W> {
             columns.push(Arc::new(if none_failed {
                 Float64Array::from(values)
             } else {
-                // What a member that failed has left there is of no meaning.
+                // Outputs of failed members have no meaning.
                 let pairs = values.into_iter().zip(&failures);
                 pairs.map(|(v, f)| f.is_none().then_some(v)).collect()
             }));
@@ -143,7 +143,7 @@ impl<W: Write> Writer<W> {
     }
 }
 
-/// An error of the file system as it was, so that a full disk is told from others.
+/// Unwraps an error of the file system, so that a full disk is recognised.
 fn of_io(error: ArrowError) -> io::Error {
     match error {
         ArrowError::IoError(_, error) => error,
@@ -160,8 +160,8 @@ pub(crate) struct Reader {
 }
 
 impl Reader {
-    /// Checks the columns of a file and goes to the first row. The bytes must be those that were written: what is
-    /// damaged may ask for any memory.
+    /// Checks the columns of a file and goes to the first row. The caller has verified the bytes: a damaged file may make
+    /// this reserve any amount of memory.
     pub(super) fn open(path: &Path, bytes: Vec<u8>, heads: &Heads) -> Result<Self, SweepError> {
         let from = FileReader::try_new(Cursor::new(bytes), None);
         let from = from.map_err(|error| damaged(path, &error))?;
@@ -183,7 +183,7 @@ impl Reader {
         self.batch.as_ref().map(|batch| (batch, self.row))
     }
 
-    /// The id of the row; none after the last one.
+    /// The id of the row; `None` after the last one.
     pub(super) fn id(&self) -> Option<u64> {
         let (batch, row) = self.at()?;
         let ids = batch.column(0).as_any().downcast_ref::<UInt64Array>()?;
@@ -196,7 +196,7 @@ impl Reader {
             .is_some_and(|(batch, row)| !batch.column(1).is_null(row))
     }
 
-    /// Fills in the outputs of the row, or says why there are none.
+    /// Fills in the outputs of the row, or returns the failure.
     pub(super) fn result(
         &self,
         heads: &Heads,

@@ -6,7 +6,7 @@ use crate::inputs::InputError;
 pub(super) const ID: &str = "id";
 /// The kind of failure; empty if there is none.
 pub(super) const FAILURE: &str = "failure";
-/// When the step began that failed.
+/// The time at which the failed step began, s.
 pub(super) const FAILED_AT: &str = "failed_at (s)";
 /// The message of the failure.
 pub(super) const MESSAGE: &str = "message";
@@ -19,7 +19,7 @@ pub(crate) struct Heads {
 }
 
 impl Heads {
-    /// Refuses two columns of one name, and names that are no line.
+    /// An error if two columns have the same name, or a name has a control character such as a line break.
     pub(crate) fn new(inputs: &[String], outputs: &[&str]) -> Result<Self, InputError> {
         let heads = Self {
             inputs: inputs.to_vec(),

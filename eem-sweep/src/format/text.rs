@@ -46,7 +46,7 @@ impl<W: Write> Writer<W> {
         self.to.write_all(line)
     }
 
-    /// Nothing is kept back.
+    /// Flushes the file.
     pub(super) fn finish(&mut self) -> io::Result<()> {
         self.to.flush()
     }
@@ -101,7 +101,7 @@ fn quoted(text: &str) -> String {
     }
 }
 
-/// Reads lines, and of a line its id and whether there is a failure.
+/// Reads lines; of each line only the id and whether there is a failure, until outputs are requested.
 pub(crate) struct Reader {
     path: PathBuf,
     bytes: Vec<u8>,
@@ -125,7 +125,7 @@ impl Reader {
         Ok(reader)
     }
 
-    /// The id of the line; none after the last one.
+    /// The id of the line; `None` after the last one.
     pub(super) fn id(&self) -> Option<u64> {
         self.row.map(|(id, _)| id)
     }
@@ -140,7 +140,7 @@ impl Reader {
         &self.bytes[self.line.clone()]
     }
 
-    /// Fills in the outputs of the line, or says why there are none.
+    /// Fills in the outputs of the line, or returns the failure.
     pub(super) fn result(
         &self,
         heads: &Heads,

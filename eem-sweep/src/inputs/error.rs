@@ -1,4 +1,4 @@
-//! What can be wrong with the inputs of a sweep.
+//! Errors of the inputs of a sweep.
 
 use thiserror::Error;
 
@@ -36,7 +36,7 @@ pub enum InputError {
     /// There are more members than can be numbered.
     #[error("the inputs have {members:.3e} members, at most {most} can be numbered", most = u32::MAX)]
     TooMany {
-        /// How many.
+        /// The number of members.
         members: f64,
     },
     /// A range has no width, or its ends are no numbers.
@@ -56,9 +56,9 @@ pub enum InputError {
     Ragged {
         /// The number of the row, from 0.
         row: usize,
-        /// Its values.
+        /// The number of its values.
         given: usize,
-        /// The columns.
+        /// The number of columns.
         expected: usize,
     },
     /// Two rows have one id.
@@ -76,9 +76,9 @@ pub enum InputError {
         line: u64,
         /// The name of the column.
         column: String,
-        /// What is there.
+        /// The text of the cell.
         text: String,
-        /// What should be there.
+        /// The expected kind of number.
         expected: &'static str,
     },
     /// A file with inputs cannot be read.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
 
-/// The order of layers in each column; values are computed when they are asked for.
+/// The order of layers in each column; values are computed on request.
 #[derive(Clone, Debug)]
 pub(super) struct Latin {
     seed: u64,
@@ -26,7 +26,7 @@ impl Latin {
         }
     }
 
-    /// How it was asked for.
+    /// The seed and the ranges.
     pub(super) fn recipe(&self) -> (u64, &[Range<f64>]) {
         (self.seed, &self.ranges)
     }
@@ -36,7 +36,7 @@ impl Latin {
         self.layers.first().map_or(0, Vec::len)
     }
 
-    /// Adds the values of a member: `low + (high − low)(layer + u)/n` with u from 0 to 1.
+    /// Appends the values of a member: `low + (high − low)(layer + u)/n` with u from 0 to 1.
     pub(super) fn values(&self, member: usize, values: &mut Vec<f64>) {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed ^ PLACES);
         random.set_stream(member as u64);
@@ -55,7 +55,7 @@ impl Latin {
     }
 }
 
-/// Sets the seed of places within layers apart from that of the layers.
+/// Makes the seed of places within layers different from that of the layers.
 const PLACES: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// 0 to `count − 1` in random order, by the shuffle of Fisher and Yates.

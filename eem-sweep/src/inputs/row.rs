@@ -22,7 +22,7 @@ pub struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    /// A value per column.
+    /// The row with these values, one per column.
     pub(crate) fn new(id: u64, columns: &'a [String], values: &'a [f64]) -> Self {
         Self {
             id,
@@ -31,7 +31,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// What identifies the member in every file of the sweep.
+    /// The id of the member in every file of the sweep.
     #[must_use]
     pub fn id(&self) -> u64 {
         self.id

@@ -70,7 +70,7 @@ impl Table {
                     ids.push(id);
                 } else {
                     let value: f64 = text.parse().map_err(|_| wrong(column, "number"))?;
-                    // `1e400` is read as infinite, which only `inf` means.
+                    // `1e400` is parsed as infinite; only `inf` may mean that.
                     if value.is_infinite() && text.contains(|c: char| c.is_ascii_digit()) {
                         return Err(wrong(column, "number that 64 bits can hold"));
                     }

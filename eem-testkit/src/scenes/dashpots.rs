@@ -1,5 +1,5 @@
-//! Springs with one, two and three Maxwell branches side by side, and viscosities that thin with
-//! heat.
+//! Springs with one, two and three Maxwell branches in parallel, whose viscosities fall with the
+//! temperature.
 //!
 //! ```text
 //! ψ = ½ C ln²(λ/λ0) − β (θ − θr) ln(λ/λ0) + c (θ − θr − θ ln(θ/θr)) + Σ_k ½ μ_k (λ − λ0 − γ_k)²

@@ -9,7 +9,7 @@ pub use eem::materials::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
 use eem::prelude::*;
 use eem::{EndState, Material, Real, RefusedScene, StateQuantity};
 
-/// The only thing for which a scene is refused.
+/// The only error for which a scene is refused.
 pub fn only_error<const D: usize>(refused: Result<Simulation<D>, RefusedScene<D>>) -> SceneError {
     let refused = refused.unwrap_err();
     let [error] = refused.errors() else {
@@ -29,8 +29,8 @@ pub const EXACT: [Scheme; 7] = [
     Scheme::Auto,
 ];
 
-/// Springs of two models between an anchor and two masses, in contact and in air, under gravity: the scene, its nodes, and the
-/// springs with a temperature, of which the second is to be kept at one.
+/// Springs of two models between an anchor and two masses, in thermal contact and in air, under gravity: the scene, its nodes,
+/// and the springs with a temperature, of which [`busy`] prescribes the second.
 pub fn in_air() -> (Scene<2>, [Node; 3], [Element; 2]) {
     let mut scene = Scene::<2>::new();
     let support = scene.anchor([0.0, 0.0]);
@@ -67,7 +67,7 @@ pub fn largest_error(own: &EndState, exact: &EndState) -> f64 {
     errors.into_iter().flatten().fold(0.0, f64::max)
 }
 
-/// A run with the handles of what is in it.
+/// A simulation of the pendulum, with handles of its parts.
 #[derive(Debug)]
 pub struct Pendulum {
     pub run: Simulation<2>,
@@ -88,7 +88,7 @@ pub fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
     }
 }
 
-/// Its scene, in numbers of any type, with bob, spring and air.
+/// The scene of the single pendulum in numbers of any type, with bob, spring and air.
 pub fn single_pendulum_scene<S: Real>() -> (Scene<2, S>, Node, Element, Reservoir) {
     let number = S::from_f64;
     let mut scene = Scene::default();
@@ -180,7 +180,7 @@ impl DoublePendulum {
 
     pub const ALL: [Self; 3] = [Self::ROMERO, Self::KRUEGER, Self::LOGARITHMIC];
 
-    /// Ready to run, with its masses and springs.
+    /// A simulation of it, with its masses and springs.
     pub fn simulation(&self, scheme: Scheme, step: f64) -> DoubleRun {
         let (scene, masses, springs) = self.scene();
         let run = Simulation::new(scene, scheme, step).unwrap();

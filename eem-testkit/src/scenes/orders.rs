@@ -1,4 +1,4 @@
-//! How errors go with the step.
+//! Orders of convergence: how errors depend on the step.
 
 use eem::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Tapes of programs: of one state, and in two parts, what is known before an iteration and the rest.
+//! Tapes of programs: of one state; and in two parts, for the old state once in a step and for the new one in each iteration.
 
 use std::collections::BTreeMap;
 
@@ -8,16 +8,16 @@ use eem_symbolic::{Operation, Program, Value};
 use crate::error::LawError;
 use crate::tape::{Tape, Wanted, fold};
 
-/// How many numbers of the old state a spring has room for. Where there are more, the old state itself is kept, and all is
-/// computed from it in every iteration.
+/// The most values of the old state that a spring keeps. If a function needs more, the old variables are kept instead, and
+/// all is computed from them in every iteration.
 pub(crate) const KEPT: usize = 32;
 
-/// A function of what is old and what is new.
+/// A function of old and new inputs, in two parts.
 #[derive(Debug)]
 pub(crate) struct Staged<S> {
-    /// From the old inputs to what is kept.
+    /// From the old inputs to the kept values.
     pub(crate) old: Tape<S>,
-    /// From what is kept and the new inputs to the results.
+    /// From the kept values and the new inputs to the results.
     pub(crate) new: Tape<S>,
 }
 
@@ -49,7 +49,7 @@ pub(super) fn kept<S: Scalar>(program: &Program, parameters: &[S]) -> Vec<Value>
 }
 
 impl<S: Scalar> Staged<S> {
-    /// The first `old` inputs after the parameters are old. What is kept is `fits`, or else they are.
+    /// The first `old` inputs after the parameters are old. Keeps the values of [`kept`] if they fit, else the old inputs.
     pub(super) fn new(
         program: &Program,
         parameters: &[S],
@@ -60,7 +60,7 @@ impl<S: Scalar> Staged<S> {
         Ok(staged)
     }
 
-    /// The same, and where the inputs of the new part are.
+    /// The same, with the places of the inputs of the new part.
     fn with_places(
         program: &Program,
         parameters: &[S],
@@ -98,7 +98,7 @@ impl<S: Scalar> Staged<S> {
         Ok((Self { old: of_old, new }, places))
     }
 
-    /// What is kept of the old inputs, at the beginning of `kept`.
+    /// Computes the kept values from the old inputs, at the beginning of `kept`.
     pub(crate) fn keep(&self, inputs: &[S], kept: &mut [S]) {
         self.old.run([inputs], [&mut kept[..self.old.results()]]);
     }
@@ -126,16 +126,16 @@ impl<S: Scalar> Form<S> {
     }
 }
 
-/// Where the new part of a function has its inputs.
+/// The places of the inputs of the new part of a function.
 struct Places {
-    /// Values of the whole program.
+    /// The kept values of the whole program, with their places.
     kept: BTreeMap<Value, usize>,
     old: usize,
     inputs: usize,
 }
 
 impl Places {
-    /// The inputs of a program whose values are values of the whole one.
+    /// The inputs among the values of a program, whose values have their `origin` in the whole program.
     fn of(
         &self,
         program: &Program,

@@ -1,4 +1,4 @@
-//! Registers of a tape: a result takes the first that is free, and gives it back after its last reader.
+//! Allocation of registers: a result takes the first free one, which is free again after its last reader.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,16 +9,16 @@ use super::fold::Folded;
 use super::instruction::{Action, Instruction, Register};
 use super::lower::{Line, Wanted};
 
-/// A tape with registers.
+/// The parts of a tape, with registers as operands.
 pub(super) struct Allocated<S> {
     pub(super) constants: Box<[S]>,
     pub(super) instructions: Box<[Instruction]>,
     pub(super) outputs: Box<[Register]>,
-    /// How many.
+    /// The number of registers.
     pub(super) registers: usize,
 }
 
-/// The tape of these lines. Beyond 2¹⁶ registers they are counted and not right; such a tape is refused.
+/// The tape of these lines. With more than 2¹⁶ registers only their count is right; such a tape is refused.
 pub(super) fn allocate<S: Scalar>(wanted: &Wanted<'_, S>, lines: &[Line]) -> Allocated<S> {
     let mut constants = Constants::new(wanted);
     for line in lines {
@@ -48,7 +48,7 @@ pub(super) fn allocate<S: Scalar>(wanted: &Wanted<'_, S>, lines: &[Line]) -> All
     }
 }
 
-/// The folded values that are read.
+/// The folded values that lines or outputs read.
 struct Constants<'w, S> {
     folded: &'w [Folded<S>],
     places: BTreeMap<Value, usize>,
@@ -74,11 +74,11 @@ impl<'w, S: Scalar> Constants<'w, S> {
     }
 }
 
-/// Which register each value is in.
+/// The registers of the values that are stored.
 struct File<'w> {
     operations: &'w [eem_symbolic::Instruction],
     places: BTreeMap<Value, usize>,
-    /// The values whose last reader is a line, by lines.
+    /// For each line, the values that it is the last to read.
     last: BTreeMap<usize, Vec<Value>>,
     free: BTreeSet<usize>,
     used: usize,
@@ -114,7 +114,7 @@ impl<'w> File<'w> {
         file
     }
 
-    /// The value that a line computes, and which part of it is meant.
+    /// The value under which a line stores `value`, and the place of `value` among the results of the line.
     fn origin(&self, value: Value) -> (Value, usize) {
         if self.places.contains_key(&value) {
             return (value, 0);
@@ -135,7 +135,7 @@ impl<'w> File<'w> {
         Register::try_from(place + part).unwrap_or(Register::MAX)
     }
 
-    /// Frees what this line has read for the last time.
+    /// Frees the registers of values that this line is the last to read.
     fn release(&mut self, line: usize) {
         for value in self.last.remove(&line).unwrap_or_default() {
             let Some(&place) = self.places.get(&value) else {
@@ -152,7 +152,7 @@ impl<'w> File<'w> {
         }
     }
 
-    /// The first of so many registers one after the other.
+    /// Takes `count` consecutive registers for a value, and returns the first.
     fn take(&mut self, value: Value, count: usize) -> Register {
         let mut free = self.free.iter().copied();
         let fits = |first: &usize| (1..count).all(|next| self.free.contains(&(first + next)));

@@ -1,4 +1,4 @@
-//! What depends on parameters alone is computed once, by the methods that generated code calls in every step.
+//! Constant folding: values that depend on parameters alone are computed once, by the methods that generated code calls.
 
 use eem_material::kernel::Differences;
 use eem_material::number::scalar::Scalar;
@@ -6,7 +6,7 @@ use eem_symbolic::{DifferencePart, Operation, Program, ProgramKernel, Value};
 
 use super::instruction::{apply, first, joint, second};
 
-/// What is known of a value before a state is.
+/// A value, if it depends on parameters alone.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Folded<S> {
     /// It depends on the state.

@@ -9,7 +9,7 @@ use eem_symbolic::{Function, ProgramKernel};
 /// The number of a register.
 pub(crate) type Register = u16;
 
-/// What is computed, from values that are named by `V`.
+/// An operation on values that are named by `V`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Action<V> {
     Add(V, V),
@@ -21,7 +21,7 @@ pub(crate) enum Action<V> {
     Sqrt(V),
     Power(V, V),
     Apply(Function, V),
-    /// `a b + c`; the product is rounded, here and below.
+    /// `a b + c`; here and below the product is rounded separately.
     MulAdd(V, V, V),
     /// `a b − c`.
     MulSub(V, V, V),
@@ -45,7 +45,7 @@ pub(crate) struct Instruction {
 }
 
 impl<V: Copy> Action<V> {
-    /// Calls `see` for everything that is read.
+    /// Calls `see` for every operand.
     pub(crate) fn operands(&self, mut see: impl FnMut(V)) {
         match *self {
             Self::Neg(a) | Self::Powi(a, _) | Self::Sqrt(a) | Self::Apply(_, a) => see(a),
@@ -64,7 +64,7 @@ impl<V: Copy> Action<V> {
         }
     }
 
-    /// The same action of other values.
+    /// The same action with other operands.
     pub(crate) fn map<W>(&self, of: impl Fn(V) -> W) -> Action<W> {
         match *self {
             Self::Add(a, b) => Action::Add(of(a), of(b)),
@@ -87,7 +87,7 @@ impl<V: Copy> Action<V> {
     }
 }
 
-/// Registers, of which there are a power of two: blocks of numbers, one for each element.
+/// `P` registers, a power of two: each has `Q` blocks of `B` numbers, one number per element.
 pub(crate) type File<S, const B: usize, const Q: usize, const P: usize> = [[[S; B]; Q]; P];
 
 impl Instruction {
@@ -126,7 +126,7 @@ impl Instruction {
     }
 }
 
-/// A register of some others, a block at a time.
+/// Computes a register from others, a block at a time.
 #[inline]
 #[expect(
     clippy::needless_range_loop,
@@ -145,7 +145,7 @@ fn each<S: Scalar, const B: usize, const Q: usize, const P: usize, const N: usiz
     }
 }
 
-/// Registers one after the other, of the differences of a function.
+/// Computes consecutive registers: the differences of a function.
 #[inline]
 #[expect(
     clippy::needless_range_loop,
@@ -255,7 +255,7 @@ pub(super) fn second<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> S {
     }
 }
 
-/// All three; those without a kernel of their own one by one, with the same bits.
+/// All three differences: of functions without a joint kernel one by one, with the same bits.
 #[inline(never)]
 pub(super) fn joint<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> Differences<S> {
     match f {
@@ -273,7 +273,7 @@ pub(super) fn joint<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> Differences<S
     }
 }
 
-/// `|x|` has none: programs write its differences with quotients.
+/// `|x|` has no kernel: programs write its differences with quotients.
 fn no_kernel<S: Scalar>() -> S {
     S::from_f64(f64::NAN)
 }

@@ -1,4 +1,4 @@
-//! The operations that a tape needs, in order, with products joined to what reads them.
+//! The operations that a tape needs, in order, with products joined to the operations that read them.
 
 use std::collections::BTreeMap;
 
@@ -7,12 +7,12 @@ use eem_symbolic::{Operation, Program, Value};
 use super::fold::Folded;
 use super::instruction::Action;
 
-/// What a tape is made of.
+/// The program of a tape, with its inputs and outputs.
 pub(crate) struct Wanted<'p, S> {
     pub(crate) program: &'p Program,
     /// The values that depend on parameters alone.
     pub(crate) folded: &'p [Folded<S>],
-    /// The values that are inputs of the tape, with their places.
+    /// The values that are inputs of the tape, with their indices among these.
     pub(crate) known: BTreeMap<Value, usize>,
     /// Number of inputs.
     pub(crate) inputs: usize,
@@ -26,7 +26,7 @@ pub(super) struct Line {
     pub(super) action: Action<Value>,
 }
 
-/// The lines of a tape. Their operands are values of the program; what is folded or an input of the tape has no line.
+/// The lines of a tape. Their operands are values of the program; folded values and inputs of the tape have no line.
 pub(super) fn lower<S>(wanted: &Wanted<'_, S>) -> Vec<Line> {
     let needed = needed(wanted);
     let instructions = wanted.program.instructions.iter().enumerate();
@@ -62,7 +62,7 @@ fn needed<S>(wanted: &Wanted<'_, S>) -> Vec<bool> {
     needed
 }
 
-/// What an operation does in a tape; nothing for what is only a name of a register.
+/// The action of an operation; `None` for inputs, constants and parts, which have registers without one.
 fn action(operation: &Operation) -> Option<Action<Value>> {
     Some(match *operation {
         Operation::Input(_) | Operation::Constant(_) | Operation::Part(..) => return None,

@@ -68,7 +68,7 @@ impl<
         }
     }
 
-    /// Calls a function for every run of elements with the same tapes: with the first of them, and their results.
+    /// Calls `of_run` for every run of elements with the same tapes: with these, the first element, and the results.
     fn runs<'a, T>(
         model: impl Fn(usize) -> &'a Self,
         mut found: &mut [T],
@@ -87,7 +87,7 @@ impl<
         }
     }
 
-    /// What forms keep of the old variables, one after the other.
+    /// The values that forms keep of the old state, one form after the other.
     fn keep_of_each<'a, const F: usize>(
         each: &Each<'_, (&'a Self, &'a [S; N])>,
         forms: impl Fn(&'a Functions<S>) -> [Option<&'a Staged<S>>; F],
@@ -107,7 +107,7 @@ impl<
         });
     }
 
-    /// A tape of a step: of so many numbers that are kept, in their place, the new variables, and corners.
+    /// Runs a tape of a step. Its inputs are a range of the kept values, the new variables, and corners.
     fn step_of_each<'a, P: 'a, T, const O: usize>(
         each: &Each<'_, (&'a Self, &'a [S; KEPT], &'a [S; N], &'a P)>,
         corners: fn(&P) -> &[S],
@@ -169,7 +169,7 @@ impl<
     }
 }
 
-/// The form in temperature; without one both forms are the same.
+/// The temperature form. Without a temperature both forms are the same.
 fn in_temperature<S>(of: &Functions<S>) -> &Form<S> {
     of.temperature_form.as_ref().unwrap_or(&of.entropy_form)
 }
@@ -178,7 +178,7 @@ fn in_entropy<S>(of: &Functions<S>) -> &Form<S> {
     &of.entropy_form
 }
 
-/// A tape, and where what it reads is kept.
+/// A tape, and the range of the kept values that it reads.
 type AndKept<'a, S> = (&'a Tape<S>, Range<usize>);
 
 fn with_tangent<S: Scalar>(form: &Form<S>) -> AndKept<'_, S> {

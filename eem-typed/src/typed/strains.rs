@@ -12,7 +12,7 @@ use crate::shape::{Flow, Strains};
 /// Room for what is kept of the old state of a material, and for the components of E and Γ.
 const KEPT_WITH_COMPONENTS: usize = KEPT + 12;
 
-// Which strains they are is known when a program runs: `strains` says it.
+// Which strains they are is known only at run time, from `strains`; only the length of `STRAINS` counts.
 impl<
     S: Scalar,
     const M: usize,
@@ -90,7 +90,7 @@ impl<
     const R: usize,
 > JointEnergy for Typed<S, Flow<M, N1, K1, R1>, N, K, V, D, C, R>
 {
-    // As many as there are, with the trace where there is one: `joints` says which they are.
+    // Only their number, and whether the trace is among them, are right: which they are, `joints` says.
     const JOINT: &'static [Joint] = match (Self::SHAPE.joints, Self::SHAPE.flows) {
         (1, 1) => &[Joint::Strain],
         (2, 1) => &[Joint::Strain, Joint::Square],

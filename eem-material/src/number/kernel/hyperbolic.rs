@@ -80,7 +80,7 @@ pub fn cosh_dd2<S: Scalar>(a: S, b: S) -> S {
 #[inline]
 pub fn tanh_dd<S: Scalar>(a: S, b: S) -> S {
     let (low, high, d) = ends(a, b);
-    // The end nearest to zero if both have one sign, else a negative number.
+    // μ: the smaller magnitude if both ends have one sign, else zero.
     let inner = low.maximum(-high).maximum(S::zero());
     let numerator = S::from_f64(4.0) * decay(inner) * phi(twice(d));
     numerator / ((S::one() + decay(a)) * (S::one() + decay(b)))

@@ -1,9 +1,9 @@
-//! Logarithms, summed up between close ends and based at the smaller of distant ones.
+//! Logarithms: a series for close ends, a formula based at the smaller one for distant ends.
 
 use super::primitives::{Differences, area_tangent_tail, by_definition, half, log_difference};
 use crate::number::scalar::Scalar;
 
-/// Up to this |z| = |b − a|/(a + b), a ratio of 3/2, differences are sums of series.
+/// Below this |z| = |b − a|/(a + b), a ratio of the ends of 3/2, differences are sums of series.
 const CLOSE: f64 = 0.2;
 
 /// All differences of the natural logarithm: [`ln_dd`] and both [`ln_dd2`].
@@ -61,7 +61,7 @@ pub fn ln_dd2<S: Scalar>(a: S, b: S) -> S {
     ln_dds(a, b).second_b
 }
 
-/// `f[a,b]` of `ln(1 + x)`, for `a, b > −1`: `ln(1 + d/w)/d` with `w = 1 + min(a,b)`, `d = |b − a|`.
+/// `f[a,b]` of `ln(1 + x)`, for `a, b > −1`: [`ln_dd`] between `1 + a` and `1 + b`, from the difference `b − a`.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::ln_1p_dd(0.0, 1.0);
@@ -72,7 +72,7 @@ pub fn ln_1p_dd<S: Scalar>(a: S, b: S) -> S {
     ln_1p_dds(a, b).first
 }
 
-/// `f[a,b,b]` of `ln(1 + x)`, for `a, b > −1`: [`ln_dd2`] with the base `1 + b`.
+/// `f[a,b,b]` of `ln(1 + x)`, for `a, b > −1`: [`ln_dd2`] between `1 + a` and `1 + b`, from the difference `b − a`.
 ///
 /// ```
 /// assert_eq!(eem_material::kernel::ln_1p_dd2(1.0, 1.0), -0.125);

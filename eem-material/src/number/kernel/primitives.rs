@@ -7,9 +7,9 @@
 
 use crate::number::scalar::Scalar;
 
-/// All divided differences of a function between two ends, the bits of the single kernels.
+/// All divided differences of a function between two ends, with the bits of the single kernels.
 ///
-/// They have most of their work in common.
+/// Computed together, because they share most of the work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Differences<S> {
     /// `f[a,b]`.
@@ -20,10 +20,10 @@ pub struct Differences<S> {
     pub second_b: S,
 }
 
-/// Number of terms of `Σ (±x)^k/(k+2)!` for |x| < 1: 1/22! = 2⁻⁶⁹.
+/// Number of terms of `Σ (±x)^k/(k+2)!` for |x| < 1; the first omitted one is below 1/22! < 2⁻⁶⁹.
 const EXPONENTIAL_TERMS: usize = 20;
 
-/// Number of terms of `Σ 2k(±x²)^(k−1)/(2k+1)!` for |x| < 1: 20/21! = 2⁻⁶¹.
+/// Number of terms of `Σ 2k(±x²)^(k−1)/(2k+1)!` for |x| < 1; the first omitted one is below 20/21! < 2⁻⁶¹.
 const SINC_TERMS: usize = 9;
 
 /// Splits 53 binary digits into halves: 2²⁷ + 1.
@@ -87,7 +87,7 @@ const fn odd_coefficients(sign: f64, of_slope: bool) -> [f64; SINC_TERMS] {
 
 /// `Σ c_k x^k`: groups of four terms (Estrin 1960), then Horner's rule in `x⁴`.
 ///
-/// A chain of dependent operations is what a polynomial costs; this one is a third as long as
+/// The cost of a polynomial is its chain of dependent operations; this one is a third as long as
 /// Horner's, at the same error bound.
 #[inline]
 fn polynomial<S: Scalar, const N: usize>(coefficients: &[f64; N], x: S) -> S {
@@ -112,7 +112,7 @@ fn polynomial<S: Scalar, const N: usize>(coefficients: &[f64; N], x: S) -> S {
     sum
 }
 
-/// `(artanh z/z − 1)/z² = 1/3 + z²/5 + …` of z² < 1/25.
+/// `(artanh z/z − 1)/z² = 1/3 + z²/5 + …` for `square = z² < 1/25`.
 #[inline]
 pub(super) fn area_tangent_tail<S: Scalar>(square: S) -> S {
     polynomial(&AREA_TANGENT, square)
@@ -171,7 +171,7 @@ pub(super) fn phi2_near<S: Scalar>(x: S) -> S {
 
 /// `φ(d) = (1 − e^(−d))/d = 1 − d φ₂(d)` for `d ≥ 0`, condition at most 1.
 ///
-/// Here and below the series stands outside of the branch: functions of one argument share it.
+/// Here and below the series is evaluated ahead of the branch: functions of the same argument share it.
 #[inline]
 pub(super) fn phi<S: Scalar>(d: S) -> S {
     let near = S::one() - d * phi2_near(d);

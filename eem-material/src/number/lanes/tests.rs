@@ -1,4 +1,4 @@
-//! Lanes compute each for itself, and decide as one or not at all.
+//! Tests: each lane computes as if it were alone, and a decision is common to all lanes or an error.
 
 use super::{LANES, Lanes};
 use crate::number::scalar::{Discord, Mask, Real, Scalar};
