@@ -1,4 +1,4 @@
-//! What was written, reduced to what a free energy can contain.
+//! The syntax tree of a model: what was written, reduced to what a free energy can contain.
 //!
 //! Output of the parse phase. The nodes borrow the syntax they come from, so that later phases can
 //! point at the guilty token. Names are not resolved here. What could not be read has been reported
@@ -15,11 +15,11 @@ pub(crate) struct Input<'a> {
     pub(crate) original: &'a syn::DeriveInput,
     /// The path of the crate `eem`.
     pub(crate) krate: &'a syn::Path,
-    /// All named fields, in order of declaration; nothing if the item has no such fields.
+    /// All named fields, in order of declaration; `None` for an item that has none by its kind, such as an enum.
     pub(crate) fields: Option<Vec<Field<'a>>>,
     /// The arguments of the closure, in the order of the closure.
     pub(crate) arguments: Vec<Argument<'a>>,
-    /// Every argument has a name and a role.
+    /// Whether every argument has a name and a role.
     pub(crate) arguments_complete: bool,
     /// The body of the closure: ψ.
     pub(crate) energy: Block<'a>,
@@ -27,12 +27,12 @@ pub(crate) struct Input<'a> {
     pub(crate) closure: &'a syn::ExprClosure,
     /// The viscosity laws, in order of appearance.
     pub(crate) laws: Vec<Law<'a>>,
-    /// Every `viscosity` attribute could be read.
+    /// Whether every `viscosity` attribute could be read.
     pub(crate) laws_complete: bool,
 }
 
 impl Input<'_> {
-    /// It has strains: a free energy per volume.
+    /// Whether the free energy is one per volume: it has strains.
     pub(crate) fn per_volume(&self) -> bool {
         let mut roles = self.arguments.iter().filter_map(|argument| argument.role);
         roles.any(|role| role.strain().is_some())
@@ -45,14 +45,14 @@ pub(crate) struct Field<'a> {
     pub(crate) ty: &'a syn::Type,
     /// Marked with `#[free_energy(unused)]`: no parameter, whatever its type.
     pub(crate) unused: bool,
-    /// A mark that could not be read has been reported.
+    /// Whether a mark that could not be read has been reported.
     pub(crate) wrong: bool,
 }
 
 /// `name: Role` in the closure.
 pub(crate) struct Argument<'a> {
     pub(crate) ident: &'a Ident,
-    /// Nothing if the role could not be read.
+    /// `None` if the role could not be read.
     pub(crate) role: Option<Role>,
 }
 
@@ -155,7 +155,7 @@ impl Role {
         }
     }
 
-    /// What the literature means by a name.
+    /// The role that the literature usually gives a name.
     pub(crate) fn usual(name: &str) -> Option<Self> {
         match name {
             "lambda" | "λ" => Some(Self::Stretch),
@@ -169,7 +169,7 @@ impl Role {
         }
     }
 
-    /// The strain that it is.
+    /// The strain, if the role is one.
     pub(crate) fn strain(self) -> Option<Strain> {
         match self {
             Self::Strain(strain) => Some(strain),
@@ -177,7 +177,7 @@ impl Role {
         }
     }
 
-    /// The invariant of the viscous strain that it is.
+    /// The invariant of the viscous strain, if the role is one.
     pub(crate) fn joint(self) -> Option<Joint> {
         match self {
             Self::Joint(joint) => Some(joint),
@@ -185,12 +185,12 @@ impl Role {
         }
     }
 
-    /// Whether only a solid has it.
+    /// Whether only a solid has arguments of this role.
     pub(crate) fn is_of_solid(self) -> bool {
         self.strain().is_some() || self.joint().is_some()
     }
 
-    /// Whether it needs a viscosity.
+    /// Whether an argument of this role needs a viscosity.
     pub(crate) fn flows(self) -> bool {
         match self {
             Self::Viscous | Self::Joint(Joint::Strain | Joint::Trace) => true,
@@ -200,7 +200,7 @@ impl Role {
         }
     }
 
-    /// Whether several arguments may have it.
+    /// Whether several arguments may have this role.
     pub(crate) fn is_repeatable(self) -> bool {
         match self {
             Self::Viscous | Self::Strain(Strain::Fibre) => true,
@@ -208,7 +208,7 @@ impl Role {
         }
     }
 
-    /// Whether it is a function of the places of nodes, and of the viscous strain.
+    /// Whether it is a function of the positions of nodes, of the viscous strain, or of both.
     pub(crate) fn is_measure(self) -> bool {
         match self {
             Self::Stretch | Self::Strain(_) | Self::Joint(_) => true,
@@ -231,12 +231,12 @@ pub(crate) struct Block<'a> {
 
 /// `let name = value;`
 pub(crate) struct Binding<'a> {
-    /// Nothing if a statement could not be read that may have declared names.
+    /// `None` for a statement that could not be read and may have declared names.
     pub(crate) ident: Option<&'a Ident>,
     pub(crate) value: Bound<'a>,
 }
 
-/// What a `let` gives a name.
+/// The right side of a `let`.
 pub(crate) enum Bound<'a> {
     Value(Expr<'a>),
     Helper(Helper<'a>),
@@ -244,7 +244,7 @@ pub(crate) enum Bound<'a> {
 
 /// `|x, y| body`, a function of the formula that stands for its body at every call.
 pub(crate) struct Helper<'a> {
-    /// Nothing where an argument could not be read.
+    /// `None` where an argument could not be read.
     pub(crate) arguments: Vec<Option<&'a Ident>>,
     pub(crate) body: Block<'a>,
 }
@@ -256,7 +256,7 @@ pub(crate) struct Expr<'a> {
 }
 
 impl<'a> Expr<'a> {
-    /// In place of an expression that could not be read at all.
+    /// The placeholder of an expression that could not be read at all.
     pub(crate) fn hole(original: &'a syn::Expr) -> Self {
         let kind = ExprKind::Wrong(Vec::new());
         Self { original, kind }
@@ -303,12 +303,12 @@ pub(crate) enum Operator {
     Divide,
 }
 
-/// The name starts with an underscore: it may be without use.
+/// Whether the name starts with an underscore: it may be unused.
 pub(crate) fn is_underscored(ident: &Ident) -> bool {
     name(ident).starts_with('_')
 }
 
-/// The name is written as those of constants are: in upper case.
+/// Whether the name is in upper case, as those of constants are.
 pub(crate) fn is_upper_case(ident: &Ident) -> bool {
     let name = name(ident);
     name.contains(char::is_uppercase) && !name.contains(char::is_lowercase)

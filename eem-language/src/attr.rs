@@ -27,7 +27,7 @@ pub(crate) struct Attributes {
     pub(crate) closure: Option<ExprClosure>,
     /// The laws of all `#[viscosity(…)]`.
     pub(crate) laws: Vec<(Ident, Expr)>,
-    /// Every `#[viscosity(…)]` could be read.
+    /// Whether every `#[viscosity(…)]` could be read.
     pub(crate) laws_complete: bool,
 }
 
@@ -69,12 +69,12 @@ impl Attributes {
     }
 }
 
-/// What the attributes `free_energy` said so far.
+/// The content of the attributes `free_energy` that have been read so far.
 #[derive(Default)]
 struct FreeEnergy {
     krate: Option<Path>,
     closure: Option<ExprClosure>,
-    /// An error has been reported that explains a missing closure.
+    /// Whether an error has been reported that explains a missing closure.
     failed: bool,
 }
 
@@ -142,8 +142,8 @@ impl FreeEnergy {
     }
 }
 
-/// Reports an attribute that the parser has refused: an `if` or `match` in it by its name, and what
-/// the parser says unless that may be a consequence.
+/// Reports an attribute that the parser has refused: an `if` or `match` in it by its name, and the
+/// error of the parser, unless that may be a consequence of the keyword.
 fn report_unreadable(cx: &Ctxt, attribute: &Attribute, error: &syn::Error, message: &Message) {
     let keyword = control_flow::first(tokens(attribute));
     if let Some(keyword) = &keyword {
@@ -224,7 +224,7 @@ fn parse_entry(input: ParseStream<'_>) -> syn::Result<Entry> {
     })
 }
 
-/// Goes to the comma that ends an entry; a closure without a comma before it belongs to the entry.
+/// Skips to the comma that ends an entry; a closure without a comma before it belongs to the entry.
 fn skip_entry(input: ParseStream<'_>) -> syn::Result<Span> {
     let span = input.span();
     let mut closure = false;
@@ -234,7 +234,7 @@ fn skip_entry(input: ParseStream<'_>) -> syn::Result<Span> {
     Ok(span)
 }
 
-/// The laws of one attribute; nothing if they cannot be read.
+/// The laws of one attribute; `None` if they cannot be read.
 fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
     if is_too_deep(cx, attribute) {
         return None;

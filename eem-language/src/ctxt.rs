@@ -16,23 +16,23 @@ use crate::message::Message;
 pub(crate) struct Ctxt {
     dialect: Dialect,
     reports: RefCell<Vec<Report>>,
-    /// What is no error, with its place.
+    /// The warnings, with their places.
     warnings: RefCell<Vec<(Span, Message)>>,
-    /// The calls of helpers that are looked into, outermost first, as quoted.
+    /// The calls of helpers whose bodies are being visited, outermost first, as quoted.
     calls: RefCell<Vec<String>>,
-    /// Counts who wants to hear nothing because all has been reported before.
+    /// Number of calls of [`mute`](Self::mute) that have not ended.
     muted: Cell<usize>,
 }
 
 /// One error.
 #[derive(Debug)]
 pub(crate) struct Report {
-    /// Where it is; its text is that of the message.
+    /// The message at its place.
     error: syn::Error,
     /// The tokens there, if there are any.
     tokens: TokenStream,
     pub(crate) message: Message,
-    /// The calls of helpers in which it was found: it is said once for all of them.
+    /// The calls of helpers in which it was found: it is reported once for all of them.
     pub(crate) calls: Vec<String>,
 }
 
@@ -44,7 +44,7 @@ impl Ctxt {
         cx
     }
 
-    /// What the model is written as.
+    /// How the model is written.
     pub(crate) fn dialect(&self) -> Dialect {
         self.dialect
     }
@@ -82,7 +82,7 @@ impl Ctxt {
         self.push(syn::Error::new(span, words), TokenStream::new(), message);
     }
 
-    /// From here on it is about the body of a helper in this call.
+    /// From here on, reports are about the body of a helper in this call.
     pub(crate) fn enter(&self, call: String) {
         self.calls.borrow_mut().push(call);
     }
@@ -92,7 +92,7 @@ impl Ctxt {
         self.calls.borrow_mut().pop();
     }
 
-    /// From here on nothing is reported.
+    /// From here on nothing is reported, because all has been reported before.
     pub(crate) fn mute(&self) {
         self.muted.set(self.muted.get() + 1);
     }
@@ -156,7 +156,7 @@ impl Ctxt {
 }
 
 impl Report {
-    /// From the first to the last of its tokens.
+    /// The place from the first to the last of its tokens.
     pub(crate) fn span(&self) -> Span {
         self.error.span()
     }

@@ -1,4 +1,4 @@
-//! Runs the phases one after the other, with one barrier before the code is written.
+//! Runs the phases one after the other; the model is printed only if none has reported an error.
 
 use eem_symbolic::Model;
 use proc_macro2::TokenStream;
@@ -18,13 +18,13 @@ use crate::{check, expand, fallback, model, parse, physics, units, warnings};
 ///
 /// A phase leaves a hole where it reported something, and the phases after it look at the rest.
 ///
-/// With the feature `gradients` derivatives by the parameters are among it.
+/// With the feature `gradients` the code contains derivatives with respect to the parameters.
 #[must_use]
 pub fn derive(input: &DeriveInput) -> TokenStream {
     derive_with(input, cfg!(feature = "gradients"))
 }
 
-/// The same with derivatives by the parameters or without.
+/// The same, with derivatives with respect to the parameters if `gradients` is true.
 pub(crate) fn derive_with(input: &DeriveInput, gradients: bool) -> TokenStream {
     let cx = Ctxt::new(Dialect::Attribute);
     let attributes = Attributes::from_syn(&cx, input);
@@ -49,7 +49,7 @@ pub(crate) fn derive_with(input: &DeriveInput, gradients: bool) -> TokenStream {
     quote! { #warnings #implementation }
 }
 
-/// The model of what was checked, and its units; nothing if there is none because of what was reported.
+/// The model and its units; `None` if a reported error leaves no model.
 pub(crate) fn model(cx: &Ctxt, checked: &Checked<'_>) -> Option<(Model, Units)> {
     let units = units::check(cx, checked);
     let model = model::lower(cx, checked)?;

@@ -1,4 +1,4 @@
-//! What a model is written as: messages take their nouns from here.
+//! How a model is written: messages take their nouns from here.
 
 /// How a model is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -6,12 +6,12 @@ pub(crate) enum Dialect {
     /// As the attributes of a struct, whose fields are the parameters.
     #[default]
     Attribute,
-    /// As texts, with names of parameters beside them.
+    /// As texts, with a list of parameters.
     Text,
 }
 
 impl Dialect {
-    /// What fits this dialect.
+    /// The alternative for this dialect.
     pub(crate) fn choose<T>(self, attribute: T, text: T) -> T {
         match self {
             Self::Attribute => attribute,
@@ -27,17 +27,17 @@ impl Dialect {
         )
     }
 
-    /// What the closure is given as.
+    /// The noun for the free energy.
     pub(crate) fn free_energy(self) -> &'static str {
         self.choose("`#[free_energy]`", "a free energy")
     }
 
-    /// What all parts of a model belong to.
+    /// The noun for the whole of a model.
     pub(crate) fn item(self) -> &'static str {
         self.choose("struct", "text")
     }
 
-    /// What a parameter is declared as.
+    /// The noun for the declaration of a parameter.
     pub(crate) fn field(self) -> &'static str {
         self.choose("field", "parameter")
     }

@@ -1,8 +1,8 @@
 //! Expand phase: the programs of a model → one `impl FreeEnergy` and one `impl Describe`, with one
 //! `impl StrainEnergy` for a solid, and one `impl JointEnergy` if it has a viscous strain.
 //!
-//! Prints and decides nothing: which values exist, in which order and at which stage they are
-//! computed, is the business of [`eem_symbolic::Program`].
+//! Only prints: an [`eem_symbolic::Program`] determines which values exist, and in which order and at
+//! which stage they are computed.
 
 pub(crate) mod constants;
 pub(crate) mod description;
@@ -30,7 +30,7 @@ use crate::units::{Quantities, Units};
 pub(crate) use header::Header;
 use inputs::Inputs;
 
-/// The implementations of the traits, with derivatives by the parameters if their programs are given.
+/// The implementations of the traits, with derivatives with respect to the parameters if their programs are given.
 pub(crate) fn expand(
     checked: &Checked<'_>,
     model: &Model,

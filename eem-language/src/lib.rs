@@ -1,9 +1,9 @@
 //! The language of free energies: from the tokens of a struct to straight-line Rust.
 //!
 //! The input is a struct whose fields are the parameters of a material and whose attribute is its free energy. The
-//! output is one `impl FreeEnergy`, and for solids one `impl StrainEnergy`. The entry point is [`derive()`];
-//! `eem-derive` turns it into the macro `#[derive(FreeEnergy)]`, whose documentation describes the language. Models that
-//! are known only when a program runs are read by [`text`], which ends with the model and its programs.
+//! output is one `impl FreeEnergy` and one `impl Describe`, for solids also `impl StrainEnergy`. The entry point is
+//! [`derive()`]; `eem-derive` turns it into the macro `#[derive(FreeEnergy)]`, whose documentation describes the language.
+//! Models that are known only when a program runs are read by [`text`], which ends with the model and its programs.
 //!
 //! This crate does no mathematics. It reads and checks tokens, passes a model to [`eem_symbolic`], and prints the
 //! resulting programs. The phases:

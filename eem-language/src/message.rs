@@ -3,7 +3,7 @@
 //! A message is one lower-case sentence about what is wrong, with the offending text in
 //! backticks, and a line `help: …` that says what to write instead. There is one function per
 //! message. The modules are the folders of the compile-fail tests in `eem-ui/tests/ui`;
-//! `tests::catalogue` sees to it that every message has a case there.
+//! `tests::catalogue` checks that every message has a case there.
 
 use crate::dialect::Dialect;
 
@@ -16,7 +16,7 @@ pub(crate) mod unit;
 #[cfg(test)]
 pub(crate) mod written;
 
-/// Calls of helpers that a message names.
+/// Largest number of calls of helpers that a message names.
 const CALLS: usize = 3;
 
 /// Words of a message in both dialects.
@@ -85,7 +85,7 @@ impl Message {
         self.help.in_dialect(dialect)
     }
 
-    /// All of it for the compiler, with the calls of helpers in which it is true, in quotes.
+    /// The whole message for the compiler, with the calls of helpers to which it applies, as quoted.
     pub(crate) fn whole(&self, dialect: Dialect, calls: &[String]) -> String {
         let mut lines = vec![self.text(dialect).to_owned()];
         lines.extend(calls_shown(calls));

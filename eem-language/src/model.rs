@@ -1,7 +1,7 @@
 //! Model phase: [`checked`](crate::checked) → [`eem_symbolic::Model`].
 //!
-//! A fold that calls one constructor of the graph per node. What can be wrong here shows only once
-//! the expressions exist: exponents, dependences and domains.
+//! A fold that calls one constructor of the graph per node. It reports errors that show only once the
+//! expressions exist: in exponents, dependences and domains.
 
 mod digits;
 mod domain;
@@ -16,7 +16,7 @@ use crate::ctxt::Ctxt;
 use crate::message::expression as message;
 use crate::units::excerpt;
 
-/// Builds the model. Nothing only if something was reported, here or before.
+/// Builds the model. `None` only if an error was reported, here or before.
 pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
     let mut graph = Graph::new();
     let variables = checked.variables.iter();
@@ -62,7 +62,7 @@ struct Lowering<'l> {
     variables: Vec<Symbol>,
     /// Symbols of [`Checked::parameters`].
     parameters: Vec<Symbol>,
-    /// Values of the bindings of the current body; nothing where an error was reported.
+    /// Values of the bindings of the current body; `None` where an error was reported.
     bindings: Vec<Option<ExprId>>,
 }
 
@@ -83,7 +83,7 @@ impl Lowering<'_> {
         self.expr(&body.value)
     }
 
-    /// The expression in the graph; nothing if something in it was reported.
+    /// The expression in the graph; `None` if an error in it was reported.
     fn expr(&mut self, expr: &Expr<'_>) -> Option<ExprId> {
         let value = self.value(expr)?;
         self.check_size(expr, value)
@@ -150,7 +150,7 @@ impl Lowering<'_> {
         })
     }
 
-    /// What a helper computes in a call.
+    /// The value of a call of a helper; errors in it name the call.
     fn in_call(&mut self, call: &syn::Expr, inner: &Expr<'_>) -> Option<ExprId> {
         self.cx.enter(excerpt(call));
         let value = self.expr(inner);

@@ -1,7 +1,7 @@
 //! Parse phase: syntax trees → [`ast`](crate::ast).
 //!
-//! Refuses everything a free energy cannot contain, at the token that is in the way. Whether the
-//! names mean something is the question of the check phase.
+//! Refuses everything a free energy cannot contain, at the token that is in the way. Names are
+//! resolved in the check phase.
 
 mod block;
 mod closure;
@@ -19,7 +19,7 @@ use crate::ast::{Input, Law};
 use crate::attr::Attributes;
 use crate::ctxt::Ctxt;
 
-/// Reads a whole item. Nothing only if there is no closure to read, which has been reported.
+/// Reads a whole item. `None` only if there is no closure to read, which has been reported.
 pub(crate) fn input<'a>(
     cx: &Ctxt,
     input: &'a DeriveInput,

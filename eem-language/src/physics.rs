@@ -1,6 +1,6 @@
-//! Physics phase: a model that is complete may still be none of a material.
+//! Physics phase: reports complete models that describe no possible material.
 //!
-//! [`eem_symbolic::Flaw`] says what is wrong; here it gets its place and its words.
+//! [`eem_symbolic::Flaw`] says what is wrong; this phase adds the place and the message.
 
 use eem_symbolic::{Flaw, Model, ParameterPrograms, Programs};
 
@@ -52,8 +52,8 @@ fn dashpot_argument(checked: &Checked<'_>, dashpot: usize) -> Option<String> {
     Some(ast::name(variable.ident))
 }
 
-/// Reports factors that are too large only when they come together; constants that are written out
-/// have been looked at one by one.
+/// Reports factors of ψ, or of a derivative, that are too large only as a product; single constants have
+/// been checked before.
 pub(crate) fn check_programs(
     cx: &Ctxt,
     checked: &Checked<'_>,

@@ -50,13 +50,13 @@ pub use source::{LONGEST, Source};
 ///
 /// A formula has at most [`LONGEST`] bytes, a name or a unit 256, and brackets and operators are nested some hundred times
 /// at most. The work is done on a thread with a stack of its own. Where there are no threads, as in a browser, it is done
-/// on this one, which needs a stack of some MiB for what is nested most deeply; then the places of all tokens that
-/// `proc-macro2` has kept for this thread are forgotten at the end.
+/// on the calling thread, which needs a stack of some MiB for deeply nested formulas; at the end, the places of all tokens
+/// that `proc-macro2` has kept for that thread are forgotten.
 ///
 /// # Errors
 ///
-/// All mistakes, in the order of the source. Texts that are not even tokens, such as one with an open parenthesis, and
-/// names that are none are reported before the formulas are looked at.
+/// All mistakes, in the order of the source. If a text is not even made of tokens, such as one with an open parenthesis,
+/// or a name is invalid, only such mistakes are reported, and the formulas are not checked.
 ///
 /// # Panics
 ///
@@ -79,13 +79,13 @@ pub use source::{LONGEST, Source};
 pub fn compile(source: &Source) -> Result<Compiled, Faults> {
     stack::on_deep_stack(|| {
         let result = compile_in(source, Dialect::Text);
-        // Without threads this one goes on, and would keep every text.
+        // Without threads, the calling thread lives on and would keep every text.
         reader::forget_places();
         result
     })
 }
 
-/// The same with the words of a dialect, which tests choose.
+/// The same with messages in a dialect, which tests choose.
 pub(crate) fn compile_in(source: &Source, dialect: Dialect) -> Result<Compiled, Faults> {
     let mut reader = Reader::new(dialect);
     let Some(input) = reader.read(source) else {

@@ -1,12 +1,14 @@
 //! Units: [`checked`](crate::checked) → the units of its fields, every operation in order.
 //!
 //! A model is checked if one of the fields or constants in its formulas has a unit. Then all fields
-//! need one, a constant without one is dimensionless; θ is in K. In a spring λ and γ are in m, ψ has to come out in J and viscosities in N s/m; in
-//! a solid strains and γ are dimensionless, ψ is in J/m³ and viscosities are in Pa s. Numbers in a formula have no unit, so that a factor of 1000 never stands for a prefix: the scale of a unit is
-//! compared like its dimension, and a value in mm cannot be added to one in m.
+//! need one, a constant without one is dimensionless; θ is in K. In a spring λ and γ are in m, ψ has to
+//! come out in J and viscosities in N s/m; in a solid strains and γ are dimensionless, ψ is in J/m³ and
+//! viscosities are in Pa s. Numbers in a formula have no unit, so that a factor of 1000 never stands for
+//! a prefix: the scale of a unit is compared like its dimension, and a value in mm cannot be added to
+//! one in m.
 //!
 //! The rules are one function each in `rules`, which walk the expression as it was written. An
-//! expression with an error has no unit, and nothing more is said about what contains it.
+//! expression with an error has no unit, and expressions that contain it are not reported again.
 
 mod constants;
 mod declaration;
@@ -31,7 +33,7 @@ use unknowns::Unknowns;
 /// Reads the units of the fields and checks the formulas with them.
 pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>) -> Units {
     let units = Units::read(cx, checked);
-    // What is a spring and a solid has been reported.
+    // A model of both a spring and a solid has been reported.
     let both = checked.per_volume() && checked.variables.iter().any(|v| v.role == Role::Stretch);
     if both || !units.are_checked() {
         return units;

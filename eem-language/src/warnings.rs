@@ -1,4 +1,4 @@
-//! Warnings: a derive macro has none of its own, but the use of something deprecated is one.
+//! Warnings: a derive macro cannot warn itself, but the compiler warns where its code uses something deprecated.
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
@@ -21,7 +21,7 @@ use crate::message::Message;
 pub(crate) fn warnings(all: &[(Span, Message)]) -> TokenStream {
     let one = |(span, message): &(Span, Message)| {
         let text = message.whole(Dialect::Attribute, &[]);
-        // With the place of what was written: the compiler does not warn of what a derive has written.
+        // With the place of the user's formula: the compiler does not warn about code of a derive.
         let formula = Ident::new("formula", *span);
         quote! {
             const _: () = {

@@ -1,17 +1,17 @@
-//! The reverse sweep over a program: the derivatives of one weighted sum of outputs by many inputs.
+//! The reverse sweep over a program: the derivatives of one weighted sum of outputs with respect to many inputs.
 
 use crate::program::{Input, Program};
 use crate::sweep::Sweep;
 
-/// `[Σ_i w_i ∂y_i/∂x_j …]` for the outputs `y` of a program, one `w_i` of each, and its wanted inputs `x_j`.
+/// `[Σ_i w_i ∂y_i/∂x_j …]` for the outputs `y_i` of a program, a weight `w_i` of each, and the wanted inputs `x_j`.
 ///
 /// ```text
 /// ȳ_i = w_i      x̄ += ∂v/∂x · v̄  for every instruction v = f(x, …), last one first
 /// ```
 ///
 /// The inputs of the result are those of the program and, after them, the weights, all of
-/// [`Stage::New`](crate::Stage::New). It holds the instructions of the program that derivatives need, with the same
-/// bits; for all wanted inputs together some two to three times as many.
+/// [`Stage::New`](crate::Stage::New). It contains the instructions of the program that derivatives need, with the same
+/// bits; with the derivatives for all wanted inputs it is about two to three times as long.
 ///
 /// Divided differences are differentiated through second ones. Where the derivative of a second one would be needed,
 /// the result has the constant NaN, which [`Program::verify`] refuses.

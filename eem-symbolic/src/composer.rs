@@ -54,7 +54,7 @@ impl Composer {
         &self.operations
     }
 
-    /// The value of an operation of values of this program.
+    /// The value of an operation on values of this program; appends the operation if it is new.
     pub(crate) fn emit(&mut self, operation: Operation) -> Value {
         // Addition and multiplication commute, also in floating point.
         let operation = match operation {
@@ -102,8 +102,8 @@ impl Composer {
         Signed { negative, value }
     }
 
-    /// Writes another program without joint differences, and returns its outputs. `input` says what
-    /// stands for its inputs.
+    /// Appends another program, which has no joint differences, and returns its outputs. `input` returns
+    /// the value that takes the place of an input.
     pub(crate) fn inline(
         &mut self,
         program: &Program,
@@ -121,7 +121,7 @@ impl Composer {
         outputs.map(|output| values[output.index()]).collect()
     }
 
-    /// The program of these outputs, zero where there is none.
+    /// The program of these outputs; `None` is zero.
     pub(crate) fn finish(mut self, outputs: &[Option<Signed>]) -> Program {
         let outputs = outputs.iter().map(|output| match *output {
             Some(Signed { negative, value }) if negative => self.emit(Operation::Neg(value)),

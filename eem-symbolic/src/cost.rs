@@ -1,4 +1,4 @@
-//! What one run of a program costs: operations by kind and stage, and transcendental functions.
+//! The cost of one run of a program: operations by kind and stage, and transcendental functions.
 
 use std::collections::BTreeSet;
 
@@ -112,14 +112,14 @@ fn family_of(kernel: ProgramKernel) -> Option<Function> {
     }
 }
 
-/// How often an operation calls the library for a transcendental function, divided differences
-/// between close ends.
+/// How often an operation calls the library for a transcendental function; the ends of divided
+/// differences are taken as close.
 fn library_calls(operation: &Operation) -> usize {
     match *operation {
         Operation::Apply(function, _) => usize::from(family(function).is_some()),
         Operation::Power(..) => 1,
         Operation::DividedDifference(kernel, ..) => calls_of(kernel)[0],
-        // The calls of a second difference include those of the first.
+        // A joint call makes the library calls of the second difference.
         Operation::SecondDividedDifference(kernel, ..)
         | Operation::JointDifferences(kernel, ..) => calls_of(kernel)[1],
         Operation::Input(_)

@@ -146,7 +146,7 @@ impl Derivatives {
         graph.sum(&terms)
     }
 
-    /// `d f[a, b]`, including the derivative in the exponent of a power.
+    /// `d f[a, b]`, including the derivative with respect to the exponent of a power.
     fn of_difference(&self, graph: &mut Graph, kernel: Kernel, a: ExprId, b: ExprId) -> ExprId {
         let ends = self.of_ends(graph, kernel, a, b);
         match kernel {
@@ -173,7 +173,7 @@ impl Derivatives {
     }
 }
 
-/// `(x^p ln x)[a, b]`, the derivative of `(x^p)[a, b]` in p, by the product rule of differences.
+/// `(x^p ln x)[a, b]`, the derivative of `(x^p)[a, b]` with respect to p, by the product rule of differences.
 fn power_times_logarithm(graph: &mut Graph, p: ExprId, a: ExprId, b: ExprId) -> ExprId {
     let logarithm = graph.kernel_difference(Kernel::Function(Function::Ln), a, b);
     let power = graph.kernel_difference(Kernel::Powf(p), a, b);

@@ -1,4 +1,4 @@
-//! Divided differences of single functions as nodes; what has a closed form becomes that form.
+//! Divided differences of single functions as nodes, or as closed forms where there are any.
 
 use crate::function::Function;
 use crate::graph::Graph;
@@ -34,7 +34,7 @@ impl Graph {
         self.intern(Node::DividedDifference(kernel, first, second))
     }
 
-    /// `f[a, b, b]`, the derivative of `f[a, b]` in `b`.
+    /// `f[a, b, b]`, the derivative of `f[a, b]` with respect to `b`.
     ///
     /// ```text
     /// f[a, b, b] = (f′(b) − f[a, b])/(b − a) = ∫₀¹ t f″(a + t(b − a)) dt
@@ -75,7 +75,7 @@ impl Graph {
         }
     }
 
-    /// The exponent of a kernel that is a power with a rational one.
+    /// The exponent of a kernel that is a power with a rational exponent.
     fn exponent(&self, kernel: Kernel) -> Option<Rational> {
         match kernel {
             Kernel::Function(_) => None,

@@ -1,4 +1,4 @@
-//! The divided differences that discrete derivatives are made of, in print.
+//! The divided differences that discrete derivatives are made of, as text.
 
 use crate::display::format;
 use crate::divided_difference::divided_difference;
@@ -7,7 +7,7 @@ use crate::model::Model;
 /// The divided difference of a potential along an edge between two states.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DifferenceFormula {
-    /// What is divided: `"ψ"`, `"e"` or `"s"`.
+    /// The potential F: `"ψ"`, `"e"` or `"s"`.
     pub potential: &'static str,
     /// The variable that changes along the edge; all others stay.
     pub variable: String,

@@ -12,7 +12,7 @@ use crate::node::{ExprId, Node};
 use render::render;
 use text::Text;
 
-/// Expressions of more operations than this, repetitions counted, are abbreviated: about a screen.
+/// Expressions of more nodes than this, repetitions counted, are abbreviated: about a screen.
 const SPELLED_OUT: u64 = 500;
 
 /// The expression as a formula.
@@ -21,7 +21,7 @@ const SPELLED_OUT: u64 = 500;
 /// differences `f[a, b]` and `f[a, b, b]`. Sums begin with a positive term if there is one;
 /// factors of a negative power form the denominator.
 ///
-/// A formula of more than 500 operations names what it repeats, as in `t1*t1 + t1 where t1 = …`,
+/// A formula of more than 500 operations and operands names repeated parts, as in `t1*t1 + t1 where t1 = …`,
 /// one definition per line, so that the length of the text follows the size of the graph.
 ///
 /// [`Function::name`]: crate::Function::name

@@ -188,7 +188,8 @@ impl Differences {
         (constant, varying)
     }
 
-    /// Balanced, so that a product of n factors has partial products of total length n·log n.
+    /// The product of the factors, `None` without factors. It is a balanced tree, so that n factors have
+    /// partial products of total length n·log n.
     fn multiply_all(&self, graph: &mut Graph, factors: &[Difference]) -> Option<Difference> {
         if factors.len() < 2 {
             return factors.first().copied();
@@ -244,7 +245,7 @@ fn apply(graph: &mut Graph, function: Function, g: Difference) -> Difference {
     }
 }
 
-/// The same for `f(x) = x^r`.
+/// `(g^r)[·] = f[g_a, g_b]·g[·]` for `f(x) = x^r`.
 fn rational_power(graph: &mut Graph, g: Difference, exponent: Rational) -> Difference {
     let kernel = graph.power_kernel(exponent);
     let outer = graph.kernel_difference(kernel, g.a, g.b);

@@ -7,7 +7,7 @@ use crate::node::{ExprId, Node};
 use crate::number::{Number, Rational};
 use crate::substitute::rebuild;
 
-/// Expressions whose sums have been factored, each looked at once.
+/// Expressions, and equal ones whose sums are factored; each expression is visited once.
 #[derive(Debug, Default)]
 pub(crate) struct Factoring {
     images: BTreeMap<ExprId, ExprId>,

@@ -1,4 +1,4 @@
-//! What makes a free energy or a viscosity impossible as physics, whatever the parameters are.
+//! Flaws that make a free energy or a viscosity unphysical, whatever the parameters are.
 
 use crate::diff::diff;
 use crate::graph::Graph;
@@ -15,7 +15,7 @@ use crate::sign::sign;
 pub enum Flaw {
     /// ψ does not depend on this measure, stretch of a dashpot or temperature.
     Independent(Symbol),
-    /// ψ is linear in θ: c = −θ ∂²ψ/∂θ² is zero, and no temperature belongs to an entropy.
+    /// ψ is linear in θ: c = −θ ∂²ψ/∂θ² is zero, and an entropy determines no temperature.
     NoHeatCapacity,
     /// c = −θ ∂²ψ/∂θ² is nowhere positive: entropy does not grow with temperature.
     NegativeHeatCapacity,

@@ -1,10 +1,10 @@
-//! A constitutive law in print.
+//! The formulas of a constitutive law as text.
 
 use crate::diff::diff;
 use crate::display::format;
 use crate::model::{Model, heat_capacity};
 
-/// The constitutive law in print.
+/// The formulas of a constitutive law as text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formulas {
     /// ψ.
@@ -21,7 +21,7 @@ pub struct Formulas {
     pub heat_capacity: Option<String>,
     /// `η_k`.
     pub viscosities: Vec<String>,
-    /// η of the first measure, if it has one.
+    /// η of the dashpot in parallel with the spring, if there is one.
     pub drag: Option<String>,
 }
 

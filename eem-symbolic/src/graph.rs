@@ -26,7 +26,7 @@ use crate::number::Number;
 pub struct Graph {
     entries: Vec<Entry>,
     ids: HashMap<Node, ExprId>,
-    /// Nodes in which every version of a symbol is the same one; operands are indices of this map.
+    /// Nodes with the first version in place of each symbol; their operands are shapes, too.
     shapes: HashMap<Node, ExprId>,
     symbols: Vec<SymbolEntry>,
     names: HashMap<String, Symbol>,
@@ -38,7 +38,7 @@ struct Entry {
     shape: ExprId,
     /// Length of the longest path down to a leaf.
     height: u32,
-    /// The symbols below the node, one bit each.
+    /// The symbols that occur in the node, one bit each.
     symbols: Box<[u64]>,
 }
 
@@ -158,7 +158,7 @@ impl Graph {
 
     /// The distinct nodes of the expression for which `keep` holds, operands before their users.
     ///
-    /// Nodes are searched below kept ones only. The search uses no recursion.
+    /// The search descends only into nodes for which `keep` holds, without recursion.
     pub(crate) fn reachable(&self, e: ExprId, keep: impl Fn(ExprId) -> bool) -> Vec<ExprId> {
         let mut seen = vec![false; e.index() + 1];
         let mut pending = vec![e];

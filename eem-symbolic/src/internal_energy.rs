@@ -7,7 +7,7 @@ use crate::graph::Graph;
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::{Number, Rational};
 
-/// `E = ψ − θ ∂ψ/∂θ = ψ + θ s` as a function of θ.
+/// `E = T ψ = ψ − θ ∂ψ/∂θ = ψ + θ s` as a function of θ; A and p below do not depend on θ.
 ///
 /// ```text
 /// T A = A,   T(A·f) = A·T f,   T Σ = Σ T,   T(θ^p) = (1 − p) θ^p
@@ -44,7 +44,7 @@ pub fn internal_energy(graph: &mut Graph, psi: ExprId, theta: Symbol) -> ExprId 
     operator.image(psi)
 }
 
-/// T on the subexpressions that it is distributed to.
+/// The operator T, and its images of the subexpressions over which it distributes.
 struct Operator {
     theta: Symbol,
     /// θ as an expression.
@@ -80,7 +80,7 @@ impl Operator {
         found.into_iter().collect()
     }
 
-    /// The only factor that depends on θ, if it is no power of something.
+    /// The only factor that depends on θ, if its exponent is 1.
     fn single_factor(&self, graph: &Graph, factors: &[(ExprId, Rational)]) -> Option<ExprId> {
         let mut varying = factors
             .iter()
@@ -161,7 +161,7 @@ impl Operator {
         graph.weighted_sum(Number::ZERO, &images)
     }
 
-    /// `T(θ^p g) = (1 − p) θ^p g − θ^(p + 1) g′` for a product g of the rest.
+    /// `T(θ^p g) = (1 − p) θ^p g − θ^(p + 1) g′` for the product g of `rest`.
     fn of_rest(&self, graph: &mut Graph, power: Rational, rest: &[(ExprId, Rational)]) -> ExprId {
         let theta_to_p = (self.at, power);
         let mut undifferentiated = rest.to_vec();
@@ -186,7 +186,7 @@ impl Operator {
         };
         for &(base, exponent) in factors {
             if base == self.at {
-                // A second power of θ in the list always fits: both came from one product.
+                // If the sum of two exponents does not fit, the second power is an ordinary factor.
                 match split.power.checked_add(exponent) {
                     Some(power) => split.power = power,
                     None => split.rest.push((base, exponent)),

@@ -48,7 +48,7 @@ pub trait Arithmetic {
         b: &Self::Number,
     ) -> Self::Number;
 
-    /// `f[a, b]`, `f[a, a, b]` and `f[a, b, b]`; one by one unless the arithmetic knows better.
+    /// `f[a, b]`, `f[a, a, b]` and `f[a, b, b]`; computed one by one unless an arithmetic overrides this.
     fn joint_differences(
         &self,
         kernel: ProgramKernel<&Self::Number>,
@@ -75,7 +75,7 @@ pub struct JointDifferences<N> {
 }
 
 impl<N> JointDifferences<N> {
-    /// One of them.
+    /// One of the differences.
     pub fn part(&self, part: DifferencePart) -> &N {
         match part {
             DifferencePart::First => &self.first,
@@ -184,11 +184,11 @@ fn evaluate<A: Arithmetic>(
     })
 }
 
-/// Double precision, the elementary functions those of the platform.
+/// Double precision, with the elementary functions of the platform.
 ///
 /// Divided differences are integrals of f′ and t f″ by quadrature, which has no formula in common
-/// with the kernels that generated code calls: right to some 1e-15 of ∫|f′| and ∫t|f″| while
-/// the ends are of comparable size, and slow.
+/// with the kernels that generated code calls. It is slow, and accurate to about 1e-15 of ∫|f′| and
+/// ∫t|f″| if the ends are of comparable size.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct F64;
 

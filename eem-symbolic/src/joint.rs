@@ -7,7 +7,7 @@
 //!                               v₁₀ = v₇.second_b
 //! ```
 //!
-//! Only where two of them are wanted at least, and only for functions whose differences share most
+//! Only where at least two of them are needed, and only for functions whose differences share most
 //! of their work ([`ProgramKernel::has_joint_call`]). The order of the instructions stays.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,7 +21,7 @@ pub struct Restriction {
     /// The smaller program.
     pub program: Program,
     /// For each value of the smaller program, the value of the larger one that has the same bits;
-    /// none for joint differences.
+    /// `None` for joint differences.
     pub origins: Vec<Option<Value>>,
 }
 
@@ -53,7 +53,7 @@ struct Wanted {
 }
 
 impl Wanted {
-    /// The difference that an instruction computes by itself, if one call can compute it with others.
+    /// The difference that an instruction computes, if its kernel has a joint call.
     fn of(operation: &Operation) -> Option<Self> {
         let (kernel, a, b, part) = match *operation {
             Operation::DividedDifference(kernel, a, b) => (kernel, a, b, DifferencePart::First),
@@ -184,7 +184,7 @@ impl Rewriting {
         new.finish(old)
     }
 
-    /// Appends an operation of values of the old program.
+    /// Appends an operation on values of the old program.
     fn push(&mut self, operation: &Operation, stage: Stage) -> Value {
         let moved = |value: Value| {
             let moved = self.moved[value.index()];
@@ -210,16 +210,16 @@ impl Rewriting {
 
 /// A call for several differences.
 struct Call {
-    /// Of values of the old program.
+    /// The joint differences, with values of the old program.
     operation: Operation,
-    /// The ends are in the opposite order of those of the [`Pair`].
+    /// Whether its ends are in the opposite order of those of the [`Pair`].
     is_mirrored: bool,
     /// Its value, once it has been written.
     value: Option<Value>,
 }
 
-/// A call for every pair of ends of which several differences are wanted, with its ends in the
-/// order of the first of them.
+/// A call for every pair of ends between which several differences are needed, with its ends in the
+/// order of the first of these differences.
 fn calls(program: &Program) -> BTreeMap<Pair, Call> {
     let mut parts: BTreeMap<Pair, BTreeSet<DifferencePart>> = BTreeMap::new();
     let mut calls = BTreeMap::new();

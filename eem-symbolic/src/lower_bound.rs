@@ -1,21 +1,21 @@
-//! What is known of a symbol: from where on its values are.
+//! A lower bound of the values of a symbol.
 
 use crate::node::Symbol;
 use crate::number::Rational;
 
-/// The values of a symbol are above a number.
+/// A lower bound of the values of a symbol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LowerBound {
     /// The symbol.
     pub symbol: Symbol,
-    /// No value is below.
+    /// No value is below this number.
     pub bound: Rational,
-    /// It is a value itself.
+    /// Whether `bound` is itself a possible value.
     pub reached: bool,
 }
 
 impl LowerBound {
-    /// A length, or an absolute temperature.
+    /// Any value above 0, as of a length or an absolute temperature.
     #[must_use]
     pub fn positive(symbol: Symbol) -> Self {
         Self::above(symbol, Rational::ZERO)

@@ -14,7 +14,7 @@
 //! ```
 //!
 //! with n the number of operations of the node. The relative part r is a number, so that products,
-//! quotients and their powers cost nothing; only sums that cancel and functions write an m.
+//! quotients and their powers cost nothing; only sums that cancel and functions need an expression m.
 //! Wilkinson 1986, *Error analysis revisited*.
 
 use std::collections::HashMap;
@@ -32,8 +32,8 @@ const UNIT: u32 = 16;
 const CONSTANT: u32 = 1;
 /// Roundings of an elementary function or a general power, in u: 1 ε.
 const FUNCTION: u32 = 2;
-/// What the rounding of a constant exponent p does to `x^p`, in u: `|p ln x|`, below 16 for powers
-/// between 1e−7 and 1e7.
+/// Effect of rounding a constant exponent p on `x^p`, in u: `|p ln x|`, below 16 for powers between
+/// 1e−7 and 1e7.
 const EXPONENT: u32 = UNIT;
 /// Added to x in the logarithm of a power `x^p`, so that it stays finite where x and the power
 /// vanish: the smallest normal number of `f32`.
@@ -42,9 +42,9 @@ const SMALLEST: f32 = f32::MIN_POSITIVE;
 /// An expression whose value times `8 ε` bounds the rounding error of the value of `e`, to first
 /// order.
 ///
-/// It is at least |e|, and `Σ |terms|` for a sum of plain terms. Inside products, powers and
-/// functions it carries on what rounding has done to their operands. Symbols are taken as exact;
-/// `bounds` say from where on their values are. A divided difference counts as one operation.
+/// It is at least |e|, and `Σ |terms|` for a sum of plain terms. Rounding errors of operands are
+/// propagated through products, powers and functions. Symbols are taken as exact; `bounds` are lower
+/// bounds of their values. A divided difference counts as one operation.
 ///
 /// ```
 /// use eem_symbolic::{Function, Graph, LowerBound, Number, format, magnitude};
@@ -201,7 +201,7 @@ impl Analysis<'_> {
     fn of_function(&mut self, function: Function, argument: ExprId) -> Error {
         let of_argument = self.error(argument);
         let slope = function.derivative(self.graph, argument);
-        let slope_by_argument = self.graph.mul(slope, argument);
+        let slope_times_argument = self.graph.mul(slope, argument);
         let absolute = match function {
             Function::Abs => return of_argument,
             Function::Cbrt => {
@@ -225,7 +225,7 @@ impl Analysis<'_> {
             | Function::Tanh
             | Function::Asinh
             | Function::Atan
-            | Function::Atanh => self.times(slope_by_argument, slope, argument),
+            | Function::Atanh => self.times(slope_times_argument, slope, argument),
         };
         Error {
             relative: FUNCTION,
@@ -233,13 +233,13 @@ impl Analysis<'_> {
         }
     }
 
-    /// `⌈r/16⌉ |slope a| + |slope| m` for the error r, m of a; `slope_by_a` is `slope a`, which can
+    /// `⌈r/16⌉ |slope a| + |slope| m` for the error r, m of a; `slope_times_a` is `slope a`, which can
     /// be finite where the slope is not.
-    fn times(&mut self, slope_by_a: ExprId, slope: ExprId, a: ExprId) -> Option<ExprId> {
+    fn times(&mut self, slope_times_a: ExprId, slope: ExprId, a: ExprId) -> Option<ExprId> {
         let Error { relative, absolute } = self.error(a);
         let mut parts = Vec::new();
         if relative > 0 {
-            parts.push((units(relative), self.abs(slope_by_a)));
+            parts.push((units(relative), self.abs(slope_times_a)));
         }
         if let Some(absolute) = absolute {
             let slope = self.abs(slope);
@@ -267,7 +267,7 @@ impl Analysis<'_> {
     }
 }
 
-/// Units of a magnitude that cover so many roundings.
+/// Units of a magnitude that cover this number of roundings.
 fn units(roundings: u32) -> Number {
     Number::from(i64::from(roundings.div_ceil(UNIT).max(1)))
 }

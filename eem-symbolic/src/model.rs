@@ -14,7 +14,7 @@ pub struct Model {
     pub graph: Graph,
     /// Kinematic measures `λ_a`, a = 1 … M.
     pub measures: Vec<Symbol>,
-    /// From where on strains are, of a solid; a measure without an entry may have any sign. None of a spring,
+    /// Lower bounds of the strains of a solid; a measure without an entry may have any sign. Empty for a spring,
     /// whose measures are positive.
     pub strains: Vec<LowerBound>,
     /// Viscous stretches `γ_k`, k = 1 … K.
@@ -28,8 +28,8 @@ pub struct Model {
     /// One viscosity `η_k` per dashpot, then those of flows that are not among the variables; functions of the
     /// parameters and θ.
     pub viscosities: Vec<ExprId>,
-    /// The viscosity of the first measure, a function of the parameters and θ, if a dashpot stands beside
-    /// the spring (Kelvin–Voigt).
+    /// The viscosity of the first measure, a function of the parameters and θ, if a dashpot acts in
+    /// parallel with the spring (Kelvin–Voigt).
     pub drag: Option<ExprId>,
 }
 
@@ -55,9 +55,9 @@ impl Model {
         }
     }
 
-    /// What is known of measures and temperature.
+    /// Lower bounds of measures and temperature.
     pub(crate) fn bounds(&self) -> Vec<LowerBound> {
-        let positive = self.measures.iter().chain(&self.temperature);
+        let symbols = self.measures.iter().chain(&self.temperature);
         let bound = |&symbol: &Symbol| {
             let mut strains = self.strains.iter();
             let strain = strains.find(|strain| strain.symbol == symbol);
@@ -66,7 +66,7 @@ impl Model {
                 .copied()
                 .or_else(|| is_positive.then(|| LowerBound::positive(symbol)))
         };
-        positive.filter_map(bound).collect()
+        symbols.filter_map(bound).collect()
     }
 }
 

@@ -43,8 +43,9 @@ pub enum Node {
     /// `constant + Σ coefficient · term`.
     ///
     /// The only place where numeric coefficients live: `3·x·y` is a sum with one term. Terms are
-    /// distinct, in structural order, with coefficients other than zero; a term is a sum itself
-    /// only under a coefficient other than ±1, because `c·(a − b)` loses digits when distributed.
+    /// distinct, in structural order, with coefficients other than zero. A term is itself a sum only
+    /// under a coefficient other than ±1, because `c·(a − b)` loses digits when distributed, or if it
+    /// has more than 8 terms ([`weighted_sum`](crate::Graph::weighted_sum)).
     Sum {
         /// The number added to the terms.
         constant: Number,
@@ -69,7 +70,7 @@ pub enum Node {
     /// Symmetric, hence stored with its arguments in structural order.
     DividedDifference(Kernel, ExprId, ExprId),
     /// Second divided difference `f[a, b, b] = (f′(b) − f[a, b])/(b − a)`, the derivative of
-    /// `f[a, b]` in `b`; `f[a, a, a] = f″(a)/2`.
+    /// `f[a, b]` with respect to `b`; `f[a, a, a] = f″(a)/2`.
     SecondDividedDifference(Kernel, ExprId, ExprId),
     /// `exp[X_a, X_b]` for `X = h·ln g`, given the values `g^h` at both ends.
     ///

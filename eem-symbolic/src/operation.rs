@@ -28,7 +28,7 @@ impl Value {
 /// What one instruction computes.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Operation {
-    /// The input of this position.
+    /// The input at this position.
     Input(usize),
     /// A number, exact if it was written so.
     Constant(Number),
@@ -54,8 +54,8 @@ pub enum Operation {
     DividedDifference(ProgramKernel, Value, Value),
     /// `f[a, b, b] = ∂f[a, b]/∂b`, which is ½ f″(a) for a = b.
     SecondDividedDifference(ProgramKernel, Value, Value),
-    /// `f[a, b]`, `f[a, a, b]` and `f[a, b, b]` in one call: not a number, but what
-    /// [`Operation::Part`] reads one from. Only for a kernel that
+    /// `f[a, b]`, `f[a, a, b]` and `f[a, b, b]` in one call. The result is not a number;
+    /// [`Operation::Part`] reads one of the three. Only for a kernel that
     /// [has such a call](ProgramKernel::has_joint_call).
     JointDifferences(ProgramKernel, Value, Value),
     /// One of the differences that a [`Operation::JointDifferences`] has computed.
@@ -84,8 +84,7 @@ impl DifferencePart {
     }
 }
 
-/// The function f of a divided difference; V is a [`Value`], or the number that an interpreter has
-/// in its place.
+/// The function f of a divided difference; V is a [`Value`] in a program, a number in an interpreter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ProgramKernel<V = Value> {
     /// An elementary function.
@@ -96,8 +95,8 @@ pub enum ProgramKernel<V = Value> {
     Sqrt,
     /// `xᵖ` with p the given value, the same at both ends.
     Powf(V),
-    /// `eˣ` between the logarithms of two powers, with the powers themselves at the two ends: the
-    /// values `exp(a)` and `exp(b)`, which are more accurate than what is computed from a and b.
+    /// `eˣ` between the logarithms a and b of two powers, with the powers themselves: they are more
+    /// accurate than `exp(a)` and `exp(b)` of the rounded logarithms.
     Power(V, V),
 }
 
@@ -124,7 +123,7 @@ impl Operation {
         }
     }
 
-    /// The same operation of other values.
+    /// The same operation with `of(operand)` in place of every operand.
     pub(crate) fn map(&self, of: impl Fn(Value) -> Value) -> Self {
         match *self {
             Self::Input(index) => Self::Input(index),
@@ -163,8 +162,8 @@ impl<V: Copy> ProgramKernel<V> {
         }
     }
 
-    /// Whether one call of the runtime computes all differences of f between two ends, for less than
-    /// two calls would cost: they share the logarithm, or the powers at the ends.
+    /// Whether one call of the runtime computes all differences of f between two ends. It costs less
+    /// than two calls, because the differences share the logarithm, or the powers at the ends.
     #[must_use]
     pub fn has_joint_call(self) -> bool {
         match self {
@@ -182,7 +181,7 @@ impl<V: Copy> ProgramKernel<V> {
         }
     }
 
-    /// The same function of other values.
+    /// The same function with `of(operand)` in place of every operand.
     #[inline]
     pub fn map<W>(self, mut of: impl FnMut(V) -> W) -> ProgramKernel<W> {
         match self {

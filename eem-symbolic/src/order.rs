@@ -1,6 +1,6 @@
 //! The structural order of expressions: independent of the order of creation and of versions of symbols.
 //!
-//! Operands of sums and products are stored in this order. It looks at versions of a symbol only
+//! Operands of sums and products are stored in this order. Versions of a symbol are compared only
 //! between expressions that agree in everything else. Replacing λ⁰ by λ¹ therefore permutes
 //! nothing, and an expression is evaluated by the same operations at both ends of a step.
 
@@ -10,8 +10,8 @@ use crate::graph::Graph;
 use crate::node::{ExprId, Kernel, Node};
 use crate::number::Number;
 
-/// Compares two expressions: numbers, variables, products, sums, powers, functions, differences;
-/// those of one kind by height, then operand by operand.
+/// Compares two expressions by kind (numbers, variables, products, sums, pair sums, powers, functions,
+/// differences), by function and number of operands, by height, then operand by operand.
 ///
 /// Descends along one path, because operands of equal shape are skipped: the first pair of operands
 /// that differ decides. The time is bounded by the height of the expressions times their width.

@@ -1,13 +1,13 @@
-//! Programs of the derivatives by the parameters of a law.
+//! Programs of the derivatives with respect to the parameters of a law.
 //!
-//! In entropy form the corner temperatures follow the parameters, too: they keep `G_c = S(c) − s_c = 0`, hence
+//! In entropy form the corner temperatures depend on the parameters, too: they solve `G_c = S(c) − s_c = 0`, hence
 //!
 //! ```text
 //! dθ_c = −G_c,μ dμ θ_c/C_c      dJ/dμ = ∂J/∂μ − Σ_c ∂J/∂θ_c (θ_c/C_c) G_c,μ      C_c = θ_c S_θ(c)
 //! ```
 //!
-//! where `G_c,μ` is the derivative at fixed temperatures. It is taken of the sum of divided differences that
-//! `mixed_states` writes: the response is made of the same ones, and the digits of a small change are kept.
+//! where `G_c,μ` is the derivative at fixed temperatures. It is the derivative of the sum of divided
+//! differences in `mixed_states`: the response consists of the same differences, and small changes keep their digits.
 
 use crate::adjoint::adjoint;
 use crate::composer::Signed;
@@ -21,28 +21,28 @@ use crate::sweep::Sweep;
 use crate::tangent::tangent;
 use crate::verify_error::VerifyError;
 
-/// Derivatives by the parameters μ, in the order of [`Model::parameters`].
+/// Derivatives of other programs with respect to the parameters μ, in the order of [`Model::parameters`].
 ///
-/// An adjoint has a weight w of every output of another program as its last inputs, and `[Σ w ∂(output)/∂μ …]` as its
-/// outputs. A tangent has a direction δμ as its last inputs, and `[Σ ∂(output)/∂μ δμ …]` as its outputs. The other inputs
-/// are those of the other program. All instructions are of [`Stage::New`].
+/// The last inputs of an adjoint are weights w of the outputs of the other program; its outputs are
+/// `[Σ w ∂(output)/∂μ …]`. The last inputs of a tangent are a direction δμ; its outputs are `[Σ ∂(output)/∂μ δμ …]`. The
+/// first inputs are those of the other program. All instructions are of [`Stage::New`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterPrograms {
-    /// Of the response of [`Programs::temperature_form`] at fixed x⁰ and x¹; none without a temperature.
+    /// Of the response of [`Programs::temperature_form`] at fixed x⁰ and x¹; `None` without a temperature.
     pub temperature_form_adjoint: Option<Program>,
-    /// The same along a direction.
+    /// The tangent of the same response.
     pub temperature_form_tangent: Option<Program>,
-    /// Of the response of [`Programs::entropy_form`] at fixed x⁰ and x¹. Total: corners follow the parameters.
+    /// Of the response of [`Programs::entropy_form`] at fixed x⁰ and x¹; corner temperatures depend on the parameters.
     pub entropy_form_adjoint: Program,
-    /// The same along a direction.
+    /// The tangent of the same response.
     pub entropy_form_tangent: Program,
     /// Of [`Programs::gradient`].
     pub gradient_adjoint: Program,
     /// `[∂e/∂μ …]` at fixed x, without a weight.
     pub energy_by_parameters: Program,
-    /// Of the viscosities, the first half of [`Programs::viscosity`]; none without dashpots.
+    /// Of the viscosities, the first half of [`Programs::viscosity`]; `None` without dashpots.
     pub viscosity_adjoint: Option<Program>,
-    /// Of the viscosity of the measure; none without a dashpot beside the spring.
+    /// Of the viscosity of the dashpot in parallel with the spring; `None` without one.
     pub drag_adjoint: Option<Program>,
 }
 
@@ -80,7 +80,7 @@ impl ParameterPrograms {
 }
 
 impl Model {
-    /// The derivatives of the programs of the law by its parameters.
+    /// The derivatives of the programs of the law with respect to its parameters.
     #[must_use]
     pub fn parameter_programs(&self, programs: &Programs) -> ParameterPrograms {
         let responses = self.variables().len() + usize::from(self.temperature.is_some());
@@ -107,7 +107,7 @@ impl Model {
         (0..self.parameters.len()).collect()
     }
 
-    /// Inputs that are no quantities of the model.
+    /// Inputs that are not quantities of the model.
     fn inputs(&self, name: &str, count: usize) -> Vec<Input> {
         let mut graph = self.graph.clone();
         let mut input = |index| {
@@ -152,12 +152,12 @@ impl Model {
     }
 }
 
-/// The response of the entropy form, and how its corners follow the parameters.
+/// The response of the entropy form, then `S(c) − s_c` and `C_c` of its corners.
 struct EntropyForm<'m> {
     model: &'m Model,
     program: Program,
     responses: usize,
-    /// Inputs before the corner temperatures.
+    /// Number of inputs before the corner temperatures.
     before: usize,
     corners: usize,
 }
@@ -165,10 +165,10 @@ struct EntropyForm<'m> {
 /// A corner in a sweep.
 struct Corner {
     input: usize,
-    /// The output `S(c) − s_c`.
+    /// Position of the output `S(c) − s_c`.
     excess: usize,
     /// `θ_c/C_c`.
-    inertia: Value,
+    theta_over_capacity: Value,
 }
 
 impl<'m> EntropyForm<'m> {
@@ -201,7 +201,7 @@ impl<'m> EntropyForm<'m> {
             Corner {
                 input,
                 excess,
-                inertia: sweep.composer.emit(Operation::Div(theta, capacity)),
+                theta_over_capacity: sweep.composer.emit(Operation::Div(theta, capacity)),
             }
         };
         (0..self.corners).map(corner).collect()
@@ -259,7 +259,7 @@ impl<'m> EntropyForm<'m> {
 impl Corner {
     /// `−x θ_c/C_c`.
     fn follow(&self, sweep: &mut Sweep, x: Signed) -> Signed {
-        let value = sweep.composer.mul(x.value, self.inertia);
+        let value = sweep.composer.mul(x.value, self.theta_over_capacity);
         Signed { value, ..x }.negated()
     }
 }

@@ -7,8 +7,8 @@ use crate::node::{ExprId, Node};
 use crate::number::{Number, Rational};
 use crate::order::compare;
 
-/// A product of more factors, or a sum of more terms, stays one operand of what it is a part of:
-/// repeated products of growing products would have lengths that add up to a square.
+/// Products of more factors, and sums of more terms, are not flattened into the surrounding product
+/// or sum: otherwise the lengths of products of growing products would add up to a square.
 pub(crate) const WIDTH: usize = 8;
 
 impl Graph {
@@ -112,7 +112,7 @@ struct Collected {
 }
 
 impl Collected {
-    /// Multiplies by `base ^ exponent`, or says in `pending` by what instead.
+    /// Multiplies by `base ^ exponent`; if a law splits it, the factors go to `pending` instead.
     fn multiply(
         &mut self,
         graph: &mut Graph,
@@ -208,7 +208,7 @@ fn expand(graph: &Graph, base: ExprId, exponent: Rational) -> Option<Expansion> 
     }
 }
 
-/// `number ^ exponent` where it is a number: integer exponents and roots of squares, as long as
+/// `number ^ exponent` where it folds to a number: integer exponents and roots of squares, as long as
 /// the result is within the range of floats.
 fn exact_power(number: Number, exponent: Rational) -> Option<Number> {
     if number == Number::ONE {

@@ -1,18 +1,18 @@
 //! A schedule of expressions: single assignments, operands first, no value twice or unused.
 //!
-//! A [`Program`] is what generated code prints line by line and what
-//! [`Program::interpret`] evaluates on any arithmetic. Every instruction belongs to a [`Stage`], so
-//! that what depends on the parameters and the old state alone is computed once per step.
+//! Generated code is a [`Program`] printed line by line; [`Program::interpret`] evaluates one on any
+//! arithmetic. Every instruction belongs to a [`Stage`], so that values that depend on parameters and
+//! the old state alone are computed once per step.
 
 use crate::node::Symbol;
 use crate::operation::{Operation, Value};
 
 /// Straight-line code for several outputs at once.
 ///
-/// Value `i` is the result of instruction `i`. [`Program::verify`] says what else holds.
+/// Value `i` is the result of instruction `i`. [`Program::verify`] lists the other invariants.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
-    /// What [`Operation::Input`] refers to, in the order in which values are handed over. An input
+    /// The inputs, in the order in which their values are passed; [`Operation::Input`] is a position here. An input
     /// that no output depends on is listed here and read by no instruction.
     pub inputs: Vec<Input>,
     /// The assignments.
@@ -24,7 +24,7 @@ pub struct Program {
 /// A number that comes from outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
-    /// The symbol of the expressions that it stands for.
+    /// The symbol that it stands for in expressions.
     pub symbol: Symbol,
     /// The name of the symbol.
     pub name: String,
@@ -52,8 +52,8 @@ pub struct Instruction {
 }
 
 impl Program {
-    /// The old-stage values that new-stage instructions or outputs use, in order of computation:
-    /// what has to be kept from the first part of a step to the second.
+    /// The old-stage values that new-stage instructions or outputs use, in order of computation.
+    /// They are kept from the first part of a step to the second.
     #[must_use]
     pub fn hoisted(&self) -> Vec<Value> {
         let mut used = vec![false; self.instructions.len()];
@@ -73,7 +73,7 @@ impl Program {
         hoisted.map(|(index, _)| Value::new(index)).collect()
     }
 
-    /// Which instructions some values depend on.
+    /// For each instruction, whether one of the values depends on it.
     #[must_use]
     pub fn needed_by(&self, values: &[Value]) -> Vec<bool> {
         let mut needed = vec![false; self.instructions.len()];
@@ -90,8 +90,8 @@ impl Program {
         needed
     }
 
-    /// The same with functions and divided differences, and what they depend on, moved to the front:
-    /// few values have to be kept in registers across their branches and calls.
+    /// The same with functions and divided differences, and all that they depend on, moved to the front,
+    /// so that few values have to be kept in registers across their branches and calls.
     pub(crate) fn functions_first(self) -> Program {
         let is_function = |operation: &Operation| {
             matches!(
@@ -113,7 +113,7 @@ impl Program {
         self.in_order(&[first, rest].concat(), self.outputs.len())
     }
 
-    /// The program of these instructions in this order, and of the first outputs.
+    /// The program of the instructions `order`, in this order, with the first `outputs` outputs.
     pub(crate) fn in_order(&self, order: &[usize], outputs: usize) -> Program {
         let mut moved = vec![Value::new(0); self.instructions.len()];
         for (new, &old) in order.iter().enumerate() {

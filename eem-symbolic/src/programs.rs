@@ -11,43 +11,44 @@ use point::PointPrograms;
 
 /// Everything that a constitutive law computes, scheduled.
 ///
-/// N = M + K + T is the number of variables, T = 1 if there is a temperature and 0 otherwise;
-/// R = M + K + 2 T is the number of algorithmic quantities. Inputs are the parameters followed by x;
-/// in the two algorithmic forms the parameters, x⁰, x¹ and the corner temperatures.
+/// N = M + K + T is the number of variables: M measures, K dashpots, T = 1 if there is a temperature
+/// and 0 otherwise. R = M + K + 2 T is the number of algorithmic quantities. Inputs are the parameters
+/// followed by x; in the two algorithmic forms and `mixed_states` the parameters, x⁰, x¹ and, except in
+/// temperature form, the corner temperatures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Programs {
     /// `[ψ]`.
     pub free_energy: Program,
-    /// `[magnitude of ψ]`: times 8 ε a bound of the rounding error of `free_energy`; see
+    /// `[magnitude of ψ]`: 8 ε times this bounds the rounding error of `free_energy`; see
     /// [`magnitude`](crate::magnitude()).
     pub energy_magnitude: Program,
     /// `[∂ψ/∂x_i]`.
     pub gradient: Program,
     /// `[∂ψ/∂x_i …, ∂²ψ/∂x_i∂x_j …]`, the Hessian by rows.
     pub hessian: Program,
-    /// `[e]`, ψ itself without a temperature.
+    /// `[e]`; e is ψ without a temperature.
     pub internal_energy: Program,
-    /// `[s, θ ∂s/∂θ, Σ |terms of s|]`; none without a temperature.
+    /// `[s, θ ∂s/∂θ, Σ |terms of s|]`; `None` without a temperature.
     pub caloric: Option<Program>,
-    /// The same outputs and ψ, everything that does not depend on θ at
+    /// The same outputs and ψ; everything that does not depend on θ is at
     /// [`Stage::Old`](crate::Stage::Old).
     pub caloric_at: Option<Program>,
-    /// `[f_a …, g_k …, c, ∂s/∂π_a …, ∂s/∂γ_k …]` with `c = θ ∂s/∂θ`; f and g alone without a temperature.
+    /// `[f_a …, g_k …, c, ∂s/∂λ_a …, ∂s/∂γ_k …]` with `c = θ ∂s/∂θ`; f and g alone without a temperature.
     pub rates: Program,
-    /// The same outputs, s and ψ; everything that does not depend on θ at
+    /// The same outputs, s and ψ; everything that does not depend on θ is at
     /// [`Stage::Old`](crate::Stage::Old). Without a temperature f, g and ψ.
     pub rates_at: Program,
-    /// `[∂²s/∂x_i∂x_j …]` by rows; none without a temperature.
+    /// `[∂²s/∂x_i∂x_j …]` by rows; `None` without a temperature.
     pub entropy_hessian: Option<Program>,
-    /// `[η_k …, dη_k/dθ …]`, inputs parameters and θ (if there is one); none without dashpots.
+    /// `[η_k …, dη_k/dθ …]`; inputs are the parameters and θ, if there is one. `None` without dashpots.
     pub viscosity: Option<Program>,
-    /// `[η, dη/dθ]` of the measure, inputs as there; none without a dashpot beside the spring.
+    /// `[η, dη/dθ]` of the dashpot in parallel with the spring, with the same inputs; `None` without one.
     pub drag: Option<Program>,
     /// `[f*_a …, g*_k …, θ*, Δs]` followed by the R×N tangent by rows, in entropy form.
     pub entropy_form: Program,
-    /// The same outputs in temperature form, without corners; none without a temperature.
+    /// The same outputs in temperature form; `None` without a temperature.
     pub temperature_form: Option<Program>,
-    /// `[S(c) − s_c …, θ ∂s/∂θ …]` of the corners c of the entropy form, at trial temperatures; none without a
+    /// `[S(c) − s_c …, θ ∂s/∂θ …]` of the corners c of the entropy form, at trial temperatures; `None` without a
     /// temperature.
     pub mixed_states: Option<Program>,
     /// Whether `θ ∂s/∂θ` does not depend on θ.

@@ -1,4 +1,4 @@
-//! Divided differences of the elementary functions in `f64` without any formula for them.
+//! Divided differences of functions in `f64`, from integrals instead of the formulas of the kernels.
 //!
 //! ```text
 //! f[a, b]    = ∫₀¹ f′(a + t (b − a)) dt
@@ -11,9 +11,9 @@
 use crate::function::Function;
 use crate::operation::ProgramKernel;
 
-/// The panels of \[0, ½\] end at 2⁻¹, 2⁻², … 2⁻ⁿ and 0, those of \[½, 1\] mirror them: a pole beyond
-/// an end, as that of ln x, is no closer to a panel than its width if the ratio of the ends is
-/// below 2ⁿ, and 16 nodes leave an error below 10⁻²⁰.
+/// The panels of \[0, ½\] end at 2⁻¹, 2⁻², … 2⁻ⁿ and 0, those of \[½, 1\] mirror them. If the ratio of
+/// the ends is below 2ⁿ, a pole beyond an end, as that of ln x, is at least as far from each panel as
+/// the panel is wide, and 16 nodes leave an error below 10⁻²⁰.
 const HALVINGS: i32 = 10;
 
 /// Positive nodes and weights of the Gauss–Legendre rule with 16 points on \[−1, 1\], Abramowitz &
@@ -31,7 +31,7 @@ const NODES: [(f64, f64); 8] = [
 
 /// `f[a, b]`.
 pub(crate) fn divided_difference(kernel: ProgramKernel<f64>, a: f64, b: f64) -> f64 {
-    if let Some(value) = kernel.at_signed_ends(a, b) {
+    if let Some(value) = kernel.closed_form(a, b) {
         return value;
     }
     let (kernel, a, b) = kernel.based(a, b);
@@ -44,8 +44,8 @@ pub(crate) fn second_divided_difference(kernel: ProgramKernel<f64>, a: f64, b: f
     integral(a, b, |t, x| t * kernel.derivatives(x).1)
 }
 
-/// `∫₀¹ (|f′| + |x f″|) dt`: times the unit roundoff, what the rounding of the nodes and of f′ can
-/// do to `f[a, b]`.
+/// `∫₀¹ (|f′| + |x f″|) dt`: times the unit roundoff, the scale of the error of `f[a, b]` due to
+/// rounding of the nodes and of f′.
 pub(crate) fn rounding_scale(kernel: ProgramKernel<f64>, a: f64, b: f64) -> f64 {
     let (kernel, a, b) = kernel.based(a, b);
     integral(a, b, |_, x| {
@@ -76,8 +76,8 @@ fn panel(g: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
 }
 
 impl ProgramKernel<f64> {
-    /// |x| is not differentiable: `(|b| − |a|)/(b − a)` has a closed form.
-    fn at_signed_ends(self, a: f64, b: f64) -> Option<f64> {
+    /// `f[a, b]` of |x|, which is not differentiable.
+    fn closed_form(self, a: f64, b: f64) -> Option<f64> {
         match self {
             Self::Function(Function::Abs) => Some((a + b) / (a.abs() + b.abs())),
             Self::Function(_) | Self::Powi(_) | Self::Sqrt | Self::Powf(_) | Self::Power(..) => {
@@ -86,7 +86,7 @@ impl ProgramKernel<f64> {
         }
     }
 
-    /// A general power is `value · e^(x − X)` with the larger value and its logarithm X.
+    /// Writes a general power as `value · e^(x − X)`, with the larger value and its logarithm X: the ends become x − X.
     fn based(self, a: f64, b: f64) -> (Self, f64, f64) {
         match self {
             Self::Power(value_a, value_b) => {

@@ -1,6 +1,6 @@
-//! Bounds of what an expression can be, by interval arithmetic.
+//! Bounds of the values of an expression, by interval arithmetic.
 //!
-//! A sign alone does not tell that `1 − e^(−x)` or `2 + sin x` are never negative. Every use of a
+//! Signs of operands do not suffice to show that `1 − e^(−x)` or `2 + sin x` are never negative. Every use of a
 //! variable counts as if it were independent of the others, so that bounds are right and not always
 //! sharp.
 
@@ -22,7 +22,8 @@ pub struct Range {
     pub upper: f64,
 }
 
-/// The range of `e` over all states: symbols with `bounds`, and symbols that have `any` value.
+/// The range of `e` over all states. A state consists of the symbols with `bounds`, and of those in `any`, which have
+/// any value.
 ///
 /// Other symbols are parameters, taken as positive. So is a factor of parameters alone that can have
 /// both signs, such as `1 − 2ν`: its sign does not change with the state. Sums are flat, so that
@@ -86,7 +87,7 @@ fn of_node(node: &Node, range: impl Fn(ExprId) -> Range) -> Range {
             factors.fold(Range::point(1.0), Range::times)
         }
         // Defined for a positive base only.
-        Node::Power(..) => Range::POSITIVE,
+        Node::Power(..) => Range::NOT_NEGATIVE,
         Node::Apply(function, argument) => range(*argument).under(*function),
         Node::PairSum(a, b) => range(*a).plus(range(*b)),
         Node::Variable(_)
@@ -103,7 +104,7 @@ impl Range {
         upper: f64::INFINITY,
     };
     /// Not below zero.
-    const POSITIVE: Range = Range {
+    const NOT_NEGATIVE: Range = Range {
         lower: 0.0,
         upper: f64::INFINITY,
     };
@@ -112,7 +113,7 @@ impl Range {
         Self::new(value, value)
     }
 
-    /// What is undetermined, such as ∞ − ∞, is not bounded.
+    /// An undetermined bound, such as ∞ − ∞, becomes infinite.
     fn new(lower: f64, upper: f64) -> Self {
         let or = |bound: f64, all: f64| if bound.is_nan() { all } else { bound };
         Self {
@@ -171,7 +172,7 @@ impl Range {
         }
     }
 
-    /// The image under a function that grows.
+    /// The image under an increasing function.
     fn map(self, function: impl Fn(f64) -> f64) -> Self {
         Self::new(function(self.lower), function(self.upper))
     }

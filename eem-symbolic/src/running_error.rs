@@ -1,11 +1,11 @@
-//! Double precision with a bound of its rounding error, to first order, beside every number.
+//! Double precision in which every number carries a bound of its rounding error, to first order.
 //!
 //! ```text
 //! a + b :  e = e_a + e_b + u|a + b|         a b :  e = |b| e_a + |a| e_b + u|a b|
 //! f(a)  :  e = |f′(a)| e_a + u_f |f(a)|     f[a, b] :  e = |f[b, a, a]| e_a + |f[a, b, b]| e_b + u_f ∫(|f′| + |x f″|)
 //! ```
 //!
-//! Nowhere does 1/|b − a| appear: the bound is what a divided difference is worth at any increment.
+//! No bound contains 1/|b − a|: divided differences keep their digits at any increment.
 //! Wilkinson 1986, *Error analysis revisited*, calls such a bound a running error analysis.
 
 use crate::function::Function;
@@ -28,7 +28,7 @@ const SECOND: f64 = 40.0;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RunningError;
 
-/// A double-precision number and how far from it the exact one can be.
+/// A double-precision number and a bound of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounded {
     /// The computed number.
@@ -137,7 +137,7 @@ impl Arithmetic for RunningError {
         let values = kernel.map(|operand| &operand.value);
         let second = |a: &f64, b: &f64| F64.second_divided_difference(values, a, b);
         let value = second(&a.value, &b.value);
-        // Third derivatives are not at hand: moving an end by its error shows what it does.
+        // Third derivatives are not available: each end is moved by its error instead.
         let moved = |end: &Bounded| end.value + end.error;
         let ends = (second(&moved(a), &b.value) - value).abs()
             + (second(&a.value, &moved(b)) - value).abs();

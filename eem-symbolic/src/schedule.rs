@@ -2,16 +2,17 @@
 //!
 //! * Equal expressions are one instruction, whichever outputs they belong to. So are equal leading
 //!   terms of sums and equal leading factors of products.
-//! * Whole powers are products, halves square roots. A coefficient −1 in a sum is a subtraction.
+//! * Squares are products, higher integer powers one instruction, half-integer powers take a square root. A
+//!   coefficient −1 in a sum is a subtraction.
 //! * [`schedule`] keeps the structural order and divides once per product: an expression takes the
 //!   same operations at the old and at the new state, and what is symmetric in the two is symmetric
-//!   bit by bit. Only factors and terms of parameters alone come first.
-//! * The programs of a [`Model`](crate::Model) reorder sums and products, which changes rounding
-//!   only: what depends on parameters alone comes first, operands that many products or sums have in common next, and
-//!   quotients are products with shared reciprocals. Arguments of functions are still divided, so
-//!   that ln(λ/λ₀) vanishes where λ = λ₀. Last, function calls move to the
-//!   front, so that few values have to be kept across a call, and divided differences of one function between the same ends become one
-//!   call ([`Operation::JointDifferences`](crate::Operation::JointDifferences)).
+//!   bit by bit. Only constant factors and terms come first.
+//! * The programs of a [`Model`](crate::Model) reorder sums and products, which changes rounding only: operands that
+//!   depend on parameters alone come first, then those that many products or sums have in common, and quotients are
+//!   products with shared reciprocals. Arguments of functions are still divided, so that ln(λ/λ₀) vanishes where λ = λ₀.
+//!   Last, function calls move to the front, so that few values have to be kept across a call, and divided differences
+//!   of one function between the same ends become one call
+//!   ([`Operation::JointDifferences`](crate::Operation::JointDifferences)).
 
 mod builder;
 mod context;
@@ -90,7 +91,7 @@ impl Schedule<'_> {
         program
     }
 
-    /// Emits what `root` depends on, operands first, without recursion.
+    /// Emits `root` and all that it depends on, operands first, without recursion.
     fn visit(&self, builder: &mut Builder<'_>, root: ExprId) {
         let mut pending = vec![(root, false)];
         while let Some((e, operands_done)) = pending.pop() {
@@ -104,7 +105,7 @@ impl Schedule<'_> {
             }
             pending.push((e, true));
             for operand in self.operands(e).into_iter().rev() {
-                // A planned product is a part of the sum.
+                // The sum evaluates a planned product itself, together with its coefficient.
                 if builder.is_part_of_sum(e, operand) {
                     let factors = self.operands(operand).into_iter().rev();
                     pending.extend(factors.map(|factor| (factor, false)));
@@ -141,7 +142,7 @@ impl Schedule<'_> {
     }
 }
 
-/// A constant that overflows is the caller's to report; all else is a mistake made here.
+/// In debug builds, panics if the program is not valid. A constant that is not finite is left for the caller to report.
 pub(crate) fn check(program: &Program) {
     debug_assert!(matches!(
         program.verify(),

@@ -1,4 +1,4 @@
-//! Signs an expression can have: certain statements only, from the signs of its parts.
+//! Signs that an expression can have, from the signs of its parts: a sign is ruled out only if that is certain.
 
 use std::collections::HashMap;
 
@@ -219,7 +219,7 @@ impl Sign {
         }
     }
 
-    /// `xʳ`: even powers are not negative, roots need a base that is not; `1/0` is not defined.
+    /// `xʳ`: even powers are not negative; roots of negative numbers and `1/0` are not defined.
     fn to_the(self, exponent: Rational) -> Sign {
         let even = exponent.is_integer() && exponent.numerator() % 2 == 0;
         let odd = exponent.is_integer() && !even;

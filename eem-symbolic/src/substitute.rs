@@ -46,7 +46,7 @@ pub(crate) fn substitute_all(
     images
 }
 
-/// What the map says about an expression, itself if nothing.
+/// The image of an expression; the expression itself if the map has none.
 pub(crate) fn image(images: &HashMap<ExprId, ExprId>, e: ExprId) -> ExprId {
     images.get(&e).copied().unwrap_or(e)
 }

@@ -126,7 +126,7 @@ impl Collected {
         }
     }
 
-    /// Takes out the terms that are sums with coefficient ±1; returns what they consist of.
+    /// Removes the terms that are sums with coefficient ±1, adds their constants, and returns their terms.
     fn take_flattenable(&mut self, graph: &Graph) -> Vec<(Number, ExprId)> {
         let mut parts = Vec::new();
         let constant = &mut self.constant;

@@ -25,13 +25,13 @@ use crate::schedule::schedule;
 /// A program, and instructions after it that compute derivatives of its values.
 pub(crate) struct Sweep {
     pub(crate) composer: Composer,
-    /// The operations of the program; value i is that of operation i.
+    /// The operations of the program; value i is the result of operation i.
     operations: Vec<Operation>,
     /// The outputs of the program.
     pub(crate) outputs: Vec<Value>,
 }
 
-/// The derivative of an operation by one of its operands: `± factor / divisor`.
+/// The derivative of an operation with respect to one of its operands: `± factor / divisor`.
 struct Slope {
     operand: Value,
     negative: bool,
@@ -87,7 +87,7 @@ impl Slope {
 }
 
 impl Sweep {
-    /// Of a verified program, with further inputs behind its own.
+    /// Starts with a verified program; the inputs `further` follow its own.
     pub(crate) fn new(program: &Program, further: &[Input]) -> Self {
         let alone = program.alone();
         let mut inputs = program.inputs.clone();
@@ -101,7 +101,7 @@ impl Sweep {
         }
     }
 
-    /// `Σ weight ∂output/∂input` of the wanted inputs; none where no weighted output depends on the input.
+    /// `Σ weight ∂output/∂input` of the wanted inputs; `None` where no weighted output depends on the input.
     pub(crate) fn backward(
         &mut self,
         weights: &[Option<Signed>],
@@ -131,7 +131,7 @@ impl Sweep {
         wanted.iter().map(|&input| of_input(input)).collect()
     }
 
-    /// `Σ ∂output/∂input · direction` of the outputs; none of those that depend on no such input.
+    /// `Σ ∂output/∂input · direction` of the outputs; `None` where an output depends on none of these inputs.
     pub(crate) fn forward(&mut self, directions: &[(usize, Signed)]) -> Vec<Option<Signed>> {
         let wanted: Vec<_> = directions.iter().map(|&(input, _)| input).collect();
         let active = self.active(&wanted);
@@ -153,7 +153,7 @@ impl Sweep {
         outputs.map(|output| tangents[output.index()]).collect()
     }
 
-    /// The program of these outputs, zero where there is none.
+    /// The program of these outputs; `None` is zero.
     pub(crate) fn finish(self, outputs: &[Option<Signed>]) -> Program {
         self.composer.finish(outputs)
     }
@@ -165,7 +165,7 @@ impl Sweep {
         });
     }
 
-    /// Which values depend on the inputs.
+    /// For each value, whether it depends on one of the inputs.
     fn active(&self, inputs: &[usize]) -> Vec<bool> {
         let mut active = Vec::with_capacity(self.operations.len());
         for operation in &self.operations {
@@ -181,7 +181,7 @@ impl Sweep {
         active
     }
 
-    /// The derivatives of a value by those of its operands that are active.
+    /// The derivatives of a value with respect to its active operands.
     fn slopes(&mut self, index: usize, active: &[bool]) -> Vec<Slope> {
         if !active[index] {
             return Vec::new();
@@ -272,8 +272,8 @@ impl Sweep {
         self.composer.inline(&program, |_, _| a)[0]
     }
 
-    /// Of a difference by its ends, and by the exponent of a power. The values at the ends that a
-    /// [`ProgramKernel::Power`] carries are functions of its ends.
+    /// The derivatives of a difference with respect to its ends, and to the exponent of a power. The values
+    /// that a [`ProgramKernel::Power`] carries are functions of its ends, not further operands.
     fn difference(
         &mut self,
         kernel: ProgramKernel,
@@ -301,7 +301,7 @@ impl Sweep {
         slopes
     }
 
-    /// `(xᵖ ln x)[a, b]`.
+    /// `(xᵖ ln x)[a, b]`, the derivative of `xᵖ[a, b]` with respect to p.
     fn exponent(&mut self, p: Value, ends: [Value; 2], difference: Value) -> Value {
         let composer = &mut self.composer;
         let mut both = |of: fn(Value, Value) -> Operation| {

@@ -3,14 +3,14 @@
 use crate::program::{Input, Program};
 use crate::sweep::Sweep;
 
-/// `[Σ_j ∂y_i/∂x_j · d_j …]` for the outputs `y` of a program, its wanted inputs `x_j` and one `d_j` of each.
+/// `[Σ_j ∂y_i/∂x_j · d_j …]` for the outputs `y_i` of a program, the wanted inputs `x_j` and a component `d_j` of each.
 ///
 /// ```text
 /// ẋ_j = d_j      v̇ = Σ ∂v/∂x · ẋ  for every instruction v = f(x, …), first one first
 /// ```
 ///
 /// The inputs of the result are those of the program and, after them, the directions, all of
-/// [`Stage::New`](crate::Stage::New). What is said of [`adjoint`](crate::adjoint()) is true here as well.
+/// [`Stage::New`](crate::Stage::New). Instructions, bits and NaN are as in [`adjoint`](crate::adjoint()).
 ///
 /// # Panics
 ///

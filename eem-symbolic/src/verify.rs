@@ -1,4 +1,4 @@
-//! What every [`Program`] satisfies, checked from scratch.
+//! The check of the invariants of a [`Program`], independent of how it was built.
 
 use std::collections::HashMap;
 
@@ -13,9 +13,9 @@ impl Program {
     /// * The stage of an instruction is that of its input or the latest one of its operands;
     ///   constants are used at their own stage.
     /// * Every value is used, and none is computed twice at one stage.
-    /// * Whole powers are n ≥ 3, those of divided differences n ≠ 0, 1, 2. Constants are finite.
-    /// * Parts are read from joint differences and nothing else is; two parts at least of each, and
-    ///   only of functions that have such a call.
+    /// * Integer powers have n ≥ 3, in divided differences n ≠ 0, 1, 2. Constants are finite.
+    /// * Parts are read from joint differences only, which nothing else reads. Joint differences have at
+    ///   least two parts, and a function with a joint call.
     ///
     /// # Errors
     ///

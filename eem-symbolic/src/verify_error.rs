@@ -55,7 +55,7 @@ pub enum VerifyError {
         /// The later one.
         second: usize,
     },
-    /// A whole power with an exponent for which there is a simpler operation.
+    /// An integer power with an exponent for which there is a simpler operation.
     TrivialPower {
         /// The instruction.
         instruction: usize,

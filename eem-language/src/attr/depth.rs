@@ -1,4 +1,4 @@
-//! A formula is not nested so deeply that reading it would exhaust the stack of the compiler.
+//! Limits how deeply a formula is nested, so that reading it does not exhaust the stack of the compiler.
 //!
 //! Reading is recursive, here and in `syn`: every operator of a chain and every pair of brackets is
 //! a level. The levels are counted in the tokens, before anything recursive sees them.
@@ -6,14 +6,14 @@
 use proc_macro2::{Span, TokenStream, TokenTree};
 
 /// Levels that a formula may have. Twice as many still fit the 8 MiB of the compiler's threads in a
-/// debug build, where they are operators between two values.
+/// debug build, if the levels are operators between two values.
 pub(super) const LIMIT: usize = 4000;
 /// The same for a text, which a program may get from anybody: types in it need more stack than operators.
 pub(super) const LIMIT_OF_TEXT: usize = LIMIT / 4;
 
-/// Levels of a pair of brackets: the functions of the parser between two expressions.
+/// Levels that a pair of brackets counts for: the functions of the parser between two expressions.
 const BRACKETS: usize = 20;
-/// Levels of a sign or of a method.
+/// Levels that a sign or a method counts for.
 const PREFIX: usize = 2;
 
 /// The place where the tokens become too deep.
@@ -53,7 +53,7 @@ pub(super) fn too_deep(tokens: TokenStream, limit: usize) -> Option<Span> {
     None
 }
 
-/// What a token is for the one behind it.
+/// A token as seen by the one behind it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Before {
     Operator,

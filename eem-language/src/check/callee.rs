@@ -41,7 +41,7 @@ impl Callee {
         structural.chain(Function::ALL.iter().map(|function| function.name()))
     }
 
-    /// Number of arguments and how a call is written.
+    /// Number of arguments, and an example of a call.
     pub(super) fn form(self) -> (usize, String) {
         match self {
             Self::Diff => (2, "diff(expression, lambda)".to_owned()),
@@ -54,7 +54,7 @@ impl Callee {
     }
 }
 
-/// There is a function of this name.
+/// Whether there is a function of this name.
 pub(super) fn is_function(ident: &Ident) -> bool {
     Callee::from_name(&ast::name(ident)).is_some()
 }

@@ -15,7 +15,7 @@ pub(super) struct Constants {
 }
 
 impl Constants {
-    /// The index of the constant with this path, spelt like this.
+    /// The index of the constant with exactly this path, which is added if it is new.
     pub(super) fn mention(&mut self, path: impl ToTokens) -> usize {
         let text = text(&path);
         let known = self.mentioned.iter().position(|(known, _)| *known == text);
@@ -65,8 +65,8 @@ const OF_STD: [(&str, f64); 19] = [
     ("SQRT_2", consts::SQRT_2),
 ];
 
-/// The value of `core::f64::consts::NAME` and `std::f64::consts::NAME`. Nothing for a constant that is newer than
-/// the list: Rust resolves it.
+/// The value of `core::f64::consts::NAME` and `std::f64::consts::NAME`. `None` for a constant that is newer
+/// than the list: Rust resolves it.
 pub(crate) fn of_std(path: &syn::Path) -> Option<f64> {
     let text = text(path);
     let text = text.strip_prefix("::").unwrap_or(&text);
@@ -78,7 +78,7 @@ pub(crate) fn of_std(path: &syn::Path) -> Option<f64> {
     found.map(|&(_, value)| value)
 }
 
-/// How to write the constant of `std` that was most likely meant by a name that is none.
+/// How to write the constant of `std` that was most likely meant by an unknown name.
 pub(crate) fn meant(ident: &Ident) -> Option<String> {
     let nearest = nearest(&ident.to_string(), OF_STD.map(|(name, _)| name))?;
     Some(match nearest {

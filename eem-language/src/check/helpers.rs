@@ -1,8 +1,8 @@
 //! Helpers, `let f = |x| …;`: every call becomes the body of the closure, with its arguments as bindings.
 //!
 //! A body is resolved where it is defined, which reports what is wrong with its names, and once more for
-//! every call, which reports nothing again. What depends on the values of the arguments, such as their
-//! units, is the business of later phases: they look into every call and name it.
+//! every call, which reports nothing again. Properties that depend on the arguments, such as units, are
+//! checked by later phases: they visit the body in every call, and name the call in messages.
 
 use std::mem;
 
@@ -16,16 +16,16 @@ use crate::ast;
 use crate::checked::{Expr, ExprKind};
 use crate::message::expression as message;
 
-/// Calls inside of one call. A helper that calls another twice, which calls a third one twice, and so on,
-/// would be a formula without end.
+/// Largest number of calls inside of one call: with helpers that each call the one before twice, a formula
+/// would grow exponentially.
 const CALLS: usize = 1000;
-/// Levels of expressions between a call in the formula and one inside of it: resolving is recursive.
+/// Largest number of levels of expressions between a call in the formula and one inside of it: resolving is recursive.
 const LEVELS: usize = 500;
-/// Levels of a call: the functions between two expressions.
+/// Levels that a call counts for: the functions between two expressions.
 const LEVELS_OF_CALL: usize = 5;
 
 impl<'a> Resolver<'_, 'a> {
-    /// Makes a helper known, after a first look at its body.
+    /// Declares a helper, after its body has been resolved once for the sake of messages.
     pub(super) fn define(&mut self, ident: &'a Ident, definition: &'a ast::Helper<'a>) {
         names::check_helper(self.cx, &self.scope, ident);
         let mark = self.scope.enter();
@@ -152,7 +152,7 @@ impl<'a> Resolver<'_, 'a> {
 
     /// Adds a binding with a name.
     pub(super) fn bind(&mut self, ident: &'a Ident, value: Expr<'a>) -> usize {
-        // In a call, uses have been looked for where the helper is defined.
+        // In a call the name is left out: unused names are reported where the helper is defined.
         self.add(
             Some(ident).filter(|_| self.calls.is_empty() && !self.cx.is_muted()),
             value,

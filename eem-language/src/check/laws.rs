@@ -1,4 +1,4 @@
-//! The viscosity laws: one per dashpot, perhaps one of the stretch, of the temperature and the parameters.
+//! The viscosity laws, functions of the temperature and the parameters: one per dashpot, at most one of the stretch.
 
 use super::parameters::Used;
 use super::resolve;
@@ -13,10 +13,10 @@ use crate::units::Quantities;
 
 /// The laws with their names resolved.
 pub(super) struct Laws<'a> {
-    /// In the order of the dashpots, then those of the viscous strain, without and with its trace; nothing where
-    /// one is missing.
+    /// In the order of the dashpots, then the laws of the deviatoric and of the volumetric viscous strain; `None`
+    /// where one is missing.
     pub(super) viscosities: Vec<Option<Body<'a>>>,
-    /// That of the stretch, if there is one.
+    /// The law of the stretch, if there is one.
     pub(super) drag: Option<Body<'a>>,
 }
 
@@ -56,8 +56,8 @@ pub(super) fn laws<'a>(
     Laws { viscosities, drag }
 }
 
-/// What a law sees. Names of the free energy that it does not see are declared as such, so that
-/// the message can say so; fields and the temperature hide them.
+/// The names that a law may use. Other names of the free energy are declared as foreign, so that the
+/// message can say so; fields and the temperature hide them.
 fn scope(input: &Input<'_>, variables: &[Variable<'_>]) -> Scope {
     let mut scope = Scope::default();
     declare_bindings(&mut scope, &input.energy);
@@ -108,7 +108,7 @@ fn declare_inner(scope: &mut Scope, expr: &Expr<'_>) {
     }
 }
 
-/// Every law is for a dashpot, and the only one for it.
+/// Reports laws for names that have no viscosity, and second laws for one name.
 pub(super) fn check_names(cx: &Ctxt, input: &Input<'_>) {
     for (i, Law { dashpot, .. }) in input.laws.iter().enumerate() {
         let name = ast::name(dashpot);
@@ -139,7 +139,7 @@ fn report_unknown(cx: &Ctxt, input: &Input<'_>, name: &syn::Ident) {
     cx.error(name, &message);
 }
 
-/// Every dashpot has a law. A law for a misspelt dashpot is taken for the missing one.
+/// Reports dashpots without a law. If a law has an unknown name, it is taken for the missing one.
 pub(super) fn check_complete(cx: &Ctxt, input: &Input<'_>) {
     let known = |law: &Law<'_>| {
         let mut arguments = input.arguments.iter();

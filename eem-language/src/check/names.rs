@@ -13,7 +13,7 @@ use crate::dialect::Dialect;
 use crate::message::attribute;
 use crate::message::expression as message;
 
-/// No argument has the name of a field or of another argument.
+/// Reports an argument that has the name of a field or of another argument.
 pub(super) fn check_arguments(cx: &Ctxt, input: &Input<'_>) {
     for (i, argument) in input.arguments.iter().enumerate() {
         let ident = argument.ident;
@@ -27,12 +27,12 @@ pub(super) fn check_arguments(cx: &Ctxt, input: &Input<'_>) {
     }
 }
 
-/// A `let` does not hide what can be seen where it stands.
+/// Reports a `let` that hides a visible name.
 pub(super) fn check_binding(cx: &Ctxt, scope: &Scope, ident: &Ident) {
     check(cx, scope, ident, |free| format!("let {free} = …;"));
 }
 
-/// Neither does the name of a helper, which is no function's.
+/// Reports a helper that hides a visible name or has the name of a function.
 pub(super) fn check_helper(cx: &Ctxt, scope: &Scope, ident: &Ident) {
     if is_function(ident) {
         let free = free(scope, ident);
@@ -43,7 +43,7 @@ pub(super) fn check_helper(cx: &Ctxt, scope: &Scope, ident: &Ident) {
     check(cx, scope, ident, |free| format!("let {free} = |…| …;"));
 }
 
-/// Neither does an argument of a helper.
+/// Reports an argument of a helper that hides a visible name.
 pub(super) fn check_helper_argument(cx: &Ctxt, scope: &Scope, ident: &Ident) {
     check(cx, scope, ident, |free| format!("|{free}| …"));
 }

@@ -1,8 +1,8 @@
-//! Which fields are parameters, and what scalar they make the model work in.
+//! The fields that are parameters, and the scalar type of the model, which follows from their types.
 //!
 //! A field is a number or an array of numbers, every entry of which is a parameter of its own.
 //! Only fields that an expression mentions count: a struct may carry anything else. But a number
-//! that no expression mentions is a parameter without effect, unless the struct says so.
+//! that no expression mentions is reported, unless it is marked as unused.
 
 use std::collections::BTreeSet;
 
@@ -18,10 +18,10 @@ use crate::message::field as message;
 /// The fields and constants that expressions have mentioned so far.
 #[derive(Debug)]
 pub(super) struct Used {
-    /// For every field which entries are mentioned; a number has one, 0.
+    /// For every field, the entries that are mentioned; a number has the only entry 0.
     fields: Vec<BTreeSet<usize>>,
     pub(super) constants: Constants,
-    /// Nothing has been reported that may have hidden the use of a field.
+    /// Whether no error has been reported that may have hidden the use of a field.
     complete: bool,
 }
 
@@ -35,22 +35,22 @@ impl Used {
         }
     }
 
-    /// Nothing has been reported that may have hidden the use of a field.
+    /// Whether no error has been reported that may have hidden the use of a field.
     pub(super) fn is_complete(&self) -> bool {
         self.complete
     }
 
-    /// Some expression has been reported: it might have mentioned any field.
+    /// Records that an expression with an error might have mentioned any field.
     pub(super) fn give_up(&mut self) {
         self.complete = false;
     }
 
-    /// An expression mentions field `index`, which is no array.
+    /// Records that an expression mentions field `index`, which is not an array.
     pub(super) fn mark(&mut self, index: usize) {
         self.mark_entry(index, 0);
     }
 
-    /// An expression mentions an entry of field `index`.
+    /// Records that an expression mentions an entry of field `index`.
     pub(super) fn mark_entry(&mut self, index: usize, entry: usize) {
         self.fields[index].insert(entry);
     }
@@ -64,7 +64,7 @@ impl Used {
     }
 }
 
-/// What the type of a field makes of it.
+/// The kind of a field by its type.
 enum Kind<'a> {
     Double,
     Single,
@@ -151,10 +151,10 @@ pub(super) fn scalar<'a>(cx: &Ctxt, input: &Input<'a>, used: &Used) -> Scalar<'a
     scalar
 }
 
-/// Every number is a parameter that an expression mentions, or is marked as unused; so is every entry
-/// of an array of numbers.
+/// Reports a number that no expression mentions and that is not marked as unused. Of an array of numbers,
+/// every entry has to be mentioned.
 ///
-/// Fields of other types are no numbers, and so is a type parameter that is not the scalar.
+/// Fields of other types are not numbers; neither are those of a type parameter that is not the scalar.
 pub(super) fn check_used(cx: &Ctxt, input: &Input<'_>, used: &Used, scalar: Scalar<'_>) {
     if !used.complete {
         return;
@@ -185,7 +185,7 @@ pub(super) fn check_used(cx: &Ctxt, input: &Input<'_>, used: &Used, scalar: Scal
     }
 }
 
-/// An argument has the same name, which has been reported.
+/// Whether an argument has the same name, which has been reported.
 fn is_hidden(input: &Input<'_>, field: &Field<'_>) -> bool {
     let mut arguments = input.arguments.iter();
     arguments.any(|argument| ast::name(argument.ident) == ast::name(field.ident))

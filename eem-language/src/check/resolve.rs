@@ -175,7 +175,7 @@ impl<'a> Resolver<'_, 'a> {
         }
     }
 
-    /// Whether a name that is not declared may be a constant. A text belongs to no program that has some.
+    /// Whether a name that is not declared may be a constant. In a text only `PI` may: a text has no program.
     fn may_be_constant(&self, ident: &Ident) -> bool {
         let of_program = self.cx.dialect() == Dialect::Attribute && ast::is_upper_case(ident);
         of_program || constants::bare(ident).is_some()

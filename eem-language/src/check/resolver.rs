@@ -1,4 +1,4 @@
-//! What is known while a body is resolved: the names in scope, the bindings, what has been used.
+//! The state while a body is resolved: the names in scope, the bindings, the names that have been used.
 
 use proc_macro2::Ident;
 
@@ -18,18 +18,18 @@ pub(super) struct Resolver<'r, 'a> {
     pub(super) variables: &'r [Variable<'a>],
     pub(super) used: &'r mut Used,
     pub(super) bindings: Vec<Expr<'a>>,
-    /// The names of the bindings that somebody wrote here, and whether something mentions them.
+    /// For every binding its name, if it was written in this body, and whether it has been used.
     pub(super) names: Vec<(Option<&'a Ident>, bool)>,
-    /// The same of those in the bodies of helpers.
+    /// The same for the bindings in the bodies of helpers.
     pub(super) inner_names: Vec<(Option<&'a Ident>, bool)>,
-    /// It is a viscosity law, which may use less than the free energy.
+    /// Whether the body is a viscosity law, which may use fewer names than the free energy.
     pub(super) is_law: bool,
     /// The helpers, whether they are visible or not.
     pub(super) helpers: Vec<Helper<'a>>,
     /// The calls of helpers that are being resolved, outermost first.
     pub(super) calls: Vec<&'a syn::Expr>,
     pub(super) inlining: Inlining,
-    /// No expression has been reported that may have used a name: what is not used can be reported.
+    /// Whether no expression with an error may have used a name, so that unused names can be reported.
     pub(super) complete: bool,
 }
 
@@ -57,7 +57,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
         }
     }
 
-    /// The body that ends in `value`. Reports bindings without effect.
+    /// The body that ends in `value`. Reports unused bindings.
     pub(super) fn finish(self, value: Expr<'a>) -> Body<'a> {
         if self.complete {
             let names = self.names.iter().chain(&self.inner_names);
@@ -79,12 +79,12 @@ impl<'r, 'a> Resolver<'r, 'a> {
         }
     }
 
-    /// The value of a binding has been reported.
+    /// Whether an error in the value of a binding has been reported.
     pub(super) fn is_wrong(&self, binding: usize) -> bool {
         matches!(self.bindings[binding].kind, ExprKind::Wrong(_))
     }
 
-    /// Reports a name that is known and cannot be used here.
+    /// Reports a name that is known but cannot be used here.
     pub(super) fn refuse(&self, ident: &Ident, meaning: Meaning) {
         let message = match meaning {
             Meaning::ForeignArgument(role) => message::law_of_state(ident, role),
@@ -106,7 +106,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
         self.cx.error(ident, &message);
     }
 
-    /// What the literature means by a name, if the model can have one more of that.
+    /// The usual role of a name, if the model can have one more argument of that role.
     fn missing_role(&self, name: &str) -> Option<Role> {
         let role = Role::usual(name)?;
         let has = |taken: fn(Role, Role) -> bool| {
@@ -129,7 +129,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
         theta.map(|variable| ast::name(variable.ident))
     }
 
-    /// Reports a name that stands for nothing.
+    /// Reports an unknown name.
     pub(super) fn unknown(&self, ident: &Ident) {
         let name = ast::name(ident);
         let nearest = self.scope.nearest(ident);

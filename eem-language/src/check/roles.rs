@@ -25,7 +25,7 @@ pub(super) fn variables<'a>(input: &Input<'a>) -> Vec<Variable<'a>> {
     variables
 }
 
-/// Without a measure there is neither a spring nor a solid, and nothing is both.
+/// Reports a model without a measure, and one with measures of both a spring and a solid.
 pub(super) fn check_measures(cx: &Ctxt, input: &Input<'_>) {
     let closure = input.closure;
     let is_deformed = measures(input).any(|(_, role)| role.joint().is_none());
@@ -46,7 +46,7 @@ pub(super) fn check_measures(cx: &Ctxt, input: &Input<'_>) {
     }
 }
 
-/// What a viscous strain is made of needs what drives it.
+/// Reports invariants of a viscous strain without `ViscousStrain`, E:Γ, which drives it.
 pub(super) fn check_flow(cx: &Ctxt, input: &Input<'_>) {
     let driven = of_role(input, Role::Joint(Joint::Strain)).count() > 0;
     if driven || !input.arguments_complete {
@@ -57,7 +57,7 @@ pub(super) fn check_flow(cx: &Ctxt, input: &Input<'_>) {
     }
 }
 
-/// There may be many dashpots and fibres, but one of everything else.
+/// Reports a second argument of a role. Only dashpots and fibres may be several.
 pub(super) fn check_counts(cx: &Ctxt, input: &Input<'_>) {
     for role in Role::ALL.into_iter().filter(|role| !role.is_repeatable()) {
         let mut arguments = of_role(input, role);
@@ -70,7 +70,8 @@ pub(super) fn check_counts(cx: &Ctxt, input: &Input<'_>) {
     }
 }
 
-/// One stretch or different strains, at most one temperature, and all names differ.
+/// Whether there are one stretch or different strains, at most one temperature, no viscous strain that
+/// nothing drives, and different names.
 pub(super) fn are_sound(input: &Input<'_>) -> bool {
     let count = |role| of_role(input, role).count();
     let names = input.arguments.iter().map(|argument| argument.ident);

@@ -1,4 +1,4 @@
-//! What a name means at a point of an expression.
+//! The meaning of names at a point of an expression.
 //!
 //! The inner name hides the outer one, as in Rust; [`names`](super::names) reports where it does.
 
@@ -37,7 +37,7 @@ pub(super) enum Meaning {
 }
 
 impl Meaning {
-    /// May be suggested in place of a wrong name.
+    /// Whether it may be suggested in place of a wrong name.
     fn visible(self) -> bool {
         match self {
             Self::Field(_)
@@ -82,7 +82,7 @@ impl Scope {
         found.or_else(unreadable).map(|&(_, meaning)| meaning)
     }
 
-    /// The name is taken.
+    /// Whether the name is taken.
     pub(super) fn contains(&self, name: &str) -> bool {
         self.names.iter().any(|(known, _)| known == name)
     }

@@ -52,7 +52,7 @@ pub(super) fn constants(
     }
 }
 
-/// Nothing for a model without units: that is the default.
+/// `None` for a model without units, which is the default of the trait.
 fn parameter_units(checked: &Checked<'_>, units: &Units) -> Option<TokenStream> {
     let parameters = checked.parameters.iter();
     let units: Vec<_> = parameters
@@ -66,7 +66,7 @@ fn parameter_units(checked: &Checked<'_>, units: &Units) -> Option<TokenStream> 
     })
 }
 
-/// Nothing for a spring: that is the default.
+/// `None` for a spring, which is the default of the trait.
 pub(crate) fn per_volume(per_volume: bool) -> Option<TokenStream> {
     per_volume.then(|| quote! { const PER_VOLUME: __eem::core::primitive::bool = true; })
 }

@@ -72,7 +72,7 @@ fn parameters(checked: &Checked<'_>, units: &Units) -> impl Iterator<Item = Toke
     })
 }
 
-/// What each generated function costs.
+/// The cost of each generated function.
 pub(super) fn costs(
     programs: &Programs,
     derivatives: Option<&ParameterPrograms>,
@@ -99,7 +99,7 @@ pub(super) fn costs(
     rows.chain(derivatives).collect()
 }
 
-/// A function of one state computes everything in every call.
+/// The operations per step and per call. A function of one state computes everything in every call.
 fn cost(function: &str, program: &Program, two_states: bool) -> TokenStream {
     let count = program.operation_count();
     let (old, new) = (count.old.total(), count.new.total());

@@ -1,4 +1,4 @@
-//! The same material once more.
+//! The function `duplicate`, which copies a material.
 
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
@@ -19,7 +19,7 @@ pub(super) fn duplicate(input: &DeriveInput) -> TokenStream {
         .members()
         .zip(&item.fields)
         .map(|(member, field)| {
-            // Where a field cannot be cloned, Rust says so there.
+            // If a field cannot be cloned, the compiler reports it there.
             let clone = quote_spanned!(field.ty.span()=> __eem::core::clone::Clone::clone);
             quote! { #member: #clone(&self.#member) }
         });

@@ -13,7 +13,7 @@ use super::docs;
 use super::inputs::Inputs;
 use super::statements::{Statements, value};
 
-/// Both forms.
+/// The functions of both forms.
 pub(super) fn forms(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let entropy = entropy_form(programs, inputs);
     let temperature = match &programs.temperature_form {
@@ -232,7 +232,7 @@ pub(super) fn kept(program: &Program, inputs: &Inputs) -> Vec<Value> {
         .collect()
 }
 
-/// How many values the entropy form keeps of the old state, with those of its corners.
+/// Number of values that the entropy form keeps of the old state, those of `mixed_states` included.
 pub(super) fn kept_in_entropy_form(programs: &Programs, inputs: &Inputs) -> usize {
     let mixed = programs.mixed_states.as_ref();
     let form = kept(&programs.entropy_form, inputs).len();
@@ -244,7 +244,7 @@ fn known(program: &Program, inputs: &Inputs) -> BTreeMap<Value, TokenStream> {
     known_from(program, inputs, 0)
 }
 
-/// The same where they begin at a place of `__old`.
+/// The same with the values from `__old[first]` on.
 fn known_from(program: &Program, inputs: &Inputs, first: usize) -> BTreeMap<Value, TokenStream> {
     let mut known = BTreeMap::new();
     for value in program.hoisted() {

@@ -20,7 +20,7 @@ pub(super) struct Inputs {
     pub(super) viscosities: usize,
     /// Number of measures with a viscosity.
     pub(super) drags: usize,
-    /// There is a temperature.
+    /// Whether there is a temperature.
     pub(super) thermal: bool,
 }
 
@@ -64,7 +64,7 @@ impl Inputs {
         self.parameter_or(index, |index| element(&quote!(__x), index))
     }
 
-    /// Input `index` of a program of the temperature: parameters, x without θ, θ.
+    /// Input `index` of a program at one state as a function of the temperature: parameters, x without θ, θ.
     pub(super) fn at_temperature(&self, index: usize) -> TokenStream {
         let last = self.variables - 1;
         self.parameter_or(index, |index| {
@@ -95,7 +95,7 @@ impl Inputs {
         })
     }
 
-    /// Input `index` of a program with these arrays as arguments: parameters, then the elements of each, so many.
+    /// Input `index` of a program with these arrays, of the given lengths, as arguments: parameters, then their elements.
     pub(super) fn argument(&self, index: usize, arrays: &[(TokenStream, usize)]) -> TokenStream {
         self.parameter_or(index, |mut index| {
             for (array, count) in arrays {
@@ -123,7 +123,7 @@ fn parameter(parameter: &Parameter<'_>, scalar: &TokenStream) -> TokenStream {
             let entry = Literal::usize_unsuffixed(*entry);
             (quote!(self.#ident[#entry]), *kind)
         }
-        // An `f64`, or a number that is one without loss.
+        // An `f64`, or a number that converts to it without loss.
         Source::Constant(path) => (path.clone(), ParameterKind::Single),
     };
     match kind {

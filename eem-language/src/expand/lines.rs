@@ -46,9 +46,9 @@ fn wrap(formula: &str, lines: &mut Vec<String>) {
 /// A place to break a line.
 #[derive(Clone, Copy)]
 struct Break {
-    /// How many more parentheses are open there than at the start.
+    /// Number of parentheses open there, minus the number at the start.
     deeper: i32,
-    /// In front of `*` and not of `+` or `-`.
+    /// Whether it is in front of `*`, not of `+` or `-`.
     product: bool,
     at: usize,
 }

@@ -10,7 +10,7 @@ use super::docs;
 use super::inputs::Inputs;
 use super::statements::{Statements, value};
 
-/// Both functions.
+/// The functions `rates` and `rates_at`.
 pub(super) fn rates(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let rates = at_state(&programs.rates, inputs);
     let rates_at = at_temperature(&programs.rates_at, inputs);

@@ -13,7 +13,7 @@ pub(super) struct Statements<'p> {
     pub(super) scalar: &'p TokenStream,
     /// The source of an input.
     pub(super) input: Box<dyn Fn(usize) -> TokenStream + 'p>,
-    /// How values are read that another function has computed.
+    /// The expressions that read values computed by another function.
     pub(super) known: BTreeMap<Value, TokenStream>,
 }
 

@@ -37,7 +37,7 @@ pub(super) fn strains(
     Some(quote! { #joint #strains })
 }
 
-/// Those for a model with errors, whose strains are these.
+/// The implementation for a model with errors that has these strains.
 pub(crate) fn stub(
     input: &DeriveInput,
     strains: impl Iterator<Item = Strain>,

@@ -10,7 +10,7 @@ use super::docs;
 use super::inputs::Inputs;
 use super::statements::{Statements, value};
 
-/// Both functions.
+/// The functions `viscosity` and `drag`.
 pub(super) fn viscosities(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let viscosity = viscosity(programs.viscosity.as_ref(), inputs);
     let drag = drag(programs.drag.as_ref(), inputs);

@@ -43,8 +43,8 @@ pub(crate) fn unreadable_free_energy(error: &syn::Error) -> Message {
 
 pub(crate) fn unreadable_formula(error: &syn::Error) -> Message {
     let error = error.to_string();
-    // What the parser expects between the entries of an attribute and between statements: here it
-    // is the formula that should have gone on.
+    // The parser expects `,` between the entries of an attribute and `;` between statements, but here
+    // the formula should have continued.
     let text = if error.ends_with("expected `,`") || error.ends_with("expected `;`") {
         "cannot read the formula from here on".to_owned()
     } else {

@@ -18,7 +18,7 @@ pub(crate) fn misspelt_name(name: &str, nearest: &str) -> Message {
     )
 }
 
-/// `role` is what the literature means by the name.
+/// `role` is the usual role of the name.
 pub(crate) fn missing_argument(name: &str, role: Role) -> Message {
     let role = role.name();
     Message::new(
@@ -262,7 +262,7 @@ pub(crate) fn negative_base() -> Message {
     )
 }
 
-/// `base` is as quoted. The exponent is given if it is a constant; `smooth` means that a power of the square is.
+/// `base` is as quoted. `exponent` is given if it is a constant; `smooth` says that the power of x² has two derivatives.
 pub(crate) fn base_can_be_negative(base: &str, exponent: Option<f64>, smooth: bool) -> Message {
     // An exponent of many digits, such as 5/3, is shown as `y`.
     let short = exponent.filter(|y| (1000.0 * y).fract() == 0.0);

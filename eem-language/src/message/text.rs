@@ -9,7 +9,7 @@ pub(crate) fn too_long(bytes: usize, most: usize) -> Message {
     )
 }
 
-/// `bracket` is one that has no other.
+/// `bracket` has no counterpart.
 pub(crate) fn single_bracket(bracket: char) -> Message {
     let what = if "([{".contains(bracket) {
         format!("this `{bracket}` is not closed")
@@ -19,7 +19,7 @@ pub(crate) fn single_bracket(bracket: char) -> Message {
     Message::new(what, "every `(`, `[` and `{` has its counterpart")
 }
 
-/// What no token begins with.
+/// No token begins with `character`.
 pub(crate) fn unexpected_character(character: char) -> Message {
     let help = match character {
         '·' | '⋅' | '×' | '∙' => "write `*`",

@@ -1,11 +1,11 @@
-//! Which messages were written, for the test that every one has a case.
+//! Records which messages were written, for the test that every one has a case.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::panic::Location;
 
 thread_local! {
-    /// File and line of the messages written since the last look.
+    /// File and line of the messages written since the last [`take`].
     static WRITTEN: RefCell<BTreeSet<(String, u32)>> = const { RefCell::new(BTreeSet::new()) };
 }
 
@@ -15,7 +15,7 @@ pub(super) fn record(location: &'static Location<'static>) {
     WRITTEN.with_borrow_mut(|written| written.insert(place));
 }
 
-/// The messages written since the last look.
+/// File and line of the messages written since the last call.
 pub(crate) fn take() -> BTreeSet<(String, u32)> {
     WRITTEN.take()
 }

@@ -1,8 +1,8 @@
-//! Domains: a subexpression that has no value, whatever the parameters and the state are.
+//! Domains: reports a subexpression that has no value, whatever the parameters and the state are.
 //!
-//! Decided by the value of constants, and for other expressions by their sign, given that lengths
-//! and temperatures are positive and strains above their bounds. The base of a power has to be on the
-//! right side in every state. What a solid does at rest is looked at in `rest`.
+//! Constants are judged by their value, other expressions by their sign, given that lengths and
+//! temperatures are positive and strains above their bounds. The base of a power has to be in its
+//! domain in every state. Solids at rest are checked in `rest`.
 
 use eem_symbolic::{ExprId, F64, Function, LowerBound, Rational, Sign, range, schedule, sign};
 
@@ -13,21 +13,21 @@ use crate::message::expression as message;
 use crate::units::excerpt;
 
 impl Lowering<'_> {
-    /// A constant is finite: `exp(1000)` is not.
+    /// Reports a constant that is not finite, such as `exp(1000)`.
     pub(super) fn check_size(&self, expr: &Expr<'_>, value: ExprId) -> Option<ExprId> {
         let infinite = self.constant(value).is_some_and(|c| !c.is_finite());
         self.unless(infinite, expr, &message::constant_too_large)?;
         Some(value)
     }
 
-    /// A divisor is not identically zero, nor so small that its inverse overflows.
+    /// Reports a divisor that is identically zero, or so small that its inverse overflows.
     pub(super) fn check_divisor(&mut self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         let zero = self.constant(value).is_some_and(|c| !c.recip().is_finite());
         self.unless(zero, expr, &message::divisor_is_zero)?;
         self.check_divisor_at_rest(expr, value)
     }
 
-    /// `√x`, x ≥ 0.
+    /// Checks `√x`: x ≥ 0.
     pub(super) fn check_root(&self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         let sign = self.sign(value);
         let outside = !sign.zero && !sign.positive;
@@ -36,8 +36,8 @@ impl Lowering<'_> {
         })
     }
 
-    /// `x^y`, x > 0, unless y is an integer. What changes its sign with the state is refused: the
-    /// first step on the wrong side would be NaN.
+    /// Checks `x^y`: x > 0, unless y is an integer. A base whose sign can change with the state is
+    /// refused: the first step with a negative base would be NaN.
     pub(super) fn check_base(
         &mut self,
         expr: &Expr<'_>,
@@ -72,7 +72,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The functions that are not defined everywhere.
+    /// Checks the argument of a function that is not defined everywhere.
     pub(super) fn check_argument(
         &mut self,
         function: Function,
@@ -152,14 +152,14 @@ impl Lowering<'_> {
         sign(&self.graph, e, &self.bounds())
     }
 
-    /// What is known of lengths, strains and temperature.
+    /// Lower bounds of lengths, strains and temperature.
     fn bounds(&self) -> Vec<LowerBound> {
         let positive = self.symbols(|role| matches!(role, Role::Stretch | Role::Temperature));
         let positive = positive.into_iter().map(LowerBound::positive);
         positive.chain(self.strains()).collect()
     }
 
-    /// From where on strains are.
+    /// Lower bounds of strains.
     pub(super) fn strains(&self) -> Vec<LowerBound> {
         let pairs = self.checked.variables.iter().zip(&self.variables);
         let bounds = pairs.filter_map(|(variable, &symbol)| {

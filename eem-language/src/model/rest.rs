@@ -1,4 +1,4 @@
-//! The solid at rest, where all strains, also viscous ones, are zero: a free energy has a value and a stress there.
+//! The solid at rest, where all strains, also viscous ones, are zero: a free energy must have a value and a stress there.
 
 use eem_symbolic::{ExprId, Function, substitute};
 
@@ -8,7 +8,7 @@ use crate::checked::Expr;
 use crate::message::expression::rest as message;
 use crate::units::excerpt;
 
-/// From here on a power of something that is zero has two derivatives.
+/// The smallest exponent with which a power has two derivatives where its base is zero.
 const SMOOTH: f64 = 2.0;
 
 impl Lowering<'_> {
@@ -19,7 +19,7 @@ impl Lowering<'_> {
             || at_rest.is_some_and(|(_, _, at_rest)| at_rest != 0.0)
     }
 
-    /// `1/j`
+    /// Reports a divisor that is zero at rest, as in `1/j`.
     pub(super) fn check_divisor_at_rest(&mut self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         let Some((name, strain, at_rest)) = self.at_rest(value) else {
             return Some(());
@@ -28,7 +28,8 @@ impl Lowering<'_> {
         self.unless(zero, expr, &|| message::divisor(&name, strain))
     }
 
-    /// `√e2`, whose slope is infinite, and other powers below 2, whose curvature is.
+    /// Reports powers that are singular at rest: `√e2` has an infinite slope there, other powers below 2 an infinite
+    /// curvature, and powers of negative numbers have no value.
     pub(super) fn check_power_at_rest(
         &mut self,
         function: &str,
@@ -48,7 +49,7 @@ impl Lowering<'_> {
         self.unless(negative, expr, &|| message::negative(function))
     }
 
-    /// `ln(j)`
+    /// Reports a function whose argument is outside its domain at rest, as in `ln(j)`.
     pub(super) fn check_value_at_rest(
         &mut self,
         function: Function,
@@ -69,8 +70,8 @@ impl Lowering<'_> {
         })
     }
 
-    /// The first strain in an expression, and what is left of the expression without strains if that is
-    /// a number.
+    /// Name and role of the first strain in an expression, and the value of the expression at rest, if that
+    /// is a number.
     pub(super) fn at_rest(&mut self, e: ExprId) -> Option<(String, Role, f64)> {
         let pairs = self.checked.variables.iter().zip(&self.variables);
         let strains = pairs.filter(|(variable, _)| variable.role.is_of_solid());

@@ -1,4 +1,4 @@
-//! Derivatives: what depends on the state has one everywhere, and those asked for are not all zero.
+//! Derivatives: expressions of the state must have one everywhere, and `diff` must not be zero identically.
 
 use eem_symbolic::{ExprId, Function, Node};
 
@@ -18,7 +18,7 @@ impl Lowering<'_> {
         Some(self.graph.apply(Function::Abs, inner))
     }
 
-    /// √(x²) is |x|.
+    /// Reports √(x²) where x depends on the state and can have both signs: it is |x|.
     pub(super) fn check_square(&self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         let Some(base) = self.squared(value) else {
             return Some(());
@@ -47,7 +47,7 @@ impl Lowering<'_> {
         square.map(|&(base, _)| base)
     }
 
-    /// The derivative of a number is zero; who asks for it meant something else.
+    /// Reports the derivative of an expression without arguments: it is zero, which was hardly meant.
     pub(super) fn check_derivative(&self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         if self.argument_in(value).is_none() {
             self.cx.error(expr.original, &message::diff_of_number());

@@ -68,7 +68,7 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
     }
 }
 
-/// A statement that begins with the operator behind an `if` or `match`. At the start of a statement,
+/// Whether a statement begins with the operator behind an `if` or `match`. At the start of a statement,
 /// Rust reads `if x > 1 { a } else { b } * c` as two: an `if`, and `*c`. The `if` has been reported.
 fn is_rest(before: Option<&Stmt>, statement: &Stmt) -> bool {
     let Some(Stmt::Expr(Syntax::If(_) | Syntax::Match(_), None)) = before else {

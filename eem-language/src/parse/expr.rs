@@ -46,7 +46,7 @@ fn name<'a>(cx: &Ctxt, path: &'a syn::ExprPath) -> ExprKind<'a> {
     }
 }
 
-/// Whether a path of several names ends like that of a constant: `crate::gas::R`. One into `consts` is meant to.
+/// Whether a path of several names ends like that of a constant: `crate::gas::R`, or leads into `consts`.
 fn is_constant(path: &syn::ExprPath) -> bool {
     let mut segments = path.path.segments.iter();
     let plain = segments.all(|segment| segment.arguments.is_none());

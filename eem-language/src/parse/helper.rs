@@ -17,7 +17,7 @@ pub(super) fn closure(syntax: &Syntax) -> Option<&ExprClosure> {
     }
 }
 
-/// Its arguments; nothing where one could not be read. Reports all else that a helper does not have.
+/// The arguments of a helper; `None` where one could not be read. Reports syntax that a helper cannot have.
 pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Option<&'a syn::Ident>> {
     check(cx, closure);
     closure.inputs.iter().map(|pat| argument(cx, pat)).collect()

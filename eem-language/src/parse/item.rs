@@ -43,8 +43,8 @@ pub(super) fn fields<'a>(cx: &Ctxt, input: &'a DeriveInput) -> Option<Vec<Field<
     }
 }
 
-/// Reads `#[free_energy(unused)]`. Everything else would be ignored on a field, where the compiler
-/// accepts it.
+/// Reads `#[free_energy(unused)]`. Reports other `free_energy` and `viscosity` attributes of fields, which
+/// the compiler would accept and nothing would read.
 fn read_marks(cx: &Ctxt, attributes: &[Attribute], field: &mut Field<'_>) {
     for attribute in attributes {
         let path = attribute.path();

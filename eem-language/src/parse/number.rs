@@ -7,7 +7,7 @@ use crate::ast::ExprKind;
 use crate::ctxt::Ctxt;
 use crate::message::expression::{self as message, syntax};
 
-/// The number types of Rust that a literal may not name.
+/// The number types of Rust that a literal may not have as its suffix.
 const RUST_NUMBERS: [&str; 14] = [
     "f32", "f16", "i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128",
     "usize",

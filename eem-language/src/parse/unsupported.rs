@@ -54,7 +54,7 @@ pub(super) fn report<'a>(cx: &Ctxt, expr: &'a Expr) -> Vec<&'a Expr> {
     }
 }
 
-/// The kinds that contain no formula, or none worth reading before they are gone.
+/// Reports the kinds of expressions that contain no formula, or none that is read as long as they are there.
 fn report_opaque(cx: &Ctxt, expr: &Expr) {
     match expr {
         Expr::If(e) => cx.error(e.if_token, &message::not_allowed("if")),

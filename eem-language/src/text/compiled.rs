@@ -1,4 +1,4 @@
-//! A model that came from texts.
+//! A model compiled from texts.
 
 use std::sync::OnceLock;
 
@@ -25,7 +25,7 @@ pub struct Argument {
 /// A formula that follows from the free energy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {
-    /// What it defines: `ψ`, `f`, `g_2`.
+    /// The symbol that it defines: `ψ`, `f`, `g_2`.
     pub symbol: String,
     /// Both sides; a long one is broken into lines.
     pub equation: String,
@@ -33,7 +33,7 @@ pub struct Formula {
     pub unit: String,
 }
 
-/// A model whose texts are right.
+/// A model whose texts have no errors.
 ///
 /// ```
 /// use eem_language::text::{Source, compile};
@@ -52,13 +52,13 @@ pub struct Compiled {
     /// In the order of the state.
     arguments: Vec<(String, Role)>,
     units: &'static Quantities,
-    /// The first measures of the model, and the others.
+    /// The first measures of the model; `joints` are the others.
     strains: Vec<Strain>,
     joints: Vec<Joint>,
-    /// Nothing if a number in them does not fit.
+    /// `None` if a number in them does not fit an `f64`.
     programs: OnceLock<Option<Programs>>,
     parameter_programs: OnceLock<Option<ParameterPrograms>>,
-    /// What is said in that case.
+    /// The faults that are returned in that case.
     too_large: Faults,
     warnings: Vec<Fault>,
 }
@@ -98,8 +98,8 @@ impl Compiled {
         &self.source
     }
 
-    /// ψ and the viscosities as expressions; the parameters are those that they mention, in the order of the source,
-    /// every entry of an array for itself.
+    /// ψ and the viscosities as expressions; the parameters are those that they mention, in the order of the source;
+    /// every entry of an array is a parameter.
     ///
     /// ```
     /// use eem_language::text::{Source, compile};
@@ -137,7 +137,7 @@ impl Compiled {
         self.arguments.iter().map(argument).collect()
     }
 
-    /// ψ, s, e, forces, dashpot forces, heat capacity and viscosities as text: those of `Describe` of a derived material.
+    /// ψ, s, e, forces, dashpot forces, heat capacity and viscosities as text, as in `Describe` of a derived material.
     ///
     /// ```
     /// use eem_language::text::{Source, compile};
@@ -160,7 +160,7 @@ impl Compiled {
         equations.into_iter().map(formula).collect()
     }
 
-    /// The strains that ψ depends on, the first measures of the model; none of a spring.
+    /// The strains that ψ depends on, the first measures of the model; empty for a spring.
     ///
     /// ```
     /// use eem_language::text::{Joint, Source, Strain, compile};
@@ -181,7 +181,7 @@ impl Compiled {
         &self.joints
     }
 
-    /// The programs of the model, which are made at the first call: the same that the derive prints.
+    /// The programs of the model, made at the first call; the derive prints the same programs.
     ///
     /// # Errors
     ///
@@ -205,7 +205,7 @@ impl Compiled {
         programs.as_ref().ok_or_else(|| self.too_large.clone())
     }
 
-    /// The programs of the derivatives by the parameters, which are made at the first call: the same that the derive prints.
+    /// The programs of the derivatives with respect to the parameters, made at the first call; the derive prints the same.
     ///
     /// # Errors
     ///
@@ -231,7 +231,7 @@ impl Compiled {
         derivatives.as_ref().ok_or_else(|| self.too_large.clone())
     }
 
-    /// What is accepted and loses digits, in the order of the source.
+    /// The warnings, about formulas that are accepted but lose digits, in the order of the source.
     ///
     /// ```
     /// use eem_language::text::{Source, compile};

@@ -8,7 +8,7 @@ use crate::message::calls_shown;
 
 /// Characters of a line that are drawn.
 const WIDEST: usize = 160;
-/// Characters before the guilty place where a line is too long to be drawn.
+/// Characters before the fault that are drawn of a line that is too long.
 const BEFORE: usize = 60;
 
 /// A mistake in a text, or a warning.
@@ -37,7 +37,7 @@ const BEFORE: usize = 60;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Fault {
-    /// Whether there is a model all the same.
+    /// Whether there is a model in spite of the fault.
     pub level: Level,
     /// The text in which it is.
     pub part: Part,
@@ -51,23 +51,23 @@ pub struct Fault {
     pub text: String,
     /// What to write instead.
     pub help: String,
-    /// The calls of helpers in which it is wrong, as quoted; none outside of helpers.
+    /// The calls of helpers in which the fault shows, as quoted; empty outside of helpers.
     pub calls: Vec<String>,
     pub(super) drawing: Drawing,
 }
 
-/// The line of a fault, or what is around the place if it is long.
+/// The line of a fault, or the part around the fault if the line is long.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Drawing {
     line: String,
     /// Characters before the place.
     before: usize,
-    /// Of the place.
+    /// Characters of the place.
     width: usize,
 }
 
 impl Drawing {
-    /// Columns from 0.
+    /// `column` counts from 0.
     pub(super) fn new(line: &str, column: usize, width: usize) -> Self {
         // A tab would move what is behind it away from its caret.
         let visible = |c: char| if c.is_control() { ' ' } else { c };
@@ -94,7 +94,7 @@ impl Drawing {
     }
 }
 
-/// How bad it is.
+/// The severity of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Level {
     /// There is no model.
@@ -134,8 +134,8 @@ impl Display for Fault {
     }
 }
 
-/// All mistakes of a model, in the order of the source: ψ, viscosities, parameters, each with its name before what is
-/// said about it.
+/// All mistakes of a model, in the order of the source: ψ, viscosities, parameters; mistakes in a name come before
+/// those in its law or unit.
 ///
 /// `Display` draws them all:
 ///
@@ -152,7 +152,7 @@ impl Display for Fault {
 pub struct Faults(pub(super) Vec<Fault>);
 
 impl Faults {
-    /// At least one.
+    /// The mistakes, at least one.
     #[must_use]
     pub fn all(&self) -> &[Fault] {
         &self.0

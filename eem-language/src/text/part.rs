@@ -41,7 +41,7 @@ impl Display for Part {
     }
 }
 
-/// The name on one line and not too long: it may be anything.
+/// The name on one line and shortened if it is long: names may be any text.
 pub(super) fn short(name: &str) -> String {
     let mut name = name.chars();
     let visible = |c: char| if c.is_control() { ' ' } else { c };

@@ -20,16 +20,16 @@ use crate::message::{Message, text as message};
 pub(super) struct Reader<'s> {
     dialect: Dialect,
     parts: Vec<(Part, Vec<&'s str>)>,
-    /// Which part the tokens of a file of `proc-macro2` are from.
+    /// The part to which the tokens of each file of `proc-macro2` belong.
     files: BTreeMap<String, usize>,
-    /// With the number of the part.
+    /// Faults with the index of their part.
     faults: Vec<(usize, Fault)>,
 }
 
-/// Bytes of a name or of a unit, which may have parentheses in each other.
+/// Bytes that a name or a unit may have; the parentheses of a unit may be nested.
 const LONGEST_NAME: usize = 256;
 
-/// Lines and columns from 0.
+/// A place in a part; lines and columns count from 0.
 struct Place {
     line: usize,
     column: usize,
@@ -49,8 +49,8 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// The item that the derive would see. Nothing if a text is not made of tokens or a name is none, which is
-    /// reported for all texts.
+    /// The item that the derive would see. `None` if a text is not made of tokens or a name is invalid; all such
+    /// texts are reported.
     pub(super) fn read(&mut self, source: &'s Source) -> Option<DeriveInput> {
         let mut attributes = Vec::new();
         if let Some(psi) = self.part(Part::FreeEnergy, &source.free_energy, &source.free_energy) {
@@ -93,12 +93,12 @@ impl<'s> Reader<'s> {
             return None;
         }
         let mut input: DeriveInput = parse_quote! { struct Text { #(#fields,)* } };
-        // Not read by a parser, which would go as deep as they are nested.
+        // Set directly: a parser would recurse as deep as the formulas are nested.
         input.attrs = attributes;
         Some(input)
     }
 
-    /// The tokens of a part in parentheses, which are its beginning and its end.
+    /// The tokens of a part in parentheses, whose spans later stand for the whole part and for its end.
     fn part(&mut self, part: Part, text: &'s str, tokens: &str) -> Option<Group> {
         self.parts.push((part, text.split('\n').collect()));
         let index = self.parts.len() - 1;
@@ -110,7 +110,7 @@ impl<'s> Reader<'s> {
             self.report_part(index, &message::too_long(text.len(), most));
             return None;
         }
-        // On lines of their own: a comment ends with its line.
+        // The parentheses have lines of their own, because a comment extends to the end of its line.
         let whole = format!("(\n{tokens}\n)").parse::<TokenStream>();
         let mut whole = whole.into_iter().flatten();
         let (Some(TokenTree::Group(group)), None) = (whole.next(), whole.next()) else {
@@ -121,7 +121,7 @@ impl<'s> Reader<'s> {
         Some(group)
     }
 
-    /// Reports what keeps a text from being tokens.
+    /// Reports why a text is not made of tokens.
     fn report_unreadable(&mut self, part: usize, text: &str) {
         let error = text.parse::<TokenStream>().err();
         let start = error.map(|error| error.span().start());
@@ -141,7 +141,7 @@ impl<'s> Reader<'s> {
         self.push(Level::Error, part, &place, &message, Vec::new());
     }
 
-    /// The name of a parameter or of a dashpot; of an array only for a parameter.
+    /// The name of a parameter or of a dashpot; only a parameter may be an array.
     fn name(&mut self, part: Part, text: &'s str) -> Option<Name> {
         let may_be_array = matches!(part, Part::Parameter(_));
         let group = self.part(part, text, text)?;
@@ -210,7 +210,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// Where tokens are. The parenthesis before a text stands for the whole of it, the one behind it for its end.
+    /// The place of tokens. The parenthesis before a text stands for the whole of it, the one behind it for its end.
     fn place(&self, part: usize, span: Span) -> Place {
         let lines = &self.parts[part].1;
         let (start, end) = (span.start(), span.end());
@@ -268,7 +268,7 @@ fn as_name(tokens: TokenStream) -> Option<Name> {
     let TokenTree::Ident(ident) = tokens.next()? else {
         return None;
     };
-    // A keyword is an identifier of `proc-macro2`, too.
+    // A keyword is an identifier of `proc-macro2`, too; `syn` refuses it.
     let ident = syn::parse2(TokenTree::from(ident).into()).ok()?;
     let length = match tokens.next() {
         None => None,

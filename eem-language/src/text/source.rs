@@ -1,4 +1,4 @@
-//! What a model is made of, as it was written.
+//! The texts of a model, as they were written.
 
 /// Bytes that the text of a formula may have.
 pub const LONGEST: usize = 64 << 10;

@@ -58,7 +58,7 @@ fn factors(unit: &Unit) -> Vec<Factor> {
     best
 }
 
-/// The product with a power of `named` that leaves no kilograms, or amperes where it has none.
+/// The product with a power of `named` that leaves no kilograms, or no amperes if `named` has no kilograms.
 fn factors_with(unit: &Unit, named: &str) -> Option<Vec<Factor>> {
     let derived = table::lookup(named)?;
     let mut pivots = [Base::Kilogram, Base::Ampere].into_iter();
@@ -142,7 +142,7 @@ fn power(symbol: &str, exponent: Rational) -> String {
     }
 }
 
-/// The number that a scale is.
+/// A scale as a number.
 fn number(scale: &Unit) -> String {
     let value = |(base, prime): (Base, i64)| {
         let exponent = scale.exponent(base).to_i32()?;

@@ -1,5 +1,5 @@
-//! The symbols of units and prefixes: a symbol has one meaning, and what has an offset or an
-//! irrational scale has none.
+//! The symbols of units and prefixes. A symbol has one meaning; units with an offset or an irrational
+//! scale have no symbol.
 
 use super::{Base, Unit};
 use crate::nearest::nearest;
@@ -26,7 +26,7 @@ const fn si(symbols: &'static [&'static str], name: &'static str, exponents: [i6
     }
 }
 
-/// Base units, derived units with a name, and what the SI accepts beside them.
+/// Base units, derived units with a name, and units that may be used with the SI.
 const ROWS: [Row; 34] = [
     //                                 m  kg  s  A  K mol cd
     si(&["m"], "metre", [1, 0, 0, 0, 0, 0, 0]),

@@ -15,7 +15,7 @@ use crate::nearest::nearest;
 /// The unit of a constant.
 #[derive(Debug)]
 pub(super) struct Annotation {
-    /// Which constant it is of: see [`Origin::Constant`](crate::checked::Origin::Constant).
+    /// The index of the constant: see [`Origin::Constant`](crate::checked::Origin::Constant).
     pub(super) constant: usize,
     pub(super) declaration: Declaration,
 }
@@ -44,7 +44,7 @@ pub(super) fn read(cx: &Ctxt, checked: &Checked<'_>) -> Vec<Annotation> {
     annotations
 }
 
-/// The entries of one attribute; none if it cannot be read.
+/// The entries of one attribute; empty if it cannot be read.
 fn entries(cx: &Ctxt, attribute: &Attribute) -> Vec<(Path, LitStr)> {
     if let Ok(Lit::Str(_)) = attribute.parse_args() {
         cx.error(attribute.path(), &message::not_on_a_field());
@@ -74,8 +74,8 @@ fn constant(checked: &Checked<'_>, path: &Path) -> Option<usize> {
         .position(|tokens| text(tokens) == wanted)
 }
 
-/// Says what a name is that is no constant of the formulas. If a formula has an error, the constant may
-/// be in it.
+/// Reports a name that is not a constant of the formulas. Unknown names are not reported if a formula has
+/// an error: the constant may be in it.
 fn report(cx: &Ctxt, checked: &Checked<'_>, path: &Path) {
     let name = text(path);
     if of_std(path).or(path.get_ident().and_then(bare)).is_some() {

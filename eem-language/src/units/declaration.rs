@@ -9,18 +9,18 @@ use crate::unit::Unit;
 /// The name of the attribute.
 pub(super) const ATTRIBUTE: &str = "unit";
 
-/// What is said about the unit of a field or of a constant.
+/// The declaration of the unit of a field or of a constant.
 #[derive(Clone, Debug)]
 pub(super) enum Declaration {
-    /// Nothing.
+    /// There is none.
     Missing,
-    /// Something that has been reported.
+    /// It has an error, which has been reported.
     Unreadable,
     /// A unit, and how it was written.
     Unit(Unit, String),
 }
 
-/// The unit that a string says.
+/// Reads the text of a unit; reports an error in it.
 pub(super) fn unit_of(cx: &Ctxt, text: &LitStr) -> Declaration {
     match grammar::parse(&text.value()) {
         Ok(unit) => Declaration::Unit(unit, text.value().trim().to_owned()),

@@ -1,4 +1,4 @@
-//! The units of what a formula names: fields by their `#[unit("…")]`, constants by one on the struct,
+//! The units of the names in a formula: fields by their `#[unit("…")]`, constants by one on the struct,
 //! arguments by their role.
 
 use syn::{Attribute, Data, DeriveInput, LitStr};
@@ -14,7 +14,7 @@ use crate::message::unit as message;
 pub(crate) struct Units {
     fields: Vec<Declaration>,
     constants: Vec<Annotation>,
-    /// Some parameter has a unit: the formulas are looked at.
+    /// Whether some parameter has a unit, so that the formulas are checked.
     some: bool,
 }
 
@@ -36,7 +36,7 @@ impl Units {
         self.some
     }
 
-    /// What is said about the unit of a parameter.
+    /// The declaration of the unit of a parameter.
     pub(super) fn declaration(&self, origin: Origin) -> Option<&Declaration> {
         match origin {
             Origin::Field(field) | Origin::Entry(field, _) => self.fields.get(field),
@@ -58,7 +58,7 @@ impl Units {
         }
     }
 
-    /// Whether anything is said about the unit of a parameter.
+    /// Whether the unit of a parameter is declared.
     fn is_declared(&self, origin: Origin) -> bool {
         let declaration = self.declaration(origin);
         declaration.is_some_and(|declaration| !matches!(declaration, Declaration::Missing))

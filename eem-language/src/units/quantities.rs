@@ -1,4 +1,4 @@
-//! The units of what a model computes.
+//! The units of the quantities that a model computes.
 
 use super::grammar;
 use crate::ast::Role;
@@ -11,17 +11,17 @@ pub(crate) struct Quantities {
     pub(crate) what: &'static str,
     /// ψ and e.
     pub(crate) energy: &'static str,
-    /// Their derivatives by measures and viscous variables.
+    /// Derivatives of ψ and e with respect to measures and viscous variables.
     pub(crate) force: &'static str,
-    /// s, c and derivatives of e by θ.
+    /// s, c and derivatives of e with respect to θ.
     pub(crate) entropy: &'static str,
-    /// Derivatives of s by measures and viscous variables.
+    /// Derivatives of s with respect to measures and viscous variables.
     pub(crate) force_per_kelvin: &'static str,
-    /// Derivatives of s by θ.
+    /// Derivatives of s with respect to θ.
     pub(crate) entropy_per_kelvin: &'static str,
     /// η.
     pub(crate) viscosity: &'static str,
-    /// Viscous variables are lengths.
+    /// Whether viscous variables are lengths.
     lengths: bool,
 }
 

@@ -16,7 +16,7 @@ use crate::ctxt::Ctxt;
 use crate::message::unit::{self as message, Side};
 use crate::unit::Unit;
 
-/// What is known of an expression.
+/// The unit of an expression, and what else is known of it.
 #[derive(Clone, Debug)]
 struct Quantity {
     unit: Unit,
@@ -55,9 +55,9 @@ pub(super) struct Rules<'r> {
     units: &'r Units,
     /// The units of what the model computes.
     pub(super) quantities: &'static Quantities,
-    /// The units of fields that have none, as far as the formulas say them.
+    /// The units of fields that declare none, as far as the formulas determine them.
     pub(super) unknowns: Unknowns,
-    /// The bindings of the current body; nothing where an error was reported.
+    /// The bindings of the current body; `None` where an error was reported.
     bindings: Vec<Option<Quantity>>,
 }
 
@@ -73,7 +73,7 @@ impl<'r> Rules<'r> {
         }
     }
 
-    /// A free energy of a spring is in J, its viscosities are in N s/m.
+    /// Reports a body that does not have the wanted unit; the free energy of a spring, for example, is in J.
     pub(super) fn body(&mut self, what: &str, wanted_text: &str, wanted: &Unit, body: &Body<'_>) {
         self.bindings.clear();
         for binding in &body.bindings {
@@ -162,7 +162,7 @@ impl<'r> Rules<'r> {
 
     fn parameter(&self, origin: Origin) -> Option<Quantity> {
         let Some(declaration) = self.units.declaration(origin) else {
-            // A constant of which nothing is said.
+            // A constant without a declared unit is dimensionless.
             return Some(Quantity::number(None));
         };
         match declaration {
@@ -207,7 +207,7 @@ impl<'r> Rules<'r> {
         (a == b).then_some(true)
     }
 
-    /// Help where units differ by a factor only: the field that brings it in.
+    /// Help where units differ by a factor only: it names the parameter whose unit has the factor.
     fn scale_help(&self, scaled: Option<Origin>) -> Option<String> {
         let mut parameters = self.checked.parameters.iter();
         let parameter = parameters.find(|parameter| Some(parameter.origin) == scaled)?;
@@ -217,7 +217,7 @@ impl<'r> Rules<'r> {
         }
     }
 
-    /// Exponents beyond 128 bits are reported.
+    /// Reports a unit whose exponents do not fit 128 bits.
     fn fits<T>(&self, expr: &Expr<'_>, unit: Option<T>) -> Option<T> {
         if unit.is_none() {
             self.cx.error(expr.original, &message::beyond_measure());

@@ -1,4 +1,4 @@
-//! Finds the units of fields that have none, from what the formula demands of them.
+//! Finds the units of fields that declare none, from the formulas.
 //!
 //! Every rule says that two units are equal. As units are vectors of exponents, this is a linear
 //! equation for the unknown ones; it is solved for one of them as soon as it is met (Kennedy 1996,
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use crate::unit::{Base, Unit};
 
-/// The unknown units of fields, as far as they are known.
+/// The units of fields that declare none, as far as they have been determined.
 #[derive(Debug, Default)]
 pub(super) struct Unknowns {
     /// A unit may have unknowns of its own, but none that was solved before.
@@ -16,7 +16,7 @@ pub(super) struct Unknowns {
 }
 
 impl Unknowns {
-    /// `unit` in terms of what is still unknown.
+    /// `unit` in terms of the unknowns that are not solved yet.
     pub(super) fn resolve(&self, unit: &Unit) -> Option<Unit> {
         let mut unit = unit.clone();
         while let Some(index) = self.first_solved(&unit) {

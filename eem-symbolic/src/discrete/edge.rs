@@ -1,4 +1,4 @@
-//! Divided differences of e(y, s) along one edge of a staircase, without inverting s(θ).
+//! Divided differences of e(y, s) along one edge of a staircase, from E(y, θ) and S(y, θ) and without inverting S.
 //!
 //! ```text
 //! θ̄ = e[s_a, s_b] = E[θ_a, θ_b] / S[θ_a, θ_b]                                       at fixed y
@@ -18,7 +18,7 @@ use crate::node::{ExprId, Symbol};
 /// A divided difference along an edge and its partial derivatives.
 pub(super) struct Edge {
     pub(super) value: ExprId,
-    /// With respect to the symbols of the edge that the new state moves, in order of the symbols.
+    /// With respect to the symbols of the edge that depend on the new state, in order of the symbols.
     pub(super) partials: Vec<(Symbol, ExprId)>,
 }
 

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! (García Orden & Romero 2012, eqs. 25–28), n variables y and the entropy renewed last. The
-//! temperature `θ_c` of a corner c is an input and solves `S(y_c, θ_c) = s_c`; it moves with x¹ by
+//! temperature `θ_c` of a corner c is an input and solves `S(y_c, θ_c) = s_c`; it depends on x¹ through
 //!
 //! ```text
 //! S_θ(c) dθ_c = ds_c − Σ_{j new in c} S_j(c) dx_j¹,   ds⁰ = 0,  ds¹ = Σ_j S_j(x¹) dx_j¹
@@ -46,8 +46,8 @@ pub(crate) fn entropy_form(step: &mut Step) -> Form {
     Form { response, tangent }
 }
 
-/// `[f*_a …, g*_k …, θ*, Δs]` without tangent, and what says how corner temperatures follow the parameters:
-/// `[S(c) − s_c …, θ_c S_θ(c) …]`. Both are made of the same divided differences.
+/// `[f*_a …, g*_k …, θ*, Δs]` without tangent, then `[S(c) − s_c …, θ_c S_θ(c) …]`, from which the derivatives of
+/// corner temperatures with respect to parameters follow. Both are made of the same divided differences.
 pub(crate) fn entropy_form_with_corners(step: &mut Step, theta: Symbol) -> Form {
     let form = entropy_form(step);
     let corners = mixed_states(step, theta);
@@ -70,7 +70,7 @@ fn jump(step: &mut Step) -> ExprId {
     step.graph.sum(&terms)
 }
 
-/// Both staircases and how their corner temperatures move.
+/// Both staircases, and the derivatives of their corner temperatures.
 struct Stairs {
     up: Vec<Point>,
     down: Vec<Point>,
@@ -79,7 +79,7 @@ struct Stairs {
     slopes: Vec<ExprId>,
 }
 
-/// The sensitivity of one corner temperature.
+/// The derivatives of one corner temperature with respect to x¹.
 struct Corner {
     theta: Symbol,
     /// Whether the entropy of the corner is s¹.
@@ -116,7 +116,7 @@ impl Stairs {
         }
     }
 
-    /// Both edges on which variable `i` changes; the entropy is the last one.
+    /// Both edges on which variable `i` changes; the last variable is the entropy.
     fn edges(&self, step: &mut Step, i: usize) -> [Edge; 2] {
         if i < step.mechanical {
             [
@@ -183,8 +183,8 @@ impl Corner {
 }
 
 impl Step {
-    /// The state `from`, then those with the first variables of `to`, one after the other, at corner temperatures from
-    /// the input `first` on.
+    /// The state `from`, then the mixed states with the first 1, 2, … variables of `to`, at the corner temperatures
+    /// `corners[first]`, `corners[first + 1]`, ….
     pub(super) fn staircase(&self, first: usize, to: &Point, from: &Point) -> Vec<Point> {
         let mut points = vec![from.clone()];
         for k in 1..=self.mechanical {

@@ -1,11 +1,11 @@
-//! What an edge in `y_i` at one temperature contributes to a force that belongs to another one.
+//! The contribution of an edge in `y_i` at a temperature θ to a force at another temperature θ̄.
 //!
 //! ```text
 //! ψ[y_i⁰, y_i¹; θ] + (θ − θ̄) S[y_i⁰, y_i¹; θ]
 //! ```
 //!
-//! Where `S[y_i⁰, y_i¹]` does not depend on θ, ψ is linear in it and the sum is `ψ[y_i⁰, y_i¹; θ̄]`:
-//! one evaluation, and no gap of temperatures.
+//! Where `S[y_i⁰, y_i¹]` does not depend on θ, `ψ[y_i⁰, y_i¹]` is linear in θ and the sum is
+//! `ψ[y_i⁰, y_i¹; θ̄]`: one evaluation, without a temperature gap θ − θ̄.
 
 use super::step::Step;
 use crate::node::{ExprId, Node, Symbol};
@@ -13,7 +13,7 @@ use crate::number::Number;
 
 /// The contribution of one edge.
 pub(super) struct Latent {
-    /// `ψ[y_i⁰, y_i¹]` at θ, or at θ̄ where there is no gap.
+    /// `ψ[y_i⁰, y_i¹]` at θ, or at θ̄ if `gap` is `None`.
     psi: ExprId,
     /// `S[y_i⁰, y_i¹; θ]`.
     pub(super) entropy: ExprId,
@@ -54,7 +54,7 @@ impl Latent {
         }
     }
 
-    /// `ψ[…]` and `(θ − θ̄) S[…]`, looked through: they have most of their factors in common.
+    /// `ψ[…]` and `(θ − θ̄) S[…]`, with definitions in place of locals: they have most factors in common.
     pub(super) fn value(&self, step: &mut Step) -> [ExprId; 2] {
         let psi = step.locals.resolve(&step.graph, self.psi);
         let latent = match &self.gap {
@@ -67,7 +67,7 @@ impl Latent {
         [psi, latent]
     }
 
-    /// The derivative of the sum with respect to a symbol while θ̄ is kept, as terms.
+    /// The derivative of the sum with respect to a symbol at constant θ̄, as a list of terms.
     pub(super) fn partials(&self, step: &mut Step, symbol: Symbol) -> Vec<ExprId> {
         let Some(gap) = &self.gap else {
             return vec![step.partial(self.psi, symbol)];
@@ -82,8 +82,8 @@ impl Latent {
     }
 }
 
-/// `factor · sum`, multiplied out: the factors of the terms are common to response and tangent, the
-/// sum is not.
+/// `factor · sum`, multiplied out: response and tangent have factors of the terms in common, but not
+/// the sum.
 fn distribute(step: &mut Step, factor: ExprId, sum: ExprId) -> ExprId {
     let Node::Sum { constant, terms } = step.graph.node(sum).clone() else {
         return step.graph.mul(factor, sum);

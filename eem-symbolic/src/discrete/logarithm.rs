@@ -6,8 +6,8 @@
 //!
 //! with a and c of the old state. Where b is a variable inside of a logarithm, the algorithmic
 //! quantities contain the divided difference anyway, and the logarithm at a is computed once per
-//! step. The error is some ulp of 1, that of `ln(c b)` of a rounded argument, or of `ln(c a)` where
-//! that is larger.
+//! step. The error is a few ulp of 1, as that of `ln(c b)` of a rounded argument is, or a few
+//! ulp of `ln(c a)` if that is larger.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,7 +18,7 @@ use crate::node::{ExprId, Kernel, Node};
 use crate::number::Rational;
 use crate::schedule::Dependence;
 
-/// The factors of an argument that depend on the new state.
+/// A logarithm, and the factors of its argument that depend on the new state.
 type Moving = (Function, Vec<(ExprId, Rational)>);
 
 /// `f(x)` where x depends on the new state.

@@ -1,4 +1,4 @@
-//! By how much the entropies of the mixed states are wrong at trial temperatures, and their heat capacities.
+//! Entropy residuals of the mixed states (corners) at trial temperatures, and their heat capacities.
 //!
 //! ```text
 //! S(A_k) − s⁰ = S(A_k−1) − s⁰ + (θ_k − θ_k−1) S[θ_k−1, θ_k](A_k−1) + (y_k¹ − y_k⁰) S[y_k⁰, y_k¹](A_k)

@@ -1,4 +1,4 @@
-//! A model at the two states of a step: what all discrete derivatives are made from.
+//! A model at the two states of a step, from which all discrete derivatives are built.
 
 use crate::diff::diff;
 use crate::divided_difference::divided_difference;
@@ -98,7 +98,7 @@ impl Step {
         old.chain(new).map(input).collect()
     }
 
-    /// Schedules a form.
+    /// The program that computes a form.
     pub(crate) fn program(mut self, form: &Form) -> Program {
         let inputs = self.inputs();
         let mut factoring = Factoring::default();
@@ -143,7 +143,7 @@ impl Step {
         self.difference(f, i, ends)
     }
 
-    /// The same at another temperature.
+    /// The same, but at the temperature `theta`.
     pub(super) fn along_at(
         &mut self,
         f: ExprId,
@@ -160,7 +160,7 @@ impl Step {
         self.difference(f, i, ends)
     }
 
-    /// A state whose variable `i` is not replaced.
+    /// The state `point`, but with the symbol of the model for variable `i`.
     pub(super) fn except(&self, i: usize, point: &[Symbol]) -> Point {
         let mut others = point.to_vec();
         others[i] = self.variables[i];
@@ -197,7 +197,7 @@ impl Step {
         self.quotient(one, a)
     }
 
-    /// `∂/∂symbol` of a value, which may be a local: then of what it stands for.
+    /// `∂/∂symbol` of a value; of its definition if it is a local.
     pub(super) fn partial(&mut self, value: ExprId, symbol: Symbol) -> ExprId {
         let value = self.locals.resolve(&self.graph, value);
         diff(&mut self.graph, value, symbol)
@@ -223,8 +223,8 @@ impl Step {
         self.graph.scale(coefficient * Number::HALF, term)
     }
 
-    /// The sum of differences along several edges as a local. The sum is formed of what their locals
-    /// stand for, because that has most terms in common.
+    /// The sum of differences along several edges as a local. It is formed from the definitions of
+    /// their locals, because these have most terms in common.
     pub(super) fn sum_of(&mut self, values: &[ExprId]) -> ExprId {
         let values: Vec<_> = values
             .iter()

@@ -6,8 +6,8 @@
 //! g* = −(D_γ e − θ* D_γ s)
 //! ```
 //!
-//! (Conde Martín, Betsch & García Orden 2016, eqs. 37–39.) Energy is written by ψ and S, so that
-//! nothing cancels between D e and θ* D s but the gap of two temperatures, see `latent`.
+//! (Conde Martín, Betsch & García Orden 2016, eqs. 37–39.) Energy is expressed by ψ and S, so that
+//! D e − θ* D s loses no digits except in the difference θ − θ* of temperatures, see `latent`.
 
 use super::latent::Latent;
 use super::step::{Form, Step, mixed};
@@ -57,7 +57,7 @@ fn mean(step: &mut Step) -> Star {
         .each_ref()
         .map(|y| step.along(step.entropy, last, ends, y));
     let entropy = step.sum_of(&entropies);
-    // Where nothing depends on the other variables, the heat capacity drops out of the quotient.
+    // Where neither difference depends on the other variables, a constant heat capacity drops out.
     if energies[0] == energies[1] && entropies[0] == entropies[1] {
         let value = step.quotient(energies[0], entropies[0]);
         let partials = step.new.clone().into_iter().map(|symbol| {

@@ -2,7 +2,7 @@
 
 use crate::number::{Number, Rational};
 
-/// A piece of formula and how tightly it holds together.
+/// A piece of a formula and how tightly it binds.
 #[derive(Clone)]
 pub(super) struct Text {
     pub(super) text: String,
@@ -25,7 +25,7 @@ impl Text {
         }
     }
 
-    /// The text where at least `binding` is needed.
+    /// The text, in parentheses if it binds less tightly than `binding`.
     pub(super) fn within(&self, binding: Binding) -> String {
         if self.binding < binding {
             format!("({})", self.text)
@@ -49,8 +49,7 @@ pub(super) fn render_number(number: Number) -> Text {
     Text { text, binding }
 }
 
-/// The number as it would be typed, if it is a short decimal: what a literal was before it became
-/// a fraction.
+/// The number as a decimal, as its literal was typed, if it is a short one.
 pub(super) fn decimal(exact: Rational) -> Option<String> {
     let text = format!("{:?}", exact.to_f64());
     let text = text.strip_suffix(".0").unwrap_or(&text);

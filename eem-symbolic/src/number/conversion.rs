@@ -1,4 +1,4 @@
-//! Rationals from text, to text and to floats, without a rounding that is not asked for.
+//! Rationals from text, exactly, to text, and to the nearest float.
 
 use std::fmt;
 
@@ -37,8 +37,8 @@ impl Rational {
     /// The nearest `f64`, ties to even.
     #[must_use]
     pub fn to_f64(self) -> f64 {
-        // Long division until the quotient has 65 bits, then one bit for the rest of them: the
-        // conversion of that integer rounds as the exact quotient would.
+        // Long division until the quotient has 65 bits; the last one is set if a remainder is left
+        // (a sticky bit). The conversion of that integer rounds as the exact quotient would.
         let (dividend, divisor) = (
             self.numerator().unsigned_abs(),
             self.denominator().unsigned_abs(),

@@ -61,7 +61,7 @@ impl<'m> PointPrograms<'m> {
         self.program(&self.variables, &outputs)
     }
 
-    /// The same and ψ, with everything but the temperature at the old stage.
+    /// The same and ψ, with all inputs but the temperature at the old stage.
     pub(super) fn caloric_at(&mut self, theta: Symbol) -> Program {
         let mut outputs = self.caloric_quantities(theta).to_vec();
         outputs.push(self.model.psi);
@@ -88,7 +88,7 @@ impl<'m> PointPrograms<'m> {
         self.program(&self.variables, &outputs)
     }
 
-    /// The same, s and ψ, with everything but the temperature at the old stage.
+    /// The same, s and ψ, with all inputs but the temperature at the old stage.
     pub(super) fn rates_at(&mut self) -> Program {
         let mut outputs = self.rate_quantities();
         let theta = self.model.temperature;
@@ -101,7 +101,7 @@ impl<'m> PointPrograms<'m> {
         self.staged(&known, theta.as_slice(), &outputs)
     }
 
-    /// `f, g, c, ∂s/∂π, ∂s/∂γ`.
+    /// `f, g, c, ∂s/∂λ, ∂s/∂γ`.
     fn rate_quantities(&mut self) -> Vec<ExprId> {
         let mechanical = self.model.measures.iter().chain(&self.model.dashpots);
         let mechanical: Vec<_> = mechanical.copied().collect();
@@ -136,7 +136,7 @@ impl<'m> PointPrograms<'m> {
         self.program(&self.variables, &hessian)
     }
 
-    /// Laws and their derivatives by θ.
+    /// Viscosity laws and their derivatives with respect to θ.
     pub(super) fn viscosity(&mut self, laws: &[ExprId]) -> Program {
         let theta = self.model.temperature;
         let mut slopes = Vec::new();
@@ -158,7 +158,7 @@ impl<'m> PointPrograms<'m> {
         self.staged(&self.model.parameters, variables, outputs)
     }
 
-    /// What depends on `known` alone is of the old stage.
+    /// A program in which values that depend on `known` alone are of the old stage.
     fn staged(&self, known: &[Symbol], unknown: &[Symbol], outputs: &[ExprId]) -> Program {
         let old = known.iter().map(|&symbol| (symbol, Stage::Old));
         let new = unknown.iter().map(|&symbol| (symbol, Stage::New));
@@ -176,9 +176,9 @@ impl<'m> PointPrograms<'m> {
     }
 }
 
-/// The sum of the magnitudes of the terms of a sum: what its rounding error is proportional to.
+/// The sum of the magnitudes of the terms of a sum; the rounding error of the sum is proportional to it.
 ///
-/// Sums among the factors of a term count by their terms too. The temperature is positive.
+/// A sum among the factors of a term is replaced by the magnitudes of its own terms. The temperature is positive.
 fn magnitude(graph: &mut Graph, e: ExprId, theta: Symbol) -> ExprId {
     let theta = graph.variable(theta);
     let composed = |graph: &Graph, e| matches!(graph.node(e), Node::Sum { .. } | Node::Product(_));
@@ -187,7 +187,7 @@ fn magnitude(graph: &mut Graph, e: ExprId, theta: Symbol) -> ExprId {
         let magnitude = match graph.node(id).clone() {
             Node::Sum { constant, terms } => {
                 let terms = terms.into_iter().map(|(coefficient, term)| {
-                    (coefficient.abs(), known(graph, &magnitudes, term))
+                    (coefficient.abs(), magnitude_of(graph, &magnitudes, term))
                 });
                 let terms: Vec<_> = terms.collect();
                 graph.weighted_sum(constant.abs(), &terms)
@@ -198,7 +198,7 @@ fn magnitude(graph: &mut Graph, e: ExprId, theta: Symbol) -> ExprId {
                     let even = exponent.to_i32().is_some_and(|n| n % 2 == 0);
                     let magnitude = match base {
                         base if even || base == theta => base,
-                        base if plain => known(graph, &magnitudes, base),
+                        base if plain => magnitude_of(graph, &magnitudes, base),
                         base => graph.apply(Function::Abs, base),
                     };
                     (magnitude, exponent)
@@ -217,10 +217,10 @@ fn magnitude(graph: &mut Graph, e: ExprId, theta: Symbol) -> ExprId {
         };
         magnitudes.insert(id, magnitude);
     }
-    known(graph, &magnitudes, e)
+    magnitude_of(graph, &magnitudes, e)
 }
 
-fn known(graph: &mut Graph, magnitudes: &BTreeMap<ExprId, ExprId>, e: ExprId) -> ExprId {
+fn magnitude_of(graph: &mut Graph, magnitudes: &BTreeMap<ExprId, ExprId>, e: ExprId) -> ExprId {
     let magnitude = magnitudes.get(&e).copied();
     magnitude.unwrap_or_else(|| graph.apply(Function::Abs, e))
 }

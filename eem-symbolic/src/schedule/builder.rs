@@ -46,7 +46,7 @@ pub(super) struct Builder<'s> {
     pub(super) plan: Option<Plan>,
     /// Products that are terms of sums, with their coefficients. Looked up, never iterated.
     pub(super) scaled: HashMap<(Number, ExprId), Signed>,
-    /// The tokens of the plan that have been emitted: factors and terms.
+    /// Results of the tokens of the plan that have been emitted: of factors, and of terms.
     pub(super) factors: HashMap<Token, Signed>,
     pub(super) terms: HashMap<Token, Signed>,
 }
@@ -103,13 +103,13 @@ impl<'s> Builder<'s> {
         term.is_some_and(|&(coefficient, term)| plan.factors(coefficient.abs(), term).is_some())
     }
 
-    /// The result of an expression that comes earlier, up to its sign.
+    /// The result of an expression that has been emitted, up to its sign.
     pub(super) fn signed(&self, e: ExprId) -> Signed {
         let result = self.results.get(&e).copied();
         result.expect("operands are emitted before what uses them")
     }
 
-    /// The result of an expression that comes earlier.
+    /// The result of an expression that has been emitted.
     pub(super) fn done(&mut self, e: ExprId) -> Operand {
         let Signed { negative, operand } = self.signed(e);
         match operand {

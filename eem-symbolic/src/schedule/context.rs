@@ -1,19 +1,19 @@
-//! What a schedule is made from, and what expressions are computed from with it.
+//! The input of scheduling besides the outputs of the program, and the operands of expressions in it.
 
 use super::locals::Locals;
 use crate::graph::Graph;
 use crate::node::ExprId;
 
-/// What a schedule is made from besides inputs and outputs.
+/// The expressions of a program: a graph and its locals.
 pub(crate) struct Schedule<'g> {
     pub(crate) graph: &'g Graph,
     pub(crate) locals: &'g Locals,
-    /// How many of the first inputs are parameters, or like parameters: known before all others.
+    /// Number of inputs, the first ones, that are parameters or, like parameters, known before all others.
     pub(crate) parameters: usize,
 }
 
 impl Schedule<'_> {
-    /// What an expression is computed from.
+    /// The operands of an expression; of a local, its definition.
     pub(super) fn operands(&self, e: ExprId) -> Vec<ExprId> {
         let mut operands = Vec::new();
         match self.definition(e) {

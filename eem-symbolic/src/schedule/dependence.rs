@@ -1,4 +1,4 @@
-//! What the outputs of a program depend on, and what of it depends on certain symbols.
+//! The expressions that the outputs of a program are computed from, and which of them depend on given symbols.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -16,7 +16,7 @@ pub(crate) struct Dependence<'s> {
 }
 
 impl<'s> Dependence<'s> {
-    /// Looks at everything that the roots are computed from.
+    /// Visits all expressions that the roots are computed from.
     pub(crate) fn new(
         schedule: &'s Schedule<'s>,
         symbols: &'s BTreeSet<Symbol>,
@@ -34,7 +34,7 @@ impl<'s> Dependence<'s> {
         dependence
     }
 
-    /// What the roots are computed from, operands first.
+    /// The roots and all expressions that they are computed from, operands first.
     pub(crate) fn reached(&self) -> &[ExprId] {
         &self.reached
     }

@@ -1,4 +1,4 @@
-//! Divided differences as instructions: what values at the ends can tell is computed from them.
+//! Divided differences as instructions, computed from function values at the ends where that loses no digits.
 //!
 //! ```text
 //! recip[a, b] = −(1/a)(1/b)        recip[a, b, b] = (1/a)(1/b)(1/b)
@@ -15,7 +15,7 @@ use crate::node::{ExprId, Kernel};
 use crate::number::Number;
 use crate::operation::{Operation, ProgramKernel, Value};
 
-/// First or second: the constructor of the operation of a kernel.
+/// The constructor of a first or a second divided difference.
 type Difference = fn(ProgramKernel, Value, Value) -> Operation;
 
 impl Builder<'_> {

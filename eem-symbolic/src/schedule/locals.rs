@@ -1,4 +1,4 @@
-//! Named intermediate results: symbols that stand for an expression and are not looked through.
+//! Named intermediate results: symbols that stand for an expression and hide its terms and factors.
 //!
 //! The canonical form of the graph merges sums into sums and products into products. That is right
 //! for a formula, and wrong for a number that several formulas share: a mean temperature θ̄ = E/S
@@ -13,7 +13,7 @@ use crate::node::{ExprId, Node, Symbol};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Locals {
     definitions: BTreeMap<Symbol, ExprId>,
-    /// The other way round: equal values have one name.
+    /// The local of each value: equal values have one name.
     names: BTreeMap<ExprId, ExprId>,
 }
 

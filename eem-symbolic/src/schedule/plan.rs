@@ -1,7 +1,7 @@
-//! In which order products and sums are evaluated so that they share the most.
+//! The order in which products and sums are evaluated so that they share the most partial results.
 //!
-//! What depends on parameters alone is taken together first, coefficients included: it is computed
-//! once per step. The rest is left to [`Sharing`].
+//! Factors or terms that depend on parameters alone are combined first, coefficients included, and
+//! computed once per step. The order of the others is left to [`Sharing`].
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -11,16 +11,16 @@ use super::sharing::{Entry, Sharing, Token};
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::{Number, Rational};
 
-/// A factor of a product, or all that depend on parameters alone.
+/// A factor of a product, or all its factors that depend on parameters alone.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Factor {
-    /// `base ^ exponent` of a state.
+    /// `base ^ exponent` that depends on a state.
     Power(ExprId, Rational),
     /// `coefficient · Π base ^ exponent` of parameters.
     Hoisted(Number, Vec<(ExprId, Rational)>),
 }
 
-/// A term of a sum, or all that depend on parameters alone.
+/// A term of a sum, or all its terms that depend on parameters alone.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Term {
     /// `coefficient · term` with a positive coefficient.
@@ -29,7 +29,7 @@ pub(super) enum Term {
     Hoisted(Number, Vec<(Number, ExprId)>),
 }
 
-/// Operands by their tokens. Maps are looked up, never iterated.
+/// Lists of operands L (factors or terms) of products or sums K, by tokens. Maps are looked up, never iterated.
 #[derive(Debug)]
 pub(super) struct Operands<K, L> {
     pub(super) sharing: Sharing,
@@ -60,13 +60,13 @@ impl<K: Eq + std::hash::Hash, L: Clone + Eq + std::hash::Hash> Operands<K, L> {
         Entry { token, negative }
     }
 
-    /// The entries of what `key` stands for, if it has been planned.
+    /// The entries of the product or sum `key`, if it has been planned.
     pub(super) fn entries(&self, key: &K) -> Option<Vec<Entry>> {
         let list = *self.lists.get(key)?;
         Some(self.sharing.entries(list).to_vec())
     }
 
-    /// The operand of a token that is no pair.
+    /// The operand of a token that is not a pair.
     pub(super) fn leaf(&self, token: Token) -> Option<&L> {
         self.leaves.get(token)?.as_ref()
     }
@@ -78,12 +78,12 @@ pub(super) struct Plan {
     /// Products times positive coefficients.
     pub(super) products: Operands<(Number, ExprId), Factor>,
     pub(super) sums: Operands<ExprId, Term>,
-    /// Arguments of functions: quotients that are rounded once.
+    /// Arguments of functions; quotients among them are divided as a whole.
     pub(super) arguments: BTreeSet<ExprId>,
 }
 
 impl Plan {
-    /// Looks at everything that the roots depend on.
+    /// Plans everything that the roots depend on; `new` are the inputs that are not parameters.
     pub(super) fn new(schedule: &Schedule<'_>, new: &BTreeSet<Symbol>, roots: &[ExprId]) -> Self {
         let mut plan = Self {
             products: Operands::new(),
@@ -102,8 +102,8 @@ impl Plan {
         plan
     }
 
-    /// Where the factors of `coefficient · e` are listed; not for an argument of a function, which
-    /// is divided as a whole.
+    /// The planned factors of `coefficient · e`; `None` for an argument of a function, which is
+    /// divided as a whole.
     pub(super) fn factors(&self, coefficient: Number, e: ExprId) -> Option<Vec<Entry>> {
         if coefficient == Number::ONE && self.arguments.contains(&e) {
             return None;

@@ -11,14 +11,14 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 /// Position of an operand in a [`Sharing`].
 pub(super) type Token = usize;
 
-/// More operands than this are left in their order.
+/// Lists of more operands than this keep their order.
 const LONGEST: usize = 32;
 
 /// An operand of a product or a sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Entry {
     pub(super) token: Token,
-    /// Whether it is subtracted; never in a product.
+    /// Whether it is subtracted; never true in a product.
     pub(super) negative: bool,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Pair {
 #[derive(Debug, Default)]
 pub(super) struct Sharing {
     lists: Vec<Vec<Entry>>,
-    /// What a token is a pair of; `None` for an operand from outside.
+    /// The pair that a token stands for; `None` for an operand from outside.
     pairs: Vec<Option<Pair>>,
     /// The lists in which a pair occurs.
     occurrences: BTreeMap<Pair, BTreeSet<usize>>,
@@ -53,12 +53,12 @@ impl Sharing {
         self.lists.len() - 1
     }
 
-    /// What is left of a list: its operands, pairs among them.
+    /// The present operands of a list, some of them pairs.
     pub(super) fn entries(&self, list: usize) -> &[Entry] {
         &self.lists[list]
     }
 
-    /// What a token consists of.
+    /// The pair that a token stands for; `None` for an operand from outside.
     pub(super) fn pair(&self, token: Token) -> Option<Pair> {
         self.pairs[token]
     }
@@ -89,7 +89,7 @@ impl Sharing {
         self.occurrences.clear();
     }
 
-    /// Notes the pairs of an entry with those that follow in its list.
+    /// Records the pairs of an entry with the entries that follow in its list.
     fn note(&mut self, list: usize, entry: Entry, following: usize) {
         for &other in &self.lists[list][following..] {
             let lists = self.occurrences.entry(pair_of(entry, other)).or_default();
@@ -149,7 +149,7 @@ fn pair_of(a: Entry, b: Entry) -> Pair {
     }
 }
 
-/// A pair by the number of its occurrences: the most frequent is the greatest, then the oldest.
+/// A pair ordered by the number of its occurrences: the greatest is the most frequent, among equals the oldest.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Candidate {
     count: usize,

@@ -123,7 +123,7 @@ impl Builder<'_> {
     }
 }
 
-/// The magnitude c of all coefficients, if it is one other than 1 and there is something to factor.
+/// The magnitude of all coefficients, if it is the same and not 1, for several terms without a constant.
 fn common_magnitude(constant: Number, terms: &[(Number, ExprId)]) -> Option<Number> {
     let ((first, _), others) = terms.split_first()?;
     let magnitude = first.abs();

@@ -4,7 +4,7 @@ use super::Message;
 use crate::ast::{self, Joint, Role, Strain};
 use crate::checked::Variable;
 
-/// `measure` is the name of one of the model.
+/// `measure` is the name of a measure of the model.
 pub(crate) fn independent(variable: &Variable<'_>, measure: &str) -> Message {
     let name = ast::name(variable.ident);
     let help = match variable.role {

@@ -26,7 +26,7 @@ pub(crate) fn calls_itself(helper: &Ident) -> Message {
     )
 }
 
-/// More than `calls` of them, or one that is too deep in others.
+/// The call expands to more than `calls` calls, or to one that is nested too deeply.
 pub(crate) fn too_many_calls(helper: &Ident, calls: usize) -> Message {
     let name = ast::name(helper);
     Message::new(

@@ -12,8 +12,8 @@ const OPERATORS: &str = "use `+`, `-`, `*`, `/`, functions and `let`";
 const EACH: &str = "bind each number with its own `let`";
 const REMOVE: &str = "remove it";
 
-/// What formulas do not have, and what to write instead. What begins with an article is said as it stands; all else are
-/// tokens.
+/// Syntax that formulas do not have, and what to write instead. Names with an article are printed as they are; all others
+/// are tokens, which are quoted.
 const TABLE: &[(&[&str], &str)] = &[
     (
         &["if", "match", "==", "!=", "<", "<=", ">", ">=", "&&", "||"],
@@ -94,7 +94,7 @@ const TABLE: &[(&[&str], &str)] = &[
     ),
 ];
 
-/// What to write in a text, where that is something else.
+/// What to write in a text, where this differs from the table.
 const IN_TEXT: [(&str, &str); 3] = [
     ("a path with `<…>`", "write a bare name"),
     (

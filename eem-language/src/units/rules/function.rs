@@ -9,7 +9,7 @@ use crate::unit::Unit;
 use crate::units::excerpt::excerpt;
 
 impl Rules<'_> {
-    /// A root halves or thirds the exponents.
+    /// A root divides the exponents of the unit by its degree, 2 or 3.
     pub(super) fn root(
         &mut self,
         expr: &Expr<'_>,
@@ -44,7 +44,7 @@ impl Rules<'_> {
         None
     }
 
-    /// An exponent is dimensionless, and a number that the compiler knows unless the base is one too.
+    /// An exponent is dimensionless. Unless the base is dimensionless, too, the exponent is a known number.
     pub(super) fn power(
         &mut self,
         expr: &Expr<'_>,

@@ -1,4 +1,4 @@
-//! Sums and products: the first demand equal units, the second multiply them.
+//! Sums and products: sums need equal units, products multiply them.
 
 use eem_symbolic::Rational;
 
@@ -79,7 +79,7 @@ impl Rules<'_> {
     }
 }
 
-/// A number, computed or written; one that is not kept as a rational only if it is written.
+/// Whether an expression is a number: a computed rational, or any number that is written.
 fn is_number(expr: &Expr<'_>, quantity: &Quantity) -> bool {
     let mut expr = expr;
     while let ExprKind::Negate(inner) = &expr.kind {
