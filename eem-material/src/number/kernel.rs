@@ -29,7 +29,7 @@
 //! have the same sign, and a factor that vanishes exactly where `f[a,b]` does is explicit.
 //!
 //! The idea is that of Kahan & Fateman, *Symbolic computation of divided
-//! differences*, SIGSAM Bull. 33 (1999); for `exp` of McCurdy, Ng & Parlett,
+//! differences*, SIGSAM Bull. 33 (1999); for `exp` see
 //! *Accurate computation of divided differences of the exponential function*, Math.
 //! Comp. 43 (1984) 501–528; as a program transformation of Reps & Rall,
 //! Higher-Order and Symbolic Computation 16 (2003).

@@ -150,7 +150,7 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
     }
 
     /// Solves the system of a step. For masses, `λ_q⁰ = w_q = (2/h)(M w_v − λ_v)` and `λ_v⁰ = 2M w_v − λ_v`; for anchors,
-    /// λ_q stays, and `λ_v⁰ = M w_v` comes from the masses of solids.
+    /// `λ_q` stays, and `λ_v⁰ = M w_v` comes from the masses of solids.
     fn find_weights(
         &mut self,
         view: &StepView<'_, S>,

@@ -14,7 +14,7 @@ use nalgebra::SVector;
 pub(super) type Made<'a, S> = (S, [&'a State<S>; 2]);
 
 /// The velocity of a moved anchor at the end of a step, from the cubic through four positions,
-/// `q̇ = Σ weight (q_end − q_k)/(2h)`: the time of q_k in thirds of the step, and its weight.
+/// `q̇ = Σ weight (q_end − q_k)/(2h)`: the time of `q_k` in thirds of the step, and its weight.
 pub(super) const CUBIC: [(f64, f64); 3] = [(2.0, 18.0), (1.0, -9.0), (0.0, 2.0)];
 
 fn vector<S: Real, const D: usize>(values: &[S], node: usize) -> SVector<S, D> {
