@@ -234,6 +234,8 @@ def test_what_is_refused(oscillator, hooke):
     ]:
         with pytest.raises(error, match=message):
             run.sensitivities(inputs, quantities)
+    again = eem.Input.parameter((one for one in [spring]), "k")
+    assert np.array_equal(run.sensitivities([again], q).of("q", again), run.sensitivities([again], q).of("q", again))
     found = run.sensitivities(inputs, types.MappingProxyType(q))
     assert np.array_equal(found.of("q", inputs[0]), run.sensitivities(inputs, q).of("q", inputs[0]))
     with pytest.raises(TypeError, match="an eem.Input is expected, not int"):

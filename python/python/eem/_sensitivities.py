@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -45,7 +45,7 @@ class Input:
     @classmethod
     def parameter(cls, of: Material | Element | ElementArray | Sequence[Element | int], name: str) -> Input:
         """A parameter of a spring, or one that several springs, or all of a material, have in common."""
-        return cls("parameter", tuple(of) if isinstance(of, (list, np.ndarray)) else of, name)
+        return cls("parameter", tuple(of) if isinstance(of, (list, np.ndarray, Iterator)) else of, name)
 
     @classmethod
     def mass(cls, node: Node) -> Input:

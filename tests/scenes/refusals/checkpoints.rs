@@ -1,11 +1,13 @@
 //! A checkpoint that was edited, or that belongs to a scene with other numbers, is refused with what is
 //! wrong, and the simulation stays as it was.
 
+use eem::kinematics::Quad4;
 use eem::prelude::*;
 use eem::{RestoreError, StateError};
 use serde_json::{Value, json};
 
 use super::{Elastic, WARM, Warm};
+use crate::support::solids::ThermoelasticSolid;
 
 /// All numbers of the scene that a state does not contain.
 #[derive(Clone)]
@@ -201,6 +203,27 @@ fn nodes_in_the_wrong_place() {
         ),
         "{error}"
     );
+}
+
+#[test]
+fn an_edited_velocity_of_an_anchor_of_a_solid() {
+    let mut scene = Scene::<2>::new();
+    let mesh = Mesh::<Quad4, 2>::block([1, 1], [[0.0, 1.0]; 2]).unwrap();
+    let bulk = Bulk::new(10.0).thickness(0.1);
+    let body = scene.solid(ThermoelasticSolid::RUBBER, &mesh, &bulk);
+    let corner = body.node_at([0.0; 2], 1e-9).unwrap();
+    scene.fix(corner);
+    for &point in body.points() {
+        scene.set_temperature(point, 300.0);
+    }
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01).unwrap();
+    run.step().unwrap();
+    let mut value = serde_json::to_value(run.checkpoint()).unwrap();
+    value["state"]["velocities"][1] = json!([0.5, 0.0]);
+    let checkpoint: Checkpoint = serde_json::from_value(value).unwrap();
+    let error = run.restore(&checkpoint).unwrap_err().to_string();
+    let said = "component 1 of the velocity of the anchor node 0 is 0.5 m/s in the checkpoint, it must be zero";
+    assert_eq!(error, said);
 }
 
 #[test]

@@ -156,7 +156,20 @@ pub enum RestoreError {
         /// The time of the checkpoint, s.
         time: f64,
     },
-    /// An anchor has a momentum, or a velocity that its motion does not give it.
+    /// An anchor that does not move has a velocity, beside solids.
+    #[error(
+        "component {axis} of the velocity of the anchor node {node} is {value} m/s in the checkpoint, it must be zero",
+        value = Readable(*value)
+    )]
+    AnchorVelocity {
+        /// The node, counted in the order of creation.
+        node: usize,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, m/s.
+        value: f64,
+    },
+    /// An anchor has a momentum, without solids.
     #[error(
         "component {axis} of the momentum of the anchor node {node} is {value} kg m/s in the checkpoint, it must be zero",
         value = Readable(*value)
@@ -166,7 +179,7 @@ pub enum RestoreError {
         node: usize,
         /// The axis, from 0.
         axis: usize,
-        /// The component, kg m/s; of a velocity m/s.
+        /// The component, kg m/s.
         value: f64,
     },
     /// An element does not have the temperature that a thermostat gives it.

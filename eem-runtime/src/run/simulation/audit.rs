@@ -98,7 +98,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let still = |node: &usize| !velocities.is_empty() && !moved.contains(node);
         for node in self.masses.anchors().filter(still) {
             for axis in 0..D {
-                audit_zero(node, axis, velocities[node * D + axis])?;
+                if let Some(value) = not_zero(velocities[node * D + axis]) {
+                    return Err(RestoreError::AnchorVelocity { node, axis, value });
+                }
             }
         }
         let mut expected = state.clone();
@@ -129,8 +131,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let home = self.homes.get(&node);
             for axis in 0..D {
                 let at = node * D + axis;
-                if !self.masses.are_coupled() {
-                    audit_zero(node, axis, momenta[at])?;
+                let momentum = not_zero(momenta[at]).filter(|_| !self.masses.are_coupled());
+                if let Some(value) = momentum {
+                    return Err(RestoreError::AnchorMomentum { node, axis, value });
                 }
                 let created = home.map_or(created[at], |home| home[axis]);
                 let (value, carry) = positions[at];
@@ -185,17 +188,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// An error unless a momentum or velocity and its compensation are zero.
-fn audit_zero<S: Real>(
-    node: usize,
-    axis: usize,
-    (value, carry): (S, S),
-) -> Result<(), RestoreError> {
-    if value.equal(S::zero()).all() && carry.equal(S::zero()).all() {
-        return Ok(());
-    }
-    let value = (value + carry).to_f64();
-    Err(RestoreError::AnchorMomentum { node, axis, value })
+/// A sum, unless it and its compensation are zero.
+fn not_zero<S: Real>((value, carry): (S, S)) -> Option<f64> {
+    let is_zero = value.equal(S::zero()).all() && carry.equal(S::zero()).all();
+    (!is_zero).then(|| (value + carry).to_f64())
 }
 
 /// Whether a value of this scale is that of a function at a time, to the rounding of both.
