@@ -1,8 +1,13 @@
 """The pendulum and the plate of the tests: `reference` runs the same."""
 
+import signal
+
 import eem
 import numpy as np
 import pytest
+
+# A shell that starts programs in the background lets them ignore Ctrl-C.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 PSI = """|lambda: Stretch, gamma: Viscous, theta: Temperature| {
     let e = ln(lambda / l);
