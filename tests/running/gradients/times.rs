@@ -238,6 +238,7 @@ fn a_dead_load_does_not_depend_on_time() {
     let gradient = run.gradient(&place).unwrap();
     // q̇ = v, and ∂q/∂f of all forces is t²/2m.
     let velocity = run.momentum(mass).unwrap()[0] / 2.0;
+    assert!((velocity - 2.5).abs() < 1e-15);
     assert!((gradient.by_end_time().unwrap() - velocity).abs() < 1e-15);
     let by_force = gradient.by_force(mass).unwrap();
     let sum: f64 = by_force.iter().map(|(_, by)| by[0]).sum();

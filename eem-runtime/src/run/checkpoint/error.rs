@@ -156,7 +156,7 @@ pub enum RestoreError {
         /// The time of the checkpoint, s.
         time: f64,
     },
-    /// An anchor that does not move has a velocity, beside solids.
+    /// In a scene with solids, an anchor that does not move has a velocity.
     #[error(
         "component {axis} of the velocity of the anchor node {node} is {value} m/s in the checkpoint, it must be zero",
         value = Readable(*value)
@@ -169,7 +169,7 @@ pub enum RestoreError {
         /// The component, m/s.
         value: f64,
     },
-    /// An anchor has a momentum, without solids.
+    /// In a scene without solids, an anchor has a momentum.
     #[error(
         "component {axis} of the momentum of the anchor node {node} is {value} kg m/s in the checkpoint, it must be zero",
         value = Readable(*value)
