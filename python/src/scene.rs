@@ -11,14 +11,13 @@ use crate::arguments::as_dict;
 use crate::ensemble::Request;
 use crate::handle::{
     Element, ElementArray, Kind, Lineage, Node, NodeArray, Reservoir, ReservoirArray, indices, one,
-    random,
 };
-use crate::input;
 use crate::material::Material;
 use crate::setting::{scheme, tolerance};
 use crate::simulation::Simulation;
 use crate::study::{ACCURACIES, Plan, settings};
 use crate::world::{State, World};
+use crate::{handle, input};
 
 /// A scene in one, two or three dimensions: anchors, masses, springs, reservoirs and loads.
 ///
@@ -50,10 +49,9 @@ impl PyScene {
         }
     }
 
-    /// A copy of what is in it.
+    /// A copy of what is in it. Its number is asked for before the lock, as another thread may go on meanwhile.
     pub(crate) fn copied(&self, py: Python<'_>) -> PyResult<World> {
-        // Asked for first, so that no other thread meets a scene that is in use while it is only read.
-        let own = random(py)?;
+        let own = handle::random(py)?;
         let world = self.world()?;
         Ok(world.copy(world.lineage.copy(own)))
     }
@@ -433,8 +431,7 @@ impl PyScene {
         let world = self.copied(py)?;
         let tolerance = tolerance.map(|relative| self::tolerance(relative, [0.0; 3], None));
         let scheme = self::scheme(scheme)?;
-        let request = Request::new(&world, vary, until, times)?;
-        request.run(py, (scheme, step), tolerance, threads)
+        Request::new(&world, vary, until, times)?.run(py, (scheme, step), tolerance, threads)
     }
 
     /// Runs this scene for so many seconds with each of the schemes, with each of the steps, s, and with step control at each of the
@@ -442,8 +439,7 @@ impl PyScene {
     /// Schemes with others each are a dictionary: `{"gauss-4": {"steps": [0.1, 0.05]}, "eem-explicit": {"tolerances": [1e-3]}}`.
     ///
     /// The report recommends a setting for each of `accuracies`, 1e-2, 1e-4 and 1e-6 if none are given. Each setting is timed `repeats`
-    /// times; the steps of the references become at most `refinement` times smaller. Steps are constant, also those of `"auto"`, as
-    /// after `fix_steps`. Ctrl-C ends it.
+    /// times; the references take steps up to `refinement` times smaller. Steps are constant, with `"auto"` too. Ctrl-C ends it.
     ///
     /// >>> import eem
     /// >>> hooke = eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=20.0)
