@@ -5,6 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI32, Ordering};
 
+use eem::materials::MaxwellDamper;
 use eem::prelude::*;
 use eem::{EndState, RunEnd, SceneError, StateQuantity, StepFailure, Tolerance};
 
@@ -96,6 +97,45 @@ fn the_explicit_scheme_is_as_accurate_as_it_is_asked_to_be() {
         assert!(error < tolerance.max(1e-11), "{error:e} at {tolerance:e}");
         assert!(run.step_statistics().unwrap().accepted < 150);
     }
+}
+
+/// γ of a dashpot between two anchors, which relaxes as `ℓ (1 − exp(−t μ/η))`: nothing else moves, and the scale of its error
+/// is that of the anchors.
+#[test]
+fn a_dashpot_between_anchors_counts_in_the_explicit_estimate() {
+    let (stretch, rate, end): (f64, f64, f64) = (0.5, 2.0, 1.0);
+    let exact = stretch * (1.0 - (-rate * end).exp());
+    let accepted = [1e-3, 1e-6, 1e-9].map(|tolerance| {
+        let mut scene = Scene::<1>::new();
+        let ends = [scene.anchor([0.0]), scene.anchor([1.0 + stretch])];
+        let damper = scene.spring(
+            MaxwellDamper {
+                stiffness: 100.0,
+                coupling: 0.5,
+                capacity: 2.0,
+                natural_length: 1.0,
+                theta_ref: 300.0,
+                a: 500.0,
+                mu: 40.0,
+                eta: 40.0 / rate,
+            },
+            ends,
+        );
+        scene.set_temperature(damper, 300.0);
+        scene.hold_temperature(damper, 300.0);
+        // Ten relaxation times, where the scheme is stable up to 6.39.
+        let mut run = Simulation::new(scene, Scheme::EemExplicit, 10.0 / rate).unwrap();
+        run.control_steps(Tolerance::new(tolerance)).unwrap();
+        run.run_until(end).unwrap();
+        let error = (run.viscous_stretch(damper, 0).unwrap() - exact).abs();
+        assert!(
+            error <= tolerance * (1.0 + stretch),
+            "{error:e} at {tolerance:e}"
+        );
+        run.step_statistics().unwrap().accepted
+    });
+    println!("{accepted:?}");
+    assert!(accepted[0] < accepted[1] && accepted[1] < accepted[2]);
 }
 
 #[test]

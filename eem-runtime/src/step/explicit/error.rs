@@ -64,8 +64,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// e₅²/√(e₅² + 0.01 e₃²),     e = |h Σ E k / scale|₂
     /// ```
     ///
-    /// with the scales of a [`Tolerance`]: |q| for positions and viscous stretches, the largest |p| so far for
-    /// momenta, and θ.
+    /// with the scales of a [`Tolerance`]: |q| of all nodes, anchors among them, for positions and viscous stretches, which
+    /// does not vanish where no mass moves; the largest |p| so far for momenta, and θ.
     pub(super) fn estimate(
         &self,
         view: &ExplicitView<'_, S, D>,
@@ -86,7 +86,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             if has_scale { scale.recip() } else { S::zero() }
         };
         let masses = &self.stage.places[..self.components.masses];
-        let position = per_scale(scales.position, tolerance.position);
+        let of_all = norm(view.state.positions.values().iter().copied());
+        let position = per_scale(scales.position.maximum(of_all), tolerance.position);
         let momentum = per_scale(scales.momentum, tolerance.momentum);
         for place in masses {
             let [fifth, third] = errors(&place.past);
