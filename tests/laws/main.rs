@@ -10,6 +10,7 @@ mod dissipation;
 mod double_pendulums;
 mod explicit;
 mod explicit_momenta;
+mod explicit_thermostats;
 mod free_bodies;
 mod generic;
 mod heat_in_solids;

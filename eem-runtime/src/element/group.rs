@@ -56,7 +56,7 @@ mod view;
 pub(crate) use arms::points;
 pub(crate) use audit::Misfit;
 pub(crate) use explicit::{
-    Apart, ClosingView, ComponentEnergy, Past, Place, Stage, UnkeptEntropy, is_met,
+    Apart, ClosingView, ComponentEnergy, Past, Place, Stage, Thermostat, UnkeptEntropy, is_met,
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;

@@ -181,8 +181,8 @@ pub enum StepFailure {
         /// The time at the end of the step, s.
         time: f64,
     },
-    /// A connected body has neither heat nor motion for the energy correction of an explicit step: it is at rest,
-    /// or rotates rigidly.
+    /// A connected body has neither heat nor motion for the energy correction of an explicit step: it is at rest, rotates
+    /// rigidly, or all its positions and temperatures are prescribed.
     #[error(
         "the explicit step to t = {time} s has {:.3e} J {}, which neither the heat nor the motion of this step can {}; take another step size, or an implicit scheme such as eem-temperature",
         defect.abs(), if *defect < 0.0 { "too much" } else { "too little" }, if *defect < 0.0 { "take" } else { "give" },

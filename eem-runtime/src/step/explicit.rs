@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! stages     stage vectors, their rates, and the integrals of the step   (stages, outside, error)
-//! book       entropies and targets from the integrals                    (booking, guard)
+//! book       entropies and targets from the integrals                    (booking, guard, thermostats)
 //! close      momenta, then energy: by heat, by motion, by shape          (closing)
 //! prove      what is left of all laws has to be rounding                 (proof)
 //! ```
@@ -30,13 +30,14 @@ mod stability;
 mod stages;
 mod start;
 mod tableau;
+mod thermostats;
 mod vector;
 
 use core::mem;
 
 use crate::element::conduction::Conduction;
 use crate::element::ends::Ends;
-use crate::element::group::{Elements, ExplicitGroup, Loose, Stage};
+use crate::element::group::{Elements, ExplicitGroup, Loose, Stage, Thermostat};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -122,24 +123,24 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let reservoirs = &site.conduction.reservoirs;
         let prescribed = Prescribed::new(site.loads, site.layout, &components);
-        let mut held = Vec::new();
-        for own in &prescribed.held {
-            held.resize(site.layout.thermal, false);
-            held[own.slot] = true;
+        let mut thermostats = Vec::new();
+        for held in &prescribed.held {
+            thermostats.resize(site.layout.thermal, Thermostat::new(false));
+            thermostats[held.slot] = Thermostat::new(true);
         }
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
         let moves = !prescribed.moved.is_empty();
         let has_loads = loads.has_total_force() || moves;
         let masses = components.masses_of(site.masses);
-        let stage = Stage::new(masses, site.layout, reservoirs.len(), held);
-        let books = Books::new(&components, stage.held.len());
+        let stage = Stage::new(masses, site.layout, reservoirs.len(), thermostats);
+        let books = Books::new(&components);
         Self {
             produces: produces(&components, site.layout),
             load_sums: vec![LoadSums::none(); if has_loads { components.all.len() } else { 0 }],
             old_books: books.clone(),
             books,
             scratch: Scratch::new(&components, site.layout, site.masses.len()),
-            is_driven: has_loads || !stage.held.is_empty() || components.loses_heat(None),
+            is_driven: has_loads || stage.has_thermostats || components.loses_heat(),
             kept_places: if moves {
                 components.nodes.len()
             } else {

@@ -278,7 +278,6 @@ fn what_follows_from_the_steps() {
     ];
     let explicit = [
         ("/explicit/rates/0", "rates"),
-        ("/explicit/held_energies/1", "energies of thermostats"),
         ("/explicit/targets/0/0", "targets"),
         ("/explicit/largest_momentum", "the largest momentum"),
         ("/explicit/residue", "the energy defect"),

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! rates      forces and rates of a stage                                          (rates)
+//! thermostats  heat of thermostats whose temperature changes                      (thermostat)
 //! close      temperatures from entropies, and energies, of a state that closes a step     (closing)
 //! pull       forces on the nodes in such a state                                  (closing)
 //! finish     rates of the closed state, with which the next step begins           (closing)
@@ -15,9 +16,10 @@ mod rates;
 pub(super) mod stage;
 mod stiffness;
 mod temperature;
+mod thermostat;
 pub(super) mod view;
 
 pub(crate) use group::ExplicitElements;
-pub(crate) use stage::{Apart, Past, Place, Stage};
+pub(crate) use stage::{Apart, Past, Place, Stage, Thermostat};
 pub(crate) use temperature::is_met;
 pub(crate) use view::{ClosingView, ComponentEnergy, UnkeptEntropy};

@@ -242,6 +242,9 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
     /// Adds the forces and writes the rates at a stage.
     fn rates(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
 
+    /// Adds a stage with a weight to the integrals of thermostats, after its rates have been written.
+    fn integrate_thermostats(&self, stage: &mut Stage<S, D>, is_start: bool);
+
     /// Finds temperatures and energies of the open components.
     fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError>;
 

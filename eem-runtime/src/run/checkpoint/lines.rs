@@ -254,10 +254,6 @@ fn explicit<S: Real>(
         is_motion_first: text.item("motion first", own.map(|own| own.is_motion_first))?,
         targets: text.pairs("targets", own.map(|own| &own.targets[..]))?,
         shares: text.pairs("shares of reservoirs", own.map(|own| &own.shares[..]))?,
-        held_energies: text.numbers(
-            "energies of thermostats",
-            own.map(|own| &own.held_energies[..]),
-        )?,
         largest_momentum: text.number(
             "largest explicit momentum",
             own.map(|own| own.largest_momentum),

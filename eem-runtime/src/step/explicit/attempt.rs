@@ -59,7 +59,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let correction = self.correction(demand, time)?;
         self.finish()?;
-        self.store(view.state, next);
+        self.store(next);
         self.books.largest_momentum = scales.momentum;
         let outcome: Outcome<S> = self.prove(correction, (view.state, time))?;
         let outcome = Some(outcome);
@@ -96,7 +96,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Writes the closed state.
-    fn store(&mut self, old: &State<S>, next: &mut State<S>) {
+    fn store(&mut self, next: &mut State<S>) {
         let masses = &self.stage.places[..self.components.masses];
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             next.positions.set_point(node as usize, place.q());
@@ -113,7 +113,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             *theta = self.stage.theta(slot);
         }
         if self.stage.has_thermostats {
-            self.conclude_thermostats(old, next);
+            self.conclude_thermostats(next);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Entropies and targets at the end of a step, from its integrals.
 
 use super::guard::{PathRates, guarded, mean_drop};
+use super::thermostats::shift_weights;
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
 use crate::element::state::State;
@@ -17,30 +18,34 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.book_dashpots(view.step, next);
         if self.is_driven {
             self.book_loads(view.step, next);
-            for (slot, received) in self.scratch.received.iter_mut().enumerate() {
-                *received = next.entropies.change(slot, &view.state.entropies);
-            }
+            self.book_course(view, next);
         }
     }
 
     /// Moves the exchanged entropy of each path from its second end to its first one, and adds its production to the
     /// second.
     fn book_paths(&mut self, h: S, next: &mut State<S>) {
-        let (stage, scratch) = (&self.stage, &mut self.scratch);
+        let (stage, scratch) = (&mut self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
-        let is_fixed = |end: usize| end >= slots || stage.is_held(end);
         for (path, kept) in self.components.paths.iter().zip(&mut scratch.paths) {
             let [a, b] = path.ends.map(|end| end as usize);
+            let are_fixed = [a, b].map(|end| end >= slots || stage.is_held(end));
             let progress = &mut scratch.progress[path.component as usize];
-            let rates = PathRates::new(
-                path.conductance,
-                [&path.temperatures[0], &path.temperatures[1]],
-            );
-            let [flow, production] = rates.guarded(h);
+            let [near, far] = &path.temperatures;
+            let ([flow, production], shift) =
+                PathRates::new(path.conductance, [near, far]).guarded(h);
+            if !shift.is_none() {
+                for (end, temperatures) in [(a, [near, far]), (b, [far, near])] {
+                    if stage.is_held(end) {
+                        let thermostat = &mut stage.thermostats[end];
+                        shift_weights(thermostat, &shift, path.conductance, temperatures);
+                    }
+                }
+            }
             *kept = production;
             progress.production.add(production);
             // The closing does not change production that neither end stores.
-            let closes = !(is_fixed(a) && is_fixed(b));
+            let closes = are_fixed != [true; 2];
             let least = if closes {
                 &mut progress.least
             } else {
@@ -78,13 +83,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.entropies.add(slot, production);
             scratch.produced[slot] += production;
             progress.production.add(production);
-            // The closing does not change production that a thermostat absorbs.
-            let least = if self.stage.is_held(slot) {
-                &mut scratch.least
-            } else {
-                &mut progress.least
-            };
-            *least = least.minimum(production);
+            progress.least = progress.least.minimum(production);
         }
     }
 
@@ -96,11 +95,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let progress = |component: u32| &self.scratch.progress[component as usize];
         for (index, dashpot) in components.dashpots.iter().enumerate() {
             let slot = dashpot.slot.map(|slot| slot as usize);
-            let scale = if slot.is_some_and(|slot| stage.is_held(slot)) {
-                S::one()
-            } else {
-                progress(dashpot.component).factor
-            };
+            let scale = progress(dashpot.component).factor;
             let [heat, production] = [stage.heats[index], stage.productions[index].sum];
             next.meters.dissipate(index, scale * guarded(h * heat));
             if let Some(slot) = slot {
@@ -166,34 +161,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                     scratch.produced[end] += production * (capacity / all);
                 }
             }
-        }
-        for (produced, &is_held) in scratch.produced.iter_mut().zip(&stage.held) {
-            if is_held {
-                *produced = S::zero();
-            }
-        }
-    }
-
-    /// The heat of thermostats, `Δe − ∫ (f λ̇ + heat that flows in)`, by the first law of an element.
-    pub(super) fn book_thermostats(&mut self, h: S, next: &mut State<S>) {
-        for (slot, _) in self.stage.held.iter().enumerate().filter(|&(_, &is)| is) {
-            let element = self.components.elements[slot] as usize;
-            let change = next.energies[element].value - self.books.held_energies[slot];
-            let heat = change - h * self.stage.supply[slot].sum;
-            let component = self.components.of_element[element] as usize;
-            self.books.targets[component].energy.add(heat);
-            next.heat.add(heat);
-        }
-    }
-
-    /// The entropy that thermostats have given, once the state is closed.
-    pub(super) fn conclude_thermostats(&mut self, old: &State<S>, next: &mut State<S>) {
-        for (slot, _) in self.stage.held.iter().enumerate().filter(|&(_, &is)| is) {
-            let element = self.components.elements[slot] as usize;
-            self.books.held_energies[slot] = next.energies[element].value;
-            let change = next.entropies.change(slot, &old.entropies);
-            let given = change - self.scratch.received[slot];
-            next.thermostat_entropy.add(-given);
         }
     }
 }

@@ -9,7 +9,9 @@
 //! | shape | positions, viscous stretches and exchanged heat, downhill | at equilibrium |
 //! | sink | entropies of elements that produce | without production |
 //!
-//! None of them lowers the entropy: what an element gives is at most what it has produced in this step.
+//! None of them lowers the entropy: what an element gives is at most what it has produced in this step. The heat of an
+//! element with a thermostat goes to the thermostat, and the heat of a dashpot without temperature leaves the scene: these
+//! are sinks for at most as much again as they have produced.
 
 mod energy;
 mod momenta;
@@ -55,9 +57,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             self.restore_momenta(index);
         }
         self.scratch.open.fill(true);
-        self.find_energies(next)?;
-        self.book_thermostats(view.step, next);
+        self.find_energies(view, next)?;
         self.share_productions();
+        let mut has_looked = false;
         loop {
             let mut needs_forces = false;
             self.scratch.needs_forces.fill(false);
@@ -71,6 +73,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 needs_forces |= status == Status::NeedsForces;
             }
             if needs_forces {
+                if !has_looked {
+                    self.expect_stable_dashpots(view)?;
+                    has_looked = true;
+                }
                 self.find_forces(view);
                 for index in 0..self.components.all.len() {
                     if self.scratch.needs_forces[index] {
@@ -85,12 +91,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             if !self.scratch.open.iter().any(|&open| open) {
                 return Ok(());
             }
-            self.find_energies(next)?;
+            self.find_energies(view, next)?;
         }
     }
 
-    /// Finds temperatures and energies of the elements of open components.
-    fn find_energies(&mut self, next: &mut State<S>) -> Result<(), StateError> {
+    /// Finds temperatures and energies of the elements of open components, and the heat of their thermostats.
+    fn find_energies(
+        &mut self,
+        explicit: &ExplicitView<'_, S, D>,
+        next: &mut State<S>,
+    ) -> Result<(), StateError> {
         let scratch = &mut self.scratch;
         let open = scratch.open.iter().zip(&scratch.inactive);
         for (energy, (&is_open, &inactive)) in scratch.energies.iter_mut().zip(open) {
@@ -110,6 +120,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.evaluations += 1;
         for group in &mut self.groups {
             group.close(&mut view)?;
+        }
+        if self.stage.has_thermostats {
+            self.book_thermostats(explicit, next);
         }
         Ok(())
     }

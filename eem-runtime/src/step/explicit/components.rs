@@ -187,14 +187,9 @@ impl<S: Real> Components<S> {
         nodes.map(|&node| masses.get(node as usize).unwrap_or(S::zero()))
     }
 
-    /// Whether an element with a dashpot, in this component or in any (`None`), has no temperature, so that the heat
-    /// leaves the scene.
-    pub(super) fn loses_heat(&self, component: Option<usize>) -> bool {
-        let mut dashpots = self.dashpots.iter();
-        dashpots.any(|dashpot| {
-            let is_own = component.is_none_or(|own| own == dashpot.component as usize);
-            is_own && dashpot.slot.is_none()
-        })
+    /// Whether an element with a dashpot has no temperature, so that the heat leaves the scene.
+    pub(super) fn loses_heat(&self) -> bool {
+        self.dashpots.iter().any(|dashpot| dashpot.slot.is_none())
     }
 
     /// The places of an anchor.

@@ -18,6 +18,27 @@ pub(super) struct PathRates<S> {
     productions: PerWeight<S>,
 }
 
+/// By how much of the way from the usual weights to the positive ones the guard has gone: zero where it did nothing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shift<S>(S);
+
+impl<S: Real> Shift<S> {
+    fn none() -> Self {
+        Self(S::zero())
+    }
+
+    /// Whether the guard did nothing.
+    #[inline]
+    pub(super) fn is_none(&self) -> bool {
+        self.0.equal(S::zero()).all()
+    }
+
+    /// The change of the integral of some rates.
+    pub(super) fn of(&self, rates: &PerWeight<S>) -> S {
+        self.0 * (integral(&POSITIVE_WEIGHTS, rates) - integral(&WEIGHTS, rates))
+    }
+}
+
 /// `Σ w x`.
 #[inline]
 fn integral<S: Real>(weights: &[f64; WEIGHTED.len()], rates: &PerWeight<S>) -> S {
@@ -49,16 +70,16 @@ impl<S: Real> PathRates<S> {
         Self { flows, productions }
     }
 
-    /// The flow and the guarded production in a step of the size h, J/K.
+    /// The flow and the guarded production in a step of the size h, J/K, and how far the guard has shifted weights.
     #[inline]
-    pub(super) fn guarded(&self, h: S) -> [S; 2] {
+    pub(super) fn guarded(&self, h: S) -> ([S; 2], Shift<S>) {
         let usual = self.integrals(&WEIGHTS);
-        let counting = if usual[1].less(S::zero()).any() {
+        let (counting, shift) = if usual[1].less(S::zero()).any() {
             mixed(usual, self.integrals(&POSITIVE_WEIGHTS))
         } else {
-            usual
+            (usual, Shift::none())
         };
-        counting.map(|sum| h * sum)
+        (counting.map(|sum| h * sum), shift)
     }
 
     #[inline]
@@ -69,7 +90,7 @@ impl<S: Real> PathRates<S> {
 
 /// Flow and production, combined with the positive sums so that a negative production becomes zero.
 #[cold]
-fn mixed<S: Real>([flow, production]: [S; 2], positive: [S; 2]) -> [S; 2] {
+fn mixed<S: Real>([flow, production]: [S; 2], positive: [S; 2]) -> ([S; 2], Shift<S>) {
     let zero = S::zero();
     let is_negative = production.less(zero);
     // φ with Π + φ (Π⁺ − Π) = 0
@@ -77,10 +98,11 @@ fn mixed<S: Real>([flow, production]: [S; 2], positive: [S; 2]) -> [S; 2] {
     let has_positive = zero.less(positive[1]);
     let share = S::select(has_positive, -production / all, S::one());
     let mixed = flow + share * (positive[0] - flow);
-    [
+    let guarded = [
         S::select(is_negative, mixed, flow),
         S::select(is_negative, zero, production),
-    ]
+    ];
+    (guarded, Shift(S::select(is_negative, share, zero)))
 }
 
 /// The guarded production of a dashpot, J/K, or its heat, J.
@@ -107,8 +129,9 @@ mod tests {
     #[test]
     fn honest_stages_pass_unchanged() {
         let path = path([[300.0, 310.0]; 8]);
-        let [flow, production] = path.guarded(1.0);
+        let ([flow, production], shift) = path.guarded(1.0);
         let [usual, _] = sums(&path);
+        assert!(shift.is_none());
         assert_eq!(
             [flow, production].map(f64::to_bits),
             usual.map(f64::to_bits)
@@ -124,7 +147,9 @@ mod tests {
         let path = path(stages);
         let [usual, positive] = sums(&path);
         assert!(usual[1] < 0.0 && positive[1] > 0.0);
-        let [flow, production] = path.guarded(1.0);
+        let ([flow, production], shift) = path.guarded(1.0);
+        let shifted = usual[0] + shift.of(&path.flows);
+        assert!((shifted - flow).abs() <= 1e-15 * usual[0].abs());
         assert_eq!(production.to_bits(), 0.0_f64.to_bits());
         // Between the two flows, in proportion to the productions.
         let share = usual[1] / (usual[1] - positive[1]);
@@ -140,7 +165,7 @@ mod tests {
 
     #[test]
     fn nothing_positive_replaces_all() {
-        let counts = mixed([1e-20, -1e-40], [3e-20, 0.0]);
+        let (counts, _) = mixed([1e-20, -1e-40], [3e-20, 0.0]);
         assert_eq!(counts.map(f64::to_bits), [3e-20, 0.0].map(f64::to_bits));
     }
 

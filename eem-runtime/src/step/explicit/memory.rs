@@ -36,8 +36,6 @@ pub(super) struct Books<S, const D: usize> {
     pub(super) targets: Vec<Target<S, D>>,
     /// The entropy that each reservoir has received from each component, J/K.
     pub(super) shares: Vec<Sum<S>>,
-    /// The energies of elements with thermostats, per thermal slot, J; empty without.
-    pub(super) held_energies: Vec<S>,
     /// The largest |p|₂ of all states so far, kg m/s.
     pub(super) largest_momentum: S,
     /// E less its targets, of all components, J.
@@ -71,11 +69,10 @@ impl<S: Real, const D: usize> Target<S, D> {
 }
 
 impl<S: Real, const D: usize> Books<S, D> {
-    pub(super) fn new(components: &Components<S>, held: usize) -> Self {
+    pub(super) fn new(components: &Components<S>) -> Self {
         Self {
             targets: vec![Target::none(); components.all.len()],
             shares: vec![Sum::new(S::zero()); components.shares.len()],
-            held_energies: vec![S::zero(); held],
             largest_momentum: S::zero(),
             residue: S::zero(),
             terms: None,
@@ -86,7 +83,6 @@ impl<S: Real, const D: usize> Books<S, D> {
     pub(super) fn clear(&mut self) {
         self.targets.fill(Target::none());
         self.shares.fill(Sum::new(S::zero()));
-        self.held_energies.fill(S::zero());
         (self.largest_momentum, self.residue) = (S::zero(), S::zero());
         self.terms = None;
     }
@@ -96,7 +92,6 @@ impl<S: Real, const D: usize> Books<S, D> {
     pub(super) fn copy_from(&mut self, other: &Self, change_targets: bool) {
         if change_targets {
             self.targets.copy_from_slice(&other.targets);
-            self.held_energies.copy_from_slice(&other.held_energies);
         }
         self.shares.copy_from_slice(&other.shares);
         self.largest_momentum = other.largest_momentum;

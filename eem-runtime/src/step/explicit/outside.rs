@@ -38,9 +38,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         copy_loads(&mut self.start_loads, &self.loads);
         self.load_sums.fill(LoadSums::none());
         self.stage.weight = S::from_f64(WEIGHTS[0]);
-        for supply in &mut self.stage.supply {
-            supply.begin(self.stage.weight);
-        }
+        self.begin_thermostats();
         for place in &mut self.stage.places[self.components.masses..self.kept_places] {
             place.past.rates[0] = place.rates;
         }

@@ -20,7 +20,6 @@ pub(crate) struct SavedExplicit<S> {
     /// All sums of the targets of each component.
     pub(crate) targets: Vec<Sum<S>>,
     pub(crate) shares: Vec<Sum<S>>,
-    pub(crate) held_energies: Vec<S>,
     pub(crate) largest_momentum: S,
     pub(crate) residue: S,
     /// The rates of the stage vector, of dashpots and of thermostats.
@@ -39,11 +38,7 @@ impl<S> SavedExplicit<S> {
     }
 
     /// All lists with their names.
-    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 3] {
-        [
-            ("rates", &self.rates),
-            ("energies of thermostats", &self.held_energies),
-            ("loads", &self.loads),
-        ]
+    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 2] {
+        [("rates", &self.rates), ("loads", &self.loads)]
     }
 }

@@ -34,7 +34,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             is_motion_first: self.is_motion_first,
             targets: sums_of(&mut books),
             shares: books.shares,
-            held_energies: books.held_energies,
             largest_momentum: books.largest_momentum,
             residue: books.residue,
             rates,
@@ -57,7 +56,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             });
         }
         books.shares.copy_from_slice(&saved.shares);
-        books.held_energies.copy_from_slice(&saved.held_energies);
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;
         books.terms = None;

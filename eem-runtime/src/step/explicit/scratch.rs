@@ -54,6 +54,29 @@ pub(super) struct Motion<S, const D: usize> {
     pub(super) kinetic: S,
 }
 
+/// What an element with a thermostat receives in a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HeldBalance<S> {
+    /// Entropy from dashpots and paths, and from the thermostat, J/K.
+    pub(super) received: S,
+    pub(super) given: S,
+    /// Heat from the thermostat, and the part of it that the entropy does not tell, J.
+    pub(super) heat: S,
+    pub(super) by_course: S,
+}
+
+impl<S: Real> HeldBalance<S> {
+    pub(super) fn none() -> Self {
+        let [received, given, heat, by_course] = [S::zero(); 4];
+        Self {
+            received,
+            given,
+            heat,
+            by_course,
+        }
+    }
+}
+
 /// Sums of rows of matrices, which bound the fastest motion.
 #[derive(Clone, Debug)]
 pub(super) struct RowSums<S> {
@@ -81,8 +104,8 @@ pub(super) struct Scratch<S: Real, const D: usize> {
     pub(super) produced: Vec<S>,
     /// An element whose stored entropy does not match its temperature after the closing, if there is one.
     pub(super) unkept: Option<UnkeptEntropy>,
-    /// Entropy that an element with a thermostat has received from others than the thermostat, per thermal slot, J/K.
-    pub(super) received: Vec<S>,
+    /// Per thermal slot.
+    pub(super) held: Vec<HeldBalance<S>>,
     /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are needed, N, m/s and W.
     pub(super) forces: Vec<[S; D]>,
     pub(super) creep: Vec<[S; 2]>,
@@ -169,7 +192,7 @@ impl<S: Real, const D: usize> Scratch<S, D> {
             capacities: vec![[S::zero(); 2]; thermal],
             produced: vec![S::zero(); thermal],
             unkept: None,
-            received: vec![S::zero(); thermal],
+            held: vec![HeldBalance::none(); thermal],
             forces: vec![[S::zero(); D]; components.nodes.len()],
             creep: vec![[S::zero(); 2]; layout.viscous],
             paths: vec![S::zero(); components.paths.len()],
@@ -187,6 +210,7 @@ impl<S: Real, const D: usize> Scratch<S, D> {
         self.progress.fill(Progress::none());
         self.inactive.fill(S::Mask::none());
         self.produced.fill(S::zero());
+        self.held.fill(HeldBalance::none());
         self.unkept = None;
         self.least = S::MAX;
     }

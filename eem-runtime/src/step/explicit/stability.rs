@@ -15,6 +15,9 @@ const REAL_LIMIT: f64 = 6.39;
 /// The limits for the fastest vibration, conduction and dashpot.
 const LIMITS: [f64; 3] = [IMAGINARY_LIMIT, REAL_LIMIT, REAL_LIMIT];
 
+/// The index of the dashpot among them.
+const DASHPOT: usize = 2;
+
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// The reason behind a failure, if the step is too long to be stable.
     #[cold]
@@ -34,23 +37,41 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if !may_be_unstable {
             return failure;
         }
+        self.unstable(view, 0)
+            .or_else(|| self.too_cold(&failure, view))
+            .unwrap_or(failure)
+    }
+
+    /// An error if the step is too long for a dashpot. Asked where heat cannot correct the energy of a step by a small part of
+    /// itself: a dashpot beyond its limit of stability dissipates by far another energy than its spring gives.
+    #[cold]
+    pub(super) fn expect_stable_dashpots(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+    ) -> Result<(), StepFailure> {
+        if self.components.dashpots.is_empty() {
+            return Ok(());
+        }
+        self.unstable(view, DASHPOT).map_or(Ok(()), Err)
+    }
+
+    /// The error of a step that is too long for one of the processes from this one on.
+    fn unstable(&mut self, view: &ExplicitView<'_, S, D>, first: usize) -> Option<StepFailure> {
         let time = (view.state.time.value + view.step).to_f64();
         let h = view.step.to_f64();
         let rates = self.fastest(view);
         let limits = ["ωh", "κh/c", "kh/η"].into_iter().zip(LIMITS);
-        for ((rate, limit), fastest) in limits.zip(rates) {
-            if h * fastest > limit {
-                return StepFailure::Unstable {
-                    rate,
-                    product: h * fastest,
-                    limit,
-                    longest: limit / fastest,
-                    scheme: Scheme::EemEntropy.name(),
-                    time,
-                };
-            }
-        }
-        self.too_cold(&failure, view).unwrap_or(failure)
+        let mut processes = limits.zip(rates).skip(first);
+        let ((rate, limit), fastest) =
+            processes.find(|((_, limit), fastest)| h * fastest > *limit)?;
+        Some(StepFailure::Unstable {
+            rate,
+            product: h * fastest,
+            limit,
+            longest: limit / fastest,
+            scheme: Scheme::EemEntropy.name(),
+            time,
+        })
     }
 
     /// The step as a fraction of the longest stable one.

@@ -172,6 +172,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         self.evaluations += u64::from(from == From::Model);
         if self.is_driven && weight.is_some() {
+            if self.stage.has_thermostats {
+                self.integrate_thermostats(false);
+            }
             self.integrate_outside();
         }
         Ok(())

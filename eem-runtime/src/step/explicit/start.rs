@@ -121,10 +121,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn set_targets(&mut self, state: &State<S>) {
         self.books.clear();
         self.sum_energies(state);
-        for (slot, energy) in self.books.held_energies.iter_mut().enumerate() {
-            let element = self.components.elements[slot] as usize;
-            *energy = state.energies[element].value;
-        }
         for index in 0..self.components.all.len() {
             self.look_at_motion(index);
             let motion = &self.scratch.motions[index];

@@ -75,6 +75,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Explicit
         self.rates_of_all(stage)
     }
 
+    fn integrate_thermostats(&self, stage: &mut Stage<S, D>, is_start: bool) {
+        self.integrate_thermostats_of_all(stage, is_start);
+    }
+
     fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError> {
         self.close_all(view)
     }

@@ -161,7 +161,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         let heating = (heat - found.theta * drift) / capacity;
         stage.inner_rates[stage.temperatures + slot].0 = heating;
         if stage.has_thermostats {
-            stage.supply_heat(slot, power + flow);
+            stage.receive(slot, heat);
         }
         is_sound &= heating.is_finite();
         let is_stable = S::zero().less(capacity) & S::zero().less(found.theta);

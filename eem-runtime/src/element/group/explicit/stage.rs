@@ -154,6 +154,57 @@ impl<S: Real> Integral<S> {
     }
 }
 
+/// The thermostat of an element in a step, from θ⁰ to θ¹.
+///
+/// Heat and entropy that it gives obey `δQ = θ dS`. With the entropy G that the element lacks at the end of the step,
+///
+/// ```text
+/// Q = θ¹ G + [ψ(x⁰, θ¹) − ψ(x⁰, θ⁰) + (θ¹ − θ⁰) s⁰] − ∫ ((f(θ) − f(θ¹)) λ̇ − (g(θ) − g(θ¹)) γ̇ + (1 − θ¹/θ) Q_in) dt
+/// ```
+///
+/// with `x = (λ, γ)` and the heat `Q_in` of dashpots and paths. This is `∫ θ dS`, by `s = −∂ψ/∂θ`, without the rate of θ, which
+/// may jump. Nothing but `θ G` is left where θ is constant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Thermostat<S> {
+    /// Whether there is one.
+    pub(crate) holds: bool,
+    /// θ¹, K.
+    pub(crate) last: S,
+    /// `Q_in` at the present stage and at the start of the step, W.
+    pub(crate) received: S,
+    pub(crate) start: S,
+    /// The integral in units of the step, over the stages so far with their weights, W.
+    pub(crate) sum: S,
+    /// `ψ(x⁰, θ¹) − ψ(x⁰, θ⁰)`, J.
+    pub(crate) warming: S,
+}
+
+impl<S: Real> Thermostat<S> {
+    /// `holds` says whether there is one.
+    pub(crate) fn new(holds: bool) -> Self {
+        let zero = S::zero();
+        Self {
+            holds,
+            last: S::one(),
+            received: zero,
+            start: zero,
+            sum: zero,
+            warming: zero,
+        }
+    }
+
+    /// Begins a step that ends with this temperature, K.
+    pub(crate) fn begin(&mut self, last: S) {
+        (self.last, self.start) = (last, self.received);
+        (self.sum, self.warming) = (S::zero(), S::zero());
+    }
+
+    /// `1 − θ¹/θ`.
+    pub(crate) fn excess(&self, theta: S) -> S {
+        (theta - self.last) / theta
+    }
+}
+
 /// A number aligned like a vector: a vector load of two neighbours that have just been stored would wait for both stores.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
@@ -179,10 +230,8 @@ pub(crate) struct Stage<S: Real, const D: usize> {
     pub(crate) has_heats: bool,
     /// The weight of this stage.
     pub(crate) weight: S,
-    /// `f λ̇` plus the heat that flows in, of each thermal slot, W; empty without thermostats.
-    pub(crate) supply: Vec<Integral<S>>,
-    /// Whether a thermostat prescribes the temperature, per thermal slot; empty without thermostats.
-    pub(crate) held: Vec<bool>,
+    /// Per thermal slot; empty without thermostats.
+    pub(crate) thermostats: Vec<Thermostat<S>>,
     pub(crate) has_thermostats: bool,
 }
 
@@ -192,7 +241,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
         masses: impl Iterator<Item = S>,
         layout: &Layout,
         reservoirs: usize,
-        held: Vec<bool>,
+        thermostats: Vec<Thermostat<S>>,
     ) -> Self {
         let size = layout.viscous + layout.thermal;
         let pairs = size.div_ceil(2);
@@ -206,9 +255,8 @@ impl<S: Real, const D: usize> Stage<S, D> {
             heats: Vec::new(),
             has_heats: false,
             weight: S::zero(),
-            supply: vec![Integral::none(); held.len()],
-            has_thermostats: !held.is_empty(),
-            held,
+            has_thermostats: !thermostats.is_empty(),
+            thermostats,
         }
     }
 
@@ -218,12 +266,12 @@ impl<S: Real, const D: usize> Stage<S, D> {
         self.heats[dashpot] += self.weight * power;
     }
 
-    /// Adds `f λ̇` plus the heat that flows into a thermal slot at this stage, W. If a thermostat prescribes the
-    /// temperature, sets its rate to zero.
+    /// Takes the heat of dashpots and paths that a thermal slot receives, W. If a thermostat prescribes the temperature,
+    /// sets its rate to zero.
     #[cold]
-    pub(crate) fn supply_heat(&mut self, slot: usize, power: S) {
-        self.supply[slot].add(self.weight, power);
-        if self.held[slot] {
+    pub(crate) fn receive(&mut self, slot: usize, heat: S) {
+        self.thermostats[slot].received = heat;
+        if self.thermostats[slot].holds {
             self.inner_rates[self.temperatures + slot].0 = S::zero();
         }
     }
@@ -252,9 +300,11 @@ impl<S: Real, const D: usize> Stage<S, D> {
         });
         let inner = self.inner_past.iter().flat_map(|of| &of.rates[0][0]);
         let inner = inner.zip(self.inner_rates.iter().map(|rate| &rate.0));
-        let integrals = self.productions.iter().chain(&self.supply);
-        let integrals = integrals.map(|of| (&of.start, &of.rate));
-        let all = places.chain(inner).chain(integrals);
+        let productions = self.productions.iter();
+        let productions = productions.map(|of| (&of.start, &of.rate));
+        let thermostats = self.thermostats.iter();
+        let thermostats = thermostats.map(|of| (&of.start, &of.received));
+        let all = places.chain(inner).chain(productions).chain(thermostats);
         all.map(|(&start, &now)| [start, now])
     }
 
@@ -267,15 +317,18 @@ impl<S: Real, const D: usize> Stage<S, D> {
         let inner = self.inner_past.iter_mut();
         let inner = inner.flat_map(|of| &mut of.rates[0][0]);
         let inner = inner.zip(self.inner_rates.iter_mut().map(|rate| &mut rate.0));
-        let integrals = self.productions.iter_mut().chain(&mut self.supply);
-        let integrals = integrals.map(|of| (&mut of.start, &mut of.rate));
-        let all = places.chain(inner).chain(integrals);
+        let productions = self.productions.iter_mut();
+        let productions = productions.map(|of| (&mut of.start, &mut of.rate));
+        let thermostats = self.thermostats.iter_mut();
+        let thermostats = thermostats.map(|of| (&mut of.start, &mut of.received));
+        let all = places.chain(inner).chain(productions).chain(thermostats);
         all.map(|(start, now)| [start, now])
     }
 
     /// Whether a thermostat prescribes the temperature of a thermal slot.
     #[inline]
     pub(crate) fn is_held(&self, slot: usize) -> bool {
-        self.held.get(slot) == Some(&true)
+        let thermostat = self.thermostats.get(slot);
+        thermostat.is_some_and(|thermostat| thermostat.holds)
     }
 }

@@ -189,7 +189,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Gives the entropy x to an element as if it had produced it: θ becomes `θ (1 + r + r²/2)` with `r = x/c`, and e becomes
-    /// `e + θ x (1 + r/2)`. Returns the lanes in which that is exact to rounding, and θ matches the stored entropy.
+    /// `e + θ x (1 + r/2)`. The thermostat of a held element takes it, with the heat θ x. Returns the lanes in which that is exact to rounding, and θ matches the stored entropy.
     pub(super) fn warm(
         &mut self,
         index: usize,
@@ -197,14 +197,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         entropy: S,
         next: &mut State<S>,
     ) -> S::Mask {
+        self.scratch.produced[slot] += entropy;
+        self.scratch.progress[index].production.add(entropy);
+        if self.stage.is_held(slot) {
+            self.warm_held(slot, entropy);
+            return !S::Mask::none();
+        }
         let half = S::from_f64(0.5);
         let (theta, scratch) = (self.stage.theta_mut(slot), &mut self.scratch);
         let [capacity, bend] = scratch.capacities[slot];
         let ratio = entropy / capacity;
         let energy = *theta * entropy * (S::one() + half * ratio);
         next.entropies.add(slot, entropy);
-        scratch.produced[slot] += entropy;
-        scratch.progress[index].production.add(entropy);
         scratch.energies[index].value.add(energy);
         let element = self.components.elements[slot] as usize;
         next.energies[element].value += energy;

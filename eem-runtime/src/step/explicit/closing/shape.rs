@@ -303,12 +303,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
             return Ok(true);
         }
-        let loses = self.components.loses_heat(Some(index));
-        if loses {
-            self.scratch.progress[index].lost += defect;
-            next.dissipated.add(defect);
-            self.books.targets[index].lost.add(defect);
+        // What leaves the scene, or is taken by thermostats, is known to its own size.
+        let produced = self.produced_heat(index);
+        let takes = (S::zero().less(produced) & defect.at_most(produced)).decide()?;
+        if takes {
+            self.heat(index, defect / produced, next);
         }
-        Ok(loses)
+        Ok(takes)
     }
 }

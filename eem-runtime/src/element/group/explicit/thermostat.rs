@@ -1,0 +1,61 @@
+//! The part of the heat of thermostats that depends on the course of their temperature.
+
+use crate::element::conjugates::PointRule;
+use crate::element::group::arms::along;
+use crate::element::group::explicit::group::ExplicitElements;
+use crate::element::group::explicit::rates::arms_of;
+use crate::element::group::explicit::stage::{Place, Stage};
+use crate::element::group::point::Point;
+use crate::element::kinematics::Kinematics;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::{Mask, Real};
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
+    /// See [`ExplicitGroup::integrate_thermostats`](super::ExplicitGroup::hold).
+    #[cold]
+    pub(super) fn integrate_thermostats_of_all(&self, stage: &mut Stage<S, D>, is_start: bool) {
+        for (point, nodes) in self.placed() {
+            let held = point.slots().thermal.filter(|&slot| stage.is_held(slot));
+            if let Some(slot) = held {
+                point.integrate_thermostat(slot, &nodes, stage, is_start);
+            }
+        }
+    }
+}
+
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
+    /// Adds the present stage to the integrals of its [thermostat](crate::element::group::explicit::stage::Thermostat).
+    fn integrate_thermostat(
+        &self,
+        slot: usize,
+        nodes: &K::PerNode<u32>,
+        stage: &mut Stage<S, D>,
+        is_start: bool,
+    ) {
+        let (theta, thermostat) = (stage.theta(slot), &stage.thermostats[slot]);
+        let last = thermostat.last;
+        if theta.equal(last).all() {
+            return;
+        }
+        let r = arms_of::<K, S, D>(nodes, &stage.places, Place::q);
+        let measures = self.kinematics.measure(&r);
+        let gradient = self.kinematics.gradient(&r, &measures);
+        let motion = arms_of::<K, S, D>(nodes, &stage.places, Place::velocity);
+        let [x, at_last] = [theta, last].map(|theta| self.variables_at(&measures, stage, theta));
+        let [own, other] = [&x, &at_last].map(|x| self.model.rates(x).forces);
+        let mut rate = thermostat.excess(theta) * thermostat.received;
+        for a in 0..M::MEASURES {
+            rate += (own[a] - other[a]) * along::<K, S, D>(&gradient[a], &motion);
+        }
+        for k in 0..M::DASHPOTS {
+            let at = M::MEASURES + k;
+            rate -= (own[at] - other[at]) * stage.inner_rates[self.slots().viscous + k].0;
+        }
+        let (weight, thermostat) = (stage.weight, &mut stage.thermostats[slot]);
+        thermostat.sum += weight * rate;
+        if is_start {
+            let [psi, psi_at_last] = [&x, &at_last].map(|x| self.model.free_energy(x));
+            thermostat.warming = psi_at_last - psi;
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Thermostats: the heat that they give follows from the entropy that they give, `δQ = θ dS`, never from what the energy
+//! lacks. An energy defect of their elements is closed like any other.
+
+use super::guard::{PerWeight, Shift};
+use super::tableau::STAGES;
+use super::{Explicit, ExplicitView};
+use crate::element::group::Thermostat;
+use crate::element::state::State;
+use eem_material::number::scalar::Real;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// Begins the integrals of thermostats at the start of a step.
+    pub(super) fn begin_thermostats(&mut self) {
+        if !self.stage.has_thermostats {
+            return;
+        }
+        for held in &self.prescribed.held {
+            self.stage.thermostats[held.slot].begin(held.temperatures[STAGES - 1]);
+        }
+        self.integrate_thermostats(true);
+    }
+
+    /// Adds the present stage to the integrals of thermostats.
+    #[cold]
+    pub(super) fn integrate_thermostats(&mut self, is_start: bool) {
+        for group in &self.groups {
+            group.integrate_thermostats(&mut self.stage, is_start);
+        }
+    }
+
+    /// The entropy that held elements have received from dashpots and paths, and the part of the heat of thermostats that
+    /// follows from the course of their temperature.
+    pub(super) fn book_course(&mut self, view: &ExplicitView<'_, S, D>, next: &State<S>) {
+        let old = view.state;
+        for held in &self.prescribed.held {
+            let slot = held.slot;
+            let thermostat = &self.stage.thermostats[slot];
+            let change = thermostat.last - old.temperatures[slot];
+            let warming = thermostat.warming + change * old.entropies.values()[slot];
+            let balance = &mut self.scratch.held[slot];
+            balance.received = next.entropies.change(slot, &old.entropies);
+            balance.by_course = warming - view.step * thermostat.sum;
+        }
+    }
+
+    /// Books the heat of thermostats in open components, given the entropies of their elements.
+    pub(super) fn book_thermostats(&mut self, view: &ExplicitView<'_, S, D>, next: &State<S>) {
+        for at in 0..self.prescribed.held.len() {
+            let slot = self.prescribed.held[at].slot;
+            if self.scratch.open[self.component_of(slot)] {
+                let balance = &mut self.scratch.held[slot];
+                let change = next.entropies.change(slot, &view.state.entropies);
+                balance.given = change - balance.received;
+                self.book_heat(slot);
+            }
+        }
+    }
+
+    /// Lets the dashpots of a held element produce more entropy, which its thermostat takes.
+    pub(super) fn warm_held(&mut self, slot: usize, entropy: S) {
+        let balance = &mut self.scratch.held[slot];
+        balance.received += entropy;
+        balance.given -= entropy;
+        self.book_heat(slot);
+    }
+
+    /// Replaces the heat of a thermostat in the target of its component by that of the entropy that it gives.
+    fn book_heat(&mut self, slot: usize) {
+        let component = self.component_of(slot);
+        let balance = &mut self.scratch.held[slot];
+        let heat = self.stage.thermostats[slot].last * balance.given + balance.by_course;
+        // The same heat again leaves the bits of the target.
+        let is_same = heat.equal(balance.heat);
+        let target = &mut self.books.targets[component].energy;
+        for change in [-balance.heat, heat] {
+            target.add(S::select(is_same, S::zero(), change));
+        }
+        balance.heat = heat;
+    }
+
+    fn component_of(&self, slot: usize) -> usize {
+        let element = self.components.elements[slot] as usize;
+        self.components.of_element[element] as usize
+    }
+
+    /// Books what thermostats have given, once the state is closed.
+    pub(super) fn conclude_thermostats(&self, next: &mut State<S>) {
+        for held in &self.prescribed.held {
+            let balance = &self.scratch.held[held.slot];
+            next.book_thermostat(balance.heat, balance.given);
+        }
+    }
+}
+
+/// Weighs the heat that a held element receives along a path like the flow of its entropy, after the guard has shifted
+/// weights; the temperatures are its own and those of the other end.
+#[cold]
+pub(super) fn shift_weights<S: Real>(
+    thermostat: &mut Thermostat<S>,
+    shift: &Shift<S>,
+    conductance: S,
+    [own, other]: [&PerWeight<S>; 2],
+) {
+    let mut heat = [S::zero(); _];
+    for (heat, (&own, &other)) in heat.iter_mut().zip(own.iter().zip(other)) {
+        *heat = thermostat.excess(own) * conductance * (other - own);
+    }
+    thermostat.sum += shift.of(&heat);
+}
