@@ -106,7 +106,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 squares[b] += element.stiffness * by_b * both;
                 relaxation = relaxation.maximum(element.relaxation);
                 if let Some((slot, capacity)) = element.capacity {
-                    capacities[slot] = capacity;
+                    // A thermostat keeps the temperature as a body of any size would.
+                    let is_held = self.stage.is_held(slot);
+                    capacities[slot] = if is_held { S::MAX } else { capacity };
                 }
             });
         }
