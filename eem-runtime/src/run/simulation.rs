@@ -36,6 +36,7 @@ mod memory;
 mod ovens;
 pub(crate) mod start;
 mod stepper;
+pub(crate) mod warning;
 
 use core::fmt;
 use core::mem;
@@ -66,7 +67,7 @@ use crate::step::solver::Effort;
 use check::{Needs, check_all};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Mask, Real};
-use memory::{Automatic, Control};
+use memory::{Automatic, Control, Unresolved};
 use start::{find_entropies, initial_state};
 use stepper::{Parts, Stepper};
 
@@ -121,6 +122,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
     corrections: Corrections<S>,
+    unresolved: Unresolved<S>,
     /// Whether something failed in lanes, so that no further result counts: some lanes might have succeeded alone.
     /// Never set for a single number.
     has_diverged: AtomicBool,
@@ -229,6 +231,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             wants_meters: AtomicBool::new(false),
             worst: None,
             corrections: Corrections::none(),
+            unresolved: Unresolved::none(),
             has_diverged: AtomicBool::new(false),
         };
         if scheme == Scheme::Auto {

@@ -54,7 +54,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let ends = [&halves.before, &*self.state];
         let accurate = (accuracy, size);
         let scales = Scales::new(&memory.tolerance, accurate, ends, memory.largest_momentum);
-        let share = S::from_f64(accuracy.order().exp2() - 1.0).recip();
+        // Where decays are not resolved, the errors of a damped scheme are of first order.
+        let order = if self.in_use.is_damped() {
+            1.0
+        } else {
+            accuracy.order()
+        };
+        let share = S::from_f64(order.exp2() - 1.0).recip();
         report.error = share * scales.error([&halves.whole, &self.state], &halves.kinds);
         if accuracy.accepts(report.error) {
             return Ok(Tried::Made(report));
