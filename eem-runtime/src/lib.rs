@@ -97,7 +97,6 @@ pub use run::simulation::event::Event;
 pub use run::simulation::generic::Generic;
 pub use run::simulation::linearize::StepTangent;
 pub use run::simulation::run::RunEnd;
-pub use run::simulation::warning::Warning;
 #[cfg(feature = "vtk")]
 pub use run::vtk::VtkSeries;
 pub use scene::Scene;
@@ -109,7 +108,7 @@ pub use scene::refused::RefusedScene;
 pub use scene::solid::Section;
 pub use scene::solid_error::SolidError;
 pub use step::control::{StepStatistics, Tolerance};
-pub use step::error::{StepError, StepFailure, StepLimit};
+pub use step::error::{StepError, StepFailure, StepLimit, WorstError};
 pub use step::law::Law;
 pub use step::newton::{NewtonIteration, NewtonSettings, StepReport};
 pub use step::outcome::Corrections;

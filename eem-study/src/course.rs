@@ -217,8 +217,13 @@ pub(crate) fn run<const D: usize, S: Real>(
 /// Watches the laws during a run.
 struct Laws<'a> {
     row: &'a mut StudyRow,
-    /// `B₀` and `|E₀|`, J, with `B = E − work − heat`.
-    first: [f64; 2],
+    /// `B₀`, J, with `B = E − work − heat`.
+    balance: f64,
+    /// `|E₀|`; the largest |E| so far if that is zero, J.
+    energy: f64,
+    begins_at_zero: bool,
+    /// The largest defect and the largest bound of a step so far, J.
+    defects: [f64; 2],
     /// The total entropy after the last step, J/K.
     entropy: f64,
 }
@@ -226,9 +231,13 @@ struct Laws<'a> {
 impl<'a> Laws<'a> {
     fn new<const D: usize, S: Real>(run: &Simulation<D, S>, row: &'a mut StudyRow) -> Self {
         let ledger = run.ledger();
+        let energy = ledger.energy.to_f64().abs();
         Self {
             row,
-            first: [ledger.balance.to_f64(), ledger.energy.to_f64().abs()],
+            balance: ledger.balance.to_f64(),
+            energy,
+            begins_at_zero: energy <= 0.0,
+            defects: [0.0; 2],
             entropy: ledger.entropy.to_f64(),
         }
     }
@@ -237,10 +246,16 @@ impl<'a> Laws<'a> {
         let (ledger, row) = (run.ledger(), &mut *self.row);
         row.steps += 1;
         row.iterations += report.iterations;
-        let [balance, energy] = self.first;
-        let defect = share((ledger.balance.to_f64() - balance).abs(), energy);
-        row.energy_defect = larger(row.energy_defect, defect);
-        row.step_bound = larger(row.step_bound, share(report.bound.to_f64(), energy));
+        if self.begins_at_zero {
+            self.energy = larger(self.energy, ledger.energy.to_f64().abs());
+        }
+        let defect = (ledger.balance.to_f64() - self.balance).abs();
+        let [largest, bound] = self.defects;
+        self.defects = [
+            larger(largest, defect),
+            larger(bound, report.bound.to_f64()),
+        ];
+        [row.energy_defect, row.step_bound] = self.defects.map(|defect| share(defect, self.energy));
         let entropy = ledger.entropy.to_f64();
         // `0.0 −` makes 0 of −0, which a run without production would have.
         row.least_entropy_change = 0.0 - larger(-row.least_entropy_change, self.entropy - entropy);

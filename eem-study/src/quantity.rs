@@ -86,6 +86,8 @@ pub struct EndState {
     are_strains: Vec<bool>,
     /// The largest `|p|₂` on the way to the state, kg m/s.
     largest_momentum: f64,
+    /// |q|₂ of all nodes at the start, m, and the largest `m ℓ ω`, kg m/s.
+    least_sizes: [f64; 2],
 }
 
 impl EndState {
@@ -96,6 +98,7 @@ impl EndState {
             values: run.values(),
             are_strains: run.viscous_strains(),
             largest_momentum: run.largest_momentum(),
+            least_sizes: run.least_sizes(),
         }
     }
 
@@ -127,6 +130,13 @@ impl EndState {
     /// `exact` in the denominator, for momenta the largest norm on the way. Temperatures are compared one by one, differences
     /// of viscous strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal
     /// states differ by zero, also if all values vanish.
+    ///
+    /// A size that vanishes is no unit. As in step control, a difference r is one of scales of at least r L, and r² M for
+    /// momenta, with |q|₂ = L of all nodes at the start and the largest M = m ℓ ω of all masses:
+    ///
+    /// ```text
+    /// min(|Δq|/|q|₂, √(|Δq|/L)),   min(|Δp|/max |p|₂, ∛(|Δp|/M))
+    /// ```
     #[must_use]
     pub fn difference(&self, exact: &Self, quantity: StateQuantity) -> Option<f64> {
         let [own, values] = [self, exact].map(|state| state.values(quantity));
@@ -135,16 +145,21 @@ impl EndState {
         }
         let positions = exact.values(StateQuantity::Positions).iter();
         let length = positions.map(|value| value * value).sum::<f64>().sqrt();
-        let size = |index: usize, value: f64| match quantity {
-            StateQuantity::Momenta => exact.largest_momentum,
-            StateQuantity::Temperatures => value.abs(),
-            StateQuantity::ViscousStretches if exact.are_strains[index] => 1.0,
-            StateQuantity::Positions | StateQuantity::ViscousStretches => length,
+        let [least_length, least_momentum] = exact.least_sizes;
+        let relative = |index: usize, part: f64, value: f64| match quantity {
+            StateQuantity::Momenta => smaller(
+                share(part, exact.largest_momentum),
+                (part / least_momentum).cbrt(),
+            ),
+            StateQuantity::Temperatures => share(part, value.abs()),
+            StateQuantity::ViscousStretches if exact.are_strains[index] => part,
+            StateQuantity::Positions | StateQuantity::ViscousStretches => {
+                smaller(share(part, length), (part / least_length).sqrt())
+            }
         };
         let pairs = own.iter().zip(values).enumerate();
-        let shares =
-            pairs.map(|(index, (own, &value))| share((own - value).abs(), size(index, value)));
-        Some(shares.fold(0.0, larger))
+        let all = pairs.map(|(index, (own, &value))| relative(index, (own - value).abs(), value));
+        Some(all.fold(0.0, larger))
     }
 
     /// The differences of every kind.
@@ -160,6 +175,11 @@ pub(crate) fn share(part: f64, whole: f64) -> f64 {
     } else {
         0.0
     }
+}
+
+/// A size, or the other one if that is smaller; NaN if the size is.
+fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
 }
 
 /// The larger of two numbers, NaN if one of them is NaN.

@@ -12,7 +12,7 @@ pub struct StudyRow {
     pub setting: Setting,
     /// Why the run did not reach the end time; the other numbers then cover the steps before.
     pub failure: Option<StepError>,
-    /// The largest `|B − B₀|/|E₀|` of the run, with the balance `B = E − work − heat`.
+    /// The largest `|B − B₀|/|E₀|` of the run, with the balance `B = E − work − heat`; over the largest |E| if `E₀` is zero.
     pub energy_defect: f64,
     /// The bound for rounding in a single step: the largest [`StepReport::bound`](eem_runtime::StepReport::bound) divided
     /// by `|E₀|`.

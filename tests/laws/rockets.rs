@@ -7,10 +7,9 @@ use crate::cells::derivative;
 use crate::support::ThermoViscoElastic;
 
 /// One stage, and a force that may turn within a step.
-const SCHEMES: [Scheme; 8] = [
+const SCHEMES: [Scheme; 7] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
-    Scheme::EemDamped,
     Scheme::Staggered,
     Scheme::Midpoint,
     Scheme::MidpointTemperature,

@@ -19,6 +19,7 @@ mod lanes;
 #[cfg(feature = "vtk")]
 mod paraview;
 mod recording;
+mod rest;
 mod resuming;
 mod study;
 #[cfg(feature = "parallel")]

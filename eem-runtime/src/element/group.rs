@@ -22,8 +22,6 @@ mod by_rows;
 mod certify;
 mod closing;
 mod correct;
-mod damp;
-mod damping;
 mod element_group;
 mod eliminate;
 mod evaluate;
@@ -51,6 +49,7 @@ mod respond;
 mod share;
 mod site;
 mod stages;
+mod stiffness;
 #[cfg(feature = "gradients")]
 mod terms;
 mod view;

@@ -152,7 +152,7 @@ pub(crate) struct SavedControl<S> {
     pub(crate) statistics: StepStatistics,
     /// The largest `|p|₂` so far, kg m/s.
     pub(crate) largest_momentum: S,
-    /// The limits of the step size, s.
+    /// The limits of the step size, s; zero if the smallest is not set.
     pub(crate) smallest: S,
     pub(crate) largest: S,
 }

@@ -36,7 +36,7 @@ mod memory;
 mod ovens;
 pub(crate) mod start;
 mod stepper;
-pub(crate) mod warning;
+mod worst;
 
 use core::fmt;
 use core::mem;
@@ -58,17 +58,18 @@ use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use crate::scene::refused::RefusedScene;
 use crate::step::automatic::first;
-use crate::step::control::Tolerance;
+use crate::step::control::{LeastScales, Tolerance};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use check::{Needs, check_all};
+use control::check_tolerance;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Mask, Real};
-use memory::{Automatic, Control, Unresolved};
-use start::{find_entropies, initial_state};
+use memory::{Automatic, Control};
+use start::{Begin, find_entropies, initial_state};
 use stepper::{Parts, Stepper};
 
 /// A run: a scene, a scheme and the present state.
@@ -100,6 +101,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     /// Whether there are loads, thermostats or ovens.
     has_loads: bool,
     stepper: Stepper<S, D>,
+    /// The least scales of errors, from the initial state.
+    least: LeastScales<S>,
     effort: Effort<S>,
     /// `None` without step control.
     control: Option<Box<Control<S>>>,
@@ -122,7 +125,6 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
     corrections: Corrections<S>,
-    unresolved: Unresolved<S>,
     /// Whether something failed in lanes, so that no further result counts: some lanes might have succeeded alone.
     /// Never set for a single number.
     has_diverged: AtomicBool,
@@ -150,18 +152,21 @@ impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
 }
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    pub(super) fn begin(
+    fn begin(
         mut scene: Scene<D, S>,
         scheme: Scheme,
-        step: S,
+        begin: Begin<S>,
     ) -> Result<Self, RefusedScene<D, S>> {
         let needs = Needs::of(&scene);
         let in_use = first(scheme, needs.are_implicit());
-        let errors = check_all(&scene, (in_use, needs), step);
+        let mut errors = check_all(&scene, (in_use, needs), begin.step());
+        if let Begin::WithTolerance(tolerance) = &begin {
+            errors.extend(check_tolerance(tolerance, (scheme, in_use)).err());
+        }
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
-        let run = Self::take(&mut scene, (scheme, in_use, needs), step);
+        let run = Self::take(&mut scene, (scheme, in_use, needs), begin);
         run.map_err(|errors| RefusedScene::new(scene, errors))
     }
 
@@ -169,8 +174,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn take(
         scene: &mut Scene<D, S>,
         (scheme, in_use, needs): (Scheme, Scheme, Needs),
-        step: S,
+        begin: Begin<S>,
     ) -> Result<Self, Vec<SceneError>> {
+        let step = begin.step();
         let ((mut layout, conduction), ends) = (scene.numbering(), scene.ends());
         let mut state = Box::new(initial_state(scene, &layout, Some(step))?);
         let elements = scene.elements.iter();
@@ -203,6 +209,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })?;
         let loads = mem::replace(&mut scene.loads, Loads::none());
         layout.forget_places();
+        let least = LeastScales::new(stepper.all(), (&masses, &conduction), &state);
         let mut run = Self {
             scene: scene.lineage.clone(),
             scheme,
@@ -216,6 +223,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conduction,
             has_loads: !loads.are_none(),
             loads,
+            least,
             stepper,
             effort: Effort::new(),
             control: None,
@@ -231,11 +239,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             wants_meters: AtomicBool::new(false),
             worst: None,
             corrections: Corrections::none(),
-            unresolved: Unresolved::none(),
             has_diverged: AtomicBool::new(false),
         };
-        if scheme == Scheme::Auto {
-            run.set_control(Some(run.new_control(Tolerance::default())));
+        match begin {
+            Begin::WithTolerance(tolerance) => {
+                run.find_first_step(&tolerance);
+                run.set_control(Some(run.new_control(tolerance)));
+            }
+            Begin::WithStep(_) if scheme == Scheme::Auto => {
+                run.set_control(Some(run.new_control(Tolerance::default())));
+            }
+            Begin::WithStep(_) => {}
         }
         Ok(run)
     }

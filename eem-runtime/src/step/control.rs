@@ -1,10 +1,16 @@
 //! Step control: tolerances, error estimates and the size of the next step.
 
 mod controller;
+mod least;
+mod norm;
 mod statistics;
 mod tolerance;
+mod worst;
 
 pub(crate) use controller::{AFTER_FAILURE, Accuracy, Controller, Estimate};
+pub(crate) use least::{LeastScales, Step};
+pub(crate) use norm::norm;
 pub use statistics::StepStatistics;
 pub use tolerance::Tolerance;
-pub(crate) use tolerance::{Kinds, Scales, norm};
+pub(crate) use tolerance::{Kinds, Scales};
+pub(crate) use worst::{Unknown, Worst};

@@ -200,10 +200,12 @@ pub enum StepFailure {
         value: f64,
     },
     /// Step control needs a smaller step than allowed.
-    #[error("steps of less than {smallest} s would be needed: {limit}{}", too_large.map_or_else(String::new, |error| format!("; no other scheme could be tried: {error}")), smallest = Readable(*smallest))]
+    #[error("{}: {limit}{}", needed(*is_set, *smallest), too_large.map_or_else(String::new, |error| format!("; no other scheme could be tried: {error}")))]
     TooSmall {
         /// The smallest step that is allowed, s.
         smallest: f64,
+        /// Whether [`limit_steps`](crate::Simulation::limit_steps) has set it; else it is 16 ε of the time or of the step.
+        is_set: bool,
         /// Why the last one was rejected.
         limit: StepLimit,
         /// Memory needed by another scheme that [`Scheme::Auto`](crate::Scheme::Auto) could not try.
@@ -299,15 +301,64 @@ impl core::fmt::Display for StepError {
 
 impl core::error::Error for StepError {}
 
+/// What a smaller step would be needed for.
+fn needed(is_set: bool, smallest: f64) -> String {
+    if is_set {
+        let smallest = Readable(smallest);
+        format!("steps of less than {smallest} s would be needed")
+    } else {
+        "no step is short enough".to_owned()
+    }
+}
+
+/// The unknown that limits a step.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct WorstError {
+    /// The unknown, such as `the momentum of node 2 along axis 0`.
+    pub of: String,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its error in the last step.
+    pub error: f64,
+    /// The error that the tolerance allows in that step.
+    pub allowed: f64,
+    /// The setting of a [`Tolerance`](crate::Tolerance) that allows more.
+    pub setting: &'static str,
+}
+
+impl core::fmt::Display for WorstError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self {
+            of,
+            unit,
+            error,
+            allowed,
+            setting,
+        } = self;
+        let unit = if unit.is_empty() {
+            String::new()
+        } else {
+            format!(" {unit}")
+        };
+        write!(
+            f,
+            "{of}: {error:.1e}{unit}, where {allowed:.1e}{unit} is allowed; a larger tolerance or {setting} allows more"
+        )
+    }
+}
+
 /// Why step control rejected a step.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepLimit {
     /// The step was not accurate.
-    #[error("the error of the last one was {error:.1e} of the tolerance")]
+    #[error("the error of the last one was {error:.1e} of the tolerance{}", worst.as_ref().map_or_else(String::new, |worst| format!(", most of it in {worst}")))]
     Error {
         /// In units of the tolerance.
         error: f64,
+        /// The unknown with the largest error.
+        worst: Option<Box<WorstError>>,
     },
     /// There was no new state, or the step did not prove its laws.
     #[error("{0}")]

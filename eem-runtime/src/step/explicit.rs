@@ -43,6 +43,7 @@ use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::scene::loads::Loads;
+use crate::step::control::LeastScales;
 use components::Components;
 use eem_material::number::scalar::Real;
 use memory::{Books, LoadSums};
@@ -101,6 +102,7 @@ pub(crate) struct ExplicitView<'a, S: Real, const D: usize> {
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) loads: &'a Loads<S, D>,
     pub(crate) masses: &'a Masses<S>,
+    pub(crate) least: &'a LeastScales<S>,
 }
 
 /// The scene for which an explicit scheme is built.

@@ -13,13 +13,11 @@ use crate::element::conjugates::element::{ElementScheme, Form, Placement, Start}
 use eem_material::free_energy::{Entry, FormRows, Material};
 use eem_material::number::scalar::Real;
 
-/// See the module; with one damping or none.
+/// See the module.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct EemTemperature<const DAMPINGS: usize>;
+pub(crate) struct EemTemperature;
 
-impl<S: Real, M: Material<S>, const DAMPINGS: usize> ElementScheme<S, M>
-    for EemTemperature<DAMPINGS>
-{
+impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     const EXACT: bool = true;
     const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = match M::ROWS {
         Some(rows) => Some(rows.temperature_form),
@@ -29,7 +27,6 @@ impl<S: Real, M: Material<S>, const DAMPINGS: usize> ElementScheme<S, M>
     type Old = M::TemperatureFormOld;
     type Memory = ();
     type AtPoint<T: Entry> = [T; 0];
-    type Damping<T: Entry> = [T; DAMPINGS];
 
     #[inline]
     fn placement(self) -> Placement {

@@ -6,7 +6,6 @@
 //! close      temperatures from entropies, and energies, of a state that closes a step     (closing)
 //! pull       forces on the nodes in such a state                                  (closing)
 //! finish     rates of the closed state, with which the next step begins           (closing)
-//! stiffness  stiffness and rates of elements, if a step was too long              (stiffness)
 //! ```
 
 mod closed;
@@ -14,7 +13,6 @@ mod closing;
 mod group;
 mod rates;
 pub(super) mod stage;
-mod stiffness;
 mod temperature;
 mod thermostat;
 pub(super) mod view;

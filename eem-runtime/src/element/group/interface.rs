@@ -4,9 +4,10 @@ use core::any::Any;
 use core::fmt::Debug;
 
 use super::explicit::stage::Stage;
-use super::explicit::view::{ClosingView, NodeStiffness};
+use super::explicit::view::ClosingView;
 #[cfg(feature = "gradients")]
 use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
+use super::stiffness::Stiffness;
 use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 #[cfg(feature = "gradients")]
@@ -42,6 +43,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// The contributions of the elements to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
+
+    /// Passes stiffness and rates of each point in a state to `see`.
+    fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(Stiffness<'_, S>));
 
     /// The handle of the element at `place`.
     fn handle(&self, place: usize) -> Element;
@@ -84,9 +88,6 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// The power that the dashpots of the element at `place` turn into heat, W, at these velocities of nodes, m/s.
     fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S;
-
-    /// The shortest relaxation time η/k of a dashpot in series of the element at `place`, s; infinite without one.
-    fn relaxation(&self, place: usize, state: &State<S>) -> S;
 
     /// Adds the parameters of all elements to a digest.
     fn digest(&self, digest: &mut Digest);
@@ -256,9 +257,6 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
 
     /// Writes the rates of the closed state, whose temperatures differ little from those of the last [`close`](Self::close).
     fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
-
-    /// Passes the stiffness of each element in a state to `see`.
-    fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>));
 }
 
 /// Elements of one model without a scheme, for any model.

@@ -188,7 +188,7 @@ impl<S: Real> Checkpoint<S> {
             let last_step = last.into_iter().flatten();
             let momentum = control.largest_momentum;
             entries.extend([
-                Entry::new("the smallest step", Positive, [control.smallest]).sealed(),
+                Entry::new("the smallest step", FiniteNotNegative, [control.smallest]).sealed(),
                 Entry::new("the largest step", Positive, [control.largest]).sealed(),
                 Entry::new("the largest momentum", FiniteNotNegative, [momentum]).sealed(),
                 Entry::new("the last step under control", FiniteNotNegative, last_step).sealed(),

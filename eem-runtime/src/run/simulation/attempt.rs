@@ -40,6 +40,7 @@ macro_rules! explicit_view {
             conduction: &$simulation.conduction,
             loads: &$simulation.loads,
             masses: &$simulation.masses,
+            least: &$simulation.least,
         }
     };
 }
@@ -73,7 +74,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             is_bound_wide: outcome.is_bound_wide,
             production: outcome.production,
             least_production: outcome.least_production,
-            unresolved: outcome.unresolved,
             correction: outcome.correction.abs(),
             error,
         };

@@ -8,12 +8,14 @@
 use core::any::Any;
 
 use super::event::Event;
+use super::start::Begin;
 use super::{Simulation, StepResult};
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::refused::RefusedScene;
+use crate::step::control::Tolerance;
 use crate::step::error::StepError;
 use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
@@ -54,7 +56,43 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, RefusedScene<D, S>> {
-        (Functions::get().new)(scene, scheme, step)
+        (Functions::get().new)(scene, scheme, Begin::WithStep(step))
+    }
+
+    /// Checks a scene and prepares it for steps that a tolerance [controls](Self::control_steps). The first step follows from
+    /// the scene: it is `r^(1/p)/ω` with the relative tolerance r, the order p of the scheme and the rate ω of the fastest
+    /// vibration, damper or path of heat; `r^(1/p)` s where nothing has a rate. If it is too long it is repeated, and if it is
+    /// too short the second one may be 10⁴ times as long.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new) and [`control_steps`](Self::control_steps), together with the scene.
+    ///
+    /// ```
+    /// use eem::Tolerance;
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// // At rest, pushed by 5 t² N.
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [0.0])];
+    /// let mass = ends[1];
+    /// scene.spring(Hooke { stiffness: 100.0, natural_length: 1.0 }, ends);
+    /// scene.force(mass, |t| [5.0 * t * t]);
+    /// let mut run = Simulation::with_tolerance(scene, Scheme::EemEntropy4, Tolerance::new(1e-6))?;
+    /// run.run_until(2.0)?;
+    ///
+    /// // x = 5 (t² − 2 (1 − cos ωt)/ω²)/k
+    /// let exact = 1.0 + 0.05 * (4.0 - 0.02 * (1.0 - 20.0_f64.cos()));
+    /// assert!((run.position(mass)?[0] - exact).abs() < 1e-6);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_tolerance(
+        scene: Scene<D, S>,
+        scheme: Scheme,
+        tolerance: Tolerance<S>,
+    ) -> Result<Self, RefusedScene<D, S>> {
+        (Functions::get().new)(scene, scheme, Begin::WithTolerance(tolerance))
     }
 
     /// Makes one step of the present size, or of the size that [step control](Self::control_steps) chooses.
@@ -85,17 +123,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     fn advance_here(&mut self, aim: Aim<S>) -> StepResult<S> {
         self.begin_meters();
-        let made = match aim {
+        match aim {
             Aim::Towards(end) => self.step_towards(end, true),
             Aim::InSchemeTowards(end) => self.step_towards(end, false),
             Aim::Again(size) => self.step_again(size),
-        };
-        if let Ok(report) = &made
-            && report.unresolved > 0
-        {
-            self.note_unresolved(report);
         }
-        made
     }
 }
 
@@ -108,7 +140,7 @@ type NewResult<const D: usize, S> = Result<Simulation<D, S>, RefusedScene<D, S>>
 
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize, S: Real> {
-    new: fn(Scene<D, S>, Scheme, S) -> NewResult<D, S>,
+    new: fn(Scene<D, S>, Scheme, Begin<S>) -> NewResult<D, S>,
     advance: fn(&mut Simulation<D, S>, Aim<S>) -> StepResult<S>,
     pub(super) end_at_event: EndAtEvent<D, S>,
     pub(super) undo: fn(&mut Simulation<D, S>),

@@ -4,13 +4,13 @@ use core::mem;
 
 use super::compiled::Functions;
 use super::guard::Guard;
-use super::memory::{Control, History, SMALLEST, Snapshot};
+use super::memory::{Control, History, Snapshot};
 use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
 use crate::step::control::{AFTER_FAILURE, Controller, StepStatistics, Tolerance, norm};
-use crate::step::error::{StepFailure, StepLimit};
+use crate::step::error::{StepError, StepFailure, StepLimit};
 use crate::step::explicit::Demand;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::{Discord, Mask, Real};
@@ -61,7 +61,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             controller: Controller::new(),
             statistics: StepStatistics::default(),
             largest_momentum: S::zero(),
-            smallest: S::from_f64(SMALLEST) * S::EPSILON * self.step,
+            smallest: S::zero(),
             largest: S::MAX,
         }
     }
@@ -75,12 +75,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(memory) = memory else {
             return Ok(());
         };
-        let checked = if scheme.may_change_steps() {
-            memory.tolerance.check(in_use.accuracy())
-        } else {
-            let scheme = scheme.name();
-            Err(SceneError::FixedSteps { scheme })
-        };
+        let checked = check_tolerance(&memory.tolerance, (scheme, in_use));
         checked.inspect_err(|_| self.diverge())
     }
 
@@ -122,9 +117,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Some(self.control.as_ref()?.memory.statistics)
     }
 
-    /// Limits the size of controlled steps, s: smallest and largest. By default the smallest is 16 ε times the
-    /// first size, and there is no largest. The smallest is never below 16 ε times the time. Where nothing moves,
-    /// steps grow without limit: set the largest step if a load sets in later.
+    /// Limits the size of controlled steps, s: smallest and largest. By default there are none; but no step is below 16 ε
+    /// times the time or the last step. Where nothing moves, steps grow without limit: set the largest step if a load sets
+    /// in later.
     ///
     /// # Errors
     ///
@@ -197,6 +192,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// An accurate step of the scheme in use, not beyond `end`.
     pub(super) fn find_accurate_step(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
+        let usual = self.step;
         loop {
             let memory = &control.memory;
             self.step = self.step.maximum(memory.smallest).minimum(memory.largest);
@@ -220,7 +216,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     control.memory.statistics.rejected_by_error += 1;
                     let next = size * control.accuracy.left_after(error);
                     let error = error.to_f64();
-                    (next, StepLimit::Error { error })
+                    let worst = None;
+                    (next, StepLimit::Error { error, worst })
                 }
                 Err(error) => {
                     let statistics = &mut control.memory.statistics;
@@ -231,18 +228,34 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     (next, StepLimit::Failure(Box::new(error.failure)))
                 }
             };
-            let smallest = control.smallest(self.time());
+            let smallest = control.smallest(self.time(), usual);
             // Also if `next` is not a number.
             if !smallest.at_most(next).all() {
-                let failure = StepFailure::TooSmall {
-                    smallest: smallest.to_f64(),
-                    limit,
-                    too_large: control.memory.statistics.too_large,
-                };
-                return Err(self.failed(full, failure));
+                return Err(self.too_small(control, [usual, size, smallest], limit));
             }
             self.step = next;
         }
+    }
+
+    /// The error of a step of the usual size that would have to be smaller than allowed: the last attempt had this size and
+    /// this limit.
+    #[cold]
+    fn too_small(
+        &mut self,
+        control: &mut Control<S>,
+        [usual, size, smallest]: [S; 3],
+        mut limit: StepLimit,
+    ) -> StepError {
+        if let StepLimit::Error { worst, .. } = &mut limit {
+            *worst = self.worst_error(control, size).map(Box::new);
+        }
+        let failure = StepFailure::TooSmall {
+            smallest: smallest.to_f64(),
+            is_set: smallest.at_most(control.memory.smallest).all(),
+            limit,
+            too_large: control.memory.statistics.too_large,
+        };
+        self.failed(usual, failure)
     }
 
     /// Counts an accepted step.
@@ -331,4 +344,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         (self.worst, self.corrections) = (snapshot.worst, snapshot.corrections);
         self.has_stepped = false;
     }
+}
+
+/// An error unless steps of a scheme, and of the one that it uses first, can be controlled with a tolerance.
+pub(super) fn check_tolerance<S: Real>(
+    tolerance: &Tolerance<S>,
+    (scheme, in_use): (Scheme, Scheme),
+) -> Result<(), SceneError> {
+    if scheme.may_change_steps() {
+        return tolerance.check(in_use.accuracy());
+    }
+    let scheme = scheme.name();
+    Err(SceneError::FixedSteps { scheme })
 }

@@ -44,6 +44,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(halves) = &mut control.halves else {
             return self.try_step(size, Demand::Within(memory.tolerance));
         };
+        let mut report = self.step_twice(halves, size)?;
+        let ends = [&halves.before, &*self.state];
+        let accurate = (accuracy, size);
+        let least = (memory.largest_momentum, &self.least);
+        let scales = Scales::new(&memory.tolerance, accurate, ends, least);
+        let share: S = accuracy.share_of_difference();
+        report.error = share * scales.error::<D>([&halves.whole, &self.state], &halves.kinds);
+        if accuracy.accepts(report.error) {
+            return Ok(Tried::Made(report));
+        }
+        self.return_to(halves);
+        Ok(Tried::Rejected(report.error))
+    }
+
+    /// A whole step, stored in `halves`, and one in two halves. If one fails, the state is that before both.
+    pub(super) fn step_twice(&mut self, halves: &mut Halves<S>, size: S) -> StepResult<S> {
         halves.before.copy_all_from(&self.state);
         self.stepper.save_past_to(&mut halves.past);
         let whole = self.step_by(size)?;
@@ -51,22 +67,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.return_to(halves);
         let mut report = self.step_in_halves(halves, size)?;
         report.iterations += whole.iterations;
-        let ends = [&halves.before, &*self.state];
-        let accurate = (accuracy, size);
-        let scales = Scales::new(&memory.tolerance, accurate, ends, memory.largest_momentum);
-        // Where decays are not resolved, the errors of a damped scheme are of first order.
-        let order = if self.in_use.is_damped() {
-            1.0
-        } else {
-            accuracy.order()
-        };
-        let share = S::from_f64(order.exp2() - 1.0).recip();
-        report.error = share * scales.error([&halves.whole, &self.state], &halves.kinds);
-        if accuracy.accepts(report.error) {
-            return Ok(Tried::Made(report));
-        }
-        self.return_to(halves);
-        Ok(Tried::Rejected(report.error))
+        Ok(report)
     }
 
     /// Two steps of half a size. If one fails, the state is that before both.

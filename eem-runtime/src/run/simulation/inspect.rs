@@ -357,6 +357,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         own.maximum(before).to_f64()
     }
 
+    /// |q|₂ of all nodes at the start, m, and the largest `m ℓ ω`, kg m/s: what errors of nothing are compared with.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn least_sizes(&self) -> [f64; 2] {
+        self.least.sizes().map(Real::to_f64)
+    }
+
     /// How often the forces of all elements have been evaluated since the simulation was made, once for each
     /// stage of a scheme with several.
     ///

@@ -13,7 +13,7 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
 use eem_material::number::scalar::Real;
 
-/// The smallest step that is tried, in units in the last place of the time, and of the first size.
+/// The smallest step that is tried, in units in the last place of the time, and of the usual step.
 pub(super) const SMALLEST: f64 = 16.0;
 
 /// The history of steps that decides the size and the scheme of the next one.
@@ -42,10 +42,11 @@ pub(super) struct Control<S> {
 }
 
 impl<S: Real> Control<S> {
-    /// The smallest step at a time, s.
-    pub(super) fn smallest(&self, time: S) -> S {
-        let by_time = S::from_f64(SMALLEST) * S::EPSILON * time.abs();
-        self.memory.smallest.maximum(by_time)
+    /// The smallest step at a time after one of the usual size, s.
+    pub(super) fn smallest(&self, time: S, usual: S) -> S {
+        let rounding = S::from_f64(SMALLEST) * S::EPSILON;
+        let least = rounding * time.abs().maximum(usual);
+        self.memory.smallest.maximum(least)
     }
 }
 
@@ -82,25 +83,6 @@ impl Automatic {
             evaluations: 0,
             is_motion_first: false,
             memory_limit,
-        }
-    }
-}
-
-/// The steps so far that did not resolve a relaxation.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Unresolved<S> {
-    pub(super) steps: u64,
-    /// The largest of them, s, and the scheme of the last one.
-    pub(super) largest: S,
-    pub(super) scheme: Scheme,
-}
-
-impl<S: Real> Unresolved<S> {
-    pub(super) fn none() -> Self {
-        Self {
-            steps: 0,
-            largest: S::zero(),
-            scheme: Scheme::Auto,
         }
     }
 }

@@ -2,7 +2,6 @@
 
 use super::Simulation;
 use super::compiled::Functions;
-use super::memory::Unresolved;
 use crate::element::state::State;
 use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, SavedEnergies};
 use crate::step::outcome::Corrections;
@@ -124,7 +123,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.worst = None;
         self.corrections = Corrections::none();
-        self.unresolved = Unresolved::none();
         // The rates and sums of the explicit scheme belong to another state if the state has been edited.
         let explicit = checkpoint.explicit.as_ref();
         let explicit = explicit.filter(|saved| saved.state == self.state.digest());

@@ -4,6 +4,8 @@ use core::array;
 
 use nalgebra::SVector;
 
+use super::Simulation;
+use super::memory::SMALLEST;
 use super::stepper::Parts;
 use crate::element::group::Elements;
 use crate::element::layout::Layout;
@@ -12,11 +14,31 @@ use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use crate::scene::loads::{Course, OfTime};
+use crate::scene::loads::{Course, Loads, OfTime};
 use crate::scene::solid_error::SolidError;
+use crate::step::control::Tolerance;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
 use eem_material::number::scalar::Real;
+
+/// What a run begins with.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Begin<S> {
+    /// A step, s: constant, or the first one that step control tries.
+    WithStep(S),
+    /// A tolerance, from which the first step follows.
+    WithTolerance(Tolerance<S>),
+}
+
+impl<S: Real> Begin<S> {
+    /// The step, s; 1 s before it is found.
+    pub(super) fn step(&self) -> S {
+        match self {
+            Self::WithStep(step) => *step,
+            Self::WithTolerance(_) => S::one(),
+        }
+    }
+}
 
 /// The initial state, without entropies: with velocities if the first step, s, is given, else at rest. Errors for motions
 /// without an initial velocity.
@@ -48,20 +70,8 @@ pub(crate) fn initial_state<const D: usize, S: Real>(
         }
     }
     if let Some(step) = step.filter(|_| is_coupled) {
-        for (node, motion) in &scene.loads.motions {
-            let Course::Function(motion) = motion else {
-                continue;
-            };
-            for (axis, speed) in first_speed(motion, [scene.start, step])
-                .into_iter()
-                .enumerate()
-            {
-                if !speed.is_finite() {
-                    errors.push(SolidError::AnchorSpeed { node: *node, axis }.into());
-                }
-                velocities[node.index * D + axis] = speed;
-            }
-        }
+        let span = [scene.start, step];
+        errors.extend(find_speeds(&scene.loads, span, &mut velocities));
     }
     if !errors.is_empty() {
         return Err(errors);
@@ -94,6 +104,47 @@ pub(crate) fn initial_state<const D: usize, S: Real>(
         dissipated: zero,
         meters: Meters::default(),
     })
+}
+
+/// Writes the initial velocities of all motions; the errors of those that have none.
+fn find_speeds<const D: usize, S: Real>(
+    loads: &Loads<S, D>,
+    span: [S; 2],
+    velocities: &mut [S],
+) -> Vec<SceneError> {
+    let mut errors = Vec::new();
+    for (node, motion) in &loads.motions {
+        let Course::Function(motion) = motion else {
+            continue;
+        };
+        for (axis, speed) in first_speed(motion, span).into_iter().enumerate() {
+            if !speed.is_finite() {
+                errors.push(SolidError::AnchorSpeed { node: *node, axis }.into());
+            }
+            velocities[node.index * D + axis] = speed;
+        }
+    }
+    errors
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Finds the first step for a tolerance, and the velocities of moved anchors within it.
+    pub(super) fn find_first_step(&mut self, tolerance: &Tolerance<S>) {
+        let step = self
+            .least
+            .first_step(tolerance.relative, self.in_use.accuracy());
+        // Longer than the rounding of the time.
+        let least = S::from_f64(SMALLEST) * S::EPSILON * self.start.abs();
+        self.step = step.maximum(least);
+        let mut velocities = self.state.velocities.values().to_vec();
+        // Those of a longer step have been found.
+        let span = [self.start, self.step];
+        if self.masses.are_coupled() && find_speeds(&self.loads, span, &mut velocities).is_empty() {
+            let all = &mut self.state.velocities;
+            all.write(|all| all.copy_from_slice(&velocities));
+            self.state.follow_velocities(D, &self.masses);
+        }
+    }
 }
 
 /// The initial velocity of a motion, from its positions within the first step, m/s; not a number if it has none.

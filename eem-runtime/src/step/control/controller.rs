@@ -1,5 +1,6 @@
 //! The error of a step as a function of its size, and the size of the next step from the errors of the last ones.
 
+use crate::step::control::norm::ROUNDINGS;
 use eem_material::number::scalar::{Mask, Real};
 
 /// The error that a step aims at, in units of the tolerance.
@@ -30,9 +31,6 @@ pub(crate) enum Estimate {
     Embedded,
 }
 
-/// Errors of fewer roundings cannot be distinguished from rounding.
-const ROUNDINGS: f64 = 16.0;
-
 impl Accuracy {
     pub(crate) fn order(self) -> f64 {
         f64::from(self.order)
@@ -45,6 +43,11 @@ impl Accuracy {
             Estimate::Embedded => Estimate::Embedded,
         };
         Self { estimate, ..self }
+    }
+
+    /// The error of two halves as a share of their difference from the whole step, `1/(2ᵖ − 1)`.
+    pub(crate) fn share_of_difference<S: Real>(self) -> S {
+        S::from_f64(self.order().exp2() - 1.0).recip()
     }
 
     /// Whether errors are found from the step in two halves.
@@ -119,6 +122,9 @@ const LEAST_REMEMBERED: f64 = 1e-4;
 /// The range of the change of step size with an embedded estimate.
 const CHANGES: [f64; 2] = [1.0 / 3.0, 6.0];
 
+/// The largest growth after the first step in two halves, whose size is a guess (as in CVODE).
+const FIRST_GROWTH: f64 = 1e4;
+
 /// The controller of the step size, by the errors of the last two steps.
 ///
 /// For errors from two halves of a step it is the digital filter H211b, with the order k of the error and `b = 4`; its
@@ -128,6 +134,9 @@ const CHANGES: [f64; 2] = [1.0 / 3.0, 6.0];
 /// h₊ = h (0.8/e_n)^(1/bk) (0.8/e_{n−1})^(1/bk) (h_n/h_{n−1})^(−1/b)
 /// h₊ = h 0.8 e_n^(−(1/p − 0.03)) e_{n−1}^0.04
 /// ```
+///
+/// The size of the first step is a guess: if it has an error, the next one may be up to 10⁴ times as long, `h (0.8/e)^(1/k)`. The PI
+/// controller grows sixfold per step, the filter 2.6-fold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -146,14 +155,26 @@ impl<S: Real> Controller<S> {
 
     /// The size of the next step after one of this size and with this error, in units of the tolerance.
     pub(crate) fn next(&mut self, size: S, error: S, accuracy: Accuracy) -> S {
-        let last = self.last.replace([error, size]).unwrap_or([error, size]);
+        let last = self.last.replace([error, size]);
         let order = accuracy.order_of_estimate();
+        let is_known = S::zero().less(error).all();
+        if last.is_none() && is_known && accuracy.has_halves() {
+            return size * first_growth(error, order);
+        }
+        let last = last.unwrap_or([error, size]);
         let factor = match accuracy.estimate {
             Estimate::Halves | Estimate::HalvesOverTime => filtered([size, error], last, order),
             Estimate::Embedded => proportional(error, last, order),
         };
         size * factor
     }
+}
+
+/// The factor on the size of the first step.
+fn first_growth<S: Real>(error: S, order: f64) -> S {
+    let error = error.maximum(S::from_f64(LEAST_ERROR));
+    let factor = (S::from_f64(AIM) / error).powf(S::from_f64(1.0 / order));
+    factor.minimum(S::from_f64(FIRST_GROWTH))
 }
 
 /// The factor on the step size by the filter.

@@ -3,6 +3,9 @@
 use crate::element::state::State;
 use crate::scene::error::SceneError;
 use crate::step::control::controller::Accuracy;
+use crate::step::control::least::{LeastScales, Step};
+use crate::step::control::norm::{ROUNDINGS, norm};
+use crate::step::control::worst::{Unknown, Worst};
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// The ε that separates double and single precision.
@@ -18,6 +21,11 @@ const SINGLE: f64 = 1e-12;
 /// ```
 ///
 /// Viscous strains of solids are dimensionless and compared with `r + a_q`. Momenta of prescribed nodes are ignored.
+///
+/// From rest |p|₂ is no scale: at each mass it counts as at least `m r² ℓ ω`, the momentum of a vibration whose amplitude is r²
+/// times the shortest length ℓ there; and |q|₂ as at least r times that of the start. While |p|₂ grows beyond all that it has been,
+/// the schemes with two halves take what it becomes in a period, at most 8 times as much. Errors below `16 ε h Σ k λ`, the
+/// rounding of the impulse of a step, are none.
 ///
 /// A `Study` measures errors in the same way, in units of `|q|₂`, the largest `|p|₂` and θ.
 ///
@@ -171,88 +179,133 @@ pub(crate) struct Kinds {
 
 /// The scales of the errors of a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scales<S> {
-    /// Of a coordinate, m, of a momentum, kg m/s, and of a viscous strain.
+pub(crate) struct Scales<'a, S> {
+    /// Of a coordinate, m, and of a viscous strain.
     position: S,
-    momentum: S,
     strain: S,
+    /// Relative and absolute tolerance of momenta, their size, and the least scales.
+    momentum: [S; 2],
+    momenta: S,
+    least: &'a LeastScales<S>,
+    step: Step<S>,
     /// The relative and the absolute tolerance of temperatures.
     temperature: [S; 2],
 }
 
-impl<S: Real> Scales<S> {
+impl<'a, S: Real> Scales<'a, S> {
     /// For a step of this size between two states, given the largest momentum so far, kg m/s.
     pub(crate) fn new(
         tolerance: &Tolerance<S>,
         (accuracy, step): (Accuracy, S),
         [old, new]: [&State<S>; 2],
-        largest_momentum: S,
+        (largest_momentum, least): (S, &'a LeastScales<S>),
     ) -> Self {
         let part = tolerance.over.map_or(S::one(), |time| step / time);
         let relative = accuracy.of_step(tolerance.relative, part);
+        let relative = relative.maximum(S::from_f64(ROUNDINGS) * S::EPSILON);
         let share = relative / tolerance.relative;
         let of = |size: S, absolute: S| relative * size + share * absolute;
         let size = |of: &dyn Fn(&State<S>) -> S| of(old).maximum(of(new));
         let positions = size(&|state| norm(state.positions.values().iter().copied()));
-        let momenta =
-            size(&|state| norm(state.momenta.values().iter().copied())).maximum(largest_momentum);
+        let [start, end] = [old, new].map(|state| norm(state.momenta.values().iter().copied()));
+        let before = start.maximum(largest_momentum);
+        let momenta = end.maximum(before);
+        let grows = before.less(end);
+        let growth = S::select(grows, (end - start) / (step * end), S::zero());
         Self {
-            position: of(positions, tolerance.position),
-            momentum: of(momenta, tolerance.momentum),
+            position: of(
+                positions.maximum(least.position(tolerance.relative)),
+                tolerance.position,
+            ),
             strain: of(S::one(), tolerance.position),
+            momentum: [relative, share * tolerance.momentum],
+            momenta,
+            least,
+            step: Step {
+                size: step,
+                relative: tolerance.relative,
+                own: relative,
+                growth,
+            },
             temperature: [relative, share * tolerance.temperature],
         }
     }
 
     /// The largest difference between two states, in units of the tolerance.
-    pub(crate) fn error(&self, [a, b]: [&State<S>; 2], kinds: &Kinds) -> S {
+    pub(crate) fn error<const D: usize>(&self, states: [&State<S>; 2], kinds: &Kinds) -> S {
         let mut largest = S::zero();
-        let mut see = |values: [&[S]; 2], scale: &dyn Fn(usize, S) -> S| {
-            for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
-                let difference = (a - b).abs();
-                let error = difference / scale(index, b);
-                // No difference is no error, even at scale zero.
-                let is_equal = difference.equal(S::zero());
-                largest = largest.maximum(S::select(is_equal, S::zero(), error));
-            }
-        };
-        see([a.positions.values(), b.positions.values()], &|_, _| {
-            self.position
-        });
-        see([a.momenta.values(), b.momenta.values()], &|index, _| {
-            if kinds.are_given.get(index) == Some(&true) {
-                S::MAX
-            } else {
-                self.momentum
-            }
-        });
-        see([a.viscous.values(), b.viscous.values()], &|index, _| {
-            if kinds.are_strains[index] {
-                self.strain
-            } else {
-                self.position
-            }
-        });
-        let [relative, absolute] = self.temperature;
-        see([&a.temperatures, &b.temperatures], &|_, theta| {
-            relative * theta + absolute
+        self.each_difference::<D>(states, kinds, |_, difference, scale| {
+            let error = difference / scale;
+            // No difference is no error, even at scale zero.
+            let is_equal = difference.equal(S::zero());
+            largest = largest.maximum(S::select(is_equal, S::zero(), error));
         });
         largest
     }
-}
 
-/// `|x|₂`, scaled where squares would under- or overflow.
-pub(crate) fn norm<S: Real>(x: impl Iterator<Item = S> + Clone) -> S {
-    let sum = x.clone().fold(S::zero(), |sum, x| sum + x * x);
-    let is_normal = S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX);
-    if is_normal.all() {
-        return sum.sqrt();
+    /// The unknown with this difference, with the difference and what the tolerance allows.
+    #[cold]
+    pub(crate) fn worst<const D: usize>(
+        &self,
+        states: [&State<S>; 2],
+        kinds: &Kinds,
+    ) -> Option<(Unknown, [S; 2])> {
+        let mut worst = Worst::none();
+        self.each_difference::<D>(states, kinds, |unknown, difference, scale| {
+            worst.see(unknown, [difference, scale]);
+        });
+        worst.found
     }
-    let most = x.clone().fold(S::zero(), |most, x| most.maximum(x.abs()));
-    let scaled = x.map(|x| x / most);
-    let scaled = most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt();
-    let has_none = most.equal(S::zero());
-    S::select(is_normal, sum.sqrt(), S::select(has_none, most, scaled))
+
+    #[inline]
+    fn each_difference<const D: usize>(
+        &self,
+        [a, b]: [&State<S>; 2],
+        kinds: &Kinds,
+        mut see: impl FnMut(Unknown, S, S),
+    ) {
+        let mut each =
+            |values: [&[S]; 2], unknown: fn(usize) -> Unknown, scale: &dyn Fn(usize, S) -> S| {
+                for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
+                    see(unknown(index), (a - b).abs(), scale(index, b));
+                }
+            };
+        each(
+            [a.positions.values(), b.positions.values()],
+            Unknown::Position,
+            &|_, _| self.position,
+        );
+        let [relative, absolute] = self.momentum;
+        each(
+            [a.momenta.values(), b.momenta.values()],
+            Unknown::Momentum,
+            &|index, _| {
+                if kinds.are_given.get(index) == Some(&true) {
+                    S::MAX
+                } else {
+                    let momentum = self.least.momentum(index / D, self.momenta, self.step);
+                    relative * momentum + absolute
+                }
+            },
+        );
+        each(
+            [a.viscous.values(), b.viscous.values()],
+            Unknown::Viscous,
+            &|index, _| {
+                if kinds.are_strains[index] {
+                    self.strain
+                } else {
+                    self.position
+                }
+            },
+        );
+        let [relative, absolute] = self.temperature;
+        each(
+            [&a.temperatures, &b.temperatures],
+            Unknown::Temperature,
+            &|_, theta| relative * theta + absolute,
+        );
+    }
 }
 
 #[cfg(test)]

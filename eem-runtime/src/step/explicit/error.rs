@@ -4,7 +4,8 @@ use super::demand::Scales;
 use super::stages::errors;
 use super::vector::dot;
 use super::{Explicit, ExplicitView};
-use crate::step::control::{Tolerance, norm};
+use crate::element::state::State;
+use crate::step::control::{Step, Tolerance, Unknown, Worst, norm};
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::{Mask, Real, Scalar};
 
@@ -73,12 +74,51 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         scales: Scales<S>,
     ) -> S {
         let mut sums = [S::zero(); 2];
-        let mut see = |errors: [S; 2], per_scale: S| {
+        self.each_error(view, tolerance, scales, |_, errors, per_scale| {
             for (sum, error) in sums.iter_mut().zip(errors) {
                 let error = view.step * error * per_scale;
                 *sum += error * error;
             }
-        };
+        });
+        let [five, three] = sums;
+        if five.at_most(S::zero()).all() {
+            return S::zero();
+        }
+        five / (five + S::from_f64(0.01) * three).sqrt()
+    }
+
+    /// The unknown with the largest error in a step, with its error and what the tolerance allows.
+    #[cold]
+    pub(crate) fn worst_error(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        tolerance: &Tolerance<S>,
+        next: &mut State<S>,
+    ) -> Result<Option<(Unknown, [S; 2])>, StepFailure> {
+        let (time, was_ready) = (view.state.time.value + view.step, self.is_ready);
+        let tried = self.begin(view, next).and_then(|()| {
+            self.go_through_stages(view)?;
+            self.scales(time)
+        });
+        // As before the attempt.
+        self.is_ready = was_ready;
+        let scales = tried?;
+        let mut worst = Worst::none();
+        self.each_error(view, tolerance, scales, |unknown, [fifth, _], per_scale| {
+            worst.see(unknown, [(view.step * fifth).abs(), per_scale.recip()]);
+        });
+        Ok(worst.found)
+    }
+
+    /// Calls `see` with the errors of fifth and third order of every unknown, per time, and the reciprocal of its scale.
+    #[inline]
+    fn each_error(
+        &self,
+        view: &ExplicitView<'_, S, D>,
+        tolerance: &Tolerance<S>,
+        scales: Scales<S>,
+        mut see: impl FnMut(Unknown, [S; 2], S),
+    ) {
         let per_scale = |size: S, absolute: S| {
             let scale = tolerance.relative * size + absolute;
             // Where the scale is zero nothing moves.
@@ -87,13 +127,32 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         };
         let masses = &self.stage.places[..self.components.masses];
         let of_all = norm(view.state.positions.values().iter().copied());
-        let position = per_scale(scales.position.maximum(of_all), tolerance.position);
+        let least = view.least;
+        let positions = scales.position.maximum(of_all);
+        let positions = positions.maximum(least.position(tolerance.relative));
+        let position = per_scale(positions, tolerance.position);
+        let step = Step {
+            size: view.step,
+            relative: tolerance.relative,
+            own: tolerance.relative,
+            // Its estimate is careful enough.
+            growth: S::zero(),
+        };
         let momentum = per_scale(scales.momentum, tolerance.momentum);
-        for place in masses {
+        let are_alike = least.are_below(scales.momentum, step);
+        for (place, &node) in masses.iter().zip(&self.components.nodes) {
             let [fifth, third] = errors(&place.past);
+            let momentum = if are_alike {
+                momentum
+            } else {
+                let own = least.momentum(node as usize, scales.momentum, step);
+                per_scale(own, tolerance.momentum)
+            };
+            let kinds = [Unknown::Position, Unknown::Momentum];
             for (part, per_scale) in [position, momentum].into_iter().enumerate() {
                 for axis in 0..D {
-                    see([fifth[part][axis], third[part][axis]], per_scale);
+                    let unknown = kinds[part](node as usize * D + axis);
+                    see(unknown, [fifth[part][axis], third[part][axis]], per_scale);
                 }
             }
         }
@@ -101,18 +160,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for (pair, past) in self.stage.inner_past.iter().enumerate() {
             let [[fifth], [third]] = errors(past);
             for at in 0..2 {
-                let per_scale = if 2 * pair + at < first {
-                    position
+                let index = 2 * pair + at;
+                let (unknown, per_scale) = if index < first {
+                    (Unknown::Viscous(index), position)
                 } else {
-                    per_scale(past.start[0][at], tolerance.temperature)
+                    let scale = per_scale(past.start[0][at], tolerance.temperature);
+                    (Unknown::Temperature(index - first), scale)
                 };
-                see([fifth[at], third[at]], per_scale);
+                see(unknown, [fifth[at], third[at]], per_scale);
             }
         }
-        let [five, three] = sums;
-        if five.at_most(S::zero()).all() {
-            return S::zero();
-        }
-        five / (five + S::from_f64(0.01) * three).sqrt()
     }
 }

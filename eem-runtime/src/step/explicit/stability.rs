@@ -98,8 +98,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         };
         let mut relaxation = S::zero();
         for group in &self.groups {
-            group.stiffness(view.state, &mut |element| {
-                let [a, b] = element.nodes;
+            group.elements().stiffness(view.state, &mut |element| {
+                let [a, b] = element.ends();
                 let [by_a, by_b] = [a, b].map(per_root);
                 let both = by_a + by_b;
                 squares[a] += element.stiffness * by_a * both;
@@ -148,7 +148,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let slot = elements.position(|&own| own as usize == element.index())?;
         let mut heat_capacity = S::zero();
         for group in &self.groups {
-            group.stiffness(view.state, &mut |found| {
+            group.elements().stiffness(view.state, &mut |found| {
                 if let Some((own, capacity)) = found.capacity
                     && own == slot
                 {

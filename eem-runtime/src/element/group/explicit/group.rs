@@ -5,13 +5,12 @@ use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::stage::Stage;
-use crate::element::group::explicit::view::{ClosingView, NodeStiffness};
+use crate::element::group::explicit::view::ClosingView;
 use crate::element::group::interface::{Elements, ExplicitGroup, Loose};
 use crate::element::group::loose::LooseElements;
 use crate::element::group::point::Point;
 use crate::element::group::view::Placed;
 use crate::element::kinematics::{Kinematics, QuadraticStrain};
-use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
@@ -89,9 +88,5 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Explicit
 
     fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
         self.finish_all(stage)
-    }
-
-    fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>)) {
-        self.stiffness_of_all(state, see);
     }
 }

@@ -78,15 +78,3 @@ impl<S: Real> ComponentEnergy<S> {
         *self = cleared;
     }
 }
-
-/// The stiffness and the rates of an element, which limit an explicit step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct NodeStiffness<S> {
-    pub(crate) nodes: [usize; 2],
-    /// The stiffness between them at constant entropy and viscous stretch, N/m.
-    pub(crate) stiffness: S,
-    /// The thermal slot and its heat capacity, J/K.
-    pub(crate) capacity: Option<(usize, S)>,
-    /// The largest rate of relaxation of a dashpot, 1/s.
-    pub(crate) relaxation: S,
-}

@@ -1,0 +1,82 @@
+//! Stiffness, damping, heat capacity and relaxation rates of a point: what limits an explicit step, and from what the scales
+//! of small errors follow.
+
+use super::arms::measures_in;
+use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::layout::Slots;
+use eem_material::free_energy::FreeEnergy;
+use eem_material::number::scalar::Real;
+
+/// Stiffness and rates of a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stiffness<'a, S> {
+    /// The nodes of its element.
+    pub(crate) nodes: &'a [u32],
+    /// The stiffness between them at constant entropy and viscous stretch, N/m.
+    pub(crate) stiffness: S,
+    /// The viscosity of its dashpots in parallel, N s/m.
+    pub(crate) damping: S,
+    /// The displacement that changes its gradients by their own size: the length of a spring, m.
+    pub(crate) length: S,
+    /// The terms of its force, `|∂²ψ/∂π²||π|`: times ε, their rounding, N.
+    pub(crate) force: S,
+    /// The thermal slot and its heat capacity, J/K.
+    pub(crate) capacity: Option<(usize, S)>,
+    /// The largest rate of relaxation of a dashpot, 1/s.
+    pub(crate) relaxation: S,
+}
+
+impl<S> Stiffness<'_, S> {
+    /// The first and the last node, both of a spring.
+    pub(crate) fn ends(&self) -> [usize; 2] {
+        [self.nodes[0], self.nodes[self.nodes.len() - 1]].map(|node| node as usize)
+    }
+}
+
+/// The larger of `Σ |∂π_a/∂r| |∂²e/∂π_a∂π_b| |∂π_b/∂r|`, along the measures at constant entropy, and `Σ |f_a||∂π_a/∂r|/l`, across
+/// them; `∂²e/∂π_a∂π_b = ψ_ab − ψ_aθ ψ_bθ/ψ_θθ`.
+pub(super) fn stiffness_of<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize>(
+    (model, kinematics, nodes): (&M, &K, &'a [u32]),
+    (r, x): (&Arms<K, S, D>, &M::Variables),
+    slots: Slots,
+) -> Stiffness<'a, S> {
+    let measures = measures_in::<K, S, D>(x);
+    let length = kinematics.length(&measures);
+    let slopes = kinematics.slopes(r, &measures);
+    let sizes = kinematics.sizes(r, &measures);
+    let (gradient, hessian) = model.hessian(x);
+    let zero = S::zero();
+    let last = M::MEASURES + M::DASHPOTS;
+    let (mut along, mut across, mut force) = (zero, zero, zero);
+    for a in 0..M::MEASURES {
+        for b in 0..M::MEASURES {
+            let mut entry = hessian[a][b];
+            force += slopes[a] * (entry.abs() * sizes[b]);
+            if M::THERMAL {
+                entry -= hessian[last][a] * hessian[last][b] / hessian[last][last];
+            }
+            along += slopes[a] * entry.abs() * slopes[b];
+        }
+        across += (gradient[a] / length).abs() * slopes[a];
+    }
+    let theta = if M::THERMAL { x[last] } else { zero };
+    let capacity = slots
+        .thermal
+        .map(|slot| (slot, -theta * hessian[last][last]));
+    let (viscosities, _) = model.viscosity(theta);
+    let relaxation = (0..M::DASHPOTS).fold(zero, |most, k| {
+        let index = M::MEASURES + k;
+        most.maximum(hessian[index][index].abs() / viscosities[k])
+    });
+    let (drags, _) = model.drag(theta);
+    let drags = drags.as_ref().iter().enumerate();
+    Stiffness {
+        nodes,
+        stiffness: along.maximum(across),
+        damping: drags.fold(zero, |sum, (a, &drag)| sum + drag * slopes[a] * slopes[a]),
+        length,
+        force,
+        capacity,
+        relaxation,
+    }
+}
