@@ -26,6 +26,8 @@ pub(crate) mod world;
 
 // The kinds of extremes.
 pub(crate) mod bits;
+#[cfg(test)]
+pub(crate) mod carried;
 pub(crate) mod findings;
 pub(crate) mod heat;
 pub(crate) mod kinds;

@@ -29,6 +29,8 @@ pub(crate) struct Record {
     pub(crate) most_iterations: usize,
     /// ΔE − work − heat of the last step by the judge, J.
     pub(crate) defect: f64,
+    /// 64 ε (A + A⁺) of it, J.
+    pub(crate) bound: f64,
     /// The largest |defect|/bound by the judge.
     pub(crate) worst: f64,
     /// The largest |ΔE|/bound by the report.
@@ -121,7 +123,7 @@ impl<const D: usize> Watched<D> {
         record.worst_momentum = worse(record.worst_momentum, momentum);
         record.loose += usize::from(momentum > ROUNDINGS);
         record.wide += usize::from(is_wide);
-        record.defect = defect;
+        (record.defect, record.bound) = (defect, bound);
         record.complain(broken);
         self.state = after;
     }

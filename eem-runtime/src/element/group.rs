@@ -53,6 +53,7 @@ mod stiffness;
 #[cfg(feature = "gradients")]
 mod terms;
 mod view;
+mod ways;
 
 pub(crate) use arms::points;
 pub(crate) use audit::Misfit;

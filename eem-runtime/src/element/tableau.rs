@@ -143,6 +143,26 @@ impl Tableau {
         stage.checked_sub(self.known)
     }
 
+    /// The residual ρ of the momentum balance of a set does the work `ρ·Σ_k ways_k u_k/h`, with the displacements u of the
+    /// sets: the residuals of all sets leave
+    ///
+    /// ```text
+    /// r_j = h ṗ_j − h F_j = Σ_set (A⁻²)_{j,set} c_set ρ_set,      work = Σ_j b_j q̇_j·r_j,      h q̇_j = Σ_k (A⁻¹)_jk u_k
+    /// ```
+    ///
+    /// at the stages.
+    pub(crate) fn ways_of_residual(&self, set: usize) -> impl Iterator<Item = f64> {
+        let time = self.times[self.stage_of(set)];
+        (0..self.sets()).map(move |other| {
+            let stages = self.weights.iter().zip(self.motion);
+            let terms = stages.map(|(weight, motion)| {
+                let twice = motion.iter().zip(self.motion).map(|(a, row)| a * row[set]);
+                weight * twice.sum::<f64>() * motion[other]
+            });
+            time * terms.sum::<f64>()
+        })
+    }
+
     /// The weight of Θ of a set in the temperature of a stage.
     pub(crate) fn share(&self, stage: usize, set: usize) -> f64 {
         self.temperatures[stage][set]
@@ -153,7 +173,7 @@ impl Tableau {
 mod tests {
     use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
-    use super::{Ending, Tableau};
+    use super::{Ending, MOST_SETS, Tableau};
 
     const ALL: [&Tableau; 4] = [
         &variational_4::TABLEAU,
@@ -261,6 +281,35 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    /// What the momenta at the end gain beyond the work of the forces, for displacements that solve no balance.
+    #[test]
+    fn residuals_do_the_work_that_forces_do_not() {
+        // m = h = 1
+        let (v, forces, moved) = (0.7, [0.3, -1.1, 0.45], [0.2, -0.6, 0.9]);
+        for rule in [&eem_entropy_4::TABLEAU, &eem_entropy_6::TABLEAU] {
+            let Ending::Increments { impulses, .. } = rule.ending else {
+                panic!("the end is that of the paths");
+            };
+            let (mut work, mut beyond) = (0.0, [0.0; MOST_SETS]);
+            for (set, &time) in rule.times.iter().enumerate() {
+                beyond[set] = moved[set] - time * v;
+                let motion = dot(rule.motion[set], moved.into_iter());
+                work += rule.weights[set] * forces[set] * motion;
+            }
+            for (set, &time) in rule.times.iter().enumerate() {
+                let residual = beyond[set] / time - dot(rule.positions[set], forces.into_iter());
+                work += residual
+                    * rule
+                        .ways_of_residual(set)
+                        .zip(moved)
+                        .map(|(way, u)| way * u)
+                        .sum::<f64>();
+            }
+            let end = v + dot(impulses, beyond.into_iter());
+            assert_near(work, 0.5 * (end * end - v * v));
         }
     }
 }

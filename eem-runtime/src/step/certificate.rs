@@ -12,34 +12,54 @@
 //! **Decision.** Rounding explains
 //!
 //! ```text
-//! B* = 64 ε (A* + A⁺)
+//! |R − W_r| ≤ B* = 64 ε (A* + A⁺)
 //! A* = Σ over both ends (T + |ψ| + θ|s| + cθ) + Σ |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|)
 //!      + ε Σ (|T_λλ| λ² + |T_γγ| γ²) + Σ η Δγ²/h + Σ |Q| + |work| + |heat|
-//! A⁺ = Σ |T_ij| |x_j| |Δx_i|          T: tangent of (f*, −g*, θ*),  x = (λ, γ, θ),  Δx = (Δλ, Δγ, Δs)
+//! A⁺ = Σ |T_ij| |x_j| |Δx_i| + Σ |F| |Δq|     T: tangent of (f*, −g*, θ*),  x = (λ, γ, θ),  Δx = (Δλ, Δγ, Δs)
+//! W_r = Σ r·Δq/h                              r = Δp + h Σ F − h F_loads
 //! ```
 //!
-//! A* has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces; A⁺ is computed only if A* is
-//! not enough. Where the terms of an entropy cancel, the temperature found from it, and so the stored energy, has an error of
+//! A* has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces, and of the sums of the
+//! forces F of elements at their nodes, masses and anchors. A⁺ and W_r are computed only if A* is not enough. Where the
+//! terms of an entropy cancel, the temperature found from it, and so the stored energy, has an error of
 //! 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller values of `|ψ| + θ|s| + cθ`.
 //!
-//! Forces cost a bound at most 0.4 of the digits: their terms in B* are limited to ε^−0.4 times the sum of the other
-//! terms and `√ε Σ m (ℓ/h)²`, with the shortest element ℓ of each node, and their impulses in the bounds of momenta to
-//! ε^−0.4 times `Σ |p| + m ℓ/h`. Every term carries some roundings; 64 is eight times the largest `|R|/(ε (A* + A⁺))`
-//! seen in a correct step, near an anchor. Momenta and productions are checked as well.
+//! W_r is what the residuals r of the momentum balances do. A force answers to the rounding of its length with `k ε λ`,
+//! so that no iteration makes r smaller. Nor does r act on both nodes of an element alike, as its force does: over a
+//! displacement Δq far above Δλ, as of a mass that travels with its moved anchor, its work `k ε λ |Δq|` is far above
+//! `k ε λ |Δλ|` of A⁺. The momenta p¹ are those of the increments, so that the states have gained W_r. It is known, and not
+//! bounded: subtracted from R it leaves what the forces of the elements have done, against which a wrong force is seen
+//! as before. Each r must be rounding, see [`Tally::balance_node`]; then W_r is.
 //!
-//! Where values of ψ have more rounding than B*, because its terms cancel, and R is within `B* + 4 ε M`, with
-//! `M = Σ |terms of ψ|` at both ends, R cannot decide. Then discrete derivatives between the stored states, evaluated again,
-//! give Δe instead of values.
+//! A step through stages has residuals ρ at them, and further roundings: W_r is `Σ_j b_j q̇_j·r_j` with the residuals r_j of
+//! the rates, which follow from ρ, and A⁺ has
+//!
+//! ```text
+//! Σ_j b_j (|F_j| |h q̇_j| + |∇ê¹ ∂C/∂d_j| |h ḋ_j|) + |F¹| (h|v⁰| + Σ_j |displacements_j w_j|) + |p¹| Σ_j |impulses_j w_j|/h
+//! ```
+//!
+//! with the terms of the sums of forces, of the path of C, which ends at the strain of the new arms but for its
+//! rounding, and of the new positions and velocities, which are sums of increments w. These are far above the motion of a
+//! step where it is many periods long.
+//!
+//! Nothing limits A*, A⁺ and the impulses h|f*| in the bounds of momenta: where energies vanish, as when a Maxwell element
+//! is relaxed (`g → 0`), the rounding `|g| ε |γ|` of what is left vanishes more slowly than the energies `g²/2k`. Every term
+//! carries some roundings; 64 is eight times the largest `|R|/(ε (A* + A⁺))` seen in a correct step, near an anchor.
+//! Momenta and productions are checked as well.
+//!
+//! Where values of ψ have more rounding than B*, because its terms cancel, and `R − W_r` is within `B* + 4 ε M`, with
+//! `M = Σ |terms of ψ|` at both ends, it cannot decide. Then discrete derivatives between the stored states, evaluated
+//! again, give Δe instead of values.
 //!
 //! **Report.** Reported are R from values, and the bound B with the forces at both ends:
 //!
 //! ```text
-//! B = B* + 64 ε Σ over both ends (|f|λ + Σ |g||γ|)  + 16 ε M
+//! B = B* + |W_r| + 64 ε Σ over both ends (|f|λ + Σ |g||γ|)  + 16 ε M
 //! ```
 //!
-//! The second term is the effect of the rounding of λ and γ on ψ, which near a singular force is far above `|f*|λ`; the
-//! evaluation of ψ has an error of 8 ε M. M is computed only where values cannot decide. The terms of forces in B are not
-//! limited, so that the true ΔE of the stored states is within B. If B exceeds 100 times 64 ε of
+//! The third term is the effect of the rounding of λ and γ on ψ, which near a singular force is far above `|f*|λ`; the
+//! evaluation of ψ has an error of 8 ε M. M is computed only where values cannot decide. The true ΔE of the stored
+//! states is within B. If B exceeds 100 times 64 ε of
 //! `T + |ψ| + θ|s| + cθ + |f|λ + Σ|g||γ|` at both ends, the report says that its bound is wide. The forces at both ends
 //! are evaluated for this only if the known terms alone would make the bound wide.
 
@@ -65,9 +85,6 @@ const ENOUGH: f64 = 1.0 / 64.0;
 /// Roundings of `Σ |q||p|` and of `Σ |p|` up to which a step is accepted without another iteration.
 const ENOUGH_MOMENTUM: f64 = 4.0;
 
-/// The fraction of digits that a bound may lose to forces: a Maxwell element with a stiffness ratio of 10⁷ loses 0.36.
-const MOST_DIGITS: f64 = 0.4;
-
 /// Rounding errors, in ε M, by which values of ψ and its discrete derivatives may disagree.
 const VALUE_ROUNDINGS: f64 = 4.0;
 
@@ -78,15 +95,6 @@ const REPORTED_VALUE_ROUNDINGS: f64 = 16.0;
 /// A bound above this multiple of 64 ε of the terms of the energies is wide.
 const WIDE: f64 = 100.0;
 
-/// Energy and momentum if each node moved by its shortest element in a step: the scale for forces where nothing moves.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Reach<S> {
-    /// `Σ m (ℓ/h)²`, J.
-    pub(crate) energy: S,
-    /// `Σ m ℓ/h`, kg m/s.
-    pub(crate) momentum: S,
-}
-
 /// The proof of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Certificate<S: Real> {
@@ -94,11 +102,13 @@ pub(crate) struct Certificate<S: Real> {
     pub(crate) defect: S,
     /// B, J.
     pub(crate) bound: S,
-    /// The magnitude of the terms of the motion, and of the energies at each end or their known part, J.
+    /// T of both ends, and the magnitude of the energies at each end or their known part, J.
     motion: S,
     terms: [S; 2],
     /// The defect that decides, R or its replacement by discrete derivatives, and B*, J.
     judged: [S; 2],
+    /// W_r, J.
+    residual_work: S,
     /// The entropy production of all dashpots and paths of heat, J/K.
     pub(crate) production: S,
     /// The smallest production of one of them; zero without any, J/K.
@@ -148,61 +158,36 @@ impl<S: Real> Internal<S> {
     }
 }
 
-impl<S: Real> Reach<S> {
-    pub(crate) fn none() -> Self {
-        let [energy, momentum] = [S::zero(); 2];
-        Self { energy, momentum }
-    }
-
-    /// Adds a node with this mass, kg, and the slowness h/ℓ, s/m.
-    pub(crate) fn add(&mut self, mass: S, slowness: S) {
-        let momentum = mass / slowness;
-        self.momentum += momentum;
-        self.energy += momentum / slowness;
-    }
-}
-
 impl<S: Real> Certificate<S> {
-    /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states;
-    /// `reach` is called if needed.
+    /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states.
     pub(crate) fn new<const D: usize>(
         motion: &Motion<S, D>,
         tally: &Tally<S>,
         internal: &Internal<S>,
-        reach: impl Fn() -> Reach<S>,
     ) -> Self {
         let mut energy = motion.energy;
         energy.add(internal.change);
-        let terms = motion.amplitude + tally.heat + internal.magnitude;
-        let most = S::EPSILON.recip().powf(S::from_f64(MOST_DIGITS));
-        let mut forces = tally.forces;
-        if !forces.at_most(most * terms).all() {
-            let slow = S::EPSILON.sqrt() * reach().energy;
-            forces = forces.minimum(most * (terms + slow));
-        }
-        let mut impulse = tally.impulse;
-        if !impulse.at_most(most * motion.momenta).all() {
-            impulse = impulse.minimum(most * (motion.momenta + reach().momentum));
-        }
+        let terms = motion.kinetic + motion.works + tally.heat + internal.magnitude;
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
         let defect = energy.value();
         let has_produced = tally.least.less(S::MAX);
         let largest = |of: &[S]| of.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
         Self {
             defect,
-            bound: rounding * (terms + tally.forces + internal.excess),
-            motion: motion.amplitude,
+            bound: rounding * (terms + tally.forces + internal.excess) + motion.residual_work.abs(),
+            motion: motion.kinetic,
             terms: internal.terms,
-            judged: [defect, rounding * (terms + forces)],
+            judged: [defect, rounding * (terms + tally.forces)],
+            residual_work: motion.residual_work,
             production: tally.production,
             least_production: S::select(has_produced, tally.least, S::zero()),
             linear: match motion.kept {
-                Kept::Both => [largest(&motion.linear), motion.momenta + impulse],
+                Kept::Both => [largest(&motion.linear), motion.momenta + tally.impulse],
                 Kept::None | Kept::Angular(_) => [S::zero(); 2],
             },
             angular: [
                 motion.angular.largest(),
-                motion.moments + motion.farthest * impulse,
+                motion.moments + motion.farthest * tally.impulse,
             ],
             is_balanced: tally.is_balanced,
         }
@@ -213,7 +198,8 @@ impl<S: Real> Certificate<S> {
     pub(crate) fn reevaluated(mut self, reevaluation: &Reevaluation<S>) -> Self {
         let [defect, bound] = self.judged;
         let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
-        let is_explained = bound.less(rounding) & defect.abs().at_most(bound + rounding);
+        let own = (defect - self.residual_work).abs();
+        let is_explained = bound.less(rounding) & own.at_most(bound + rounding);
         let reevaluated = defect + reevaluation.correction;
         self.judged[0] = S::select(is_explained, reevaluated, defect);
         self.bound += S::from_f64(REPORTED_VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
@@ -308,6 +294,7 @@ impl<S: Real> Certificate<S> {
         for (own, other) in self.judged.iter_mut().zip(other.judged) {
             *own = S::select(is_own, *own, other);
         }
+        self.residual_work = S::select(is_own, self.residual_work, other.residual_work);
         self.is_balanced = (self.is_balanced & is_own) | (other.is_balanced & !is_own);
         self
     }
@@ -321,7 +308,7 @@ impl<S: Real> Certificate<S> {
         let laws = [
             (
                 Law::Energy,
-                energy,
+                energy - self.residual_work,
                 S::from_f64(1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound,
             ),
             (Law::LinearMomentum, linear, rounding * momenta),

@@ -123,8 +123,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// `f* + Σ T_λj Δx_j` over the mechanical variables is the force of the new state, since f* is a divided
     /// difference: where only λ changes, `T_λλ = (f¹ − f*)/Δλ`. It is exact for energies that are quadratic in them.
     /// Where the temperature changes, it is the mean of the forces at both temperatures.
+    /// A thorough bound of a spring or a solid also has the rounding of the sums of forces at its nodes, given their way:
+    ///
+    /// ```text
+    /// Σ_a |∂π_a/∂r| |f*_a| Σ |Δq|
+    /// ```
     #[inline]
-    pub(super) fn amplitude(&self, [r0, r1]: [&Arms<K, S, D>; 2], care: Care) -> [S; 2] {
+    pub(super) fn amplitude(
+        &self,
+        [r0, r1]: [&Arms<K, S, D>; 2],
+        care: Care,
+        way: impl Fn() -> S,
+    ) -> [S; 2] {
         let (sizes0, sizes1) = (self.sizes(r0, &self.start.x0), self.sizes(r1, &self.x));
         let (mut sum, mut at_end) = (S::zero(), S::zero());
         for row in 0..M::MEASURES + M::DASHPOTS {
@@ -139,10 +149,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             });
             at_end += force.abs() * size;
         }
-        if K::IS_SPRING && matches!(care, Care::Quick) {
+        if matches!(care, Care::Quick) {
+            if !K::IS_SPRING {
+                sum += self.work_of_arguments(&sizes1);
+            }
             return [sum, at_end];
         }
-        [sum + self.work_of_arguments(&sizes1), at_end]
+        sum += self.work_of_arguments(&sizes1) + self.largest_pull(r1) * way();
+        [sum, at_end]
     }
 
     /// Adds the terms that the bound of the next step needs of a state with these arms: those of the forces and, except

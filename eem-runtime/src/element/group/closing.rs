@@ -13,6 +13,7 @@ use super::member::Member;
 use super::point::Point;
 use super::pose::Pose;
 use super::site::Contact;
+use super::ways::way_of_nodes;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::Partner;
 use crate::element::conjugates::{ElementScheme, Placement};
@@ -86,7 +87,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 point.book_thermostat(view, [entropy, received.entropy], next);
             }
             if C::EXACT {
-                let [forces, at_end] = point.amplitude([&self.r0, &r1], tally.care);
+                let [forces, at_end] = point.amplitude([&self.r0, &r1], tally.care, || {
+                    way_of_nodes(self.site.nodes.as_ref(), trial)
+                });
                 tally.force(forces);
                 tally.exchange(view.step * point.largest_pull(&r1));
                 let energy = &mut next.energies[point.element.index()];

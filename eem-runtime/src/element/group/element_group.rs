@@ -210,14 +210,15 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         for member in &self.members {
             let (nodes, r0) = (&member.site.nodes, &member.r0);
             let r1 = member.new_arms(trial);
+            if !magnitudes.is_empty() {
+                let change = change_in::<K, S, D>(nodes, trial);
+                member.add_magnitude(view.step, [&r1, &change], magnitudes);
+            }
             let (h, force) = if let Some(at) = at {
                 let share = view.step * S::from_f64(self.scheme.implicit());
                 (share, member.force(at, [r0, &r1]))
             } else {
                 let mut mean = change_in::<K, S, D>(nodes, trial);
-                if C::EXACT && !magnitudes.is_empty() {
-                    member.add_magnitude(view.step, [&r1, &mean], magnitudes);
-                }
                 let old = r0.as_ref().as_flattened();
                 for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
                     *mean = old + S::from_f64(0.5) * *mean;

@@ -11,7 +11,11 @@ pub(crate) struct Motion<S, const D: usize> {
     pub(crate) kept: Kept<S, D>,
     /// `Σ v̄·Δp − work`, J.
     pub(super) energy: Total<S>,
-    pub(super) amplitude: S,
+    /// T of both ends, and the magnitude of the work of loads and supports, J.
+    pub(super) kinetic: S,
+    pub(super) works: S,
+    /// W_r, the work of the residuals of the momentum balances, if bounds are thorough, J.
+    pub(super) residual_work: S,
     /// `Σ (Δp − hF)` of the loads F, and `Σ |p|`, kg m/s.
     pub(super) linear: [S; D],
     pub(super) momenta: S,
@@ -82,6 +86,17 @@ impl<S: Real, const D: usize> NodeStep<'_, S, D> {
             }
         }
     }
+
+    /// `|p¹·Δv|` with the terms of Δv, m/s: times ε, the energy of the rounding of the new velocity, J.
+    #[cold]
+    pub(crate) fn energy_of_rounding(&self, terms: &[S; D]) -> S {
+        let mut energy = S::zero();
+        for axis in 0..D {
+            let momentum = self.momentum[axis] + self.impulse[axis];
+            energy += (momentum * terms[axis]).abs();
+        }
+        energy
+    }
 }
 
 impl<S: Real, const D: usize> Motion<S, D> {
@@ -90,7 +105,9 @@ impl<S: Real, const D: usize> Motion<S, D> {
         Self {
             kept,
             energy: Total::default(),
-            amplitude: zero,
+            kinetic: zero,
+            works: zero,
+            residual_work: zero,
             linear: [zero; D],
             momenta: zero,
             angular: Bivector::zero(),
@@ -104,7 +121,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
     pub(crate) fn see(&mut self, node: &NodeStep<'_, S, D>, force: Option<&[S; D]>, step: S) {
         let [gain, size] = node.energies();
         self.energy.add(gain);
-        self.amplitude += size;
+        self.kinetic += size;
         if D > 0 && !matches!(self.kept, Kept::None) {
             let load = force.map(|force| force.map(|force| step * force));
             self.see_momenta(node, &load.unwrap_or([S::zero(); D]));
@@ -120,7 +137,15 @@ impl<S: Real, const D: usize> Motion<S, D> {
     #[inline]
     pub(crate) fn work(&mut self, work: S) {
         self.energy.add(-work);
-        self.amplitude += work.abs();
+        self.works += work.abs();
+    }
+
+    /// Adds the work of what the momentum balance of a node lacks, N s, over its displacement in a step of this size.
+    #[cold]
+    pub(crate) fn fall_short(&mut self, residual: &[S; D], displacement: &[S; D], per_step: S) {
+        for (&residual, &displacement) in residual.iter().zip(displacement) {
+            self.residual_work += residual * per_step * displacement;
+        }
     }
 
     /// Adds the impulse of a load, N s, on a node with this displacement from its old position.

@@ -12,7 +12,7 @@ use super::begin::old_force;
 use crate::element::group::{Along, Group, StepView, points};
 use crate::element::state::State;
 use crate::element::tally::{Care, Reevaluation, Tally};
-use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Reach, Speeds};
+use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Closing;
 use eem_material::number::scalar::{Mask, Real};
@@ -91,17 +91,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.close(view, &self.trial, next, &mut tally)?;
         }
         let internal = Internal::new(&view.conduction.reservoirs, [view.state, next]);
-        let reach = || self.reach(view.step);
-        Ok(Certificate::new(&motion, &tally, &internal, reach))
-    }
-
-    /// The scale of motion, from the shortest element of each node.
-    fn reach(&self, step: S) -> Reach<S> {
-        let mut reach = Reach::none();
-        for node in &self.nodes {
-            reach.add(node.place.mass, step * node.per_length);
-        }
-        reach
+        Ok(Certificate::new(&motion, &tally, &internal))
     }
 
     /// The momenta that the scene conserves and the scheme proves.
@@ -117,7 +107,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Finds impulses, and displacements where these follow from impulses.
-    fn find_motion(
+    pub(super) fn find_motion(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,

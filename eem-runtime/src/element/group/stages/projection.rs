@@ -21,6 +21,7 @@ mod exact;
 mod kelvin_voigt;
 mod local;
 mod path;
+mod rounding;
 mod vector;
 
 use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
@@ -29,6 +30,7 @@ use super::source::Source;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, spread};
 use crate::element::group::view::{StepView, Trial};
+use crate::element::group::ways::StageWays;
 use crate::element::kinematics::{Arms, Blocks, PerStrain, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES};
@@ -337,12 +339,17 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         spread::<K, S, D>(&kinematics.strain_force(&self.arms[stage], stress))
     }
 
-    fn impulse_size(&self, step: S) -> S {
+    fn impulse_size(&mut self, in_state: &StatePoint<S, M, K, D>, step: S) -> S {
+        self.add_conditioning_of_path(in_state);
         let known =
             |stage: usize, q: usize| self.conjugates[stage][q].abs() + self.conditioning[stage][q];
         let stages = 0..self.point.rule.stages();
-        let forces = stages.map(|stage| self.force_size(stage, |q| known(stage, q)));
+        let forces = stages.map(|stage| self.force_size(&self.arms[stage], |q| known(stage, q)));
         step * forces.fold(S::zero(), S::maximum)
+    }
+
+    fn work_along(&self, ways: &StageWays<S>, new_arms: &Arms<K, S, D>) -> S {
+        self.work_of_rounding(ways, new_arms)
     }
 
     fn close(

@@ -3,6 +3,7 @@
 use super::point::{LocalStages, StageArms, StagePoint, StatePoint};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
+use crate::element::group::ways::StageWays;
 use crate::element::kinematics::{Arms, Blocks, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
@@ -125,7 +126,13 @@ where
     }
 
     /// The magnitude of the terms of the impulses of the forces in a step, N s; zero if the scheme is not certified.
-    fn impulse_size(&self, _step: S) -> S {
+    fn impulse_size(&mut self, _: &StatePoint<S, M, K, D>, _step: S) -> S {
+        S::zero()
+    }
+
+    /// The work of its forces along the ways of its nodes, whose new arms are given, J: times ε, what rounding of sums of
+    /// forces and of the new positions does; zero if the scheme is not certified.
+    fn work_along(&self, _ways: &StageWays<S>, _new_arms: &Arms<K, S, D>) -> S {
         S::zero()
     }
 

@@ -18,11 +18,12 @@ use crate::element::group::interface::{Elements, Group, Loose};
 use crate::element::group::loose::LooseElements;
 use crate::element::group::point::variables;
 use crate::element::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
+use crate::element::group::ways::StageWays;
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Arms, Kinematics, QuadraticStrain, add_blocks};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::element::tally::{Reevaluation, Tally};
+use crate::element::tally::{Care, Reevaluation, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
@@ -228,10 +229,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         let Along::Stage(stage) = along else {
             return;
         };
-        for stages in &self.members {
+        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             let nodes = &stages.site.first().nodes;
             let arms = StageArms::new(self.rule, nodes, (view, trial));
-            for source in &stages.points {
+            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
                 let force = source.nodal_force(stage, &arms);
                 for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                     for (sum, &force) in impulses.of(node as usize).iter_mut().zip(force) {
@@ -239,7 +240,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
                     }
                 }
                 if stage == 0 && !magnitudes.is_empty() {
-                    let magnitude = source.impulse_size(view.step);
+                    let magnitude = source.impulse_size(in_state, view.step);
                     for &node in nodes.as_ref() {
                         magnitudes[node as usize] += magnitude;
                     }
@@ -281,6 +282,13 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
             let r1 = member.arms_in(next);
             for (source, in_state) in stages.points.iter_mut().zip(member.points.as_mut()) {
                 source.close(in_state, (view, trial, &r1), next, tally)?;
+            }
+            if tally.care == Care::Thorough {
+                let nodes = member.site.nodes.as_ref();
+                let ways = StageWays::new(self.rule, nodes, (view, trial));
+                for source in &stages.points {
+                    tally.force(source.work_along(&ways, &r1));
+                }
             }
         }
         Ok(())

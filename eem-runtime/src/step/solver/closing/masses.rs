@@ -46,8 +46,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
                     largest.see(residual);
                 }
                 if is_exact {
-                    let magnitude = self.magnitudes.get(at).copied();
-                    let magnitude = magnitude.unwrap_or(S::zero());
+                    let magnitude = match self.magnitudes.get(at) {
+                        None => S::zero(),
+                        Some(&magnitude) => {
+                            motion.fall_short(&residual, displacement, view.per_step);
+                            magnitude
+                        }
+                    };
                     tally.balance_node(&residual, [&impulse, &terms], magnitude);
                 }
                 *found = impulse;

@@ -27,7 +27,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         &mut self,
         stages: &Stages<S, D>,
         view: &StepView<'_, S>,
-        tally: &mut Tally<S>,
+        (motion, tally): (&mut Motion<S, D>, &mut Tally<S>),
     ) {
         let inertias = self.inertias(view);
         let mut largest = Largest::none();
@@ -44,8 +44,22 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 for &residual in &residual {
                     largest.see(residual);
                 }
-                let magnitude = self.magnitudes.get(node).copied();
-                let mut magnitude = magnitude.unwrap_or(S::zero());
+                let mut magnitude = match self.magnitudes.get(node) {
+                    None => S::zero(),
+                    Some(&magnitude) => {
+                        let mut way = [S::zero(); D];
+                        for (other, share) in
+                            stages.rule.ways_of_residual(set).into_iter().enumerate()
+                        {
+                            let moved = &self.trial.displacements_of_set(other)[node];
+                            for axis in 0..D {
+                                way[axis] += S::from_f64(share) * moved[axis];
+                            }
+                        }
+                        motion.fall_short(&residual, &way, view.per_step);
+                        magnitude
+                    }
+                };
                 for (&weight, impulse) in weights.iter().zip(&stages.impulses[node]) {
                     for &impulse in impulse {
                         magnitude += (S::from_f64(weight) * impulse).abs();
@@ -64,7 +78,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         [displacements, impulses]: [&[f64]; 2],
         view: &StepView<'_, S>,
         next: &mut State<S>,
-        motion: &mut Motion<S, D>,
+        (motion, tally): (&mut Motion<S, D>, &mut Tally<S>),
     ) -> Result<(), StepFailure> {
         self.change_velocities(stages, impulses, view);
         for (index, moving) in self.nodes_of_set(0).iter().enumerate() {
@@ -111,6 +125,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 impulse: &impulse,
             };
             motion.see(&moved, None, view.step);
+            if !self.magnitudes.is_empty() {
+                let terms = self.terms_of_gain(index, impulses, view.per_step);
+                tally.force(moved.energy_of_rounding(&terms));
+            }
             self.see_loads(stages, view, &moved, node, (next, motion));
         }
         if !stages.changes.is_empty() {
@@ -129,6 +147,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
         }
         gained
+    }
+
+    /// `Σ_j |weights_j w_j|/h` of the moving node with this index, m/s.
+    #[cold]
+    fn terms_of_gain(&self, index: usize, weights: &[f64], per_step: S) -> [S; D] {
+        let mut terms = [S::zero(); D];
+        for (set, &weight) in weights.iter().enumerate() {
+            let change = self.nodes_of_set(set)[index].change(&self.trial);
+            for axis in 0..D {
+                terms[axis] += (S::from_f64(weight) * change[axis]).abs() * per_step;
+            }
+        }
+        terms
     }
 
     /// Where masses couple nodes: finds the changes of their velocities, and the impulses that follow.

@@ -32,9 +32,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 displacements,
                 impulses,
             } => {
-                self.judge_stages(&stages, view, tally);
+                self.judge_stages(&stages, view, (&mut *motion, &mut *tally));
                 let weights = [displacements, impulses];
-                self.move_along_path(&mut stages, weights, view, next, motion)
+                self.move_along_path(&mut stages, weights, view, next, (&mut *motion, tally))
             }
             Ending::StageByStage | Ending::Forces(_) => {
                 self.move_to_end(&stages, view, next, motion)

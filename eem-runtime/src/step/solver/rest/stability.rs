@@ -73,11 +73,9 @@ impl<const D: usize> AtRest<'_, D> {
     }
 
     /// What rounding may contribute to eigenvalues of K, relative to D: entries have the rounding of element
-    /// contributions, these have that of arms, and the elimination adds one rounding per unknown.
+    /// contributions, whose arms are known to ε wherever the origin is, and the elimination adds one rounding per unknown.
     fn rounding(&self) -> f64 {
-        let nodes = self.solver.nodes.iter();
-        let per_length = nodes.fold(0.0_f64, |most, node| most.max(node.per_length));
         let unknowns = f64::from(compact(self.first.len()));
-        f64::EPSILON * (ROUNDINGS * (1.0 + self.extent() * per_length) + unknowns)
+        f64::EPSILON * (ROUNDINGS + unknowns)
     }
 }

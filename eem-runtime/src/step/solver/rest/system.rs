@@ -3,6 +3,7 @@
 use core::array;
 
 use super::{AtRest, LONG};
+use crate::element::tally::Care;
 use crate::step::error::StepFailure;
 
 /// An update is shortened if the force along it is, at its end, backwards and above this fraction of that at its start.
@@ -98,14 +99,22 @@ impl<const D: usize> AtRest<'_, D> {
         all.fold(0.0, |most, (q, moved)| most.max((q + moved).abs()))
     }
 
-    /// Whether the rounding of positions explains R.
-    pub(super) fn is_balanced(&self) -> bool {
-        let unit = ROUNDINGS * f64::EPSILON * self.extent();
-        let nodes = self.solver.nodes.iter().zip(&self.sizes);
+    /// Whether the rounding of forces and of their arguments explains R: by node, with the terms of the forces of its
+    /// elements as in the certificate of a step, of its loads, and of what is left of R(q⁰).
+    pub(super) fn is_balanced(&mut self) -> bool {
+        (self.solver).find_motion(self.groups, self.view, Care::Thorough);
+        let left = 1.0 - self.share;
         let right = self.solver.tangent.right();
-        nodes.into_iter().all(|(node, size)| {
-            let mut forces = node.place.rows(right).iter();
-            forces.all(|force| force.abs() <= unit * size)
+        let mut nodes = self.solver.nodes.iter().enumerate();
+        nodes.all(|(at, node)| {
+            let (place, first) = (&node.place, self.first.get(at * D..).unwrap_or_default());
+            let loads = self.view.loads.total_force::<D>(place.node());
+            let magnitude = self.solver.magnitudes[place.node()];
+            (place.rows(right).iter().enumerate()).all(|(axis, force)| {
+                let first = first.get(axis).map_or(0.0, |first| left * first.abs());
+                let terms = magnitude + LONG * loads[axis].abs() + first;
+                force.abs() <= ROUNDINGS * f64::EPSILON * terms
+            })
         })
     }
 
@@ -161,7 +170,8 @@ impl<const D: usize> AtRest<'_, D> {
                 Ok(()) => {
                     let now = dot(&self.forces(), &change);
                     let turns = slope > 0.0 && now < -OVERSHOOT * slope;
-                    if friction > 0.0 || !turns || part < LEAST_PART {
+                    // Forces that are rounding have any direction.
+                    if friction > 0.0 || !turns || part < LEAST_PART || self.is_balanced() {
                         break;
                     }
                     (part * slope / (slope - now)).clamp(0.1 * part, 0.5 * part)

@@ -12,7 +12,7 @@ use super::Projections;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::group::stages::point::StatePoint;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{PerStrain, QuadraticStrain};
+use crate::element::kinematics::{Arms, PerStrain, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tableau::MOST_STAGES;
 use crate::element::tally::{Care, Tally};
@@ -185,7 +185,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let impulse = weights.iter().enumerate();
         let impulse = impulse.fold(S::zero(), |sum, (stage, &weight)| {
             let size = |q: usize| self.conjugates[stage][q].abs().minimum(at_ends(q));
-            sum + view.step * S::from_f64(weight) * self.force_size(stage, size)
+            sum + view.step * S::from_f64(weight) * self.force_size(&self.arms[stage], size)
         });
         tally.exchange(impulse);
         for ((stage, &weight), received) in weights.iter().enumerate().zip(booked) {
@@ -280,13 +280,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         })
     }
 
-    /// The magnitude of the terms of the force on the nodes at a stage, given that of each conjugate of the strain, N.
-    pub(super) fn force_size(&self, stage: usize, of: impl Fn(usize) -> S) -> S {
+    /// The magnitude of the terms of the force on the nodes with these arms, given that of each conjugate of the strain, N.
+    pub(super) fn force_size(&self, arms: &Arms<K, S, D>, of: impl Fn(usize) -> S) -> S {
         let mut sizes = PerStrain::<K, S, D>::filled(S::zero());
         for (q, size) in sizes.as_mut().iter_mut().enumerate() {
             *size = of(q);
         }
-        let arms = &self.arms[stage];
         self.point.kinematics.strain_force_size(arms, &sizes)
     }
 }

@@ -104,7 +104,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// The point of the path after these fractions of the increments.
-    fn find_point(
+    pub(super) fn find_point(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
         shares: &[f64],
