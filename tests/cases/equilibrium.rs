@@ -1,5 +1,6 @@
 //! States at rest against solutions that do not come from the library.
 
+use eem::EquilibriumError;
 use eem::kinematics::{Hex8, Hex20, Quad8, Shape};
 use eem::materials::Hooke;
 use eem::prelude::*;
@@ -224,4 +225,155 @@ fn a_block_free_to_expand_has_no_stress() {
         let stress = run.solid_state(point).unwrap().stress;
         assert!(stress.amax() < 1e-12 * unit, "{:e}", stress.amax() / unit);
     }
+}
+
+/// Roundings of a force `k (λ − l)` and of its length.
+const ROUNDINGS: f64 = 64.0;
+
+/// Masses in a row on springs, each given by its stiffness, and with a load.
+fn row(spacing: f64, springs: &[(f64, f64)]) -> (Scene<1>, Vec<Node>) {
+    let mut scene = Scene::<1>::new();
+    let mut nodes = vec![scene.anchor([0.0])];
+    let mut place = 0.0;
+    for &(stiffness, load) in springs {
+        place += spacing;
+        let node = scene.mass(1.0, [place], [0.0]);
+        let hooke = Hooke {
+            stiffness,
+            natural_length: spacing,
+        };
+        scene.spring(hooke, [nodes[nodes.len() - 1], node]);
+        scene.dead_load(node, [load]);
+        nodes.push(node);
+    }
+    (scene, nodes)
+}
+
+/// Loads from below an ulp of k l to a tenth of it: what is left is `k ε λ`, however large that is.
+#[test]
+fn bars_rest_at_the_rounding_of_their_length() {
+    for (length, stiffness) in [
+        (1.0, 100.0),
+        (1e5, 1e5),
+        (1e5, 1e9),
+        (1e-5, 1e-3),
+        (1e8, 1e3),
+    ] {
+        for share in [0.0, 1e-20, 1e-17, 3e-16, 1e-12, 1e-6, 0.1, -0.1, -3e-16] {
+            let load = share * stiffness * length;
+            let (mut scene, nodes) = row(length, &[(stiffness, load)]);
+            let report = scene.equilibrium(Equilibrium::new()).unwrap();
+            let rounding = ROUNDINGS * f64::EPSILON * stiffness * length;
+            assert!(
+                report.residual <= rounding,
+                "{length} m, {share}: {report:?}"
+            );
+            let run = Simulation::new(scene, Scheme::EemEntropy, 1e-3).unwrap();
+            let off = run.position(nodes[1]).unwrap()[0] - length * (1.0 + share);
+            assert!(
+                off.abs() <= ROUNDINGS * f64::EPSILON * length,
+                "{length} m, {share}: {off:e}"
+            );
+        }
+    }
+}
+
+/// A soft spring that holds stiff ones is a support, though it is 10⁻¹² of them.
+#[test]
+fn stiffnesses_in_series_may_differ_by_twelve_digits() {
+    for springs in [
+        [(1e-3, 1e-6), (1e9, 1e-6), (1e9, 2e-6)],
+        [(1e9, 1e-6), (1e-3, 1e-6), (1e9, 2e-6)],
+        [(1e9, 3e3), (1e-3, 1e-6), (1e-3, 0.0)],
+    ] {
+        let (mut scene, nodes) = row(1.0, &springs);
+        scene.equilibrium(Equilibrium::new()).unwrap();
+        let run = Simulation::new(scene, Scheme::EemEntropy, 1e-3).unwrap();
+        let mut place = 0.0;
+        for (index, &(stiffness, _)) in springs.iter().enumerate() {
+            let force: f64 = springs[index..].iter().map(|(_, load)| load).sum();
+            place += 1.0 + force / stiffness;
+            let found = run.position(nodes[index + 1]).unwrap()[0];
+            // The force in a soft spring has the rounding k ε λ of the stiff ones beside it.
+            let stiffest = springs
+                .iter()
+                .fold(0.0_f64, |most, spring| most.max(spring.0));
+            let soft = springs[..=index]
+                .iter()
+                .map(|(k, _)| k.recip())
+                .sum::<f64>();
+            let off = ROUNDINGS * f64::EPSILON * (place + stiffest * soft);
+            assert!(
+                (found - place).abs() <= off,
+                "{springs:?}: {found} and {place}, {off:e}"
+            );
+        }
+    }
+}
+
+/// 1 kg on a spring of 1 m and 10⁴ N/m, at an angle from the vertical above its hook, with a load to the side.
+fn weight(angle: f64, load: f64) -> (Scene<2>, Node) {
+    let mut scene = Scene::<2>::new();
+    let hook = scene.anchor([0.0, 0.0]);
+    let weight = scene.mass(1.0, [angle.sin(), angle.cos()], [0.0, 0.0]);
+    let hooke = Hooke {
+        stiffness: 1e4,
+        natural_length: 1.0,
+    };
+    scene.spring(hooke, [hook, weight]);
+    scene.set_gravity([0.0, -GRAVITY]);
+    scene.dead_load(weight, [load, 0.0]);
+    (scene, weight)
+}
+
+/// The last digit of a force does not keep it from its place, which is 1 mm below that of the natural length.
+#[test]
+fn a_weight_swings_down_from_any_angle() {
+    for step in 1..=31 {
+        let angle = 0.1 * f64::from(step);
+        let (mut scene, weight) = weight(angle, 0.0);
+        let report = scene.equilibrium(Equilibrium::new());
+        let report = report.unwrap_or_else(|error| panic!("{angle}: {error}"));
+        assert!(
+            report.residual <= ROUNDINGS * f64::EPSILON * 1e4,
+            "{angle}: {report:?}"
+        );
+        let run = Simulation::new(scene, Scheme::EemEntropy, 1e-3).unwrap();
+        let place = run.position(weight).unwrap();
+        let (x, y) = (place[0], place[1]);
+        assert!(
+            x.abs() < 1e-7 && (y + 1.001).abs() < 1e-13,
+            "{angle}: {x:e}, {y}"
+        );
+    }
+}
+
+/// Exactly above its hook the forces are balanced: the error says that it would fall, and a small load decides to where.
+#[test]
+fn a_weight_exactly_above_its_hook_would_fall() {
+    let (mut scene, _) = weight(0.0, 0.0);
+    match scene.equilibrium(Equilibrium::new()) {
+        Err(EquilibriumError::Unstable { motion, .. }) => {
+            // −m g/λ at λ = 1 m − m g/k.
+            assert!(
+                (motion.stiffness + GRAVITY / 0.999).abs() < 1e-9,
+                "{motion:?}"
+            );
+            let by = &motion.nodes[0].1;
+            assert!(
+                (by[0].abs() - 1.0).abs() < 1e-12 && by[1].abs() < 1e-12,
+                "{by:?}"
+            );
+        }
+        other => panic!("{other:?}"),
+    }
+    let (mut scene, weight) = weight(0.0, 1e-6);
+    scene.equilibrium(Equilibrium::new()).unwrap();
+    let run = Simulation::new(scene, Scheme::EemEntropy, 1e-3).unwrap();
+    let place = run.position(weight).unwrap();
+    let (x, y) = (place[0], place[1]);
+    assert!(
+        (x - 1.001e-7).abs() < 1e-12 && (y + 1.001).abs() < 1e-12,
+        "{x:e}, {y}"
+    );
 }

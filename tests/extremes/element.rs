@@ -115,7 +115,7 @@ impl Ends<'_> {
         self.dissipation(step) + self.work_of_arguments()
     }
 
-    /// `Σ over both ends (|f| λ + Σ |g γ| + |ψ| + θ |s| + c θ)`.
+    /// `Σ over both ends (|f| λ + Σ |g γ| + |ψ| + θ |s| + c θ)`, with the rounding of f and g.
     pub(crate) fn energies(&self) -> f64 {
         self.energies_at(0) + self.energies_at(1)
     }
@@ -124,7 +124,13 @@ impl Ends<'_> {
         let x = self.doubles(end);
         let gradient = self.body.gradient(&x);
         let mechanical = x.len() - usize::from(self.theta.is_some());
-        let work: f64 = (0..mechanical).map(|i| (gradient[i] * x[i]).abs()).sum();
+        // A force is known to ε |∂f/∂x| |x|, which is all there is of one that has relaxed.
+        let hessian = self.body.hessian(&x);
+        let force = |i: usize| {
+            let terms = hessian[i].iter().zip(&x).map(|(h, x)| (h * x).abs());
+            gradient[i].abs() + f64::EPSILON * terms.sum::<f64>()
+        };
+        let work: f64 = (0..mechanical).map(|i| force(i) * x[i].abs()).sum();
         let psi = self.body.free_energy(&x).abs();
         let Some(theta) = self.theta else {
             return work + psi;

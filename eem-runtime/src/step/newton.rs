@@ -62,7 +62,8 @@ pub struct StepReport<S> {
     /// exact scheme. Beyond it the step is the error [`StepFailure::LawNotKept`](crate::StepFailure::LawNotKept).
     ///
     /// It is `64 ε` times the terms of the balance, which are `|ψ| + θ|s| + cθ`, `|f|λ` and `|g||γ|` with the
-    /// forces at both ends, and the effect of rounding in the arguments of the forces. If terms of ψ cancel, the
+    /// forces at both ends, and the effect of rounding in the arguments and sums of the forces; and the work of what rounding
+    /// leaves of the momentum balances, where nodes move far in a step. If terms of ψ cancel, the
     /// rounding of ψ is added. A length has an error of `ε λ`; so a very stiff body, or one near a singular force, has an
     /// energy error of `ε k λ²` with its stiffness k.
     pub bound: S,
