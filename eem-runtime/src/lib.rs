@@ -113,3 +113,4 @@ pub use step::law::Law;
 pub use step::newton::{NewtonIteration, NewtonSettings, StepReport};
 pub use step::outcome::Corrections;
 pub use step::scheme::{Scheme, UnknownScheme};
+pub use step::timed::TimedLoad;

@@ -86,6 +86,21 @@ fn impossible_ends_are_errors() {
         let error = run.run_until_event(end, &mut []).unwrap_err();
         assert!(matches!(error.failure, StepFailure::End { .. }), "{error}");
     }
+    // Nothing would end it.
+    for error in [
+        run.run_until(f64::INFINITY),
+        run.run_until_event(f64::INFINITY, &mut []).map(drop),
+        run.run_at([f64::INFINITY], |_| ControlFlow::Continue(()))
+            .map(drop),
+        run.sample_at(&[0.2, f64::INFINITY], |_| ControlFlow::Continue(()))
+            .map(drop),
+    ] {
+        let failure = error.unwrap_err().failure;
+        assert!(
+            matches!(failure, StepFailure::End { end } if end == f64::INFINITY),
+            "{failure}"
+        );
+    }
     assert_eq!(before, bits(&run));
 }
 

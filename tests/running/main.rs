@@ -21,6 +21,8 @@ mod paraview;
 mod recording;
 mod rest;
 mod resuming;
+mod seeing;
+mod stopping;
 mod study;
 #[cfg(feature = "parallel")]
 mod threads;

@@ -36,6 +36,7 @@ mod memory;
 mod ovens;
 pub(crate) mod start;
 mod stepper;
+mod unseen;
 mod worst;
 
 use core::fmt;
@@ -64,6 +65,7 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
+use crate::step::timed::TimedLoad;
 use check::{Needs, check_all};
 use control::check_tolerance;
 use eem_material::number::compact::compact;
@@ -139,6 +141,8 @@ enum Tried<S> {
     Made(StepReport<S>),
     /// Its error, in units of the tolerance, is too large; nothing has changed.
     Rejected(S),
+    /// It was not made, because it would pass over this load.
+    Unseen(TimedLoad),
 }
 
 impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {

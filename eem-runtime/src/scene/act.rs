@@ -13,7 +13,7 @@ use crate::scene::body::Body;
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::{Course, Rocket};
 use crate::scene::solid_error::SolidError;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real, is_positive};
 use eem_mesh::Face;
 
 /// # Loads, supports and thermostats
@@ -117,6 +117,71 @@ impl<const D: usize, S: Real> Scene<D, S> {
             self.loads
                 .motions
                 .push((anchor, Course::Function(Arc::new(position))));
+        }
+    }
+
+    /// Makes a step end at each of these times, s: where a load jumps or has a kink. Times before the start, and those given before,
+    /// do no harm.
+    ///
+    /// A step that would go beyond such a time is shortened and ends there to the last bit; later steps have their usual size
+    /// again, and step control starts afresh. A force may jump: steps before that time do not see it from then on, and steps
+    /// behind it do not see it before.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(2.0, [1.0], [0.0]);
+    /// scene.force(mass, |t: f64| [if t < 0.7 { 0.0 } else { 10.0 }]);
+    /// scene.stop_at([0.7]);
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.5)?;
+    /// run.run_until(1.7)?;
+    /// // 10 N in 1 s.
+    /// assert!((run.momentum(mass)?[0] - 10.0).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn stop_at(&mut self, times: impl IntoIterator<Item = S>) {
+        for time in times {
+            if !time.is_finite() {
+                let time = time.to_f64();
+                self.refuse(SceneError::StopTime { time });
+                return;
+            }
+            self.loads.stops.push(time);
+        }
+        let stops = &mut self.loads.stops;
+        stops.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
+        stops.dedup_by(|a, b| a.equal(*b).all());
+    }
+
+    /// Says that nothing which a load does lasts less than this, s, so that a step under control does not pass over it.
+    ///
+    /// Forces, thrusts, motions and temperatures that are functions of time are then sampled three times in this duration, or more
+    /// often, before a step is made. Without it they are sampled 256 times from the present to the end of
+    /// [`run_until`](crate::Simulation::run_until), and 16 times in a step for which no end is known. The last call counts.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// // A blow of 1 ms on a mass at rest, within 10 s.
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(2.0, [1.0], [0.0]);
+    /// let blow = |t: f64| (1e6 * (t - 4.0) * (4.001 - t)).max(0.0);
+    /// scene.force(mass, move |t| [blow(t)]);
+    /// scene.shortest_load(1e-3);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy6, 0.1)?;
+    /// run.control_steps(Tolerance::new(1e-4))?;
+    /// run.run_until(10.0)?;
+    /// // ∫ a t (d − t) dt = a d³/6
+    /// assert!((run.momentum(mass)?[0] / (1e-3 / 6.0) - 1.0).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn shortest_load(&mut self, duration: S) {
+        if is_positive(duration) {
+            self.loads.shortest = Some(duration);
+        } else {
+            let duration = duration.to_f64();
+            self.refuse(SceneError::ShortestLoad { duration });
         }
     }
 

@@ -272,6 +272,18 @@ pub enum SceneError {
         /// Whether step control is on.
         is_controlled: bool,
     },
+    /// A time at which steps are to end is not finite.
+    #[error("steps cannot end at {} s, the time must be finite", Readable(*time))]
+    StopTime {
+        /// The time, s.
+        time: f64,
+    },
+    /// The duration of the shortest load is not positive and finite.
+    #[error("the shortest load lasts {} s, which must be positive and finite", Readable(*duration))]
+    ShortestLoad {
+        /// The duration, s.
+        duration: f64,
+    },
     /// The scheme does not support step control.
     #[error(
         "the steps of {scheme} must have one size: its energy stays near its value only then; eem-entropy and eem-temperature keep it with any"

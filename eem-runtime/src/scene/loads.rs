@@ -16,6 +16,10 @@ use eem_material::number::scalar::{Mask, Real};
 /// size, and half an ε for the compensation.
 pub(crate) const MOTION_ROUNDINGS: f64 = 4.0;
 
+/// From an end of a step to a time that is certainly inside, in ε of the times: one for the rounding of the end, one for that of the
+/// time at which steps end, and twice that to be safe.
+const INSIDE_ROUNDINGS: f64 = 4.0;
+
 /// The largest magnitude of coordinates, m.
 ///
 /// Errors of motions are measured in this unit, not in that of their own coordinates: elements depend on differences of
@@ -45,6 +49,16 @@ pub(crate) enum Course<F, T> {
 /// The value between one at the beginning and one at the end of a step, at a share of it.
 fn between<S: Real>(from: S, to: S, share: S) -> S {
     S::branch(share.equal(S::one()), || to, || from + share * (to - from))
+}
+
+impl<F, T> Course<F, T> {
+    /// The function of the user, if it is one.
+    pub(crate) const fn function(&self) -> Option<&F> {
+        match self {
+            Self::Function(of) => Some(of),
+            Self::Constant(_) | Self::Set(_) => None,
+        }
+    }
 }
 
 impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
@@ -95,6 +109,10 @@ pub(crate) struct Loads<S: Real, const D: usize> {
     pub(crate) temperatures: Vec<(Element, TemperatureCourse<S>)>,
     /// Indices of reservoirs whose temperature is a function of time.
     pub(crate) ovens: Vec<(usize, ScalarOfTime<S>)>,
+    /// Times at which steps end, s, in ascending order.
+    pub(crate) stops: Vec<S>,
+    /// No load lasts less than this, s.
+    pub(crate) shortest: Option<S>,
 }
 
 impl<S: Real, const D: usize> Loads<S, D> {
@@ -107,6 +125,8 @@ impl<S: Real, const D: usize> Loads<S, D> {
             motions: Vec::new(),
             temperatures: Vec::new(),
             ovens: Vec::new(),
+            stops: Vec::new(),
+            shortest: None,
         }
     }
 
@@ -114,6 +134,18 @@ impl<S: Real, const D: usize> Loads<S, D> {
         let has_force = self.have_weight() || !self.forces.is_empty() || !self.rockets.is_empty();
         let has_heat = !self.temperatures.is_empty() || !self.ovens.is_empty();
         !has_force && !has_heat && self.motions.is_empty()
+    }
+
+    /// A time in a step at which a force is evaluated: some roundings inside the step if there are times at which steps end. The
+    /// function may jump at such a time; one step sees it before, and the next one behind.
+    #[inline]
+    pub(crate) fn inside(&self, [start, step]: [S; 2], time: S) -> S {
+        if self.stops.is_empty() {
+            return time;
+        }
+        let inside = S::from_f64(INSIDE_ROUNDINGS) * S::EPSILON * (start.abs() + step);
+        let (first, last) = (start + inside, (start + step) - inside);
+        time.maximum(first).minimum(last)
     }
 
     /// The lines of all rockets.
@@ -142,6 +174,8 @@ impl<S: Real, const D: usize> core::fmt::Debug for Loads<S, D> {
             .field("motions", &self.motions.len())
             .field("temperatures", &self.temperatures.len())
             .field("ovens", &self.ovens.len())
+            .field("stops", &self.stops)
+            .field("shortest", &self.shortest)
             .finish()
     }
 }

@@ -10,6 +10,7 @@ use crate::element::error::StateError;
 use crate::element::handle::{Element, Node};
 use crate::step::law::Law;
 use crate::step::newton::NewtonIteration;
+use crate::step::timed::TimedLoad;
 use eem_material::number::readable::Readable;
 use eem_material::number::scalar::Discord;
 
@@ -212,7 +213,7 @@ pub enum StepFailure {
         too_large: Option<TooLarge>,
     },
     /// The end time of a run is invalid.
-    #[error("the end time is {end} s, it must be a number and not lie before the present time", end = Readable(*end))]
+    #[error("the end time is {end} s, it must not lie before the present time, and be finite unless an observer or an event can end the run", end = Readable(*end))]
     End {
         /// The end time, s.
         end: f64,
@@ -359,6 +360,14 @@ pub enum StepLimit {
         error: f64,
         /// The unknown with the largest error.
         worst: Option<Box<WorstError>>,
+    },
+    /// A load that is a function of time changes within a step in a way that the step would pass over.
+    #[error(
+        "{load} changes so much within the last one that the step would pass over it; let steps end where it jumps (`stop_at`), or set a larger smallest step"
+    )]
+    Load {
+        /// The load.
+        load: TimedLoad,
     },
     /// There was no new state, or the step did not prove its laws.
     #[error("{0}")]

@@ -92,7 +92,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn step_by(&mut self, size: S) -> StepResult<S> {
         match self.try_step(size, Demand::None)? {
             Tried::Made(report) => Ok(report),
-            Tried::Rejected(_) => unreachable!("a step without a tolerance is not rejected"),
+            Tried::Rejected(_) | Tried::Unseen(_) => {
+                unreachable!("a step without a tolerance is not rejected")
+            }
         }
     }
 

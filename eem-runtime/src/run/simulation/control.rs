@@ -15,6 +15,9 @@ use crate::step::explicit::Demand;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::{Discord, Mask, Real};
 
+/// The fraction of its size with which a step that would pass over a load is tried again.
+const AFTER_PASSING: f64 = 0.5;
+
 /// # Step control
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Switches step control on: steps get the size that the tolerance requires. The present size is tried first.
@@ -95,6 +98,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Control {
             memory,
             accuracy,
+            horizon: None,
             halves,
         }
     }
@@ -118,8 +122,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Limits the size of controlled steps, s: smallest and largest. By default there are none; but no step is below 16 ε
-    /// times the time or the last step. Where nothing moves, steps grow without limit: set the largest step if a load sets
-    /// in later.
+    /// times the time or the last step. Where nothing moves, steps grow without limit; loads that are functions of time are
+    /// seen before they set in, see [`shortest_load`](crate::Scene::shortest_load).
     ///
     /// # Errors
     ///
@@ -148,6 +152,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// One step by the scheme in use, not beyond `end`, of an accurate size if steps are controlled; by another scheme
     /// if that is allowed and cheaper.
     pub(super) fn step_towards(&mut self, end: S, may_switch: bool) -> StepResult<S> {
+        let (horizon, mut end) = (end, end);
+        if !self.loads.stops.is_empty() {
+            end = self.stop_before(end);
+        }
         if self.control.is_none() {
             let full = self.step;
             let last = self.size_towards(end, full)?;
@@ -163,12 +171,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Each lane needs steps of its own.
             return Err(self.refused(Discord.into()));
         }
+        // A step in the scheme goes to a time within one that has looked.
+        let looks = may_switch;
         let may_switch = may_switch && self.scheme == Scheme::Auto;
         let history = self.history();
         let found = self.with_control(|run, control| match control {
             None => run.step_by(run.step),
-            Some(control) if may_switch => run.step_of_choice(control, end),
-            Some(control) => run.find_accurate_step(control, end),
+            Some(control) => {
+                control.horizon = looks.then_some(horizon);
+                if may_switch {
+                    run.step_of_choice(control, end)
+                } else {
+                    run.find_accurate_step(control, end)
+                }
+            }
         });
         if found.is_err() {
             let statistics = self.step_statistics();
@@ -218,6 +234,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     let error = error.to_f64();
                     let worst = None;
                     (next, StepLimit::Error { error, worst })
+                }
+                Ok(Tried::Unseen(load)) => {
+                    (S::from_f64(AFTER_PASSING) * size, StepLimit::Load { load })
                 }
                 Err(error) => {
                     let statistics = &mut control.memory.statistics;

@@ -40,6 +40,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         control: &mut Control<S>,
         size: S,
     ) -> Result<Tried<S>, StepError> {
+        if let Some(load) = self.unseen_load(control, size)? {
+            return Ok(Tried::Unseen(load));
+        }
         let (memory, accuracy) = (&control.memory, control.accuracy);
         let Some(halves) = &mut control.halves else {
             return self.try_step(size, Demand::Within(memory.tolerance));

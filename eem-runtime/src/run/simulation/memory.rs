@@ -37,6 +37,8 @@ pub(super) struct Snapshot<S> {
 pub(super) struct Control<S> {
     pub(super) memory: SavedControl<S>,
     pub(super) accuracy: Accuracy,
+    /// The end of the run, s, for which steps look at loads before they are made; `None` if they need not.
+    pub(super) horizon: Option<S>,
     /// For schemes without an estimate of their own.
     pub(super) halves: Option<Halves<S>>,
 }

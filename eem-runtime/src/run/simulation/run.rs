@@ -35,7 +35,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// The error of the failed step, with the simulation as it was before that step; [`StepFailure::End`] if `end`
-    /// is not a number or lies in the past.
+    /// is not finite or lies in the past.
     ///
     /// ```
     /// use eem::{Scene, Scheme, Simulation};
@@ -49,6 +49,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn run_until(&mut self, end: S) -> Result<(), StepError> {
+        self.expect_finite(end)?;
         self.run_until_with(end, |_, _| ControlFlow::Continue(()))?;
         Ok(())
     }
@@ -60,7 +61,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// As [`run_until`](Self::run_until).
+    /// As [`run_until`](Self::run_until), but the end may be infinite.
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -130,6 +131,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
         }
         Ok(RunEnd::Reached)
+    }
+
+    /// An error if nothing would end a run until this time, s.
+    pub(super) fn expect_finite(&self, end: S) -> Result<(), StepError> {
+        if end.is_finite() {
+            return Ok(());
+        }
+        let end = end.to_f64();
+        Err(self.refused(StepFailure::End { end }))
     }
 
     /// Whether the end of a run lies ahead.
@@ -212,7 +222,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let mut last = self.time();
         for &time in times {
-            if !last.at_most(time).all() {
+            if !(last.at_most(time).all() && time.is_finite()) {
                 let end = time.to_f64();
                 return Err(self.refused(StepFailure::End { end }));
             }

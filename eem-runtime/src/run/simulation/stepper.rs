@@ -232,7 +232,8 @@ impl<S: Real, const D: usize> Newton<S, D> {
         };
         self.loads.evaluate_supports(loads, (span, S::one()), old)?;
         for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
-            stage.evaluate_forces_at(loads, masses, time + S::from_f64(share) * step)?;
+            let time = loads.inside(span, time + S::from_f64(share) * step);
+            stage.evaluate_forces_at(loads, masses, time)?;
         }
         // The paths of elements have their own times for supports.
         let supports = rule.path.map_or(rule.times, |path| path.supports.times);

@@ -50,13 +50,18 @@ impl Accuracy {
         S::from_f64(self.order().exp2() - 1.0).recip()
     }
 
+    /// The order, if errors are found from the step in two halves.
+    pub(crate) fn order_of_halves(self) -> Option<f64> {
+        self.has_halves().then(|| self.order())
+    }
+
     /// Whether errors are found from the step in two halves.
     pub(crate) fn has_halves(self) -> bool {
         self.estimate != Estimate::Embedded
     }
 
     /// The relative tolerance of one step, which takes the fraction `part` of the time that the tolerance is for.
-    pub(super) fn of_step<S: Real>(self, relative: S, part: S) -> S {
+    pub(crate) fn of_step<S: Real>(self, relative: S, part: S) -> S {
         match self.estimate {
             Estimate::Halves => relative.powf(S::from_f64(1.0 + 1.0 / self.order())),
             Estimate::HalvesOverTime => relative * part,

@@ -126,6 +126,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if !self.loads.has_total_force() {
             return Ok(());
         }
+        let time = view.loads.inside([view.state.time.value, view.step], time);
         self.loads
             .evaluate_forces_at(view.loads, view.masses, time)?;
         self.apply_loads();

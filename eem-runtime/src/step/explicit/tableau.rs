@@ -105,6 +105,20 @@ pub(super) const WEIGHTS: [f64; 8] = [
     0.04471061572777259,
 ];
 
+/// The times and the weights of forces in a step.
+pub(crate) const fn load_rule() -> (&'static [f64], &'static [f64]) {
+    const AT: [f64; WEIGHTED.len()] = {
+        let mut at = [0.0; WEIGHTED.len()];
+        let mut index = 0;
+        while index < at.len() {
+            at[index] = TIMES[WEIGHTED[index]];
+            index += 1;
+        }
+        at
+    };
+    (&AT, &WEIGHTS)
+}
+
 /// Positive weights of order 5 of the same stages, for the guard of productions (found by linear
 /// programming: the least weight is as large as possible).
 pub(super) const POSITIVE_WEIGHTS: [f64; 8] = [

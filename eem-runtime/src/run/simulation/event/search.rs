@@ -54,6 +54,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         end: S,
         events: &mut [Event<'_, D, S>],
     ) -> Result<RunEnd, StepError> {
+        if events.is_empty() {
+            self.expect_finite(end)?;
+        }
         self.run_until_event_with(end, events, |_, _| ControlFlow::Continue(()))
     }
 

@@ -1,0 +1,84 @@
+//! Loads that are functions of time, by name.
+
+use core::fmt;
+
+use crate::element::handle::{Element, Node};
+use crate::step::error::StepFailure;
+
+/// A load that is a function of time.
+///
+/// ```
+/// use eem::{StepFailure, StepLimit, TimedLoad};
+/// use eem::prelude::*;
+///
+/// // A force without a smallest step in which it is smooth.
+/// let mut scene = Scene::<1>::new();
+/// let mass = scene.mass(1.0, [1.0], [1.0]);
+/// scene.force(mass, |t: f64| [(t.to_bits() % 3) as f64]);
+/// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.1)?;
+/// run.control_steps(Tolerance::new(1e-4))?;
+/// run.limit_steps([0.02, 1.0])?;
+/// let failure = run.run_until(1.0).unwrap_err().failure;
+/// let StepFailure::TooSmall { limit: StepLimit::Load { load }, .. } = failure else {
+///     return Err("another failure".into());
+/// };
+/// assert_eq!((load, load.to_string()), (TimedLoad::Force(mass), "the force on node 0".into()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum TimedLoad {
+    /// A force on a node.
+    Force(Node),
+    /// The thrust of a rocket at a node.
+    Thrust(Node),
+    /// The motion of an anchor.
+    Motion(Node),
+    /// The temperature prescribed on an element.
+    Temperature(Element),
+    /// The temperature of the reservoir with this index.
+    Oven(usize),
+}
+
+impl fmt::Display for TimedLoad {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Force(node) => write!(f, "the force on {node}"),
+            Self::Thrust(node) => write!(f, "the thrust of the rocket at {node}"),
+            Self::Motion(node) => write!(f, "the motion of {node}"),
+            Self::Temperature(element) => write!(f, "the temperature prescribed on {element}"),
+            Self::Oven(index) => write!(f, "the temperature of reservoir {index}"),
+        }
+    }
+}
+
+impl TimedLoad {
+    /// The error of an invalid value, in the component `axis`, at a time in s.
+    pub(crate) fn refuse(self, axis: usize, value: f64, time: f64) -> StepFailure {
+        match self {
+            Self::Force(node) => StepFailure::Load {
+                node,
+                axis,
+                value,
+                time,
+            },
+            Self::Thrust(node) => StepFailure::Thrust { node, value, time },
+            Self::Motion(node) => StepFailure::Motion {
+                node,
+                axis,
+                value,
+                time,
+            },
+            Self::Temperature(element) => StepFailure::PrescribedTemperature {
+                element,
+                value,
+                time,
+            },
+            Self::Oven(reservoir) => StepFailure::Oven {
+                reservoir,
+                value,
+                time,
+            },
+        }
+    }
+}

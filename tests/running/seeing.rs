@@ -1,0 +1,425 @@
+//! Loads that are functions of time are not passed over by controlled steps.
+
+use std::f64::consts::PI;
+
+use eem::materials::{Hooke, ThermoelasticSpring};
+use eem::prelude::*;
+use eem::{StepFailure, StepLimit, TimedLoad};
+use eem_testkit::length::at_length;
+use eem_testkit::random::Random;
+
+/// The time of a run, s, and how long a bump lasts: a hundredth of it.
+const SPAN: f64 = 10.0;
+const BUMP: f64 = 0.01 * SPAN;
+
+const TOLERANCE: f64 = 1e-4;
+
+/// What the errors of all steps of a run may add up to, in tolerances.
+const SUM: f64 = 20.0;
+
+/// `(1 + cos 2πx)/2` around its middle, s.
+fn bump(time: f64, middle: f64) -> f64 {
+    let x = (time - middle) / BUMP;
+    if x.abs() < 0.5 {
+        0.5 + 0.5 * (2.0 * PI * x).cos()
+    } else {
+        0.0
+    }
+}
+
+/// `∫ bump(t) f(t) dt` by Simpson's rule; the error is of the order (1/200)⁴.
+fn weighted(middle: f64, of: impl Fn(f64) -> f64) -> f64 {
+    let step = BUMP / 200.0;
+    let term = |index: i32| {
+        let time = middle + step * f64::from(index - 100);
+        let weight = match index {
+            0 | 200 => 1.0,
+            _ if index % 2 == 1 => 4.0,
+            _ => 2.0,
+        };
+        weight * bump(time, middle) * of(time)
+    };
+    step / 3.0 * (0..=200).map(term).sum::<f64>()
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Load {
+    Force,
+    Thrust,
+    Motion,
+    Temperature,
+    Oven,
+}
+
+impl Load {
+    const ALL: [Self; 5] = [
+        Self::Force,
+        Self::Thrust,
+        Self::Motion,
+        Self::Temperature,
+        Self::Oven,
+    ];
+}
+
+/// A mass of 1 kg on a spring of 4 N/m that swings by 0.1 m, and two springs of 2 J/K with a conductance of 10 W/K between them.
+struct Bumped {
+    scene: Scene<1>,
+    mass: Node,
+    second: Element,
+}
+
+const OMEGA: f64 = 2.0;
+const SWING: f64 = 0.1;
+
+/// κ/c of the second spring, 1/s.
+const RATE: f64 = 5.0;
+
+const FORCE: f64 = 3.0;
+const SHIFT: f64 = 0.3;
+const WARMING: f64 = 100.0;
+
+impl Bumped {
+    fn new(load: Load, middle: f64) -> Self {
+        let mut scene = Scene::<1>::new();
+        let hook = scene.anchor([0.0]);
+        let mass = scene.mass(1.0, [1.0 + SWING], [0.0]);
+        let stiffness = OMEGA * OMEGA;
+        scene.spring(
+            Hooke {
+                stiffness,
+                natural_length: 1.0,
+            },
+            [hook, mass],
+        );
+        let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
+        let mut wire = || {
+            let wire = ThermoelasticSpring {
+                stiffness: 1.0,
+                coupling: 0.0,
+                capacity: 2.0,
+                natural_length: 1.0,
+                theta_ref: 300.0,
+            };
+            let wire = scene.spring(wire, ends);
+            scene.set_temperature(wire, 300.0);
+            wire
+        };
+        let [first, second] = [wire(), wire()];
+        match load {
+            Load::Force => scene.force(mass, move |t| [FORCE * bump(t, middle)]),
+            Load::Thrust => scene.rocket(mass, [hook, mass], move |t| FORCE * bump(t, middle)),
+            Load::Motion => scene.move_anchor(hook, move |t| [SHIFT * bump(t, middle)]),
+            Load::Temperature => {
+                scene.prescribe_temperature(first, move |t| 300.0 + WARMING * bump(t, middle));
+            }
+            Load::Oven => {
+                let oven = scene.oven(move |t| 300.0 + WARMING * bump(t, middle));
+                scene.conduct(second, oven, 2.0 * RATE);
+            }
+        }
+        if load == Load::Temperature {
+            scene.conduct(second, first, 2.0 * RATE);
+        }
+        Self {
+            scene,
+            mass,
+            second,
+        }
+    }
+
+    /// Position and momentum of the mass, and the temperature of the second spring, by Duhamel's integral:
+    ///
+    /// ```text
+    /// q = 1 + a cos ωT + ∫ f sin(ω(T − t))/ω dt,   p = q̇,   θ = 300 + (κ/c) ∫ δθ exp(−κ(T − t)/c) dt
+    /// ```
+    fn exact(load: Load, middle: f64) -> [f64; 3] {
+        let force = match load {
+            Load::Force | Load::Thrust => FORCE,
+            Load::Motion => OMEGA * OMEGA * SHIFT,
+            Load::Temperature | Load::Oven => 0.0,
+        };
+        let warming = match load {
+            Load::Temperature | Load::Oven => WARMING,
+            _ => 0.0,
+        };
+        let angle = |time| OMEGA * (SPAN - time);
+        let q = 1.0 + SWING * (OMEGA * SPAN).cos();
+        let p = -SWING * OMEGA * (OMEGA * SPAN).sin();
+        let cooling = weighted(middle, |time| (RATE * (time - SPAN)).exp());
+        [
+            q + force * weighted(middle, |time| angle(time).sin() / OMEGA),
+            p + force * weighted(middle, |time| angle(time).cos()),
+            300.0 + warming * RATE * cooling,
+        ]
+    }
+}
+
+/// The worst error, in tolerances, of runs with a bump anywhere.
+fn worst(load: Load, scheme: Scheme, places: u32, random: &mut Random) -> f64 {
+    let mut worst = 0.0_f64;
+    for place in 0..places {
+        // The last place is near the end, where the bump has just acted on the temperature.
+        let share = random.unit();
+        let middle = match place {
+            0 => SPAN - BUMP,
+            _ => BUMP + share * (SPAN - 2.0 * BUMP),
+        };
+        let Bumped {
+            scene,
+            mass,
+            second,
+        } = Bumped::new(load, middle);
+        let mut run = Simulation::new(scene, scheme, 1.0).unwrap();
+        run.control_steps(Tolerance::new(TOLERANCE)).unwrap();
+        run.run_until(SPAN).unwrap();
+        let [q, p, theta] = Bumped::exact(load, middle);
+        let largest = SWING * OMEGA;
+        let errors = [
+            (run.position(mass).unwrap()[0] - q) / q.abs(),
+            (run.momentum(mass).unwrap()[0] - p) / largest,
+            (run.temperature(second).unwrap() - theta) / theta,
+        ];
+        let errors = errors.map(|error| error.abs() / TOLERANCE);
+        worst = errors.into_iter().fold(worst, f64::max);
+    }
+    worst
+}
+
+#[test]
+fn a_bump_of_a_hundredth_of_a_run_is_never_missed() {
+    let places = at_length(2_000, 50);
+    let mut random = Random::new(45);
+    for load in Load::ALL {
+        for scheme in [
+            Scheme::EemTemperature,
+            Scheme::EemEntropy4,
+            Scheme::EemExplicit,
+            Scheme::Auto,
+        ] {
+            if load == Load::Thrust && scheme == Scheme::EemExplicit {
+                continue;
+            }
+            let worst = worst(load, scheme, places, &mut random);
+            assert!(worst < SUM, "{load:?}, {scheme}: {worst} tolerances");
+        }
+    }
+}
+
+/// A bump changes what is compared by hundreds of tolerances, so that the test above would notice one that is missed.
+#[test]
+fn a_bump_matters() {
+    for load in Load::ALL {
+        let with = Bumped::exact(load, SPAN - BUMP);
+        let without = [
+            1.0 + SWING * (OMEGA * SPAN).cos(),
+            -SWING * OMEGA * (OMEGA * SPAN).sin(),
+            300.0,
+        ];
+        let scales = [1.0, SWING * OMEGA, 300.0];
+        let changes = (0..3).map(|at| (with[at] - without[at]).abs() / scales[at] / TOLERANCE);
+        assert!(changes.fold(0.0, f64::max) > 10.0 * SUM, "{load:?}");
+    }
+}
+
+#[test]
+fn a_value_that_is_not_a_number_between_the_times_of_the_scheme_is_an_error() {
+    for scheme in [
+        Scheme::EemTemperature,
+        Scheme::EemEntropy4,
+        Scheme::EemExplicit,
+        Scheme::Auto,
+    ] {
+        let mut scene = Scene::<1>::new();
+        let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [1e-3])];
+        let mass = ends[1];
+        scene.spring(
+            Hooke {
+                stiffness: 1e-4,
+                natural_length: 1.0,
+            },
+            ends,
+        );
+        scene.force(mass, |t: f64| {
+            [if (0.60..0.61).contains(&t) {
+                f64::NAN
+            } else {
+                0.0
+            }]
+        });
+        let mut run = Simulation::new(scene, scheme, 1.0).unwrap();
+        run.control_steps(Tolerance::new(TOLERANCE)).unwrap();
+        let failure = run.run_until(1.0).unwrap_err().failure;
+        let StepFailure::Load {
+            node,
+            axis: 0,
+            time,
+            ..
+        } = failure
+        else {
+            panic!("{scheme}: {failure}");
+        };
+        assert!(
+            node == mass && (0.60..0.61).contains(&time),
+            "{scheme}: {time}"
+        );
+    }
+}
+
+/// A load without a scale on which it is smooth.
+#[test]
+fn a_load_that_no_step_resolves_is_named() {
+    let mut scene = Scene::<1>::new();
+    let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    let mass = ends[1];
+    scene.spring(
+        Hooke {
+            stiffness: 4.0,
+            natural_length: 1.0,
+        },
+        ends,
+    );
+    let noise = |t: f64| Random::new(t.to_bits()).unit() - 0.5;
+    scene.force(mass, move |t: f64| [noise(t)]);
+    let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.1).unwrap();
+    run.control_steps(Tolerance::new(TOLERANCE)).unwrap();
+    run.limit_steps([0.02, 1.0]).unwrap();
+    let before = run.checkpoint();
+    let failure = run.run_until(1.0).unwrap_err().failure;
+    let StepFailure::TooSmall { limit, .. } = &failure else {
+        panic!("{failure}");
+    };
+    assert_eq!(
+        limit,
+        &StepLimit::Load {
+            load: TimedLoad::Force(mass)
+        }
+    );
+    let text = failure.to_string();
+    assert!(
+        text.contains("the force on node 1 changes so much"),
+        "{text}"
+    );
+    assert_eq!(run.checkpoint(), before);
+}
+
+#[test]
+fn invalid_times_of_loads_are_errors_of_the_scene() {
+    let mut scene = Scene::<1>::new();
+    scene.stop_at([1.0, f64::NAN]);
+    scene.shortest_load(0.0);
+    scene.shortest_load(f64::INFINITY);
+    scene.stop_at([f64::INFINITY]);
+    let text: Vec<_> = scene.errors().iter().map(ToString::to_string).collect();
+    assert_eq!(
+        text,
+        [
+            "steps cannot end at NaN s, the time must be finite",
+            "the shortest load lasts 0 s, which must be positive and finite",
+            "the shortest load lasts inf s, which must be positive and finite",
+            "steps cannot end at inf s, the time must be finite",
+        ]
+    );
+}
+
+/// Two masses on springs under gravity and a smooth force.
+fn forced() -> Scene<2> {
+    let mut scene = Scene::<2>::new();
+    let hook = scene.anchor([0.0, 0.0]);
+    let near = scene.mass(1.0, [1.1, 0.0], [0.0, 0.5]);
+    let far = scene.mass(0.5, [2.0, 0.2], [0.0, 0.0]);
+    let spring = |stiffness| Hooke {
+        stiffness,
+        natural_length: 1.0,
+    };
+    scene.spring(spring(100.0), [hook, near]);
+    scene.spring(spring(50.0), [near, far]);
+    scene.set_gravity([0.0, -9.81]);
+    scene.force(far, |t: f64| [3.0 * (2.0 * t).sin(), (5.0 * t).cos()]);
+    scene
+}
+
+/// A warm spring whose anchor and temperature are moved smoothly.
+fn shaken() -> Scene<2> {
+    let mut scene = Scene::<2>::new();
+    let wire = ThermoelasticSpring {
+        stiffness: 100.0,
+        coupling: 0.5,
+        capacity: 2.0,
+        natural_length: 1.0,
+        theta_ref: 300.0,
+    };
+    let hook = scene.anchor([0.0, 0.0]);
+    let mass = scene.mass(1.0, [1.1, 0.0], [0.0, 0.5]);
+    let wire = scene.spring(wire, [hook, mass]);
+    scene.set_temperature(wire, 300.0);
+    scene.move_anchor(hook, |t: f64| [0.1 * (1.0 - (3.0 * t).cos()), 0.0]);
+    scene.prescribe_temperature(wire, |t: f64| 300.0 + 20.0 * (0.7 * t).sin());
+    scene
+}
+
+/// The counts are those of the same runs without a look at the loads.
+#[test]
+fn smooth_loads_cost_no_steps() {
+    type Build = fn() -> Scene<2>;
+    for (name, scene, scheme, relative, counted) in [
+        ("forced", forced as Build, Scheme::EemEntropy4, 1e-4, 152),
+        ("forced", forced, Scheme::EemEntropy6, 1e-4, 53),
+        ("forced", forced, Scheme::EemExplicit, 1e-4, 94),
+        ("forced", forced, Scheme::EemEntropy6, 1e-6, 119),
+        ("forced", forced, Scheme::EemExplicit, 1e-8, 285),
+        ("shaken", shaken, Scheme::EemEntropy4, 1e-4, 151),
+        ("shaken", shaken, Scheme::EemEntropy6, 1e-6, 115),
+    ] {
+        let mut run = Simulation::new(scene(), scheme, 0.01).unwrap();
+        run.control_steps(Tolerance::new(relative)).unwrap();
+        run.run_until(10.0).unwrap();
+        let steps = run.step_statistics().unwrap().accepted;
+        let most = 1.05 * f64::from(counted);
+        assert!(
+            f64::from(u32::try_from(steps).unwrap()) <= most,
+            "{name}, {scheme}, {relative:e}: {steps} steps"
+        );
+    }
+}
+
+/// Ovens act through the middle of a step in schemes of every order; an element follows one by
+///
+/// ```text
+/// θ̇ = r (θ_oven − θ),   θ_oven = 300 + a sin ωt:   θ = 300 + a (r² sin ωt − rω cos ωt + rω e^(−rt))/(r² + ω²)
+/// ```
+#[test]
+fn the_temperature_of_an_oven_is_followed_to_the_tolerance() {
+    let (rate, omega, swing, end) = (2.0_f64, 3.0_f64, 50.0, 4.0);
+    for scheme in [
+        Scheme::EemEntropy4,
+        Scheme::EemEntropy6,
+        Scheme::EemExplicit,
+        Scheme::Auto,
+    ] {
+        for relative in [1e-4, 1e-6] {
+            let mut scene = Scene::<1>::new();
+            let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+            let wire = ThermoelasticSpring {
+                stiffness: 1.0,
+                coupling: 0.0,
+                capacity: 2.0,
+                natural_length: 1.0,
+                theta_ref: 300.0,
+            };
+            let wire = scene.spring(wire, ends);
+            scene.set_temperature(wire, 300.0);
+            let oven = scene.oven(move |t| 300.0 + swing * (omega * t).sin());
+            scene.conduct(wire, oven, 2.0 * rate);
+            let mut run = Simulation::new(scene, scheme, 0.01).unwrap();
+            run.control_steps(Tolerance::new(relative)).unwrap();
+            run.run_until(end).unwrap();
+            let (sin, cos) = (omega * end).sin_cos();
+            let rest = rate * omega * (-rate * end).exp();
+            let sum = rate * rate * sin - rate * omega * cos + rest;
+            let exact = 300.0 + swing * sum / (rate * rate + omega * omega);
+            let error = (run.temperature(wire).unwrap() / exact - 1.0).abs() / relative;
+            // The mean of every step is right to one tolerance; the scheme's own errors add to it.
+            assert!(error < 4.0, "{scheme}, {relative:e}: {error} tolerances");
+        }
+    }
+}
