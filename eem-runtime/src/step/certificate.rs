@@ -20,18 +20,18 @@
 //! ```
 //!
 //! A* has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces, and of the sums of the
-//! forces F of elements at their nodes, masses and anchors. A⁺ and W_r are computed only if A* is not enough. Where the
+//! forces F of elements at their nodes, masses and anchors. A⁺ and `W_r` are computed only if A* is not enough. Where the
 //! terms of an entropy cancel, the temperature found from it, and so the stored energy, has an error of
 //! 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller values of `|ψ| + θ|s| + cθ`.
 //!
-//! W_r is what the residuals r of the momentum balances do. A force answers to the rounding of its length with `k ε λ`,
+//! `W_r` is what the residuals r of the momentum balances do. A force answers to the rounding of its length with `k ε λ`,
 //! so that no iteration makes r smaller. Nor does r act on both nodes of an element alike, as its force does: over a
 //! displacement Δq far above Δλ, as of a mass that travels with its moved anchor, its work `k ε λ |Δq|` is far above
-//! `k ε λ |Δλ|` of A⁺. The momenta p¹ are those of the increments, so that the states have gained W_r. It is known, and not
+//! `k ε λ |Δλ|` of A⁺. The momenta p¹ are those of the increments, so that the states have gained `W_r`. It is known, and not
 //! bounded: subtracted from R it leaves what the forces of the elements have done, against which a wrong force is seen
-//! as before. Each r must be rounding, see [`Tally::balance_node`]; then W_r is.
+//! as before. Each r must be rounding, see [`Tally::balance_node`]; then `W_r` is.
 //!
-//! A step through stages has residuals ρ at them, and further roundings: W_r is `Σ_j b_j q̇_j·r_j` with the residuals r_j of
+//! A step through stages has residuals ρ at them, and further roundings: `W_r` is `Σ_j b_j q̇_j·r_j` with the residuals `r_j` of
 //! the rates, which follow from ρ, and A⁺ has
 //!
 //! ```text
@@ -107,7 +107,7 @@ pub(crate) struct Certificate<S: Real> {
     terms: [S; 2],
     /// The defect that decides, R or its replacement by discrete derivatives, and B*, J.
     judged: [S; 2],
-    /// W_r, J.
+    /// `W_r`, J.
     residual_work: S,
     /// The entropy production of all dashpots and paths of heat, J/K.
     pub(crate) production: S,

@@ -14,7 +14,7 @@ pub(crate) struct Motion<S, const D: usize> {
     /// T of both ends, and the magnitude of the work of loads and supports, J.
     pub(super) kinetic: S,
     pub(super) works: S,
-    /// W_r, the work of the residuals of the momentum balances, if bounds are thorough, J.
+    /// `W_r`, the work of the residuals of the momentum balances, if bounds are thorough, J.
     pub(super) residual_work: S,
     /// `Σ (Δp − hF)` of the loads F, and `Σ |p|`, kg m/s.
     pub(super) linear: [S; D],
@@ -91,9 +91,9 @@ impl<S: Real, const D: usize> NodeStep<'_, S, D> {
     #[cold]
     pub(crate) fn energy_of_rounding(&self, terms: &[S; D]) -> S {
         let mut energy = S::zero();
-        for axis in 0..D {
-            let momentum = self.momentum[axis] + self.impulse[axis];
-            energy += (momentum * terms[axis]).abs();
+        let momenta = self.momentum.iter().zip(self.impulse);
+        for ((&momentum, &impulse), &terms) in momenta.zip(terms) {
+            energy += ((momentum + impulse) * terms).abs();
         }
         energy
     }

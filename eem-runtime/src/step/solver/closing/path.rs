@@ -48,9 +48,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                     None => S::zero(),
                     Some(&magnitude) => {
                         let mut way = [S::zero(); D];
-                        for (other, share) in
-                            stages.rule.ways_of_residual(set).into_iter().enumerate()
-                        {
+                        for (other, share) in stages.rule.ways_of_residual(set).enumerate() {
                             let moved = &self.trial.displacements_of_set(other)[node];
                             for axis in 0..D {
                                 way[axis] += S::from_f64(share) * moved[axis];
