@@ -97,6 +97,7 @@ pub use run::simulation::event::Event;
 pub use run::simulation::generic::Generic;
 pub use run::simulation::linearize::StepTangent;
 pub use run::simulation::run::RunEnd;
+pub use run::simulation::warning::Warning;
 #[cfg(feature = "vtk")]
 pub use run::vtk::VtkSeries;
 pub use scene::Scene;

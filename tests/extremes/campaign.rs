@@ -294,6 +294,11 @@ mod tests {
     }
 
     #[test]
+    fn fresh_damped_steps_keep_the_laws() {
+        sample(Scheme::EemDamped, &BOTH);
+    }
+
+    #[test]
     fn fresh_staggered_steps_keep_the_laws() {
         sample(Scheme::Staggered, &BOTH);
     }

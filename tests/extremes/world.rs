@@ -160,7 +160,8 @@ impl<const D: usize> World<D> {
     pub(crate) fn start(mut self, scheme: Scheme, step: f64) -> Result<Watched<D>, SceneError> {
         let is_loaded =
             !self.facts.forces.is_empty() || self.facts.gravity.iter().any(|g| g.abs() > 0.0);
-        self.facts.has_known_impulses = !is_loaded || EXACT.contains(&scheme);
+        let is_at_middle = EXACT.contains(&scheme) || scheme == Scheme::EemDamped;
+        self.facts.has_known_impulses = !is_loaded || is_at_middle;
         Ok(Watched::new(
             Simulation::new(self.scene, scheme, step)?,
             self.facts,

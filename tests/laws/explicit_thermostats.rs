@@ -184,54 +184,89 @@ fn heat_of_a_changing_temperature_is_that_of_the_energy() {
     }
 }
 
-/// An isothermal spring without dashpot between a wall and an anchor that is moved: nothing can take the error of the work, so
-/// that a step is either exact to rounding or refused.
+/// A spring without dashpot of which length and temperature are given: nothing can take an error of work or heat.
+const GIVEN: ThermoelasticSpring = ThermoelasticSpring {
+    stiffness: 5.0,
+    coupling: 1.0,
+    capacity: 2.0,
+    natural_length: 1.0,
+    theta_ref: 300.0,
+};
+
+/// Its length and the rate of it, m and m/s.
+fn length(t: f64) -> [f64; 2] {
+    [1.3 + 0.2 * (5.0 * t).sin(), (5.0 * t).cos()]
+}
+
+fn given(step: f64, theta: fn(f64) -> f64) -> (Simulation<1>, Element) {
+    let mut scene = Scene::<1>::new();
+    let ends = [scene.anchor([0.0]), scene.anchor([length(0.0)[0]])];
+    let held = scene.spring(GIVEN, ends);
+    scene.set_temperature(held, theta(0.0));
+    scene.prescribe_temperature(held, theta);
+    scene.move_anchor(ends[1], |t| [length(t)[0]]);
+    (Simulation::new(scene, SCHEME, step).unwrap(), held)
+}
+
+/// What 400 steps may be off by: in each 64 ε of `θ (|s| + c)`, at up to 330 K.
+const GIVEN_ROUNDING: f64 = 400.0 * 64.0 * f64::EPSILON * 330.0 * (1.0 + 2.0);
+
 #[test]
 fn work_on_a_held_spring_is_its_free_energy_or_refused() {
-    let (spring, theta) = (
-        ThermoelasticSpring {
-            stiffness: 5.0,
-            coupling: 1.0,
-            capacity: 2.0,
-            natural_length: 1.0,
-            theta_ref: 300.0,
-        },
-        310.0,
-    );
-    let place = |t: f64| 1.3 + 0.2 * (5.0 * t).sin();
-    let run = |step: f64| {
-        let mut scene = Scene::<1>::new();
-        let ends = [scene.anchor([0.0]), scene.anchor([place(0.0)])];
-        let held = scene.spring(spring.clone(), ends);
-        scene.hold_temperature(held, theta);
-        scene.move_anchor(ends[1], move |t| [place(t)]);
-        Simulation::new(scene, SCHEME, step).unwrap()
+    let theta = 310.0;
+    let free = |t: f64| {
+        let strain = length(t)[0].ln();
+        0.5 * GIVEN.stiffness * strain * strain
+            - GIVEN.coupling * (theta - GIVEN.theta_ref) * strain
     };
-    let free = |length: f64| {
-        let strain = length.ln();
-        0.5 * spring.stiffness * strain * strain
-            - spring.coupling * (theta - spring.theta_ref) * strain
-    };
-    let mut fine = run(0.002);
+    let (mut fine, _) = given(0.002, |_| 310.0);
     let mut turnover = 0.0;
     for _ in 0..400 {
         let before = fine.ledger().work;
         fine.step().unwrap();
-        let ledger = fine.ledger();
-        turnover += (ledger.work - before).abs();
-        let exact = free(place(fine.time())) - free(place(0.0));
-        // A defect of 64 ε of θ (|s| + c) in each of 400 steps.
-        let bound = 64.0 * f64::EPSILON * 400.0 * theta * (spring.capacity + spring.coupling);
-        assert!(
-            (ledger.work - exact).abs() <= bound,
-            "{} {exact}",
-            ledger.work
-        );
+        let work = fine.ledger().work;
+        turnover += (work - before).abs();
+        let exact = free(fine.time()) - free(0.0);
+        assert!((work - exact).abs() <= GIVEN_ROUNDING, "{work} {exact}");
     }
     assert!(turnover > 1.0);
-    let error = run(0.5).step().unwrap_err();
+    let error = given(0.5, |_| 310.0).0.step().unwrap_err();
     println!("{error}");
     assert!(matches!(error.failure, StepFailure::NotClosed { .. }));
+}
+
+/// `∫ θ ṡ dt` with `ṡ = β λ̇/λ + c θ̇/θ`, by Simpson's rule on the given courses.
+#[test]
+fn heat_of_a_given_course_is_the_integral_of_temperature_times_entropy() {
+    let theta = |t: f64| 310.0 + 20.0 * (7.0 * t).sin();
+    let (mut run, held) = given(0.002, theta);
+    let energy = |run: &Simulation<1>| run.internal_energy(held).unwrap();
+    let first = energy(&run);
+    let power = |t: f64| {
+        let [length, speed] = length(t);
+        let warming = 140.0 * (7.0 * t).cos();
+        GIVEN.coupling * theta(t) * speed / length + GIVEN.capacity * warming
+    };
+    let mut exact = 0.0;
+    for step in 0..400 {
+        run.step().unwrap();
+        let part = 0.002 / 16.0;
+        let start = 0.002 * f64::from(step);
+        for k in 0..16 {
+            let t = start + part * f64::from(k);
+            let sum = power(t) + 4.0 * power(t + 0.5 * part) + power(t + part);
+            exact += part / 6.0 * sum;
+        }
+        let ledger = run.ledger();
+        assert!(
+            (ledger.heat - exact).abs() <= GIVEN_ROUNDING,
+            "{} {exact}",
+            ledger.heat
+        );
+        let defect = energy(&run) - first - ledger.heat - ledger.work;
+        assert!(defect.abs() <= GIVEN_ROUNDING, "{defect:e}");
+    }
+    assert!(exact.abs() > 1.0);
 }
 
 /// Heat between thermostats and reservoirs: no energy can be moved there to hide a defect.

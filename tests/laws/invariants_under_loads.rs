@@ -15,9 +15,10 @@ const TOLERANCE: f64 = 7.0e-15;
 /// Two units in the last place of S.
 const ENTROPY_TOLERANCE: f64 = 2.0;
 
-const SCHEMES: [Scheme; 3] = [
+const SCHEMES: [Scheme; 4] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
+    Scheme::EemDamped,
     Scheme::Staggered,
 ];
 const STEPS: usize = 1_000;

@@ -15,16 +15,18 @@ const ENTROPY_TOLERANCE: f64 = -2.0;
 const ROOM: f64 = 300.0;
 const CONDUCTANCE: f64 = 3.0;
 /// Those that keep the laws.
-const SCHEMES: [Scheme; 4] = [
+const SCHEMES: [Scheme; 5] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
+    Scheme::EemDamped,
     Scheme::EemEntropy4,
     Scheme::EemEntropy6,
 ];
 /// All that step such an element.
-const ALL: [Scheme; 8] = [
+const ALL: [Scheme; 9] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
+    Scheme::EemDamped,
     Scheme::EemEntropy4,
     Scheme::EemEntropy6,
     Scheme::Midpoint,

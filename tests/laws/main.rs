@@ -6,6 +6,7 @@ use eem_testkit::scenes as support;
 
 mod blocks;
 mod cells;
+mod damped;
 mod dissipation;
 mod double_pendulums;
 mod explicit;

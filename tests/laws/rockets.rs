@@ -7,9 +7,10 @@ use crate::cells::derivative;
 use crate::support::ThermoViscoElastic;
 
 /// One stage, and a force that may turn within a step.
-const SCHEMES: [Scheme; 7] = [
+const SCHEMES: [Scheme; 8] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
+    Scheme::EemDamped,
     Scheme::Staggered,
     Scheme::Midpoint,
     Scheme::MidpointTemperature,

@@ -13,7 +13,11 @@ const ENTROPY_TOLERANCE: f64 = -2.0;
 
 const ROOM: f64 = 300.0;
 const CONDUCTANCE: f64 = 3.0;
-const SCHEMES: [Scheme; 2] = [Scheme::EemEntropy, Scheme::EemTemperature];
+const SCHEMES: [Scheme; 3] = [
+    Scheme::EemEntropy,
+    Scheme::EemTemperature,
+    Scheme::EemDamped,
+];
 
 /// A mass of 1 kg on the model, stretched, turning, hot, and cooled by the room.
 fn pendulum<M>(model: M, scheme: Scheme, step: f64) -> (Simulation<2>, Node, Element)

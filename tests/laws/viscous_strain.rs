@@ -35,6 +35,7 @@ fn a_rotated_copy_does_the_same() {
     for scheme in [
         Scheme::EemEntropy,
         Scheme::EemTemperature,
+        Scheme::EemDamped,
         Scheme::EemEntropy4,
         Scheme::Midpoint,
         Scheme::Trapezoidal,

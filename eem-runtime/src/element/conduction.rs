@@ -40,6 +40,10 @@ pub(crate) struct Conduction<S> {
     /// Of each path in the order of creation: its first link, which is that of the lower of two slots, and whether this link
     /// is at the second of the ends with which the path was created.
     paths: Vec<(u32, bool)>,
+    /// The element of each thermal slot, and its Σ κ to elements and half that to reservoirs, W/K; empty for a scene without
+    /// paths.
+    owners: Vec<u32>,
+    settling: Vec<S>,
     /// `θ_r`, K.
     pub(crate) reservoirs: Vec<S>,
 }
@@ -81,6 +85,23 @@ impl<S: Real> Conduction<S> {
                 });
             }
         }
+        let mut owners = vec![0; slots];
+        for (element, element_slots) in layout.elements.iter().enumerate() {
+            if let Some(owner) = element_slots.thermal.and_then(|slot| owners.get_mut(slot)) {
+                *owner = compact(element);
+            }
+        }
+        let settling = by_slot.iter().map(|links: &Vec<Link<S>>| {
+            let mut sum = S::zero();
+            for link in links {
+                sum += match link.partner {
+                    Partner::Slot(_) => link.conductance,
+                    Partner::Reservoir(_) => S::from_f64(0.5) * link.conductance,
+                };
+            }
+            sum
+        });
+        let settling = settling.collect();
         let mut links = Vec::new();
         let mut ranges = Vec::with_capacity(by_slot.len());
         for list in by_slot {
@@ -97,6 +118,8 @@ impl<S: Real> Conduction<S> {
         Self {
             links,
             paths: paths.collect(),
+            owners,
+            settling,
             ranges,
             reservoirs: reservoirs.to_vec(),
         }
@@ -142,6 +165,19 @@ impl<S: Real> Conduction<S> {
         self.links
             .get(start as usize..end as usize)
             .unwrap_or_default()
+    }
+
+    /// The index of the element of a slot of a scene with paths.
+    #[inline]
+    pub(crate) fn owner(&self, slot: usize) -> usize {
+        self.owners[slot] as usize
+    }
+
+    /// Σ κ of a slot to elements and half that to reservoirs, W/K. If it is at most `c/h` at every slot, the rates of the network are
+    /// at most `2/h`, and a step by the mean temperature does not alternate.
+    #[inline]
+    pub(crate) fn settling(&self, slot: usize) -> S {
+        self.settling.get(slot).copied().unwrap_or(S::zero())
     }
 
     /// Whether a slot exchanges heat with reservoirs.

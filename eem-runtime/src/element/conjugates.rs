@@ -7,6 +7,7 @@
 mod eem_entropy;
 mod eem_temperature;
 mod element;
+mod fitting;
 mod point;
 mod temperature;
 
@@ -15,6 +16,7 @@ use crate::element::tableau::Tableau;
 pub(crate) use eem_entropy::EemEntropy;
 pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use element::{ElementScheme, Form, Infeasible, Placement, Start};
+pub(crate) use fitting::end_weight;
 pub(crate) use point::PointRule;
 pub(crate) use temperature::{recovered_at, temperature_at};
 
@@ -25,6 +27,8 @@ pub(crate) enum Conjugates {
     EntropyForm,
     /// [`EemTemperature`].
     TemperatureForm,
+    /// The same, damped towards the end of the step.
+    DampedTemperatureForm,
     /// Values at one point of the step.
     Point(PointRule),
     /// Values at the stages of a rule.

@@ -22,6 +22,8 @@ mod by_rows;
 mod certify;
 mod closing;
 mod correct;
+mod damp;
+mod damping;
 mod element_group;
 mod eliminate;
 mod evaluate;

@@ -34,6 +34,8 @@ pub(crate) struct Tally<S: Real> {
     pub(crate) production: S,
     /// The smallest production of a dashpot or a path of heat, J/K; `S::MAX` if there is none.
     pub(crate) least: S,
+    /// Conductions and dashpots that relax faster than the step resolves.
+    pub(crate) unresolved: usize,
     /// Every balance of a node or an internal variable holds to rounding.
     pub(crate) is_balanced: S::Mask,
 }
@@ -48,6 +50,7 @@ impl<S: Real> Tally<S> {
             forces: S::zero(),
             production: S::zero(),
             least: S::MAX,
+            unresolved: 0,
             is_balanced: !S::Mask::none(),
         }
     }
@@ -75,6 +78,12 @@ impl<S: Real> Tally<S> {
     pub(crate) fn produce(&mut self, entropy: S) {
         self.production += entropy;
         self.least = self.least.minimum(entropy);
+    }
+
+    /// Counts a conduction or a dashpot unless `step` resolves it: at most `resistance` times the other number.
+    #[inline]
+    pub(crate) fn see_relaxation(&mut self, step: S, driving: S, resistance: S) {
+        self.unresolved += usize::from(resistance.less(step * driving).any());
     }
 
     /// Checks the defect of the balance of a node, N s, given its impulse, the terms of each direction, and the magnitude of

@@ -37,6 +37,7 @@ mod ovens;
 pub(crate) mod start;
 mod stepper;
 mod unseen;
+pub(crate) mod warning;
 mod worst;
 
 use core::fmt;
@@ -70,7 +71,7 @@ use check::{Needs, check_all};
 use control::check_tolerance;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Mask, Real};
-use memory::{Automatic, Control};
+use memory::{Automatic, Control, Unresolved};
 use start::{Begin, find_entropies, initial_state};
 use stepper::{Parts, Stepper};
 
@@ -127,6 +128,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
     corrections: Corrections<S>,
+    unresolved: Unresolved<S>,
     /// Whether something failed in lanes, so that no further result counts: some lanes might have succeeded alone.
     /// Never set for a single number.
     has_diverged: AtomicBool,
@@ -243,6 +245,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             wants_meters: AtomicBool::new(false),
             worst: None,
             corrections: Corrections::none(),
+            unresolved: Unresolved::none(),
             has_diverged: AtomicBool::new(false),
         };
         match begin {

@@ -113,6 +113,8 @@ pub(crate) struct Certificate<S: Real> {
     pub(crate) production: S,
     /// The smallest production of one of them; zero without any, J/K.
     pub(crate) least_production: S,
+    /// Conductions and dashpots that relax faster than the step resolves.
+    pub(crate) unresolved: usize,
     /// The largest component of the defect of each momentum, and the magnitude of its terms, kg m/s and kg m²/s.
     linear: [S; 2],
     angular: [S; 2],
@@ -181,6 +183,7 @@ impl<S: Real> Certificate<S> {
             residual_work: motion.residual_work,
             production: tally.production,
             least_production: S::select(has_produced, tally.least, S::zero()),
+            unresolved: tally.unresolved,
             linear: match motion.kept {
                 Kept::Both => [largest(&motion.linear), motion.momenta + tally.impulse],
                 Kept::None | Kept::Angular(_) => [S::zero(); 2],
@@ -236,6 +239,7 @@ impl<S: Real> Certificate<S> {
             terms: [self.terms[0], later.terms[1]],
             production: self.production + later.production,
             least_production: self.least_production.minimum(later.least_production),
+            unresolved: self.unresolved.max(later.unresolved),
             ..later
         }
     }

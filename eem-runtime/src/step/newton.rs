@@ -81,6 +81,13 @@ pub struct StepReport<S> {
     /// The smallest production of a single dashpot or conductance, J/K; never negative in an exact scheme. Zero if
     /// there is none.
     pub least_production: S,
+    /// The number of points whose conduction, and of dashpots that, relax faster than the step resolves: `h > 2τ`, with the
+    /// relaxation time `τ = c/(2 Σ κ to elements + Σ κ to reservoirs)` of a heat capacity c, or `τ = η/k` of a dashpot with the
+    /// stiffness `k = ∂²ψ/∂γ²`. There all schemes but [`EemDamped`](crate::Scheme::EemDamped) decay too slowly or
+    /// alternate. If it is zero, none alternates. Zero in steps of
+    /// [`EemExplicit`](crate::Scheme::EemExplicit) and of the schemes for comparison. See
+    /// [`Simulation::warning`](crate::Simulation::warning).
+    pub unresolved: usize,
     /// The estimated error of the step relative to its tolerance, below 1.2; zero without [step
     /// control](crate::Simulation::control_steps).
     pub error: S,
@@ -103,6 +110,7 @@ impl<S: Real> StepReport<S> {
             is_bound_wide: self.is_bound_wide | later.is_bound_wide,
             production: self.production + later.production,
             least_production: self.least_production.minimum(later.least_production),
+            unresolved: self.unresolved.max(later.unresolved),
             error: self.error.maximum(later.error),
             correction: self.correction.maximum(later.correction),
         }

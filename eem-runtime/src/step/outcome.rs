@@ -13,6 +13,8 @@ pub(crate) struct Outcome<S> {
     /// The entropy production of all dashpots and paths of heat, and the smallest one, J/K.
     pub(crate) production: S,
     pub(crate) least_production: S,
+    /// Conductions and dashpots that relax faster than the step resolves.
+    pub(crate) unresolved: usize,
     /// The energy error of an explicit step before its correction, relative to the energy terms: the largest of all
     /// connected bodies, with its sign.
     pub(crate) correction: S,
@@ -26,6 +28,7 @@ impl<S: Real> From<Certificate<S>> for Outcome<S> {
             is_bound_wide: certificate.is_bound_wide(),
             production: certificate.production,
             least_production: certificate.least_production,
+            unresolved: certificate.unresolved,
             correction: S::zero(),
         }
     }

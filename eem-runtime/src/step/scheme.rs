@@ -13,6 +13,7 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// |---|---|---|---|---|
 /// | `EemEntropy` | exact | exact | exact | 2 |
 /// | `EemTemperature` | exact | exact | exact | 2 |
+/// | `EemDamped` | exact | exact | exact | 2 |
 /// | `EemEntropy4` | exact | exact | exact | 4 |
 /// | `EemEntropy6` | exact | exact | exact | 6 |
 /// | `EemExplicit` | exact | exact | exact | 8 |
@@ -34,8 +35,11 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// `Variational4` is stable if vibrations are resolved, `ωh < √8`. The schemes of order 4 have twice as many
 /// unknowns, that of order 6 three times as many. `EemExplicit`, the variational schemes and `Gauss4` are for springs
 /// only, without rockets. `EemEntropy4` and `EemEntropy6` use mean temperatures along the step, which are positive if no
-/// temperature changes by more than a factor of 13.9 or 7.2 within a step; one that is not is an error. Dashpots and
-/// conduction much faster than a step decay slowly, as with any Gauss collocation.
+/// temperature changes by more than a factor of 13.9 or 7.2 within a step; one that is not is an error.
+///
+/// In steps longer than their relaxation times, conduction and dashpots decay with `EemDamped` only. With the other implicit
+/// schemes they alternate or stay although all laws hold, as with any Gauss collocation:
+/// [`Simulation::warning`](crate::Simulation::warning) says so, with an example.
 ///
 /// ```
 /// use eem::Scheme;
@@ -49,7 +53,7 @@ pub enum Scheme {
     /// Energy–entropy–momentum scheme in entropy form (García Orden & Romero 2012, eqs. 25–28).
     EemEntropy,
     /// Energy–entropy–momentum scheme in temperature form (Conde Martín, Betsch & García Orden
-    /// 2016, eqs. 37–39).
+    /// 2016, eqs. 37–39). Conduction and dashpots that relax faster than a step alternate; see [`EemDamped`](Self::EemDamped).
     EemTemperature,
     /// Explicit Runge–Kutta stages of order 8 (DOP853), entropies by quadrature, and one correction of energy and
     /// momenta per step. For accuracy if vibrations are resolved: `ωh < 5.96`.
@@ -76,6 +80,10 @@ pub enum Scheme {
     EemEntropy4,
     /// Energy–entropy–momentum scheme of order 6, with three stages.
     EemEntropy6,
+    /// `EemTemperature`, damped towards the end of the step so that fast conduction and strong dashpots decay in steps of any
+    /// size. A conduction between two bodies and a relaxation decay exactly; steady states and both laws stay exact. Where
+    /// steps are much longer than relaxation times, slow changes of temperature have errors of first order.
+    EemDamped,
     /// Chooses the cheapest exact scheme for a [tolerance](crate::Simulation::control_steps): `EemExplicit`, unless
     /// stability limits its steps more than accuracy does, and `EemTemperature` for solids and for dashpots in
     /// parallel with springs. The laws also hold when the [scheme in use](crate::Simulation::scheme_in_use)
@@ -86,7 +94,7 @@ pub enum Scheme {
 
 impl Scheme {
     /// All schemes except [`Auto`](Self::Auto), which uses these.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::EemEntropy,
         Self::EemTemperature,
         Self::EemExplicit,
@@ -100,6 +108,7 @@ impl Scheme {
         Self::Gauss4,
         Self::EemEntropy4,
         Self::EemEntropy6,
+        Self::EemDamped,
     ];
 
     /// The name used on command lines and in files.
@@ -187,11 +196,12 @@ impl Rule {
 
 impl Scheme {
     const fn rule(self) -> Rule {
-        use Conjugates::{EntropyForm, Point, Stages, TemperatureForm};
+        use Conjugates::{DampedTemperatureForm, EntropyForm, Point, Stages, TemperatureForm};
         use PointRule::{Midpoint, MidpointTemperature, Trapezoidal, TrapezoidalTemperature};
         match self {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
+            Self::EemDamped => Rule::exact("eem-damped", DampedTemperatureForm),
             // Explicit elements are built without conjugates; this entry only excludes dashpots in parallel with springs.
             Self::EemExplicit => Rule::exact("eem-explicit", Point(PointRule::Variational))
                 .of_order(8)
@@ -303,6 +313,11 @@ impl Scheme {
     /// [`implicit`](crate::element::conjugates::ElementScheme::implicit).
     pub(crate) const fn has_old_forces(self) -> bool {
         matches!(self.conjugates(), Conjugates::Point(rule) if rule.has_old_share())
+    }
+
+    /// Whether it damps conduction and dashpots that relax within a step.
+    pub(crate) const fn is_damped(self) -> bool {
+        matches!(self.conjugates(), Conjugates::DampedTemperatureForm)
     }
 
     /// Whether its elements have a

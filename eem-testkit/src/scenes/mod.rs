@@ -19,9 +19,10 @@ pub fn only_error<const D: usize>(refused: Result<Simulation<D>, RefusedScene<D>
 }
 
 /// The schemes that keep the laws, and the choice among them.
-pub const EXACT: [Scheme; 7] = [
+pub const EXACT: [Scheme; 8] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
+    Scheme::EemDamped,
     Scheme::EemEntropy4,
     Scheme::EemEntropy6,
     Scheme::EemExplicit,

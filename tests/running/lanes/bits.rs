@@ -9,9 +9,10 @@ use super::scenes::{Double, Pendulum};
 use super::watched::{Case, Input, Seen, Watched};
 
 /// The schemes with one set of forces per step, and the explicit one.
-pub(crate) const SCHEMES: [Scheme; 9] = [
+pub(crate) const SCHEMES: [Scheme; 10] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
+    Scheme::EemDamped,
     Scheme::Variational,
     Scheme::Staggered,
     Scheme::Midpoint,

@@ -40,6 +40,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     /// Corner temperatures.
     type Memory = M::Corners;
     type AtPoint<T: Entry> = [T; 0];
+    type Damping<T: Entry> = [T; 0];
 
     #[inline]
     fn placement(self) -> Placement {

@@ -13,11 +13,13 @@ use crate::element::conjugates::element::{ElementScheme, Form, Placement, Start}
 use eem_material::free_energy::{Entry, FormRows, Material};
 use eem_material::number::scalar::Real;
 
-/// See the module.
+/// See the module; with one damping or none.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct EemTemperature;
+pub(crate) struct EemTemperature<const DAMPINGS: usize>;
 
-impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
+impl<S: Real, M: Material<S>, const DAMPINGS: usize> ElementScheme<S, M>
+    for EemTemperature<DAMPINGS>
+{
     const EXACT: bool = true;
     const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = match M::ROWS {
         Some(rows) => Some(rows.temperature_form),
@@ -27,6 +29,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     type Old = M::TemperatureFormOld;
     type Memory = ();
     type AtPoint<T: Entry> = [T; 0];
+    type Damping<T: Entry> = [T; DAMPINGS];
 
     #[inline]
     fn placement(self) -> Placement {

@@ -49,6 +49,9 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     /// `[T; 1]` for a rule that evaluates the model at one point of the step, `[T; 0]` for others.
     type AtPoint<T: Entry>: Array<T>;
 
+    /// `[T; 1]` for a scheme that is damped towards the end of the step, `[T; 0]` for others.
+    type Damping<T: Entry>: Array<T>;
+
     /// Where the measures are taken.
     fn placement(self) -> Placement;
 

@@ -70,6 +70,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for PointRule {
     type Old = S;
     type Memory = ();
     type AtPoint<T: Entry> = [T; 1];
+    type Damping<T: Entry> = [T; 0];
 
     fn placement(self) -> Placement {
         match self {

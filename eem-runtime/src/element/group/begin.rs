@@ -114,6 +114,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         for at_point in self.single.as_mut() {
             at_point.entropy_change = S::zero();
         }
+        self.begin_damping(view);
         self.hold();
     }
 

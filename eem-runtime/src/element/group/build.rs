@@ -53,7 +53,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Loose<S,
     fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
         match by {
             Conjugates::EntropyForm => single(EemEntropy, *self, placed),
-            Conjugates::TemperatureForm => single(EemTemperature, *self, placed),
+            Conjugates::TemperatureForm => single(EemTemperature::<0>, *self, placed),
+            Conjugates::DampedTemperatureForm => single(EemTemperature::<1>, *self, placed),
             Conjugates::Point(rule) => single(rule, *self, placed),
             Conjugates::Stages(rule) if rule.path.is_some() => {
                 staged::<S, M, K, Projections<S, M, K, D>, D>(rule, *self, placed)

@@ -231,6 +231,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 let drag = self.viscosities.0[k] * self.creep_rate(k, view);
                 let terms = drag.abs() + self.known_to(row, r1, tally.care);
                 tally.balance(drag - self.response[row], terms);
+                // g* is a divided difference, with half the slope of g.
+                let slope = self.slopes[row][row].abs();
+                tally.see_relaxation(view.step, slope, self.own_viscosity(k));
             }
         }
         if !M::THERMAL {
@@ -239,14 +242,22 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let theta = self.temperature();
         let taken = theta * self.response[Self::ENTROPY];
         if !self.is_prescribed {
+            if let Some(slot) = self.slots().thermal {
+                let capacity = view.state.energies[self.element.index()].heat_capacity;
+                let settling = view.conduction.settling(slot);
+                tally.see_relaxation(view.thermal_step(), settling, capacity);
+            }
             let terms = magnitude + theta * received.terms;
             tally.balance(taken - theta * received.entropy, terms);
         }
         if contact.is_some()
             && let Some(slot) = self.slots().thermal
         {
+            // A damped temperature is known as well as θ*: Δs is known to ε of the heat capacity.
+            let conducting = self.conducting_temperature(&self.response);
             let terms = self.known_to(Self::TEMPERATURE, r1, tally.care);
-            tally.balance(trial.interface.values()[slot] - theta, terms);
+            let terms = terms + (conducting - theta).abs();
+            tally.balance(trial.interface.values()[slot] - conducting, terms);
         }
     }
 }

@@ -181,7 +181,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let slots = self.slots();
         let h = view.thermal_step();
         let share = S::from_f64(self.scheme.implicit()) * h;
-        let per_theta = self.per_temperature();
+        let theta = self.conducting_temperature(&self.response);
+        let per_theta = if M::THERMAL { theta.recip() } else { S::one() };
         let mut dissipated = self.book_drag(per_theta, tally);
         if Self::DRAGS > 0 {
             let drag = view.state.viscous.values().len() + self.element.index();
@@ -209,6 +210,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         };
         received.add(dissipated * per_theta);
         received.heat = dissipated;
+        if let Some(produced) = self.damping_production(view, per_theta) {
+            received.add(produced);
+            tally.produce(produced);
+            next.meters.produce(slot, produced);
+        }
         if M::DASHPOTS + Self::DRAGS > 0 {
             next.meters.produce(slot, dissipated * per_theta);
         }
@@ -247,7 +253,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             }
         }
         if self.meets_reservoirs {
-            let theta = self.temperature();
+            let theta = self.conducting_temperature(&self.response);
             let correction = self.reservoir_correction(view, slot, received.heat);
             let share = (share, [theta, correction]);
             balances.exchange_with_reservoirs(view.conduction, slot, share, &mut received);
@@ -271,24 +277,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// `1/θ*`, 1/K; one without temperature.
-    #[inline]
-    fn per_temperature(&self) -> S {
-        if M::THERMAL {
-            self.temperature().recip()
-        } else {
-            S::one()
-        }
-    }
-
     /// See [`reservoir_correction`]; zero unless the scheme is exact and the temperature free.
     fn reservoir_correction(&self, view: &StepView<'_, S>, slot: usize, heat: S) -> S {
         if !C::EXACT || self.is_prescribed {
             return S::zero();
         }
-        let theta = self.temperature();
+        let theta = self.conducting_temperature(&self.response);
         let flow = view.conduction.reservoir_flow(slot, theta);
-        let taken = theta * self.response[Self::ENTROPY];
+        let taken = self.temperature() * self.response[Self::ENTROPY];
         let stored = theta * view.state.energies[self.element.index()].heat_capacity;
         reservoir_correction(&flow, [view.thermal_step(), theta], [taken, stored, heat])
     }

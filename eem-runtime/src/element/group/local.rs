@@ -47,7 +47,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         }
         // Called first: the call would spill the registers used below.
         let theta = temperature_in::<S, M>(&form.0);
-        let flow = self.heat_flow(view, contact, interface, theta);
+        let conducting = self.conducting_temperature(&form.0);
+        let flow = self.heat_flow(view, contact, interface, conducting);
         let mut system = LocalSystem::<S, M>::empty(self.pivot_units(theta));
         self.balances::<true>(view, &flow, form, &mut system);
         let depends_on_heat = self.depends_on_heat(contact.is_some());
@@ -286,9 +287,14 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             // stiff.
             by_theta += residual * per_theta;
         }
+        // ∂r_s/∂Θ beyond ∂r_s/∂θ*, by which a damped temperature depends on Δs.
+        let by_change = weight * flow.conductance * self.shift_by_entropy(response);
         for column in 0..Self::VARIABLES {
             let mut entry =
                 tangent[Self::ENTROPY][column] + by_theta * tangent[Self::TEMPERATURE][column];
+            if C::Damping::<()>::LEN > 0 {
+                entry += by_change * tangent[Self::ENTROPY][column];
+            }
             if M::DASHPOTS + Self::DRAGS > 0 {
                 entry -= weight * dissipation.by[column];
             }

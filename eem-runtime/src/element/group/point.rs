@@ -2,6 +2,7 @@
 //! point.
 
 use super::arms::measures_in;
+use super::damping::Damping;
 use super::eliminate::{Condensed, PerUnknown};
 use super::site::Contact;
 use crate::element::conjugates::{ElementScheme, Form, Placement, Start};
@@ -131,6 +132,8 @@ pub(crate) struct Point<
     pub(super) condensed: Condensed<S, M, K, D>,
     /// Only for schemes that evaluate the model at one point of the step.
     pub(super) single: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
+    /// Only for a damped scheme.
+    pub(super) damping: C::Damping<Damping<S, M::Viscosities>>,
 }
 
 impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
@@ -181,6 +184,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             sensitivity: Gradient::<K, S, D>::filled(nowhere),
             condensed: Condensed::zero(),
             single: C::AtPoint::filled(MemoryAtPoint::<S, M, K, D>::zero(nowhere)),
+            damping: C::Damping::filled(Damping::none()),
         }
     }
 
@@ -276,7 +280,10 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         self.viscosities = known.unwrap_or_else(|| self.model.viscosity(theta));
         let viscosities = self.viscosities.0.as_ref();
         match viscosities.iter().position(|&eta| !is_positive(eta)) {
-            None => Ok(()),
+            None => {
+                self.thicken();
+                Ok(())
+            }
             Some(dashpot) => Err(StateError::Viscosity {
                 element: self.element,
                 dashpot,

@@ -151,6 +151,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         known: Option<Viscosities<S, M>>,
     ) -> Result<(), StateError> {
         check_response::<S, M>(self.element, response)?;
+        self.check_conducting(response)?;
         self.find_drag(per_step, response)?;
         self.find_viscosities(temperature_in::<S, M>(response), known)
     }

@@ -158,14 +158,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// The equation `Θ − θ* = 0` of a point with an interface temperature.
+    /// The equation of a point with an interface temperature: Θ is θ*, or that of a damped scheme.
     #[inline]
     pub(super) fn heat(
         &self,
         interface: &InterfaceTemperatures<S>,
         form: &Form<S, M>,
     ) -> Heat<K, S, D> {
-        let row = self.condensed_row(Self::TEMPERATURE, form, true);
+        let row = if C::Damping::<()>::LEN > 0 {
+            self.condensed_row(Self::TEMPERATURE, &self.conducting(form), true)
+        } else {
+            self.condensed_row(Self::TEMPERATURE, form, true)
+        };
         let interface = interface.values()[self.slots().thermal.unwrap_or_default()];
         Heat {
             residual: row.value - interface,

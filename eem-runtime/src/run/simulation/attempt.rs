@@ -74,6 +74,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             is_bound_wide: outcome.is_bound_wide,
             production: outcome.production,
             least_production: outcome.least_production,
+            unresolved: outcome.unresolved,
             correction: outcome.correction.abs(),
             error,
         };

@@ -123,11 +123,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     fn advance_here(&mut self, aim: Aim<S>) -> StepResult<S> {
         self.begin_meters();
-        match aim {
+        let made = match aim {
             Aim::Towards(end) => self.step_towards(end, true),
             Aim::InSchemeTowards(end) => self.step_towards(end, false),
             Aim::Again(size) => self.step_again(size),
+        };
+        if let Ok(report) = &made
+            && report.unresolved > 0
+        {
+            self.note_unresolved(report);
         }
+        made
     }
 }
 

@@ -88,3 +88,22 @@ impl Automatic {
         }
     }
 }
+
+/// The steps so far that did not resolve a relaxation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unresolved<S> {
+    pub(super) steps: u64,
+    /// The largest of them, s, and the scheme of the last one.
+    pub(super) largest: S,
+    pub(super) scheme: Scheme,
+}
+
+impl<S: Real> Unresolved<S> {
+    pub(super) fn none() -> Self {
+        Self {
+            steps: 0,
+            largest: S::zero(),
+            scheme: Scheme::Auto,
+        }
+    }
+}

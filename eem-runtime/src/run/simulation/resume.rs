@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use super::compiled::Functions;
+use super::memory::Unresolved;
 use crate::element::state::State;
 use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, SavedEnergies};
 use crate::step::outcome::Corrections;
@@ -123,6 +124,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.worst = None;
         self.corrections = Corrections::none();
+        self.unresolved = Unresolved::none();
         // The rates and sums of the explicit scheme belong to another state if the state has been edited.
         let explicit = checkpoint.explicit.as_ref();
         let explicit = explicit.filter(|saved| saved.state == self.state.digest());

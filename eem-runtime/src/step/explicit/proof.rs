@@ -72,6 +72,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             is_bound_wide: is_wide(bound, terms),
             production: production.value(),
             least_production,
+            // Steps beyond relaxation times are not stable.
+            unresolved: 0,
             correction,
         })
     }

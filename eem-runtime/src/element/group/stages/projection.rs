@@ -66,6 +66,8 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D
     by_rates: Box<PerPair<Matrix<S, M, K, D>>>,
     /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, the conditioning error of the conjugates.
     conditioning: [Vector<S, M, K, D>; MOST_STAGES],
+    /// `|∂²ψ/∂γ_k²|` in the old state, N/m.
+    stiffness: M::Viscosities,
     /// `η_k` and `dη_k/dθ` at `Θ_i`.
     viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
     /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives with respect to the temperature
@@ -114,6 +116,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
             conjugates: [zeros; MOST_STAGES],
             by_rates: Box::new([[Matrix::zero(); MOST_SETS]; MOST_SETS]),
             conditioning: [zeros; MOST_STAGES],
+            stiffness: viscosities,
             viscosities: [(viscosities, viscosities); MOST_STAGES],
             viscous_heat: [none; MOST_STAGES],
             heat_by_theta: [none; MOST_STAGES],
@@ -137,6 +140,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         let (gradient, hessian) = in_state.model.hessian(x0);
         self.old_form = in_state.model.temperature_form_old(x0);
         (self.old.rest, self.old.strain) = (*x0, kinematics.strain(r0));
+        for k in 0..M::DASHPOTS {
+            let row = M::MEASURES + k;
+            self.stiffness[k] = hessian[row][row].abs();
+        }
         let strain = &self.old.strain;
         let (slopes, curvatures) = derivatives(kinematics, strain, (x0, &gradient, &hessian));
         self.end_slopes[0] = slopes;

@@ -273,10 +273,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn sink(&mut self, index: usize, defect: S, next: &mut State<S>) -> Result<bool, Discord> {
         if defect.less(S::zero()).decide()? {
             let produced = self.produced_heat(index);
-            if !S::zero().less(produced).decide()? {
+            // Of what was produced at first, however often a part of it has been taken back.
+            let kept = S::from_f64(ROUNDED) * S::EPSILON;
+            let most = S::one() - kept / self.scratch.progress[index].factor;
+            if !(S::zero().less(produced) & S::zero().less(most)).decide()? {
                 return Ok(false);
             }
-            let most = S::one() - S::from_f64(ROUNDED) * S::EPSILON;
             let part = defect / produced;
             self.heat(index, part.maximum(-most), next);
             if part.at_most(-most).decide()? {

@@ -188,6 +188,16 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             sum + view.step * S::from_f64(weight) * self.force_size(&self.arms[stage], size)
         });
         tally.exchange(impulse);
+        for k in 0..M::DASHPOTS {
+            let half = S::from_f64(0.5) * self.stiffness[k];
+            tally.see_relaxation(view.step, half, self.viscosities[0].0[k]);
+        }
+        if let Some(slot) = in_state.slots().thermal
+            && self.point.prescribed.is_none()
+        {
+            let capacity = view.state.energies[in_state.element.index()].heat_capacity;
+            tally.see_relaxation(view.step, view.conduction.settling(slot), capacity);
+        }
         for ((stage, &weight), received) in weights.iter().enumerate().zip(booked) {
             for k in 0..M::DASHPOTS {
                 let index = Self::STRAINS + k;

@@ -1,0 +1,50 @@
+//! The weight of the end of a step with which a decay is exact.
+
+use eem_material::number::kernel::{tanh_dd, tanh_dd2};
+use eem_material::number::scalar::Real;
+
+/// α with which `y¹ − y⁰ = −x (½ y⁰ + ½ y¹ + α (y¹ − y⁰))` is the exact decay `y¹ = y⁰ e^−x`, for x ≥ 0 (Liniger &
+/// Willoughby 1970):
+///
+/// ```text
+/// α(x) = 1/(1 − e^−x) − 1/x − 1/2 = (z − tanh z)/(2 z tanh z),   z = x/2
+/// ```
+///
+/// `x/12` for small x, `½ − 1/x` for large ones. With divided differences of tanh no difference is formed:
+/// `tanh[z,0,0] = −(z − tanh z)/z²`, `tanh[0,z] = tanh(z)/z`.
+pub(crate) fn end_weight<S: Real>(x: S) -> S {
+    let half = S::from_f64(0.5);
+    // From 1/ε on, α is ½ to rounding.
+    let z = half * x.minimum(S::EPSILON.recip());
+    -half * tanh_dd2(z, S::zero()) / tanh_dd(S::zero(), z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::end_weight;
+
+    #[test]
+    fn decays_are_exact_for_any_rate() {
+        for exponent in -60..40 {
+            let x = 1.7_f64.powi(exponent);
+            let alpha = end_weight(x);
+            // α = x/12 − x³/720 + …, whose next term is x⁵/30240; else its definition, which loses 1/x digits.
+            let (expected, error) = if x < 1e-2 {
+                (x / 12.0 - x.powi(3) / 720.0, x.powi(5) / 30240.0)
+            } else {
+                let by_definition = -1.0 / (-x).exp_m1() - 1.0 / x - 0.5;
+                (by_definition, 4.0 * f64::EPSILON * (1.0 / x + 1.0))
+            };
+            let rounding = 32.0 * f64::EPSILON * expected;
+            assert!(
+                (alpha - expected).abs() <= error + rounding,
+                "x = {x}: {alpha}, {expected}"
+            );
+            assert!((0.0..=0.5).contains(&alpha));
+        }
+        assert_eq!(
+            [0.0, f64::MAX, f64::INFINITY].map(end_weight),
+            [0.0, 0.5, 0.5]
+        );
+    }
+}
