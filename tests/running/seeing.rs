@@ -14,8 +14,9 @@ const BUMP: f64 = 0.01 * SPAN;
 
 const TOLERANCE: f64 = 1e-4;
 
-/// What the errors of all steps of a run may add up to, in tolerances.
-const SUM: f64 = 20.0;
+/// Below this error, in tolerances, a bump has been seen; one that is missed makes an error of more than five times as much (see
+/// `a_bump_matters`). How accurate runs are is the subject of `rest` and `tolerances`.
+const SEEN: f64 = 50.0;
 
 /// `(1 + cos 2πx)/2` around its middle, s.
 fn bump(time: f64, middle: f64) -> f64 {
@@ -200,7 +201,7 @@ fn a_bump_of_a_hundredth_of_a_run_is_never_missed() {
                 continue;
             }
             let worst = worst(load, scheme, places, &mut random);
-            assert!(worst < SUM, "{load:?}, {scheme}: {worst} tolerances");
+            assert!(worst < SEEN, "{load:?}, {scheme}: {worst} tolerances");
         }
     }
 }
@@ -217,7 +218,7 @@ fn a_bump_matters() {
         ];
         let scales = [1.0, SWING * OMEGA, 300.0];
         let changes = (0..3).map(|at| (with[at] - without[at]).abs() / scales[at] / TOLERANCE);
-        assert!(changes.fold(0.0, f64::max) > 10.0 * SUM, "{load:?}");
+        assert!(changes.fold(0.0, f64::max) > 5.0 * SEEN, "{load:?}");
     }
 }
 
