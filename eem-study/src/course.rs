@@ -219,11 +219,11 @@ struct Laws<'a> {
     row: &'a mut StudyRow,
     /// `B₀`, J, with `B = E − work − heat`.
     balance: f64,
-    /// `|E₀|`; the largest |E| so far if that is zero, J.
+    /// The largest of `|E₀|`, the kinetic energy, the work and the heat so far, J.
     energy: f64,
-    begins_at_zero: bool,
-    /// The largest defect and the largest bound of a step so far, J.
-    defects: [f64; 2],
+    /// The largest `|B − B₀|` and bound of a step so far, J.
+    defect: f64,
+    bound: f64,
     /// The total entropy after the last step, J/K.
     entropy: f64,
 }
@@ -231,13 +231,12 @@ struct Laws<'a> {
 impl<'a> Laws<'a> {
     fn new<const D: usize, S: Real>(run: &Simulation<D, S>, row: &'a mut StudyRow) -> Self {
         let ledger = run.ledger();
-        let energy = ledger.energy.to_f64().abs();
         Self {
             row,
             balance: ledger.balance.to_f64(),
-            energy,
-            begins_at_zero: energy <= 0.0,
-            defects: [0.0; 2],
+            energy: ledger.energy.to_f64().abs(),
+            defect: 0.0,
+            bound: 0.0,
             entropy: ledger.entropy.to_f64(),
         }
     }
@@ -246,16 +245,14 @@ impl<'a> Laws<'a> {
         let (ledger, row) = (run.ledger(), &mut *self.row);
         row.steps += 1;
         row.iterations += report.iterations;
-        if self.begins_at_zero {
-            self.energy = larger(self.energy, ledger.energy.to_f64().abs());
-        }
         let defect = (ledger.balance.to_f64() - self.balance).abs();
-        let [largest, bound] = self.defects;
-        self.defects = [
-            larger(largest, defect),
-            larger(bound, report.bound.to_f64()),
-        ];
-        [row.energy_defect, row.step_bound] = self.defects.map(|defect| share(defect, self.energy));
+        self.defect = larger(self.defect, defect);
+        self.bound = larger(self.bound, report.bound.to_f64());
+        for part in [ledger.kinetic_energy, ledger.work, ledger.heat] {
+            self.energy = larger(self.energy, part.to_f64().abs());
+        }
+        row.energy_defect = share(self.defect, self.energy);
+        row.step_bound = share(self.bound, self.energy);
         let entropy = ledger.entropy.to_f64();
         // `0.0 −` makes 0 of −0, which a run without production would have.
         row.least_entropy_change = 0.0 - larger(-row.least_entropy_change, self.entropy - entropy);

@@ -84,6 +84,8 @@ pub struct EndState {
     values: [Vec<f64>; 4],
     /// Which viscous variables are strains of solids.
     are_strains: Vec<bool>,
+    /// `|q|₂` of all nodes, anchors included, m.
+    size: f64,
     /// The largest `|p|₂` on the way to the state, kg m/s.
     largest_momentum: f64,
     /// |q|₂ of all nodes at the start, m, and the largest `m ℓ ω`, kg m/s.
@@ -97,6 +99,7 @@ impl EndState {
         Self {
             values: run.values(),
             are_strains: run.viscous_strains(),
+            size: run.size_of_positions(),
             largest_momentum: run.largest_momentum(),
             least_sizes: run.least_sizes(),
         }
@@ -127,8 +130,8 @@ impl EndState {
     /// ```
     ///
     /// with the largest component of the difference in the numerator and the Euclidean norm of all components of
-    /// `exact` in the denominator, for momenta the largest norm on the way. Temperatures are compared one by one, differences
-    /// of viscous strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal
+    /// `exact` in the denominator, for positions with those of anchors, for momenta the largest norm on the way. Temperatures are
+    /// compared one by one, differences of viscous strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal
     /// states differ by zero, also if all values vanish.
     ///
     /// A size that vanishes is no unit. As in step control, a difference r is one of scales of at least r L, and r² M for
@@ -143,8 +146,6 @@ impl EndState {
         if values.is_empty() || own.len() != values.len() {
             return None;
         }
-        let positions = exact.values(StateQuantity::Positions).iter();
-        let length = positions.map(|value| value * value).sum::<f64>().sqrt();
         let [least_length, least_momentum] = exact.least_sizes;
         let relative = |index: usize, part: f64, value: f64| match quantity {
             StateQuantity::Momenta => smaller(
@@ -154,7 +155,7 @@ impl EndState {
             StateQuantity::Temperatures => share(part, value.abs()),
             StateQuantity::ViscousStretches if exact.are_strains[index] => part,
             StateQuantity::Positions | StateQuantity::ViscousStretches => {
-                smaller(share(part, length), (part / least_length).sqrt())
+                smaller(share(part, exact.size), (part / least_length).sqrt())
             }
         };
         let pairs = own.iter().zip(values).enumerate();

@@ -76,7 +76,7 @@ impl StudyReport {
     /// ln(error₁/error₂) / ln(h₁/h₂)
     /// ```
     ///
-    /// `None` unless there are two such steps.
+    /// `None` unless there are two such steps with an error: where nothing moves, positions have none.
     #[must_use]
     pub fn order(&self, scheme: Scheme, quantity: StateQuantity) -> Option<f64> {
         let point = |row: &StudyRow| {
@@ -89,6 +89,7 @@ impl StudyReport {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         points.dedup_by(|a, b| a.0.total_cmp(&b.0).is_eq());
         let [(small, fine), (large, coarse)] = *points.first_chunk()?;
-        Some((coarse / fine).ln() / (large / small).ln())
+        let has_errors = fine > 0.0 && coarse > 0.0;
+        has_errors.then(|| (coarse / fine).ln() / (large / small).ln())
     }
 }

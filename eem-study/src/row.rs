@@ -12,10 +12,11 @@ pub struct StudyRow {
     pub setting: Setting,
     /// Why the run did not reach the end time; the other numbers then cover the steps before.
     pub failure: Option<StepError>,
-    /// The largest `|B − B₀|/|E₀|` of the run, with the balance `B = E − work − heat`; over the largest |E| if `E₀` is zero.
+    /// The largest `|B − B₀|` of the run, with the balance `B = E − work − heat`, over the largest of `|E₀|`, the kinetic
+    /// energy, the work and the heat in it: a scene that starts from rest may have no energy.
     pub energy_defect: f64,
     /// The bound for rounding in a single step: the largest [`StepReport::bound`](eem_runtime::StepReport::bound) divided
-    /// by `|E₀|`.
+    /// by the same.
     pub step_bound: f64,
     /// The smallest ΔS of a step, J/K. By the second law it is not negative, except for rounding. Infinite without
     /// steps.

@@ -230,7 +230,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// Sets the initial temperature of an element, K, and holds it there (a thermostat), unless a controller
     /// [sets](crate::Simulation::set_temperature_of) another one. The ledger counts the heat and the entropy that the
-    /// thermostat supplies.
+    /// thermostat supplies. In [`EemTemperature`](crate::Scheme::EemTemperature) and
+    /// [`EemExplicit`](crate::Scheme::EemExplicit) the heat is exactly the temperature times the entropy. Other exact schemes
+    /// use the temperature of the element in the step, `∂e/∂s` between its ends, which differs by the error of the scheme.
     ///
     /// ```
     /// use eem::materials::ThermoelasticSpring;

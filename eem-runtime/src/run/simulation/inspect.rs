@@ -347,6 +347,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         ]
     }
 
+    /// `|q|₂` of all nodes, anchors included, as errors of positions are relative to, m.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn size_of_positions(&self) -> f64 {
+        norm(self.state.positions.values().iter().copied()).to_f64()
+    }
+
     /// `|p|₂` of the masses, the largest so far if steps are controlled, kg m/s.
     #[doc(hidden)]
     #[must_use]

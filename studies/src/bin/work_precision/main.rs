@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! error of q = max |Δq|/|q|₂,   of p = max |Δp|/max |p|₂,   of θ = max |Δθ|/θ,   of γ = max |Δγ|/|q|₂
-//! energy defect = max |B − B₀|/|E₀| over the run,   B = E − work − heat
+//! energy defect = max |B − B₀|/E over the run,   B = E − work − heat,   E = max(|E₀|, kinetic energy, |work|, |heat|)
 //! ```
 //!
 //! | symbol | meaning | unit |
