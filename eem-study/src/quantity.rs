@@ -131,8 +131,8 @@ impl EndState {
     ///
     /// with the largest component of the difference in the numerator and the Euclidean norm of all components of
     /// `exact` in the denominator, for positions with those of anchors, for momenta the largest norm on the way. Temperatures are
-    /// compared one by one, differences of viscous strains of solids with 1. `None` if there is no such quantity, or if the numbers of values differ. Equal
-    /// states differ by zero, also if all values vanish.
+    /// compared one by one, differences of viscous strains of solids with 1. `None` if there is no such quantity, or if the
+    /// numbers of values differ. Equal states differ by zero, also if all values vanish.
     ///
     /// A size that vanishes is no unit. As in step control, a difference r is one of scales of at least r L, and r² M for
     /// momenta, with |q|₂ = L of all nodes at the start and the largest M = m ℓ ω of all masses:

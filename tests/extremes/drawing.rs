@@ -1,5 +1,6 @@
 //! A scene drawn at random: masses on a random graph of springs of all kinds, with loads and heat.
 
+mod driven;
 mod fresh;
 
 pub(crate) use fresh::Pace;
@@ -20,6 +21,15 @@ pub(crate) enum Class {
     Wild,
 }
 
+/// A temperature as a function of time: a line from the start until it stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Course {
+    /// K, K/s and s.
+    start: f64,
+    rate: f64,
+    until: f64,
+}
+
 /// Lengths of the ordinary class, over the natural ones.
 const LENGTHS: [f64; 2] = [0.2, 5.0];
 
@@ -38,15 +48,35 @@ pub(crate) struct Drawing<const D: usize> {
     /// The mass, the force and its angular frequency.
     forces: Vec<(usize, [f64; D], f64)>,
     /// The anchor, amplitude and angular frequency of its motion.
-    shaken: Option<(usize, [f64; D], f64)>,
-    /// A spring at a prescribed temperature.
-    kept: Option<usize>,
+    shaken: Vec<(usize, [f64; D], f64)>,
+    /// Springs at a prescribed temperature.
+    kept: Vec<(usize, Course)>,
+    /// The spring, the temperature of an oven around it and κ.
+    ovens: Vec<(usize, Course, f64)>,
     /// s.
     pub(crate) step: f64,
     /// What it is made of, in words; empty where that does not matter.
     pub(crate) label: String,
     /// Whether a force in it ends in a singularity.
     pub(crate) is_singular: bool,
+}
+
+impl Course {
+    fn held(start: f64) -> Self {
+        Self {
+            start,
+            rate: 0.0,
+            until: 0.0,
+        }
+    }
+
+    fn is_held(self) -> bool {
+        self.rate.abs() <= 0.0
+    }
+
+    fn at(self, time: f64) -> f64 {
+        self.start + self.rate * time.min(self.until)
+    }
 }
 
 impl<const D: usize> Drawing<D> {
@@ -78,8 +108,9 @@ impl<const D: usize> Drawing<D> {
             air: Vec::new(),
             gravity: [0.0; D],
             forces: Vec::new(),
-            shaken: None,
-            kept: None,
+            shaken: Vec::new(),
+            kept: Vec::new(),
+            ovens: Vec::new(),
             step: 0.0,
             label: String::new(),
             is_singular: false,
@@ -138,7 +169,12 @@ impl<const D: usize> Drawing<D> {
     fn prescribe_a_temperature(&mut self, random: &mut Random) {
         let thermal = |spring: &Spring<D>| spring.material.capacity.is_some();
         if random.chance(0.1) {
-            self.kept = self.springs.iter().position(thermal);
+            let springs = self.springs.iter().enumerate();
+            let mut own = springs.filter(|(_, spring)| thermal(spring));
+            let kept = own
+                .next()
+                .map(|(index, spring)| (index, Course::held(spring.theta)));
+            self.kept.extend(kept);
         }
     }
 
@@ -171,7 +207,8 @@ impl<const D: usize> Drawing<D> {
         if let (None, true) = (self.nodes[0].mass, random.chance(0.15)) {
             let way = share * self.springs[0].length;
             let way = core::array::from_fn(|_| way * random.uniform(-0.5, 0.5));
-            self.shaken = Some((0, way, random.decades(0.01, 0.1) / self.step));
+            self.shaken
+                .push((0, way, random.decades(0.01, 0.1) / self.step));
         }
     }
 
@@ -282,16 +319,23 @@ impl<const D: usize> Drawing<D> {
                 force.map(|f| f * (frequency * t).cos())
             });
         }
-        if let Some((node, way, frequency)) = self.shaken {
+        for &(node, way, frequency) in &self.shaken {
             let at = self.nodes[node].position;
             let motion = move |t: f64| {
                 core::array::from_fn(|i| at[i] + way[i] * (1.0 - (frequency * t).cos()))
             };
             world.move_anchor(nodes[node], motion);
         }
-        if let Some(spring) = self.kept {
-            let theta = self.springs[spring].theta;
-            world.prescribe_temperature(elements[spring], move |_| theta);
+        for &(spring, course) in &self.kept {
+            if course.is_held() {
+                world.hold_temperature(elements[spring], course.at(0.0));
+            } else {
+                world.prescribe_temperature(elements[spring], move |t| course.at(t));
+            }
+        }
+        for &(spring, course, conductance) in &self.ovens {
+            let oven = world.oven(move |t| course.at(t));
+            world.cool(elements[spring], oven, conductance);
         }
         world
     }

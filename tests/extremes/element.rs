@@ -50,13 +50,15 @@ pub(crate) fn ends<'a, const D: usize>(facts: &'a Facts<D>, states: [&Stored; 2]
 
 /// Whether there are dashpots without temperature, whose heat leaves the scene.
 pub(crate) fn has_cold_dashpots<const D: usize>(facts: &Facts<D>) -> bool {
-    let is_cold = |body: &dyn Body| body.dashpots() > 0 && !body.thermal();
+    let is_cold =
+        |body: &dyn Body| !body.thermal() && (body.dashpots() > 0 || body.drag(1.0).is_some());
     facts.springs.iter().any(|spring| is_cold(&*spring.body))
 }
 
 /// How many dashpots and paths of heat produce entropy.
 pub(crate) fn count_parts<const D: usize>(facts: &Facts<D>) -> f64 {
-    let dashpots: usize = facts.springs.iter().map(|own| own.body.dashpots()).sum();
+    let of_spring = |body: &dyn Body| body.dashpots() + usize::from(body.drag(1.0).is_some());
+    let dashpots: usize = facts.springs.iter().map(|own| of_spring(&*own.body)).sum();
     #[expect(clippy::cast_precision_loss, reason = "small numbers")]
     let parts = (dashpots + facts.paths) as f64;
     parts
@@ -112,12 +114,22 @@ impl Ends<'_> {
 
     /// What the element contributes to `A + A⁺` besides its [`energies`](Self::energies).
     pub(crate) fn way(&self, step: f64) -> f64 {
-        self.dissipation(step) + self.work_of_arguments()
+        self.dissipations(step).iter().sum::<f64>() + self.work_of_arguments()
     }
 
-    /// `Σ over both ends (|f| λ + Σ |g γ| + |ψ| + θ |s| + c θ)`, with the rounding of f and g.
-    pub(crate) fn energies(&self) -> f64 {
-        self.energies_at(0) + self.energies_at(1)
+    /// `Σ over both ends (|f| λ + Σ |g γ| + |ψ| + θ |s| + c θ)`, with the rounding of f and g. The force of a dashpot in
+    /// parallel is that of the step, at both.
+    pub(crate) fn energies(&self, step: f64) -> f64 {
+        let way = (self.lambda[1] - self.lambda[0]).value().abs();
+        let drag = self.largest_drag() * way / step * (2.0 * self.length());
+        self.energies_at(0) + self.energies_at(1) + drag
+    }
+
+    /// η of the dashpot in parallel, if there is one.
+    fn largest_drag(&self) -> f64 {
+        let drag = |theta: f64| self.body.drag(theta).unwrap_or(0.0);
+        let theta = self.theta.unwrap_or([1.0; 2]);
+        drag(theta[0]).max(drag(theta[1]))
     }
 
     fn energies_at(&self, end: usize) -> f64 {
@@ -139,20 +151,67 @@ impl Ends<'_> {
         work + psi + theta[end] * (self.entropy[end].value().abs() + capacity)
     }
 
-    /// `Σ η Δγ²/h`, with the larger η of both ends.
-    fn dissipation(&self, step: f64) -> f64 {
-        if self.gamma[0].is_empty() {
-            return 0.0;
-        }
+    /// By how much the temperature may differ within a step at lengths, viscous stretches and entropies of its ends, as
+    /// a factor: `e^(|Δs|/c)` with the least heat capacity c.
+    pub(crate) fn range(&self) -> f64 {
+        let change = (self.entropy[1] - self.entropy[0]).value().abs();
+        let capacity = |end: usize| self.body.caloric(&self.doubles(end)).heat_capacity;
+        (change / capacity(0).min(capacity(1))).exp()
+    }
+
+    /// `Σ η Δγ²/h`, and `η Δλ²/h` of a dashpot in parallel, with the larger η of both ends: no creep from one end to the
+    /// other dissipates less where η is constant.
+    pub(crate) fn dissipations(&self, step: f64) -> [f64; 2] {
         let theta = self.theta.unwrap_or([1.0; 2]);
-        let [eta0, eta1] = theta.map(|theta| self.body.viscosities(theta));
-        let change = |k: usize| (self.gamma[1][k] - self.gamma[0][k]).value();
-        let heat = |k: usize| {
+        let [eta0, eta1] = theta.map(|theta| {
+            let mut all = self.body.viscosities(theta);
+            all.extend(self.body.drag(theta));
+            all
+        });
+        let creep = self.gamma[0].iter().zip(&self.gamma[1]);
+        let creep = creep.map(|(&old, &new)| (new - old).value());
+        let changes = creep.chain([(self.lambda[1] - self.lambda[0]).value()]);
+        let heat = |(change, etas): (f64, [f64; 2])| {
             // A viscosity that overflows at an end says nothing of that within the step.
-            let finite = [eta0[k], eta1[k]].into_iter().filter(|eta| eta.is_finite());
-            finite.fold(0.0, f64::max) * change(k) * (change(k) / step)
+            let finite = etas.into_iter().filter(|eta| eta.is_finite());
+            finite.fold(0.0, f64::max) * change * (change / step)
         };
-        (0..eta0.len()).map(heat).sum()
+        let etas = eta0.into_iter().zip(eta1).map(|(old, new)| [old, new]);
+        let heats: Vec<f64> = changes.zip(etas).map(heat).collect();
+        let (creep, drag) = heats.split_at(self.gamma[0].len());
+        [creep.iter().sum(), drag.iter().sum()]
+    }
+
+    /// What the arguments of forces round by in a step from the beginning, in units of ε: `Σ |H_ij| |x_j| |Δx_i|` with the
+    /// change of length that is given and the creep of the step, and `k λ` times the way of its supports, J.
+    pub(crate) fn rounding(&self, [apart, step]: [f64; 2], supports: f64) -> f64 {
+        let x = self.doubles(0);
+        let (gradient, hessian) = (self.body.gradient(&x), self.body.hessian(&x));
+        let etas = self
+            .body
+            .viscosities(self.theta.map_or(1.0, |theta| theta[0]));
+        let creep = |(k, eta): (usize, &f64)| {
+            gradient[k].abs() * (step / eta).min(hessian[k][k].abs().recip())
+        };
+        let mut changes = vec![apart];
+        changes.extend((1..).zip(&etas).map(creep));
+        let row = |i: usize| -> f64 { (0..x.len()).map(|j| (hessian[i][j] * x[j]).abs()).sum() };
+        let works = changes
+            .iter()
+            .enumerate()
+            .map(|(i, change)| row(i) * change);
+        let drag = 2.0 * self.largest_drag() * apart / step * self.length();
+        works.sum::<f64>() + row(0) * supports + drag
+    }
+
+    /// `|∂²ψ/∂λ²|` at the beginning, N/m.
+    pub(crate) fn stiffness(&self) -> f64 {
+        self.body.hessian(&self.doubles(0))[0][0].abs()
+    }
+
+    /// Whether its forces are between those at its ends: there is no dashpot in parallel.
+    pub(crate) fn has_forces_of_ends(&self) -> bool {
+        self.body.drag(1.0).is_none()
     }
 
     /// `Σ_ij |T_ij| |x_j| |Δx_i|`; where T is not finite, with the Hessian of an end in its place.

@@ -7,8 +7,8 @@ use super::material::{
 };
 use super::models::VanDerWaals;
 use super::models::wide::{
-    Arrhenius, Debye, Decimal, Fene, Gent, Glass, LennardJones, Powers, Schottky, Stiffening,
-    Transition,
+    Arrhenius, Branch, Debye, Decimal, Fene, Gent, Glass, LennardJones, Powers, Schottky,
+    Stiffening, Transition, Voigt, WarmVoigt,
 };
 use super::random::Random;
 
@@ -56,6 +56,15 @@ pub(crate) const fn everywhere<const D: usize>() -> [Family<D>; 6] {
         regular("Maxwell", |_, data, _| maxwell(data)),
         regular("thermoelastic", |_, data, _| thermoelastic(data)),
         regular("Arrhenius", |random, data, _| arrhenius(random, data)),
+    ]
+}
+
+/// What is driven or held besides [`everywhere`]: a branch that relaxes to nothing, and dashpots in parallel with springs.
+pub(crate) const fn driven<const D: usize>() -> [Family<D>; 3] {
+    [
+        regular("branch", |_, data, _| branch(data)),
+        regular("Voigt", |_, data, _| voigt(data)),
+        regular("warm Voigt", |_, data, _| warm_voigt(data)),
     ]
 }
 
@@ -214,6 +223,34 @@ fn arrhenius<const D: usize>(random: &mut Random, data: &Data) -> Arc<dyn Law<D>
         theta_ref: data.theta_ref,
         eta: data.eta,
         a: (data.theta_ref * random.decades(1.0, 100.0)).min(5e4),
+    })
+}
+
+fn branch<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(Branch {
+        stiffness: data.branch,
+        length: data.length,
+        eta: data.eta,
+    })
+}
+
+fn voigt<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(Voigt {
+        stiffness: data.stiffness,
+        length: data.length,
+        eta: data.eta,
+    })
+}
+
+fn warm_voigt<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(WarmVoigt {
+        stiffness: data.stiffness,
+        coupling: data.coupling,
+        capacity: data.capacity,
+        length: data.length,
+        theta_ref: data.theta_ref,
+        eta: data.eta,
+        a: 3.0 * data.theta_ref,
     })
 }
 

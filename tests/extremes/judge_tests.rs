@@ -1,9 +1,12 @@
 //! The judge sees what he is for.
 
-use super::super::models::Hooke;
+use eem::{Law, Scheme, StepError, StepFailure};
+
+use super::super::models::{Hooke, Maxwell, Thermoelastic};
 use super::super::published::{LOGARITHMIC, double_pendulum, single_pendulum};
 use super::super::watched::{EXACT, FORMS};
 use super::super::world::World;
+
 use super::*;
 
 /// A step of the single pendulum before and after, with its report.
@@ -101,4 +104,78 @@ fn every_step_of_an_exact_scheme_reports_its_bound() {
         let kept = watched.run.worst_step().expect("there were steps");
         assert!((kept.defect / kept.bound).abs() >= worst);
     }
+}
+
+/// A mass on an anchor that moves, by a branch without temperature and a spring that is held at 300 K.
+fn driven() -> World<1> {
+    let mut world = World::new();
+    let anchor = world.anchor([0.0]);
+    let mass = world.mass(1.0, [1.3], [0.0]);
+    world.spring(
+        Maxwell {
+            stiffness: 100.0,
+            branch: 50.0,
+            length: 1.0,
+            eta: 0.1,
+        },
+        [anchor, mass],
+    );
+    let held = world.warm(Thermoelastic::ORDINARY, [anchor, mass], 300.0);
+    world.hold_temperature(held, 300.0);
+    world.move_anchor(anchor, |t| [t]);
+    world
+}
+
+/// 1e-8 J from one book to another, which leaves the balance of energy.
+#[test]
+fn books_that_do_not_fit_the_states_are_seen() {
+    let mut watched = driven().start(Scheme::EemTemperature, 0.01).unwrap();
+    let before = watched.stored().clone();
+    let report = watched.step().unwrap();
+    assert!(watched.record.is_lawful(), "{:?}", watched.record.broken);
+    let complaints = |spoil: &dyn Fn(&mut Stored, Digits)| {
+        let mut after = watched.stored().clone();
+        spoil(&mut after, Digits::from(1e-8));
+        let broken = check_step(&watched.facts, &before, &after, &report).broken;
+        assert!(
+            !broken.iter().any(|law| law.contains("energy")),
+            "{broken:?}"
+        );
+        broken.join("; ")
+    };
+    let heated = complaints(&|after, part| {
+        after.heat = after.heat + part;
+        after.work = after.work - part;
+    });
+    assert!(heated.contains("heat is not θ times") && heated.contains("work is off"));
+    let lost = complaints(&|after, part| {
+        after.lost = after.lost - part;
+        after.work = after.work - part;
+    });
+    assert!(lost.contains("lost heat is too little") && lost.contains("lost heat is off"));
+}
+
+#[test]
+fn a_refusal_is_explained_by_rounding_up_to_its_bound() {
+    let watched = driven().start(Scheme::EemTemperature, 0.01).unwrap();
+    let explained = |defect: f64| {
+        let law = Law::Energy;
+        let (bound, element, time) = (0.0, None, 0.01);
+        let error = StepError {
+            time: 0.0,
+            step: 0.01,
+            failure: StepFailure::LawNotKept {
+                law,
+                defect,
+                bound,
+                element,
+                time,
+            },
+            shorter: None,
+            history: [].into(),
+        };
+        explained(&watched.facts, watched.stored(), &error).is_some()
+    };
+    // θ c = 1500 J, twice, by 64 ε.
+    assert!(explained(4e-11) && !explained(1e-10));
 }

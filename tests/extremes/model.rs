@@ -59,6 +59,8 @@ pub(crate) trait Body: Send + Sync {
     fn hessian(&self, x: &[f64]) -> Vec<Vec<f64>>;
     fn caloric(&self, x: &[f64]) -> Caloric<f64>;
     fn viscosities(&self, theta: f64) -> Vec<f64>;
+    /// Of the dashpot in parallel with the spring, if there is one.
+    fn drag(&self, theta: f64) -> Option<f64>;
     /// `(f*, g*…, θ*, Δs)` in temperature form, and its derivative by the new state, by rows.
     fn response(&self, x0: &[f64], x1: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>);
 }
@@ -108,6 +110,10 @@ impl<M: Model> Body for M {
 
     fn viscosities(&self, theta: f64) -> Vec<f64> {
         self.viscosity(theta).0.as_ref().to_vec()
+    }
+
+    fn drag(&self, theta: f64) -> Option<f64> {
+        FreeEnergy::drag(self, theta).0.as_ref().first().copied()
     }
 
     fn response(&self, x0: &[f64], x1: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {

@@ -73,8 +73,12 @@ impl<const D: usize> Watched<D> {
     /// One step, judged if the scheme is exact. A step that fails must leave everything as it was.
     pub(crate) fn step(&mut self) -> Result<StepReport<f64>, StepError> {
         let saved = self.run.checkpoint();
+        let scheme = self.run.scheme_in_use();
         match self.run.step() {
             Ok(report) => {
+                // Which scheme has made the step is not known where it has changed.
+                let is_same = self.run.scheme_in_use() == scheme;
+                self.facts.scheme = if is_same { scheme } else { self.run.scheme() };
                 self.judge(&report);
                 Ok(report)
             }
@@ -83,6 +87,8 @@ impl<const D: usize> Watched<D> {
                     self.record
                         .complain(vec![format!("{error}: the state has changed")]);
                 }
+                let explained = judge::explained(&self.facts, &self.state, &error);
+                self.record.complain(explained.into_iter().collect());
                 self.record.refused = Some(error.clone());
                 Err(error)
             }

@@ -7,8 +7,8 @@ use eem::prelude::*;
 use super::model::{Body, Model};
 use super::watched::{EXACT, Watched};
 
-/// A force as a function of time.
-type OfTime<const D: usize> = Arc<dyn Fn(f64) -> [f64; D] + Send + Sync>;
+/// A force, a position or a temperature as a function of time.
+pub(crate) type OfTime<T> = Arc<dyn Fn(f64) -> T + Send + Sync>;
 
 /// A scene that is being described.
 pub(crate) struct World<const D: usize> {
@@ -27,17 +27,50 @@ pub(crate) struct Facts<const D: usize> {
     pub(crate) reservoirs: Vec<f64>,
     /// m/s².
     pub(crate) gravity: [f64; D],
-    pub(crate) forces: Vec<(usize, OfTime<D>)>,
-    /// Whether an anchor is moved: then its work and momentum are not known here.
-    pub(crate) has_moved_anchors: bool,
+    pub(crate) forces: Vec<(usize, OfTime<[f64; D]>)>,
+    /// The anchors that are moved.
+    pub(crate) motions: Vec<(usize, OfTime<[f64; D]>)>,
     /// The springs that thermostats keep at a temperature.
-    pub(crate) kept: Vec<usize>,
+    pub(crate) kept: Vec<(usize, OfTime<f64>)>,
+    /// The temperatures of ovens.
+    pub(crate) ovens: Vec<OfTime<f64>>,
     /// Paths of heat.
     pub(crate) paths: usize,
-    /// Whether the impulses of its loads are known: those of a force at the middle of a step, or none.
-    pub(crate) has_known_impulses: bool,
+    pub(crate) scheme: Scheme,
     /// Whether a step is reported as its two halves: their energies between are not seen, and their bounds are added.
     pub(crate) has_halves: bool,
+}
+
+impl<const D: usize> Facts<D> {
+    /// Whether a step has one force per spring, that at its middle, and one temperature.
+    pub(crate) fn has_one_force(&self) -> bool {
+        let is_of_middle = EXACT.contains(&self.scheme) || self.scheme == Scheme::EemDamped;
+        is_of_middle && !self.has_halves
+    }
+
+    /// Whether its dashpots have also their own viscosity.
+    pub(crate) fn has_own_viscosity(&self) -> bool {
+        self.has_one_force() && self.scheme != Scheme::EemDamped
+    }
+
+    /// Whether the temperature of an element in a step is one of its energy over entropy, which differs from that of a
+    /// thermostat by the error of the scheme.
+    pub(crate) fn has_own_temperatures(&self) -> bool {
+        use Scheme::{EemDamped, EemExplicit, EemTemperature};
+        !matches!(self.scheme, EemTemperature | EemDamped | EemExplicit)
+    }
+
+    /// Whether the heat of a step is a sum with positive weights, that of each part of a step then being one of its mean
+    /// rate at least.
+    pub(crate) fn has_positive_weights(&self) -> bool {
+        !matches!(self.scheme, Scheme::EemExplicit | Scheme::Auto)
+    }
+
+    /// Whether the impulses of its loads are known: those of a force at the middle of a step, or none.
+    pub(crate) fn has_known_impulses(&self) -> bool {
+        let is_loaded = !self.forces.is_empty() || self.gravity.iter().any(|g| g.abs() > 0.0);
+        !is_loaded || self.has_one_force()
+    }
 }
 
 /// A spring, by the indices of its ends.
@@ -54,10 +87,11 @@ impl<const D: usize> World<D> {
             reservoirs: Vec::new(),
             gravity: [0.0; D],
             forces: Vec::new(),
-            has_moved_anchors: false,
+            motions: Vec::new(),
             kept: Vec::new(),
+            ovens: Vec::new(),
             paths: 0,
-            has_known_impulses: true,
+            scheme: Scheme::Auto,
             has_halves: false,
         };
         Self {
@@ -110,6 +144,18 @@ impl<const D: usize> World<D> {
         self.scene.reservoir(temperature)
     }
 
+    /// A reservoir whose temperature is given, and whose heat is counted as that of a thermostat.
+    pub(crate) fn oven(
+        &mut self,
+        temperature: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Reservoir {
+        let temperature: OfTime<f64> = Arc::new(temperature);
+        self.facts.ovens.push(temperature.clone());
+        // It stores no entropy, whose energy would count.
+        self.facts.reservoirs.push(0.0);
+        self.scene.oven(move |time| temperature(time))
+    }
+
     /// Conduction between two springs.
     pub(crate) fn conduct(&mut self, ends: [Element; 2], conductance: f64) {
         self.facts.paths += 1;
@@ -132,7 +178,7 @@ impl<const D: usize> World<D> {
         node: Node,
         force: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) {
-        let force: OfTime<D> = Arc::new(force);
+        let force: OfTime<[f64; D]> = Arc::new(force);
         self.facts.forces.push((self.index(node), force.clone()));
         self.scene.force(node, move |time| force(time));
     }
@@ -142,8 +188,10 @@ impl<const D: usize> World<D> {
         anchor: Node,
         position: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) {
-        self.facts.has_moved_anchors = true;
-        self.scene.move_anchor(anchor, position);
+        let position: OfTime<[f64; D]> = Arc::new(position);
+        let place = self.index(anchor);
+        self.facts.motions.push((place, position.clone()));
+        self.scene.move_anchor(anchor, move |time| position(time));
     }
 
     pub(crate) fn prescribe_temperature(
@@ -151,17 +199,24 @@ impl<const D: usize> World<D> {
         element: Element,
         temperature: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) {
-        let place = self.elements.iter().position(|own| *own == element);
-        self.facts.kept.push(place.expect("a spring of this scene"));
+        let temperature: OfTime<f64> = Arc::new(temperature);
+        let place = self.place(element);
+        self.facts.kept.push((place, temperature.clone()));
+        let temperature = move |time| temperature(time);
         self.scene.prescribe_temperature(element, temperature);
+    }
+
+    pub(crate) fn hold_temperature(&mut self, element: Element, temperature: f64) {
+        let place = self.place(element);
+        self.facts
+            .kept
+            .push((place, Arc::new(move |_| temperature)));
+        self.scene.hold_temperature(element, temperature);
     }
 
     /// Ready to be stepped, and watched while it is.
     pub(crate) fn start(mut self, scheme: Scheme, step: f64) -> Result<Watched<D>, SceneError> {
-        let is_loaded =
-            !self.facts.forces.is_empty() || self.facts.gravity.iter().any(|g| g.abs() > 0.0);
-        let is_at_middle = EXACT.contains(&scheme) || scheme == Scheme::EemDamped;
-        self.facts.has_known_impulses = !is_loaded || is_at_middle;
+        self.facts.scheme = scheme;
         Ok(Watched::new(
             Simulation::new(self.scene, scheme, step)?,
             self.facts,
@@ -171,6 +226,11 @@ impl<const D: usize> World<D> {
     /// All nodes, in the order in which they were added.
     pub(crate) fn nodes(&self) -> &[Node] {
         &self.nodes
+    }
+
+    fn place(&self, element: Element) -> usize {
+        let place = self.elements.iter().position(|own| *own == element);
+        place.expect("a spring of this scene")
     }
 
     fn index(&self, node: Node) -> usize {

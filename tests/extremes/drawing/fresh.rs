@@ -25,9 +25,9 @@ const STABLE: [f64; 3] = [5.96, 6.39, 6.39];
 const HALF: f64 = 0.5;
 
 /// Places of masses and anchors, and the line on which they are or almost are.
-struct Places<const D: usize> {
-    at: Vec<[f64; D]>,
-    size: f64,
+pub(super) struct Places<const D: usize> {
+    pub(super) at: Vec<[f64; D]>,
+    pub(super) size: f64,
     line: Option<[f64; D]>,
 }
 
@@ -38,7 +38,7 @@ fn direction<const D: usize>(random: &mut Random) -> [f64; D] {
     signed.map(|x| x / length)
 }
 
-fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+pub(super) fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     let squares = a.iter().zip(b).map(|(a, b)| (a - b).powi(2));
     squares.sum::<f64>().sqrt()
 }
@@ -46,7 +46,7 @@ fn distance<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 impl<const D: usize> Places<D> {
     /// In general position or in line, exactly or off by up to a millionth, near the origin or up to a million
     /// times its size away.
-    fn at_random(random: &mut Random, count: usize) -> Self {
+    pub(super) fn at_random(random: &mut Random, count: usize) -> Self {
         let size = random.decades(1e-2, 1e2);
         let line = (D == 1 || random.chance(0.4)).then(|| {
             let along_axis = core::array::from_fn(|axis| if axis == 0 { 1.0 } else { 0.0 });
@@ -98,7 +98,20 @@ impl<const D: usize> Drawing<D> {
         });
         let nodes: Vec<Node<D>> = nodes.collect();
         let mut drawing = Self::of(nodes, Vec::new());
-        drawing.add_springs(random, families, mass, is_calm);
+        let is_chain = random.chance(0.3);
+        let stiffness = random.decades(1e-2, 1e6);
+        // A spring relaxes within 1e-4 to 1e4 of the time of a vibration; the calm ones not before it.
+        let eta = (stiffness * mass).sqrt();
+        let ranges = Ranges {
+            stiffness: [0.1 * stiffness, 10.0 * stiffness],
+            eta: if is_calm {
+                [eta, 1e4 * eta]
+            } else {
+                [1e-4 * eta, 1e4 * eta]
+            },
+            capacity: if is_calm { [1.0, 1e3] } else { [1e-2, 1e3] },
+        };
+        drawing.add_springs(random, families, &ranges, (is_chain, [0.8, 1.25]));
         let period = drawing.smallest_period();
         drawing.step = period * random.decades(1e-3, 10.0);
         drawing.give_velocities(random, !is_calm);
@@ -132,36 +145,22 @@ impl<const D: usize> Drawing<D> {
         drawing
     }
 
-    /// A chain, or springs between all nodes, of one scale of stiffness.
-    fn add_springs(
+    /// A chain, or springs between all nodes, with their natural lengths over the present ones.
+    pub(super) fn add_springs(
         &mut self,
         random: &mut Random,
         families: &[Family<D>],
-        mass: f64,
-        is_calm: bool,
+        ranges: &Ranges,
+        (is_chain, [shortest, longest]): (bool, [f64; 2]),
     ) {
         let nodes = self.nodes.len();
-        let is_chain = random.chance(0.3);
-        let stiffness = random.decades(1e-2, 1e6);
-        // A spring relaxes within 1e-4 to 1e4 of the time of a vibration; the calm ones not before it.
-        let eta = (stiffness * mass).sqrt();
-        let eta = if is_calm {
-            [eta, 1e4 * eta]
-        } else {
-            [1e-4 * eta, 1e4 * eta]
-        };
-        let ranges = Ranges {
-            stiffness: [0.1 * stiffness, 10.0 * stiffness],
-            eta,
-            capacity: if is_calm { [1.0, 1e3] } else { [1e-2, 1e3] },
-        };
         let theta = random.decades(50.0, 2000.0);
         for b in 1..nodes {
             for a in if is_chain { b - 1..b } else { 0..b } {
                 let lambda = distance(&self.nodes[a].position, &self.nodes[b].position);
                 let theta = theta * random.uniform(0.8, 1.2);
-                let length = lambda * random.uniform(0.8, 1.25);
-                let data = Data::at_random(random, &ranges, length, theta);
+                let length = lambda * random.uniform(shortest, longest);
+                let data = Data::at_random(random, ranges, length, theta);
                 let family = &families[random.below(families.len())];
                 let law = (family.make)(random, &data, [lambda, theta]);
                 self.is_singular |= family.is_singular;
@@ -197,7 +196,7 @@ impl<const D: usize> Drawing<D> {
     }
 
     /// The same for (λ, θ) of every spring, by sums of rows as the scheme itself bounds it.
-    fn stable_share_at(&self, states: &[[f64; 2]]) -> f64 {
+    pub(super) fn stable_share_at(&self, states: &[[f64; 2]]) -> f64 {
         let root = |node: &Node<D>| node.mass.map_or(0.0, |mass| mass.sqrt().recip());
         let roots: Vec<f64> = self.nodes.iter().map(root).collect();
         let mut squares = vec![0.0; roots.len()];

@@ -1,5 +1,7 @@
 //! Linear momentum, and angular momentum in every plane.
 
+use eem::Law;
+
 use super::super::digits::Digits;
 use super::super::element::Ends;
 use super::super::rounding::{ROUNDINGS, worse};
@@ -8,7 +10,7 @@ use super::super::world::Facts;
 
 /// A law of momentum.
 pub(super) struct Momentum {
-    pub(super) name: &'static str,
+    pub(super) law: Law,
     pub(super) defect: f64,
     pub(super) bound: f64,
     /// `Σ |p|` or `Σ |q − o| |p|`, of both ends.
@@ -25,7 +27,7 @@ pub(super) fn momenta<const D: usize>(
     let anchors: Vec<usize> = (0..facts.masses.len())
         .filter(|&node| facts.masses[node].is_none())
         .collect();
-    if anchors.len() > 1 || facts.has_moved_anchors || !facts.has_known_impulses {
+    if anchors.len() > 1 || !facts.motions.is_empty() || !facts.has_known_impulses() {
         return Vec::new();
     }
     let impulses = impulses(facts, states[0].time, step);
@@ -38,24 +40,19 @@ pub(super) fn momenta<const D: usize>(
         .first()
         .map_or([Digits::ZERO; D], |&node| states[0].position(node));
     let sums = Sums::of(facts, states, &impulses, origin);
-    let law = |name, parts: &[Digits], terms: f64, impulses: f64| Momentum {
-        name,
+    let law = |law, parts: &[Digits], terms: f64, impulses: f64| Momentum {
+        law,
         defect: largest(parts),
         bound: ROUNDINGS * f64::EPSILON * (terms + impulses),
         terms,
     };
     let linear = anchors.is_empty().then(|| {
         let impulses = sums.impulses + step * forces;
-        law(
-            "linear momentum is off by",
-            &sums.linear,
-            sums.momenta,
-            impulses,
-        )
+        law(Law::LinearMomentum, &sums.linear, sums.momenta, impulses)
     });
     let impulses = sums.turns + step * moments;
     let planes = sums.angular.as_flattened();
-    let angular = law("angular momentum is off by", planes, sums.spins, impulses);
+    let angular = law(Law::AngularMomentum, planes, sums.spins, impulses);
     linear.into_iter().chain([angular]).collect()
 }
 
@@ -117,8 +114,32 @@ impl<const D: usize> Sums<D> {
     }
 }
 
+/// `ΔL − Σ h F` along an axis, and `Σ |p| + |h F|` of both ends.
+pub(super) struct Impulse {
+    pub(super) change: Digits,
+    pub(super) terms: f64,
+}
+
+/// The impulse of the supports along each axis.
+pub(super) fn linear<const D: usize>(
+    facts: &Facts<D>,
+    states: [&Stored; 2],
+    impulses: &[[f64; D]],
+) -> [Impulse; D] {
+    core::array::from_fn(|axis| {
+        let (mut change, mut terms) = (Digits::ZERO, 0.0);
+        let masses = impulses.iter().enumerate();
+        for (node, impulse) in masses.filter(|&(node, _)| facts.masses[node].is_some()) {
+            let [p0, p1] = states.map(|state| state.momentum::<D>(node)[axis]);
+            change = change + p1 - p0 - Digits::from(impulse[axis]);
+            terms += p0.value().abs() + p1.value().abs() + impulse[axis].abs();
+        }
+        Impulse { change, terms }
+    })
+}
+
 /// `h F` of every node: loads in the middle of the step, and weight.
-fn impulses<const D: usize>(facts: &Facts<D>, time: f64, step: f64) -> Vec<[f64; D]> {
+pub(super) fn impulses<const D: usize>(facts: &Facts<D>, time: f64, step: f64) -> Vec<[f64; D]> {
     let weight = |mass: &Option<f64>| {
         let mass = mass.unwrap_or(0.0);
         facts.gravity.map(|component| step * mass * component)

@@ -90,6 +90,34 @@ model! {
 }
 
 model! {
+    /// A spring with a dashpot in parallel (Voigt 1892).
+    Voigt { stiffness, length, eta } (lambda: Stretch) {
+        0.5 * stiffness * (lambda - length).powi(2)
+    }
+    [lambda = eta]
+}
+
+model! {
+    /// The same with a temperature, whose rise thins the dashpot.
+    WarmVoigt { stiffness, coupling, capacity, length, theta_ref, eta, a }
+    (lambda: Stretch, theta: Temperature) {
+        let extension = lambda - length;
+        let heating = theta - theta_ref;
+        0.5 * stiffness * extension.powi(2) - coupling * heating * extension
+            + capacity * (heating - theta * ln(theta / theta_ref))
+    }
+    [lambda = eta * exp(a * (1.0 / theta - 1.0 / theta_ref))]
+}
+
+model! {
+    /// A Maxwell branch alone, which relaxes to nothing.
+    Branch { stiffness, length, eta } (lambda: Stretch, gamma: Viscous) {
+        0.5 * stiffness * (lambda - length - gamma).powi(2)
+    }
+    [gamma = eta]
+}
+
+model! {
     /// A polymer at its glass transition: viscosity by Williams, Landel & Ferry (1955), which has no value at
     /// `θ = centre − c2`.
     Glass { stiffness, branch, coupling, capacity, length, centre, eta, c1, c2 }
