@@ -87,6 +87,13 @@ pub(crate) enum Act {
         element: usize,
         temperature: Course,
     },
+    /// Times at which steps end.
+    Stops {
+        times: Vec<f64>,
+    },
+    ShortestLoad {
+        duration: f64,
+    },
     Start {
         time: f64,
     },

@@ -13,6 +13,7 @@ use crate::act::{self, Act, Course, Partner, Rest, Speed};
 use crate::function::Function;
 use crate::handle::Counts;
 use crate::run::AnyRun;
+use crate::setting::Pace;
 use crate::study::Plan;
 
 /// The handles of the library, in the order of creation.
@@ -84,7 +85,7 @@ pub(crate) trait AnyScene: Send + Sync {
     fn apply(&mut self, act: &Act, context: &Context) -> Result<(), Refusal>;
     fn find_rest(&mut self, rest: Rest) -> Result<EquilibriumReport, EquilibriumError>;
     fn duplicate(&self) -> Box<dyn AnyScene>;
-    fn start(&self, scheme: Scheme, step: f64) -> Result<Box<dyn AnyRun>, Vec<SceneError>>;
+    fn start(&self, scheme: Scheme, pace: Pace) -> Result<Box<dyn AnyRun>, Vec<SceneError>>;
     fn study(&self, plan: &Plan) -> PyResult<StudyReport>;
 }
 
@@ -180,6 +181,8 @@ where
                         scene.conduct(parts.elements[element], partner, conductance)
                     }));
             }
+            Act::Stops { times } => scene.stop_at(times.iter().copied()),
+            Act::ShortestLoad { duration } => scene.shortest_load(*duration),
             Act::Start { time } => scene.start_at(*time),
             Act::Rest(rest) => {
                 self.rest(*rest).map_err(Refusal::Rest)?;
@@ -349,10 +352,19 @@ where
         Box::new(self.clone())
     }
 
-    fn start(&self, scheme: Scheme, step: f64) -> Result<Box<dyn AnyRun>, Vec<SceneError>> {
-        let run = Simulation::new(self.scene.clone(), scheme, step);
-        let refused = |refused: RefusedScene<D>| refused.errors().to_vec();
-        Ok(Box::new(run.map_err(refused)?))
+    fn start(&self, scheme: Scheme, pace: Pace) -> Result<Box<dyn AnyRun>, Vec<SceneError>> {
+        let scene = self.scene.clone();
+        let run = match pace {
+            Pace::Constant(step) | Pace::Controlled(step, _) => {
+                Simulation::new(scene, scheme, step)
+            }
+            Pace::Free(tolerance) => Simulation::with_tolerance(scene, scheme, tolerance),
+        };
+        let mut run = run.map_err(|refused: RefusedScene<D>| refused.errors().to_vec())?;
+        if let Pace::Controlled(_, tolerance) = pace {
+            run.control_steps(tolerance).map_err(|error| vec![error])?;
+        }
+        Ok(Box::new(run))
     }
 
     fn study(&self, plan: &Plan) -> PyResult<StudyReport> {

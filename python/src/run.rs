@@ -54,6 +54,8 @@ pub(crate) trait AnyRun: Send {
     /// The entries of the ledger in the order of [`LEDGER`](crate::record::LEDGER), and both momenta.
     fn add_ledger(&self, to: &mut Vec<f64>);
     fn worst_step(&self) -> Option<&StepReport<f64>>;
+    /// Why the result may mislead, if anything speaks for it.
+    fn warning(&self) -> Option<String>;
     fn set_force(&mut self, node: Node, force: &[f64]) -> Result<(), SceneError>;
     fn set_motion(&mut self, anchor: Node, velocity: &[f64]) -> Result<(), SceneError>;
     fn set_temperature(&mut self, element: Element, temperature: f64) -> Result<(), SceneError>;
@@ -167,6 +169,10 @@ impl<const D: usize> AnyRun for Simulation<D> {
 
     fn worst_step(&self) -> Option<&StepReport<f64>> {
         self.worst_step()
+    }
+
+    fn warning(&self) -> Option<String> {
+        Some(self.warning()?.to_string())
     }
 
     fn set_force(&mut self, node: Node, force: &[f64]) -> Result<(), SceneError> {

@@ -13,9 +13,9 @@ use crate::handle::{
     Element, ElementArray, Kind, Lineage, Node, NodeArray, Reservoir, ReservoirArray, indices, one,
 };
 use crate::material::Material;
-use crate::setting::{scheme, tolerance};
+use crate::setting::{Pace, scheme, tolerance};
 use crate::simulation::Simulation;
-use crate::study::{ACCURACIES, Plan, settings};
+use crate::study::{Plan, settings};
 use crate::world::{State, World};
 use crate::{handle, input};
 
@@ -360,6 +360,17 @@ impl PyScene {
         })
     }
 
+    /// Steps end at each of these times, s: where a load jumps.
+    fn stop_at(&self, times: &Bound<'_, PyAny>) -> PyResult<()> {
+        let times = input::list(Some(times), "times")?.unwrap_or_default();
+        self.world()?.act(Act::Stops { times })
+    }
+
+    /// Says that nothing that a load does lasts less than this, s, so that no controlled step passes over it.
+    fn shortest_load(&self, duration: f64) -> PyResult<()> {
+        self.world()?.act(Act::ShortestLoad { duration })
+    }
+
     /// The time at which runs begin, s.
     fn start_at(&self, time: f64) -> PyResult<()> {
         self.world()?.act(Act::Start { time })
@@ -381,33 +392,27 @@ impl PyScene {
             thermal_balance,
             load_steps,
         };
-        let found = self.world()?.find_rest(rest)?;
-        as_dict(py, &found)
+        as_dict(py, &self.world()?.find_rest(rest)?)
     }
 
-    /// Starts a run with a scheme and a step, s; with a relative tolerance the step is the first one to try.
-    ///
+    /// Starts a run with constant steps, s, or a relative tolerance that controls them; with both, the step is the first to try.
     /// The scene stays as it is, and can be changed and started again. Everything that is wrong with it is told at once.
-    #[pyo3(signature = (scheme="auto", *, step, tolerance=None))]
-    fn simulate(&self, scheme: &str, step: f64, tolerance: Option<f64>) -> PyResult<Simulation> {
+    #[pyo3(signature = (scheme="auto", *, step=None, tolerance=None))]
+    fn simulate(
+        &self,
+        scheme: &str,
+        step: Option<f64>,
+        tolerance: Option<f64>,
+    ) -> PyResult<Simulation> {
         let scheme = self::scheme(scheme)?;
-        let world = {
-            let world = self.world()?;
-            // With the same lineage: it knows all handles so far, and none that come later.
-            world.copy(world.lineage.clone())
-        };
-        let run = Simulation::new(world, scheme, step)?;
-        if let Some(relative) = tolerance {
-            run.control(self::tolerance(relative, [0.0; 3], None))?;
-        }
-        Ok(run)
+        let pace = Pace::new(step, tolerance)?;
+        Simulation::new(self.world()?.twin(), scheme, pace)
     }
 
     /// Runs this scene once for each value of parameters, on all cores, or on so many threads.
     ///
     /// `vary` has a dictionary for each material: the names of parameters, with a list of values as long as the ensemble.
     /// States are recorded at the end `until`, or at `times`, without changing the steps.
-    ///
     /// >>> import eem
     /// >>> scene, hooke = eem.Scene(dim=1), eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=1.0)
     /// >>> ends = scene.anchor([0.0]), scene.mass(1.0, [1.1])
@@ -466,14 +471,9 @@ impl PyScene {
         repeats: usize,
         refinement: u32,
     ) -> PyResult<Py<PyAny>> {
-        let plan = Plan {
-            duration,
-            settings: settings(schemes, steps, tolerances)?,
-            accuracies: input::list(accuracies, "accuracies")?.unwrap_or(ACCURACIES.to_vec()),
-            repeats,
-            refinement,
-        };
-        plan.into_python(py, &self.copied(py)?)
+        let asked = settings(schemes, steps, tolerances)?;
+        Plan::new(duration, asked, accuracies, (repeats, refinement))?
+            .into_python(py, &self.copied(py)?)
     }
 
     #[classmethod]

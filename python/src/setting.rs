@@ -1,8 +1,10 @@
-//! Schemes by name, and tolerances.
+//! Schemes by name, tolerances, and how long steps are.
 
 use eem::{Scheme, Tolerance};
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
+
+use crate::error;
 
 /// The scheme of this name.
 pub(crate) fn scheme(name: &str) -> PyResult<Scheme> {
@@ -14,6 +16,35 @@ pub(crate) fn scheme(name: &str) -> PyResult<Scheme> {
             names.join(", ")
         ))
     })
+}
+
+/// How long steps are, s.
+#[derive(Clone, Copy)]
+pub(crate) enum Pace {
+    Constant(f64),
+    /// As long as the tolerance asks; the first one that is tried is given.
+    Controlled(f64, Tolerance<f64>),
+    /// As long as the tolerance asks, from the first one on.
+    Free(Tolerance<f64>),
+}
+
+impl Pace {
+    /// A step, a relative tolerance, or both.
+    pub(crate) fn new(step: Option<f64>, relative: Option<f64>) -> PyResult<Self> {
+        let tolerance = relative.map(|relative| tolerance(relative, [0.0; 3], None));
+        match (step, tolerance) {
+            (Some(step), None) => Ok(Self::Constant(step)),
+            (Some(step), Some(tolerance)) => Ok(Self::Controlled(step, tolerance)),
+            (None, Some(tolerance)) => Ok(Self::Free(tolerance)),
+            (None, None) => Err(error::scene("give a `step`, a `tolerance`, or both")),
+        }
+    }
+}
+
+/// A `UserWarning`.
+pub(crate) fn warn(py: Python<'_>, message: &str) -> PyResult<()> {
+    let message = std::ffi::CString::new(message)?;
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &message, 1)
 }
 
 /// How accurate steps are to be.

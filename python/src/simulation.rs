@@ -19,7 +19,7 @@ use crate::record::{Rows, Wanted, ledger, record};
 use crate::report::Report;
 use crate::run::AnyRun;
 use crate::sensitivities::Asked;
-use crate::setting::scheme;
+use crate::setting::{Pace, scheme};
 use crate::watch::Watch;
 use crate::world::{State, World};
 use crate::{error, input, setting};
@@ -154,6 +154,13 @@ impl Simulation {
         self.ask(|run| Ok(run.worst_step().map(Report::from)))
     }
 
+    /// Why the result of the steps so far may mislead although every one has kept its laws; None if nothing speaks for it.
+    /// `run` warns of it once, with a `UserWarning`.
+    #[getter]
+    fn warning(&self) -> PyResult<Option<String>> {
+        self.ask(|run| Ok(run.warning()))
+    }
+
     /// Makes one step and returns what it proves. After an error the simulation is as it was.
     fn step(&self) -> PyResult<Report> {
         let mut guard = self.lock()?;
@@ -195,6 +202,7 @@ impl Simulation {
             at_times,
         };
         let mut rows = Rows::default();
+        let has_warned = self.warning()?.is_some();
         let watch = Watch::new(py)?;
         let ended = py.detach(|| self.advance(&times, wanted, (&mut rows, watch)))?;
         let end = match ended {
@@ -204,6 +212,9 @@ impl Simulation {
         };
         let scene = (self.world.dim, &self.parts, &self.world.lineage);
         let record = record(py, rows, scene, end, self.scheme()?)?;
+        if !has_warned && let Some(warning) = self.warning()? {
+            setting::warn(py, &warning)?;
+        }
         match ended {
             Ended::Failed(error) => Err(error::step(&error, Some(record))),
             Ended::Signal(signal) if !signal.is_instance_of::<PyKeyboardInterrupt>(py) => {
@@ -413,7 +424,7 @@ impl Simulation {
         checkpoint: &str,
     ) -> PyResult<Self> {
         let world = World::restored(class.py(), state)?;
-        let restored = Self::new(world, self::scheme(scheme)?, step)?;
+        let restored = Self::new(world, self::scheme(scheme)?, Pace::Constant(step))?;
         restored.restore(checkpoint)?;
         Ok(restored)
     }
@@ -428,7 +439,7 @@ impl Simulation {
     fn __copy__(slf: &Bound<'_, Self>) -> PyResult<Self> {
         let own = slf.get();
         let world = own.world.copy(own.world.lineage.copy(random(slf.py())?));
-        let copy = Self::new(world, scheme(own.scheme()?)?, own.step)?;
+        let copy = Self::new(world, scheme(own.scheme()?)?, Pace::Constant(own.step))?;
         copy.restore(&own.checkpoint()?)?;
         Ok(copy)
     }

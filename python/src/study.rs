@@ -19,18 +19,34 @@ use crate::{error, input};
 pub(crate) const KINDS: [&str; 4] = ["q", "p", "theta", "gamma"];
 
 /// The accuracies that a report has recommendations for, if none are given.
-pub(crate) const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
+const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 
 /// What was asked for.
 pub(crate) struct Plan {
-    pub(crate) duration: f64,
-    pub(crate) settings: Vec<Setting>,
-    pub(crate) accuracies: Vec<f64>,
-    pub(crate) repeats: usize,
-    pub(crate) refinement: u32,
+    duration: f64,
+    settings: Vec<Setting>,
+    accuracies: Vec<f64>,
+    repeats: usize,
+    refinement: u32,
 }
 
 impl Plan {
+    /// With the usual accuracies if none are given; each setting is timed `repeats` times.
+    pub(crate) fn new(
+        duration: f64,
+        settings: Vec<Setting>,
+        accuracies: Option<&Bound<'_, PyAny>>,
+        (repeats, refinement): (usize, u32),
+    ) -> PyResult<Self> {
+        Ok(Self {
+            duration,
+            settings,
+            accuracies: input::list(accuracies, "accuracies")?.unwrap_or(ACCURACIES.to_vec()),
+            repeats,
+            refinement,
+        })
+    }
+
     /// Runs everything, without the interpreter. An exception of a function of time, or of the handler of a signal, ends it.
     pub(crate) fn run<const D: usize>(&self, scene: &Scene<D>) -> PyResult<StudyReport> {
         let raised = RefCell::new(None);

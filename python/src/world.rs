@@ -12,6 +12,7 @@ use crate::function::{Function, take_raised};
 use crate::handle::{Lineage, random};
 use crate::material::Material;
 use crate::run::AnyRun;
+use crate::setting::Pace;
 
 /// What a pickle of a scene contains.
 pub(crate) type State = (usize, String, Vec<Py<Material>>, Vec<Py<PyAny>>, Lineage);
@@ -96,6 +97,11 @@ impl World {
         }
     }
 
+    /// A copy with the same lineage: it knows all handles so far, and none that come later.
+    pub(crate) fn twin(&self) -> Self {
+        self.copy(self.lineage.clone())
+    }
+
     /// The index of a material, which is added if it is new.
     pub(crate) fn material(&mut self, material: &Bound<'_, Material>) -> usize {
         let same = |known: &Arc<Py<Material>>| known.is(material);
@@ -124,9 +130,9 @@ impl World {
     }
 
     /// A start of a run.
-    pub(crate) fn start(&self, scheme: Scheme, step: f64) -> PyResult<Box<dyn AnyRun>> {
+    pub(crate) fn start(&self, scheme: Scheme, pace: Pace) -> PyResult<Box<dyn AnyRun>> {
         _ = take_raised();
-        self.scene.start(scheme, step).map_err(|errors| {
+        self.scene.start(scheme, pace).map_err(|errors| {
             let all: Vec<_> = errors.iter().map(ToString::to_string).collect();
             let message = match &all[..] {
                 [only] => only.clone(),

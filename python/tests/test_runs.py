@@ -323,6 +323,56 @@ def test_the_interpreter_is_free_while_a_run_goes_on(pendulum):
     assert run.time >= 200.0
 
 
+def test_a_tolerance_needs_no_step():
+    """x = 1 + (F/k)(t² − 2 (1 − cos ωt)/ω²) of a mass at rest that is pushed by F t²."""
+    scene = eem.Scene(dim=1)
+    mass = scene.mass(1.0, [1.0])
+    hooke = eem.Material("|x: Stretch| 0.5 * k * (x - 1).powi(2)", k=100.0)
+    scene.spring(hooke, [scene.anchor([0.0]), mass])
+    scene.force(mass, lambda t: [5.0 * t * t])
+    run = scene.simulate("auto", tolerance=1e-6)
+    run.run(until=2.0)
+    exact = 1.0 + 0.05 * (4.0 - 0.02 * (1.0 - math.cos(20.0)))
+    assert abs(run.position(mass)[0] - exact) < 1e-6
+    assert run.step_statistics["accepted"] < 100
+    with pytest.raises(eem.SceneError, match="give a `step`, a `tolerance`, or both"):
+        scene.simulate("auto")
+
+
+def test_steps_end_where_a_load_jumps():
+    scene = eem.Scene(dim=1)
+    mass = scene.mass(2.0, [1.0])
+    scene.force(mass, lambda t: [0.0 if t < 0.7 else 10.0])
+    scene.stop_at([0.7])
+    scene.shortest_load(0.1)
+    run = scene.simulate("eem-temperature", step=0.5)
+    record = run.run(until=1.7)
+    assert 0.7 in record.time
+    assert abs(run.momentum(mass)[0] - 10.0) < 1e-14
+    with pytest.raises(eem.SceneError):
+        scene.stop_at([math.inf])
+    with pytest.raises(eem.SceneError):
+        scene.shortest_load(0.0)
+
+
+def test_steps_beyond_a_relaxation_time_are_warned_of():
+    scene = eem.Scene(dim=1)
+    body = eem.Material(
+        "|x: Stretch, theta: Temperature| 0.5 * (x - 1).powi(2) + c * (theta - theta * ln(theta / 300))", c=15.0)
+    ends = scene.anchor([0.0]), scene.anchor([1.0])
+    hot, cold = (scene.spring(body, ends, temperature=t) for t in (373.15, 273.15))
+    scene.conduct(hot, cold, 1e6)
+    run = scene.simulate("eem-temperature", step=1.0)
+    assert run.warning is None
+    with pytest.warns(UserWarning, match="eem-damped"):
+        run.run(until=10.0)
+    run.run(until=20.0)  # only once
+    damped = scene.simulate("eem-damped", step=1.0)
+    damped.run(until=1.0)
+    assert damped.warning is None
+    assert abs(damped.temperature(hot) - 323.15) < 1e-9
+
+
 def test_an_ensemble_is_many_runs(rubber):
     pendulum = Pendulum(rubber)
     k = np.linspace(80.0, 120.0, 9)

@@ -13,6 +13,7 @@ use crate::gradient::Term;
 use crate::handle::{Element, Kind, Node, indices};
 use crate::record::{Rows, Wanted};
 use crate::run::{AnyRun, Stop};
+use crate::setting::Pace;
 use crate::watch::Watch;
 use crate::world::World;
 use crate::{error, gradient};
@@ -31,13 +32,13 @@ pub(super) fn interrupted() -> PyErr {
 }
 
 impl Simulation {
-    pub(crate) fn new(world: World, scheme: Scheme, step: f64) -> PyResult<Self> {
-        let run = world.start(scheme, step)?;
+    pub(crate) fn new(world: World, scheme: Scheme, pace: Pace) -> PyResult<Self> {
+        let run = world.start(scheme, pace)?;
         Ok(Self {
+            step: run.step_size(),
             run: Mutex::new(Some(run)),
             parts: Arc::new(world.scene.parts().clone()),
             world,
-            step,
         })
     }
 
