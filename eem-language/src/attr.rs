@@ -158,8 +158,12 @@ fn report_unreadable(cx: &Ctxt, attribute: &Attribute, error: &syn::Error, messa
 fn is_too_deep(cx: &Ctxt, attribute: &Attribute) -> bool {
     let limit = cx.dialect().choose(depth::LIMIT, depth::LIMIT_OF_TEXT);
     let place = depth::too_deep(tokens(attribute), limit);
-    if let Some(span) = place {
-        cx.error_at(span, &message::too_deep());
+    if let Some((span, excess)) = place {
+        let message = match excess {
+            depth::Excess::Terms(terms) => message::too_many_terms(terms, limit),
+            depth::Excess::Nesting => message::too_deep(),
+        };
+        cx.error_at(span, &message);
     }
     place.is_some()
 }

@@ -63,6 +63,16 @@ pub(crate) fn too_deep() -> Message {
     )
 }
 
+pub(crate) fn too_many_terms(terms: usize, limit: usize) -> Message {
+    Message::new(
+        format!(
+            "this sum has {terms} terms, more than the {} that are possible",
+            limit + 1
+        ),
+        "bind parts of it with `let`",
+    )
+}
+
 pub(crate) fn after_the_closure() -> Message {
     Message::new(
         "nothing may follow the closure of the free energy",

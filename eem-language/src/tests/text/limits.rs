@@ -54,6 +54,41 @@ fn no_nesting_uses_up_the_stack() {
     assert!(compile(&source).is_ok());
 }
 
+/// A free energy with this many terms, that all differ.
+fn sum(terms: u32) -> Source {
+    let term = |i| format!(" + {i} * k * ln(x / {i}).powi(2) * (x - {i})");
+    let terms: String = (1..=terms).map(term).collect();
+    Source::new(format!("|x: Stretch| k * x{terms}")).parameter("k", None)
+}
+
+#[test]
+fn a_sum_of_hundreds_of_terms_is_flat() {
+    for terms in [300, 950] {
+        let compiled = compile(&sum(terms)).expect("this is right");
+        assert!(compiled.programs().is_ok());
+    }
+    let text = compile(&sum(1200))
+        .expect_err("there are too many")
+        .to_string();
+    assert!(
+        text.contains("this sum has 1201 terms, more than the 1001"),
+        "{text}"
+    );
+    let short = format!("|x: Stretch| x{}", " + x".repeat(10_000));
+    let text = compile(&Source::new(short))
+        .expect_err("there are too many")
+        .to_string();
+    assert!(
+        text.contains("this sum has 10001 terms, more than the 1001"),
+        "{text}"
+    );
+    let brackets = format!("|x: Stretch| {}x{}", "(".repeat(30_000), ")".repeat(30_000));
+    let text = compile(&Source::new(brackets))
+        .expect_err("this is deep")
+        .to_string();
+    assert!(text.contains("nested too deeply"), "{text}");
+}
+
 #[test]
 fn bindings_may_be_a_long_chain() {
     let chain: Vec<String> = (1..1000)
