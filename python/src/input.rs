@@ -93,18 +93,26 @@ pub(crate) fn list(given: Option<&Bound<'_, PyAny>>, what: &str) -> PyResult<Opt
 
 /// The end of a run, or the times of its states.
 pub(crate) fn times(until: Option<f64>, times: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
-    match (until, times) {
-        (Some(until), None) => Ok(vec![until]),
+    let (name, times) = match (until, times) {
+        (Some(until), None) => ("until", vec![until]),
         (None, Some(times)) => {
             let array = array(times, "times")?;
             if array.shape.len() != 1 || array.values.is_empty() {
                 return Err(error::scene("times are a list of at least one number"));
             }
-            Ok(array.values)
+            ("times", array.values)
         }
-        _ => Err(error::scene(
-            "give the end `until`, or the `times` of the states",
-        )),
+        _ => {
+            return Err(error::scene(
+                "give the end `until`, or the `times` of the states",
+            ));
+        }
+    };
+    match times.iter().find(|time| !time.is_finite()) {
+        Some(time) => Err(error::scene(format!(
+            "`{name}`: a time is {time} s, where no run would end; it must be finite"
+        ))),
+        None => Ok(times),
     }
 }
 

@@ -373,6 +373,14 @@ def test_steps_beyond_a_relaxation_time_are_warned_of():
     assert abs(damped.temperature(hot) - 323.15) < 1e-9
 
 
+@pytest.mark.parametrize("end", [{"until": math.inf}, {"until": math.nan}, {"times": [0.1, math.inf]}])
+def test_a_run_without_an_end_is_refused(pendulum, end):
+    run = pendulum.scene.simulate("eem-temperature", step=0.05)
+    with pytest.raises(eem.SceneError, match="where no run would end"):
+        run.run(**end)
+    assert run.time == 0.0
+
+
 def test_an_ensemble_is_many_runs(rubber):
     pendulum = Pendulum(rubber)
     k = np.linspace(80.0, 120.0, 9)
