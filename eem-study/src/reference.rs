@@ -25,7 +25,7 @@ const FOURTH_ORDER: Pair = Pair {
     first: 4,
 };
 
-/// For scenes with solids or rockets, which schemes of fourth order do not step.
+/// For scenes with solids, rockets or dashpots in parallel with springs, which those schemes do not step.
 const SECOND_ORDER: Pair = Pair {
     schemes: [Scheme::EemEntropy, Scheme::Midpoint],
     first: 16,
@@ -143,6 +143,7 @@ impl Search<'_> {
             let next = match solve(build, pair.schemes, (steps, self.end_time), progress) {
                 Err(NoEnd::Scene(
                     SceneError::NotForSolids { .. }
+                    | SceneError::NoDrag { .. }
                     | SceneError::Rocket(RocketError::Scheme { .. }),
                 )) if pair.first == FOURTH_ORDER.first => {
                     pair = SECOND_ORDER;
