@@ -23,7 +23,7 @@
 //!
 //! | to | look in |
 //! |---|---|
-//! | add a scheme | a row in `step/scheme.rs`; a `Tableau` in `step/rule` for one with stages; other conjugates in `element/conjugates` or a `Source` in `element/group/stages` |
+//! | add a scheme | a row in `step/scheme.rs` and in `step/features.rs`, and in `step/automatic.rs` if `Auto` may choose it; a `Tableau` in `step/rule` for one with stages; other conjugates in `element/conjugates` or a `Source` in `element/group/stages` |
 //! | change what a step proves | `step/certificate.rs`, `element/group/certify.rs`, `step/solver/closing` |
 //! | change Newton's method: start, convergence, end | `step/newton.rs`; `begin.rs`, `past.rs`, `converge.rs`, `progress.rs` in `step/solver` |
 //! | change step control | `step/control`; `attempt.rs`, `control.rs`, `halves.rs` in `run/simulation`; `step/explicit/error.rs` |
@@ -33,13 +33,13 @@
 //! | reject what does not fit in memory | `algebra/memory.rs`, `step/systems.rs` |
 //! | add a strain measure | `strain.rs`, `between.rs`, `stiffness.rs` in `element/kinematics`; `tensor.rs` in `eem-mesh`; its role in `eem-language` |
 //! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `eem-material` |
-//! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs`; `Scheme::takes_drag` |
+//! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs` |
 //! | add a shape of cell | `shape.rs` in `eem-mesh` |
 //! | change solids and their checks | `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `cell.rs` in `scene`; meshes: `eem-mesh` |
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
 //! | let a controller set something else | `run/simulation/controller.rs`; `Course` in `scene/loads.rs`; `SavedLoads` in `run/checkpoint.rs` |
 //! | change ovens | `run/simulation/ovens.rs` |
-//! | change the scheme in the middle of a run | `run/simulation/change.rs`; what not every scheme can step: `check.rs` there |
+//! | change the scheme in the middle of a run | `run/simulation/change.rs`; what not every scheme can step: the table in `step/features.rs`, its errors in `check.rs` there |
 //! | measure what elements do in a step | `element/meters.rs`, where balances book; `run/simulation/meters.rs`, `run/recorder/quantity.rs` |
 //! | add something to checkpoints | `run/checkpoint`: `entries.rs` for rules and digests, `lines.rs` for files |
 //! | add a conserved quantity | `run/ledger.rs` |

@@ -7,6 +7,7 @@ pub(crate) mod certificate;
 pub(crate) mod control;
 pub(crate) mod error;
 pub(crate) mod explicit;
+pub(crate) mod features;
 pub(crate) mod law;
 mod line;
 pub(crate) mod load_rule;

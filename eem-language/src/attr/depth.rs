@@ -81,14 +81,15 @@ fn part_too_deep(
                 pending.push((group.stream(), outer + term + factor + BRACKETS));
             }
             TokenTree::Punct(punct) => match (punct.as_char(), before) {
-                ('.', Before::Word | Before::Group) => factor += PREFIX,
                 // Counted in `start`.
                 ('+' | '-', Before::Word | Before::Group) => (term, factor) = (0, 0),
                 ('*' | '/', Before::Word | Before::Group) => {
                     term += 1;
                     factor = 0;
                 }
-                ('-' | '!' | '*' | '&', Before::Operator) => factor += PREFIX,
+                ('.', Before::Word | Before::Group) | ('-' | '!' | '*' | '&', Before::Operator) => {
+                    factor += PREFIX
+                }
                 (_, Before::Operator) => outer += PREFIX,
                 (_, Before::Word | Before::Group) => outer += 1,
             },

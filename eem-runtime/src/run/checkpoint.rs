@@ -10,7 +10,7 @@ mod scheme_name;
 mod text;
 
 use crate::element::state::{Energy, State};
-use crate::step::automatic::Choice;
+use crate::step::automatic::SchemeSelection;
 use crate::step::control::{Controller, StepStatistics, Tolerance};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::NewtonSettings;
@@ -157,7 +157,7 @@ pub(crate) struct SavedControl<S> {
     pub(crate) largest: S,
 }
 
-/// The scheme in use by `Scheme::Auto`, and the effort of both kinds of schemes.
+/// The scheme in use by `Scheme::Auto`, and the history of its selection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -170,7 +170,7 @@ pub(crate) struct SavedChoice {
     /// The scheme before a trial.
     #[cfg_attr(feature = "serde", serde(with = "scheme_name"))]
     pub(crate) previous: Scheme,
-    pub(crate) choice: Choice,
+    pub(crate) selection: SchemeSelection,
 }
 
 impl<S: Copy> Checkpoint<S> {

@@ -59,7 +59,6 @@ use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use crate::scene::refused::RefusedScene;
-use crate::step::automatic::first;
 use crate::step::control::{LeastScales, Tolerance};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
@@ -164,7 +163,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         begin: Begin<S>,
     ) -> Result<Self, RefusedScene<D, S>> {
         let needs = Needs::of(&scene);
-        let in_use = first(scheme, needs.are_implicit());
+        let in_use = needs.first(scheme);
         let mut errors = check_all(&scene, (in_use, needs), begin.step());
         if let Begin::WithTolerance(tolerance) = &begin {
             errors.extend(check_tolerance(tolerance, (scheme, in_use)).err());

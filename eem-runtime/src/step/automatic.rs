@@ -1,9 +1,17 @@
-//! The choice between explicit and implicit schemes by their cost.
+//! The choice among the exact schemes by their cost.
 //!
-//! An explicit scheme is cheaper until stability, and not accuracy, limits its steps. Then one step of an implicit scheme is
-//! tried, so long that it would be cheaper; the run continues with that scheme if the step is accurate. From time to time
-//! the explicit scheme is tried for some steps again, and kept if it took less effort for the same time. The wait doubles
-//! after each failed trial, so that trials take a bounded fraction of a run.
+//! Two things can make another scheme cheaper than the present one:
+//!
+//! - An explicit scheme is cheaper until stability, and not accuracy, limits its steps. Then one step of an implicit scheme is
+//!   tried. From time to time the explicit scheme is tried for some steps again, and kept if it took less effort for the same
+//!   time.
+//! - Which order is cheaper depends on the tolerance: errors of `(h/T)ᵖ⁺¹` that shall be `r^(1 + 1/p)` allow the step
+//!   `h = T r^(1/p)`, with the time scale T of the motion. For a motion that is stiff or not smooth this is wrong. So the
+//!   formula only decides which scheme is tried first and how soon; one step decides whether it is kept.
+//!
+//! The one step of an implicit scheme is so long that it would be cheaper than the present scheme over the same time; the run
+//! continues with that scheme if the step is accurate. Each failed trial doubles the wait for the next one of its kind, so that
+//! trials take a bounded fraction of a run.
 //!
 //! Effort is counted and not measured, so that two runs take the same steps.
 
@@ -13,7 +21,7 @@ use crate::step::control::Tolerance;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Real;
 
-/// The relative tolerance above which order 2 is cheaper than order 6 where stability limits the steps.
+/// The relative tolerance from which on order 2 is tried first where stability limits the steps.
 const ROUGH: f64 = 1e-4;
 
 /// Steps between two checks of the fastest motion.
@@ -25,6 +33,9 @@ const LIMITED_LOOKS: u32 = 2;
 /// A step above this fraction of the bound for the longest stable one is limited by stability.
 const NEARLY_UNSTABLE: f64 = 0.6;
 
+/// Steps that grow by more than this factor are not yet limited by their error, so that their cost says nothing.
+const GROWING: f64 = 1.5;
+
 /// Cost ratio required before switching, in either direction.
 const MARGIN: f64 = 1.5;
 
@@ -34,6 +45,9 @@ const PARTS: f64 = 3.0;
 
 /// Trials wait for this multiple of their own effort.
 const PATIENCE: f64 = 4.0;
+
+/// Where stability limits the explicit scheme, one in so many trials is not of the first candidate.
+const CYCLE: usize = 4;
 
 /// Explicit steps of a trial, and the cost ratio at which it ends early.
 const TRIAL_STEPS: u32 = 6;
@@ -48,53 +62,107 @@ const EXPLICIT_TRIAL: f64 = 400.0;
 /// The factor by which each step reduces the weight of the earlier ones.
 const MEMORY: f64 = 0.8;
 
-/// The scheme with which a run set to `asked` begins; some scenes need an implicit scheme of order 2.
-pub(crate) const fn first(asked: Scheme, needs_second: bool) -> Scheme {
-    match asked {
-        Scheme::Auto if needs_second => Scheme::EemTemperature,
-        Scheme::Auto => Scheme::EemExplicit,
-        own => own,
-    }
-}
+/// The schemes with which a run can begin: the first one that can step the scene.
+pub(crate) const FIRST: [Scheme; 2] = [Scheme::EemExplicit, Scheme::EemTemperature];
 
-/// The implicit scheme for a tolerance.
-pub(crate) fn implicit<S: Real>(tolerance: &Tolerance<S>, needs_second: bool) -> Scheme {
-    let is_rough = tolerance.relative.to_f64() >= ROUGH;
-    if is_rough || needs_second {
-        Scheme::EemTemperature
-    } else {
-        Scheme::EemEntropy6
-    }
-}
-
-/// The schemes that are tried, in this order, if the present one finds no step.
-pub(crate) const CANDIDATES: [Scheme; 4] = [
+/// The schemes among which `Scheme::Auto` chooses, in the order in which they are tried if the present one finds no step.
+pub(crate) const CANDIDATES: [Scheme; 5] = [
     Scheme::EemTemperature,
     Scheme::EemEntropy,
     Scheme::EemEntropy6,
+    Scheme::EemEntropy4,
     Scheme::EemExplicit,
 ];
 
-/// The effort of evaluating all elements and solving for the unknowns, in units of an evaluation by the explicit scheme;
-/// measured on pendulums and on a chain of 16 springs.
-fn weight(scheme: Scheme, unknowns: usize) -> f64 {
-    let dense = match scheme {
-        Scheme::EemExplicit => return 1.0,
-        Scheme::EemTemperature => 2.0,
-        Scheme::EemEntropy => 3.0,
-        _ => 6.0,
-    };
-    if unknowns > MOST_FIXED {
-        8.0 * dense
+/// The implicit candidates to be tried instead of the present scheme, in this order. Where stability limits the explicit scheme,
+/// only the first one and those that are likely to be cheaper: longer steps may fail slowly.
+pub(crate) fn implicit<S: Real>(
+    present: Scheme,
+    tolerance: &Tolerance<S>,
+    unknowns: usize,
+) -> impl Iterator<Item = Scheme> + Clone {
+    use Scheme::{EemEntropy, EemEntropy4, EemEntropy6, EemExplicit, EemTemperature};
+    let relative = tolerance.relative.to_f64();
+    let all = if relative >= ROUGH {
+        [EemTemperature, EemEntropy6, EemEntropy4, EemEntropy]
     } else {
-        dense
-    }
+        [EemEntropy6, EemTemperature, EemEntropy4, EemEntropy]
+    };
+    let gain = move |scheme| expected_gain([all[0], scheme], unknowns, relative);
+    let is_worth_it = move |&scheme: &Scheme| match present {
+        EemExplicit => scheme == all[0] || gain(scheme) > MARGIN,
+        _ => scheme != present,
+    };
+    all.into_iter().filter(is_worth_it)
 }
 
-fn stages(scheme: Scheme) -> f64 {
+/// The effort of evaluating all elements at a stage and solving for its unknowns, in units of an evaluation by the explicit
+/// scheme; for dense systems measured on pendulums, for sparse ones on a chain of 16 springs and a block of 36 cells.
+fn weight(scheme: Scheme, unknowns: usize) -> f64 {
+    let [dense, sparse] = match scheme {
+        Scheme::EemExplicit => return 1.0,
+        Scheme::EemTemperature | Scheme::EemDamped => [2.0, 16.0],
+        Scheme::EemEntropy => [3.0, 24.0],
+        Scheme::EemEntropy4 => [5.0, 56.0],
+        _ => [6.0, 64.0],
+    };
+    if unknowns > MOST_FIXED { sparse } else { dense }
+}
+
+/// The expected effort of a step of an implicit scheme with its estimate of the error.
+fn effort_of_step(scheme: Scheme, unknowns: usize) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "at most three")]
     let stages = scheme.tableau().map_or(1, Tableau::stages) as f64;
-    stages
+    PARTS * ITERATIONS * weight(scheme, unknowns) * stages
+}
+
+/// The cost of a smooth motion by an implicit scheme over that by another one, given the relative tolerance r: a step by r^(1/p).
+fn expected_gain([present, other]: [Scheme; 2], unknowns: usize, relative: f64) -> f64 {
+    let cost = |scheme: Scheme| {
+        let step = relative.powf(f64::from(scheme.order()).recip());
+        effort_of_step(scheme, unknowns) / step
+    };
+    cost(present) / cost(other)
+}
+
+/// When the next trial of a kind may begin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct TrialClock {
+    /// The effort of the run from which on it may begin.
+    pub(crate) due: f64,
+    /// The effort between the last two, `None` before the first.
+    pub(crate) wait: Option<f64>,
+}
+
+impl TrialClock {
+    pub(crate) const fn new() -> Self {
+        Self {
+            due: 0.0,
+            wait: None,
+        }
+    }
+
+    /// Waits for this effort, given all effort so far.
+    const fn wait_for(&mut self, effort: f64, spent: f64) {
+        self.wait = Some(effort);
+        self.due = spent + effort;
+    }
+
+    /// All effort at the last trial.
+    fn last(&self) -> f64 {
+        self.due - self.wait.unwrap_or_default()
+    }
+
+    /// Doubles the wait after a failed trial, and waits for at least this effort.
+    fn wait_longer(&mut self, least: f64, spent: f64) {
+        let doubled = 2.0 * self.wait.unwrap_or_default();
+        self.wait_for(doubled.max(least), spent);
+    }
 }
 
 /// The history of schemes in a run with [`Scheme::Auto`].
@@ -104,26 +172,30 @@ fn stages(scheme: Scheme) -> f64 {
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct Choice {
-    /// Effort and time, s, of the last steps of the present scheme, earlier ones counting less.
-    pub(crate) recent: [f64; 2],
-    /// Steps of the present scheme.
+pub(crate) struct SchemeSelection {
+    /// Effort of the last steps of the present scheme and their time, s, earlier ones counting less.
+    pub(crate) recent_effort: f64,
+    pub(crate) recent_time: f64,
+    /// Steps of the present scheme, and the size of the last one that was due, s.
     pub(crate) steps: u32,
+    pub(crate) size: f64,
     /// Checks in succession that found steps limited by stability or failed.
-    pub(crate) limited: u32,
+    pub(crate) limited_checks: u32,
     /// Failed steps at the last check.
     pub(crate) failures: u64,
     /// Effort per time, 1/s, and last step, s, of the previous scheme.
-    pub(crate) before: [f64; 2],
+    pub(crate) previous_rate: f64,
+    pub(crate) previous_step: f64,
     /// Whether the present scheme is the explicit one on trial.
     pub(crate) is_on_trial: bool,
     /// The size of implicit steps at the last failed trial of the explicit scheme, s; zero before.
-    pub(crate) tried: f64,
-    /// All effort so far, the effort from which on the next trial may begin, and that between two trials, `None` before the
-    /// first.
+    pub(crate) tried_at: f64,
+    /// All effort so far.
     pub(crate) spent: f64,
-    pub(crate) due: f64,
-    pub(crate) wait: Option<f64>,
+    /// Trials of the explicit scheme, of implicit ones, and how many of the latter have failed since the last switch.
+    pub(crate) explicit_trials: TrialClock,
+    pub(crate) implicit_trials: TrialClock,
+    pub(crate) failed_trials: u32,
 }
 
 /// The outcome of a trial.
@@ -137,32 +209,52 @@ pub(crate) enum Verdict {
     Return(f64),
 }
 
-impl Choice {
+impl SchemeSelection {
     /// All numbers except counts; valid ones are finite and not negative.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
-        let ([a, b], [c, d]) = (self.recent, self.before);
-        let on_trial = f64::from(u8::from(self.is_on_trial));
-        let all = [a, b, c, d, self.spent, self.due, self.tried];
-        all.into_iter().chain(self.wait).chain([on_trial])
+        let [explicit, implicit] = [self.explicit_trials, self.implicit_trials];
+        let all = [
+            self.recent_effort,
+            self.recent_time,
+            self.size,
+            self.previous_rate,
+            self.previous_step,
+            self.tried_at,
+            self.spent,
+            explicit.due,
+            implicit.due,
+            f64::from(u8::from(self.is_on_trial)),
+        ];
+        let waits = explicit.wait.into_iter().chain(implicit.wait);
+        all.into_iter().chain(waits)
     }
 
     /// All counts.
-    pub(crate) fn counts(&self) -> [u64; 3] {
-        [self.steps.into(), self.limited.into(), self.failures]
+    pub(crate) fn counts(&self) -> [u64; 4] {
+        [
+            self.steps.into(),
+            self.limited_checks.into(),
+            self.failures,
+            self.failed_trials.into(),
+        ]
     }
 
     pub(crate) const fn new() -> Self {
         Self {
-            recent: [0.0; 2],
+            recent_effort: 0.0,
+            recent_time: 0.0,
             steps: 0,
-            limited: 0,
+            size: 0.0,
+            limited_checks: 0,
             failures: 0,
-            before: [0.0; 2],
+            previous_rate: 0.0,
+            previous_step: 0.0,
             is_on_trial: false,
-            tried: 0.0,
+            tried_at: 0.0,
             spent: 0.0,
-            due: 0.0,
-            wait: None,
+            explicit_trials: TrialClock::new(),
+            implicit_trials: TrialClock::new(),
+            failed_trials: 0,
         }
     }
 
@@ -176,8 +268,8 @@ impl Choice {
         #[expect(clippy::cast_precision_loss, reason = "a count of far less than 2⁵³")]
         let effort = weight(scheme, unknowns) * evaluations as f64;
         self.spent += effort;
-        let [sum, span] = self.recent;
-        self.recent = [MEMORY * sum + effort, MEMORY * span + time];
+        self.recent_effort = MEMORY * self.recent_effort + effort;
+        self.recent_time = MEMORY * self.recent_time + time;
         if time > 0.0 {
             self.steps = self.steps.saturating_add(1);
         }
@@ -185,7 +277,7 @@ impl Choice {
 
     /// Effort per time of the present scheme, 1/s.
     fn rate(&self) -> f64 {
-        self.recent[0] / self.recent[1]
+        self.recent_effort / self.recent_time
     }
 
     /// Whether the fastest motion is due for a check.
@@ -198,85 +290,147 @@ impl Choice {
     pub(crate) const fn see(&mut self, fraction: f64, failures: u64) {
         let has_failed = failures > self.failures;
         self.failures = failures;
-        self.limited = if fraction > NEARLY_UNSTABLE || has_failed {
-            self.limited + 1
+        self.limited_checks = if fraction > NEARLY_UNSTABLE || has_failed {
+            self.limited_checks + 1
         } else {
             0
         };
     }
 
-    /// The size of an implicit step that would be cheaper than explicit ones over the same time, if a trial is due, s.
-    pub(crate) fn implicit_trial(&mut self, scheme: Scheme, unknowns: usize) -> Option<f64> {
-        if self.limited < LIMITED_LOOKS {
-            return None;
+    /// Takes the size of the step that is due, s. Whether the steps of the present scheme have stopped growing.
+    pub(crate) fn has_settled(&mut self, size: f64) -> bool {
+        let has_settled = size < GROWING * self.size;
+        self.size = size;
+        has_settled
+    }
+
+    /// Whether stability limits the steps of the explicit scheme.
+    pub(crate) const fn is_limited(&self) -> bool {
+        self.limited_checks >= LIMITED_LOOKS
+    }
+
+    /// Whether the next trial of an implicit scheme may begin; the first one is still to be planned.
+    pub(crate) fn may_try_implicit(&self) -> bool {
+        let clock = self.implicit_trials;
+        !self.is_on_trial && (clock.wait.is_none() || self.spent >= clock.due)
+    }
+
+    /// The scheme whose turn it is to be tried instead of the present one.
+    pub(crate) fn next_in_turn(
+        &self,
+        present: Scheme,
+        mut others: impl Iterator<Item = Scheme> + Clone,
+    ) -> Option<Scheme> {
+        let (turn, count) = (self.failed_trials as usize, others.clone().count());
+        let index = match present {
+            // What limits the explicit scheme may only set in, so that the cheapest trial is repeated before a long one.
+            Scheme::EemExplicit if turn % CYCLE < CYCLE - 1 || count < 2 => 0,
+            Scheme::EemExplicit => 1 + turn / CYCLE % (count - 1),
+            _ => turn.checked_rem(count)?,
+        };
+        others.nth(index)
+    }
+
+    /// The size of a step of an implicit scheme that would be cheaper than the present scheme over the same time, if a trial is
+    /// due, s.
+    pub(crate) fn implicit_trial(
+        &mut self,
+        [present, scheme]: [Scheme; 2],
+        unknowns: usize,
+        relative: f64,
+    ) -> Option<f64> {
+        let effort = effort_of_step(scheme, unknowns);
+        if self.implicit_trials.wait.is_none() {
+            // Longer if the tolerance makes another cost likely. For the explicit scheme, stability decides.
+            let gain = match present {
+                Scheme::EemExplicit => 1.0,
+                _ => expected_gain([present, scheme], unknowns, relative),
+            };
+            self.implicit_trials
+                .wait_for(PATIENCE * effort / gain, self.spent);
         }
-        let effort = PARTS * ITERATIONS * weight(scheme, unknowns) * stages(scheme);
-        if self.wait.is_none() {
-            self.wait_for(PATIENCE * effort);
-        }
-        (self.spent >= self.due).then(|| MARGIN * effort / self.rate())
+        let is_first = self.failed_trials == 0;
+        let is_due = self.spent >= self.implicit_trials.due
+            && (is_first || self.spent >= self.implicit_trials.last() + PATIENCE * effort);
+        is_due.then(|| MARGIN * effort / self.rate())
+    }
+
+    /// Records a failed trial of an implicit scheme instead of the present one, given all effort before it.
+    pub(crate) fn reject_implicit(&mut self, present: Scheme, before: f64) {
+        self.limited_checks = 0;
+        self.failed_trials = self.failed_trials.saturating_add(1);
+        let least = match present {
+            // It is already known that stability limits it.
+            Scheme::EemExplicit => 0.0,
+            _ => PATIENCE * (self.spent - before),
+        };
+        self.implicit_trials.wait_longer(least, self.spent);
     }
 
     /// Whether a trial of the explicit scheme is due, for implicit steps of this size, s.
     pub(crate) fn tries_explicit(&mut self, size: f64) -> bool {
-        let alike = self.tried / OTHER_MOTION..=self.tried * OTHER_MOTION;
-        if self.tried > 0.0 && !alike.contains(&size) {
+        let alike = self.tried_at / OTHER_MOTION..=self.tried_at * OTHER_MOTION;
+        if self.tried_at > 0.0 && !alike.contains(&size) {
             // The last trial was for another motion.
-            self.tried = size;
-            self.wait_for(PATIENCE * EXPLICIT_TRIAL);
+            self.tried_at = size;
+            self.expect_explicit();
         }
-        self.spent >= self.due
+        self.spent >= self.explicit_trials.due
+    }
+
+    /// Waits as long as for the first trial of the explicit scheme.
+    fn expect_explicit(&mut self) {
+        self.explicit_trials
+            .wait_for(PATIENCE * EXPLICIT_TRIAL, self.spent);
     }
 
     /// Switches to another scheme, after steps of this size, s.
     pub(crate) fn change(&mut self, last: f64) {
         self.leave(last);
         self.is_on_trial = false;
-        self.tried = 0.0;
-        self.wait_for(PATIENCE * EXPLICIT_TRIAL);
+        self.tried_at = 0.0;
+        self.failed_trials = 0;
+        self.implicit_trials = TrialClock::new();
+        self.expect_explicit();
     }
 
     /// Starts a trial of the explicit scheme after steps of this size, s; returns the last step of the previous scheme, s.
     pub(crate) fn begin_trial(&mut self, last: f64) -> f64 {
-        let [_, previous] = self.before;
+        let previous = self.previous_step;
         self.leave(last);
         self.is_on_trial = true;
         previous
     }
 
     fn leave(&mut self, last: f64) {
-        self.before = [self.rate(), last];
-        self.recent = [0.0; 2];
-        (self.steps, self.limited) = (0, 0);
+        (self.previous_rate, self.previous_step) = (self.rate(), last);
+        (self.recent_effort, self.recent_time) = (0.0, 0.0);
+        (self.steps, self.size, self.limited_checks) = (0, 0.0, 0);
     }
 
     /// The outcome of the trial of the explicit scheme so far, given the size of its present step, s.
     pub(crate) fn judge(&mut self, present: f64) -> Verdict {
-        let [rate, last] = self.before;
+        let (rate, last) = (self.previous_rate, self.previous_step);
         let is_hopeless = self.steps > 0 && self.rate() > HOPELESS * rate;
         if !self.is_on_trial || !is_hopeless && self.steps < TRIAL_STEPS {
             return Verdict::None;
         }
         self.is_on_trial = false;
         if MARGIN * self.rate() < rate {
-            self.wait = None;
+            self.failed_trials = 0;
+            self.implicit_trials = TrialClock::new();
             return Verdict::Keep;
         }
         self.leave(present);
-        self.recent = [rate * last, last];
-        self.tried = last;
-        self.wait_longer();
+        (self.recent_effort, self.recent_time) = (rate * last, last);
+        self.tried_at = last;
+        self.reject_explicit();
         Verdict::Return(last)
     }
 
-    /// Doubles the wait after a failed trial.
-    pub(crate) fn wait_longer(&mut self) {
-        self.limited = 0;
-        self.wait_for(2.0 * self.wait.unwrap_or_default());
-    }
-
-    fn wait_for(&mut self, effort: f64) {
-        self.wait = Some(effort);
-        self.due = self.spent + effort;
+    /// Records a failed trial of the explicit scheme.
+    pub(crate) fn reject_explicit(&mut self) {
+        self.limited_checks = 0;
+        self.explicit_trials.wait_longer(0.0, self.spent);
     }
 }

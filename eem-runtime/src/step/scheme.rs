@@ -84,9 +84,9 @@ pub enum Scheme {
     /// size. A conduction between two bodies and a relaxation decay exactly; steady states and both laws stay exact. Where
     /// steps are much longer than relaxation times, slow changes of temperature have errors of first order.
     EemDamped,
-    /// Chooses the cheapest exact scheme for a [tolerance](crate::Simulation::control_steps): `EemExplicit`, unless
-    /// stability limits its steps more than accuracy does, and `EemTemperature` for solids and for dashpots in
-    /// parallel with springs. The laws also hold when the [scheme in use](crate::Simulation::scheme_in_use)
+    /// Chooses the cheapest exact scheme for a [tolerance](crate::Simulation::control_steps), by the effort that it counts,
+    /// among those that can step the scene: it begins with `EemExplicit`, with solids, rockets and dashpots in parallel
+    /// with springs with `EemTemperature`. The laws also hold when the [scheme in use](crate::Simulation::scheme_in_use)
     /// changes.
     #[default]
     Auto,
@@ -202,7 +202,7 @@ impl Scheme {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
             Self::EemDamped => Rule::exact("eem-damped", DampedTemperatureForm),
-            // Explicit elements are built without conjugates; this entry only excludes dashpots in parallel with springs.
+            // Explicit elements are built without conjugates.
             Self::EemExplicit => Rule::exact("eem-explicit", Point(PointRule::Variational))
                 .of_order(8)
                 .closed(Closing::Explicit),
@@ -329,27 +329,6 @@ impl Scheme {
     /// Whether mechanics and heat are stepped one after the other.
     pub(crate) const fn is_split(self) -> bool {
         matches!(self, Self::Staggered)
-    }
-
-    /// Whether it supports dashpots in parallel with springs, which need one gradient, and mechanics and heat in one
-    /// solve.
-    pub(crate) const fn takes_drag(self) -> bool {
-        let takes_drag = match self.conjugates() {
-            Conjugates::Stages(rule) => rule.path.is_some(),
-            Conjugates::Point(PointRule::Variational) => false,
-            _ => true,
-        };
-        takes_drag && !self.is_split()
-    }
-
-    /// Whether the end of a step follows from increments, as needed for solids, whose masses couple nodes, and for
-    /// rockets.
-    pub(crate) fn ends_by_increments(self) -> bool {
-        match self.closing() {
-            Closing::Increments => true,
-            Closing::Stages => self.tableau().is_some_and(|rule| rule.path.is_some()),
-            Closing::Start | Closing::Explicit => false,
-        }
     }
 
     /// The coefficients of a scheme with stages.

@@ -34,11 +34,6 @@ const RUST_ONLY: &[(&str, &str, &str)] = &[
         "a text may be nested less deeply, so that the place is another",
     ),
     (
-        "attribute/too_many_terms",
-        "Model",
-        "a text may have fewer terms, so that the number is another",
-    ),
-    (
         "attribute/unknown_option",
         "Quoted",
         "the path of the crate",

@@ -197,9 +197,9 @@ impl<S: Real> Checkpoint<S> {
             ]);
         }
         if let Some(saved) = &self.choice {
-            let numbers = saved.choice.numbers().map(S::from_f64);
+            let numbers = saved.selection.numbers().map(S::from_f64);
             entries.push(Entry::new("choice of a scheme", FiniteNotNegative, numbers).sealed());
-            entries.push(Entry::counts("choice of a scheme", saved.choice.counts()).sealed());
+            entries.push(Entry::counts("choice of a scheme", saved.selection.counts()).sealed());
         }
         if let Some(explicit) = &self.explicit {
             let momentum = explicit.largest_momentum;

@@ -6,7 +6,7 @@ use super::{Checkpoint, SavedChoice, SavedControl, SavedEnergies, SavedLoads};
 use crate::algebra::memory::TooLarge;
 use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
-use crate::step::automatic::Choice;
+use crate::step::automatic::{SchemeSelection, TrialClock};
 use crate::step::control::{Controller, StepStatistics, Tolerance};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::NewtonSettings;
@@ -141,23 +141,38 @@ fn too_large(text: &mut Text<'_>, own: Option<&Option<TooLarge>>) -> Read<Option
 }
 
 fn choice(text: &mut Text<'_>, own: Option<&SavedChoice>) -> Read<SavedChoice> {
-    let choice = own.map(|own| own.choice);
-    let wait = choice.map(|own| own.wait.map(|wait| [wait]));
     Ok(SavedChoice {
         scheme: text.item("scheme in use", own.map(|own| own.scheme))?,
         previous: text.item("scheme before", own.map(|own| own.previous))?,
-        choice: Choice {
-            recent: text.array("recent effort", choice.map(|own| own.recent))?,
-            steps: text.item("steps", choice.map(|own| own.steps))?,
-            limited: text.item("limited", choice.map(|own| own.limited))?,
-            failures: text.item("failures", choice.map(|own| own.failures))?,
-            before: text.array("effort before", choice.map(|own| own.before))?,
-            is_on_trial: text.item("on trial", choice.map(|own| own.is_on_trial))?,
-            tried: text.number("tried", choice.map(|own| own.tried))?,
-            spent: text.number("spent", choice.map(|own| own.spent))?,
-            due: text.number("due", choice.map(|own| own.due))?,
-            wait: text.few("wait", wait.as_ref())?.map(|[wait]| wait),
-        },
+        selection: selection(text, own.map(|own| &own.selection))?,
+    })
+}
+
+fn selection(text: &mut Text<'_>, own: Option<&SchemeSelection>) -> Read<SchemeSelection> {
+    let clock = |text: &mut Text<'_>, [due, wait]: [&'static str; 2], own: Option<TrialClock>| {
+        let waits = own.map(|own| own.wait.map(|wait| [wait]));
+        Ok(TrialClock {
+            due: text.number(due, own.map(|own| own.due))?,
+            wait: text.few(wait, waits.as_ref())?.map(|[wait]| wait),
+        })
+    };
+    let explicit_trials = ["explicit trial due", "wait for an explicit trial"];
+    let implicit_trials = ["implicit trial due", "wait for an implicit trial"];
+    Ok(SchemeSelection {
+        recent_effort: text.number("recent effort", own.map(|own| own.recent_effort))?,
+        recent_time: text.number("recent time", own.map(|own| own.recent_time))?,
+        steps: text.item("steps", own.map(|own| own.steps))?,
+        size: text.number("size of the last step", own.map(|own| own.size))?,
+        limited_checks: text.item("limited checks", own.map(|own| own.limited_checks))?,
+        failures: text.item("failures", own.map(|own| own.failures))?,
+        previous_rate: text.number("effort before", own.map(|own| own.previous_rate))?,
+        previous_step: text.number("step before", own.map(|own| own.previous_step))?,
+        is_on_trial: text.item("on trial", own.map(|own| own.is_on_trial))?,
+        tried_at: text.number("tried at", own.map(|own| own.tried_at))?,
+        spent: text.number("spent", own.map(|own| own.spent))?,
+        explicit_trials: clock(text, explicit_trials, own.map(|own| own.explicit_trials))?,
+        implicit_trials: clock(text, implicit_trials, own.map(|own| own.implicit_trials))?,
+        failed_trials: text.item("failed trials", own.map(|own| own.failed_trials))?,
     })
 }
 

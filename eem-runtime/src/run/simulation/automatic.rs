@@ -13,7 +13,7 @@ use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::SavedPast;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real};
 
 /// The scheme in use, with its history and the energies of the elements as it evaluated them.
 pub(super) struct SchemeAtWork<S> {
@@ -29,13 +29,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.judge_trial(control);
         if self.in_use.closing() == Closing::Explicit {
             self.measure_stability(control);
-            if let Some(report) = self.try_implicit(control, end)? {
-                return Ok(report);
-            }
         } else {
             self.try_explicit(control);
         }
+        if let Some(report) = self.try_implicit(control, end)? {
+            return Ok(report);
+        }
         self.step_by_some_scheme(control, end)
+    }
+
+    /// Whether steps may change the scheme. A history for gradients has steps of one scheme.
+    pub(super) fn may_change_scheme(&self) -> bool {
+        #[cfg(feature = "gradients")]
+        if self.history.is_some() && self.in_use.has_adjoint() {
+            return false;
+        }
+        self.scheme == Scheme::Auto
     }
 
     /// A step of the present scheme, or of another one if it finds none.
@@ -69,11 +78,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Whether a scheme suits the scene and the tolerance.
     fn is_candidate(&self, scheme: Scheme, control: &Control<S>) -> bool {
-        self.suits_scene(scheme) && control.memory.tolerance.check(scheme.accuracy()).is_ok()
-    }
-
-    fn suits_scene(&self, scheme: Scheme) -> bool {
-        !self.automatic.needs.are_implicit() || scheme.closing() == Closing::Increments
+        let suits = self.automatic.needs.allows(scheme);
+        suits && control.memory.tolerance.check(scheme.accuracy()).is_ok()
     }
 
     /// A step of the present scheme, whose effort is counted.
@@ -89,40 +95,36 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn count(&mut self, before: u64, time: f64) {
         let evaluations = self.stepper.evaluations() - before;
         let scheme = (self.in_use, self.layout.unknowns);
-        self.automatic.choice.note(scheme, evaluations, time);
+        self.automatic.selection.note(scheme, evaluations, time);
     }
 
     /// From time to time compares the explicit step with the limit of stability.
     fn measure_stability(&mut self, control: &Control<S>) {
         if let Stepper::Explicit(explicit) = &mut self.stepper
-            && self.automatic.choice.looks()
+            && self.automatic.selection.looks()
         {
             let share = explicit.share_of_stable_step(&explicit_view!(self, self.step));
             let failures = control.memory.statistics.failures();
-            self.automatic.choice.see(share, failures);
+            self.automatic.selection.see(share, failures);
         }
     }
 
-    /// One step of an implicit scheme, if a trial is due and the step is accurate.
+    /// One step of another implicit scheme, if a trial is due and the step is accurate.
     fn try_implicit(
         &mut self,
         control: &mut Control<S>,
         end: S,
     ) -> Result<Option<StepReport<S>>, StepError> {
-        let unknowns = self.layout.unknowns;
-        let scheme = implicit(
-            &control.memory.tolerance,
-            self.automatic.needs.are_implicit(),
-        );
-        let Some(size) = self.automatic.choice.implicit_trial(scheme, unknowns) else {
+        let Some((scheme, size)) = self.implicit_trial(control) else {
             return Ok(None);
         };
-        let size = S::from_f64(size).minimum(control.memory.largest);
-        if !self.is_candidate(scheme, control) || self.size_towards(end, size)?.is_some() {
+        let size = S::from_f64(size);
+        if self.size_towards(end, size)?.is_some() {
             return Ok(None);
         }
         let (before, usual) = (self.scheme_at_work(), self.step);
-        if self.switches_to(scheme, control) {
+        let spent = self.automatic.selection.spent;
+        if size.at_most(control.memory.largest).all() && self.switches_to(scheme, control) {
             let tried = self.attempt(control, size);
             if let Ok(Tried::Made(report)) = tried {
                 self.count(0, report.step.to_f64());
@@ -136,34 +138,55 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let statistics = &mut control.memory.statistics;
             match tried {
                 Err(error) => _ = statistics.note_failure(&error.failure),
-                Ok(_) => statistics.rejected_by_error += 1,
+                Ok(Tried::Rejected(_)) => statistics.rejected_by_error += 1,
+                Ok(_) => {}
             }
             self.return_to_scheme(&before, control);
         }
-        self.automatic.choice.wait_longer();
+        self.automatic.selection.reject_implicit(self.in_use, spent);
         Ok(None)
+    }
+
+    /// The implicit scheme whose trial is due, and the size of its step, s.
+    fn implicit_trial(&mut self, control: &Control<S>) -> Option<(Scheme, f64)> {
+        let selection = &mut self.automatic.selection;
+        let is_due = match self.in_use {
+            Scheme::EemExplicit => selection.is_limited(),
+            _ => selection.has_settled(self.step.to_f64()),
+        };
+        if !is_due || !selection.may_try_implicit() {
+            return None;
+        }
+        let (tolerance, unknowns) = (&control.memory.tolerance, self.layout.unknowns);
+        let others = implicit(self.in_use, tolerance, unknowns);
+        let others = others.filter(|&scheme| self.is_candidate(scheme, control));
+        let scheme = self.automatic.selection.next_in_turn(self.in_use, others)?;
+        let (schemes, relative) = ([self.in_use, scheme], tolerance.relative.to_f64());
+        let selection = &mut self.automatic.selection;
+        let size = selection.implicit_trial(schemes, unknowns, relative)?;
+        Some((scheme, size))
     }
 
     /// Switches to the explicit scheme for some steps, if a trial is due.
     fn try_explicit(&mut self, control: &mut Control<S>) {
         let size = self.step.to_f64();
         if !self.is_candidate(Scheme::EemExplicit, control)
-            || !self.automatic.choice.tries_explicit(size)
+            || !self.automatic.selection.tries_explicit(size)
         {
             return;
         }
         let previous = self.in_use;
         if !self.switches_to(Scheme::EemExplicit, control) {
-            return self.automatic.choice.wait_longer();
+            return self.automatic.selection.reject_explicit();
         }
         self.automatic.previous = previous;
-        let size = self.automatic.choice.begin_trial(size);
+        let size = self.automatic.selection.begin_trial(size);
         self.step = S::from_f64(size).minimum(self.step);
     }
 
     /// Ends the trial of the explicit scheme, if enough is known.
     fn judge_trial(&mut self, control: &mut Control<S>) {
-        match self.automatic.choice.judge(self.step.to_f64()) {
+        match self.automatic.selection.judge(self.step.to_f64()) {
             Verdict::None => {}
             Verdict::Keep => control.memory.statistics.changes_of_scheme += 1,
             Verdict::Return(size) => {
@@ -178,7 +201,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Records a switch of the scheme and the previous step size.
     fn record_switch(&mut self, control: &mut Control<S>, last: S) {
         control.memory.statistics.changes_of_scheme += 1;
-        self.automatic.choice.change(last.to_f64());
+        self.automatic.selection.change(last.to_f64());
     }
 
     /// Switches to a scheme. False, with a note in the statistics, if there is no memory for it.
@@ -222,7 +245,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         (self.scheme == Scheme::Auto).then_some(SavedChoice {
             scheme: self.in_use,
             previous: self.automatic.previous,
-            choice: self.automatic.choice,
+            selection: self.automatic.selection,
         })
     }
 
@@ -232,7 +255,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         checkpoint: &Checkpoint<S>,
     ) -> Result<Option<SavedChoice>, RestoreError> {
         let saved = checkpoint.choice.filter(|_| self.scheme == Scheme::Auto);
-        let suits = |scheme| CANDIDATES.contains(&scheme) && self.suits_scene(scheme);
+        let suits = |scheme| CANDIDATES.contains(&scheme) && self.automatic.needs.allows(scheme);
         match saved.filter(|saved| !suits(saved.scheme) || !suits(saved.previous)) {
             Some(saved) => Err(RestoreError::Scheme {
                 checkpoint: saved.scheme,
@@ -245,7 +268,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Continues from a saved choice, whose scheme is in use.
     pub(super) fn restore_choice(&mut self, saved: Option<SavedChoice>) {
         if let Some(saved) = saved.filter(|_| self.scheme == Scheme::Auto) {
-            self.automatic.choice = saved.choice;
+            self.automatic.selection = saved.selection;
             self.automatic.previous = saved.previous;
         }
     }

@@ -12,7 +12,7 @@ use crate::element::ends::Ends;
 use crate::element::layout::Layout;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
-use crate::step::automatic::{Choice, first};
+use crate::step::automatic::SchemeSelection;
 use crate::step::control::{Controller, Tolerance};
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Real;
@@ -61,7 +61,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if scheme == self.scheme {
             return Ok(());
         }
-        let in_use = first(scheme, self.automatic.needs.are_implicit());
+        let in_use = self.automatic.needs.first(scheme);
         let control = match &self.control {
             // The errors of earlier steps mean nothing for another scheme.
             Some(control) => Some(SavedControl {
@@ -79,7 +79,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             self.use_scheme(in_use)?;
         }
         self.scheme = scheme;
-        self.automatic.choice = Choice::new();
+        self.automatic.selection = SchemeSelection::new();
         self.set_control(control);
         Ok(())
     }

@@ -4,6 +4,8 @@ use crate::element::handle::{Element, Node};
 use crate::scene::Scene;
 use crate::scene::error::RocketError;
 use crate::scene::error::SceneError;
+use crate::step::automatic::FIRST;
+use crate::step::features::Feature;
 use crate::step::scheme::{Closing, Scheme};
 use eem_material::number::scalar::{Real, is_positive};
 
@@ -34,15 +36,24 @@ impl Needs {
         }
     }
 
-    /// Whether `Scheme::Auto` chooses only implicit schemes of order 2.
-    pub(super) const fn are_implicit(&self) -> bool {
-        self.has_solids || self.rocket.is_some() || self.drag.is_some()
+    /// The scheme with which a run set to `asked` begins.
+    pub(super) fn first(&self, asked: Scheme) -> Scheme {
+        let mut first = FIRST.into_iter();
+        match asked {
+            Scheme::Auto => first.find(|&scheme| self.allows(scheme)).unwrap_or(asked),
+            own => own,
+        }
+    }
+
+    /// Whether a scheme can step the scene.
+    pub(super) fn allows(&self, scheme: Scheme) -> bool {
+        self.check(scheme).is_ok()
     }
 
     /// An error unless a scheme can step the scene.
     pub(super) fn check(&self, scheme: Scheme) -> Result<(), SceneError> {
         let name = scheme.name();
-        if self.has_solids && !scheme.ends_by_increments() {
+        if self.has_solids && !scheme.steps(Feature::Solids) {
             let why = if scheme.closing() == Closing::Explicit {
                 "so that every stage would solve a large linear system, and their small stiff elements allow only tiny steps"
             } else {
@@ -50,10 +61,13 @@ impl Needs {
             };
             return Err(SceneError::NotForSolids { scheme: name, why });
         }
-        if let Some(node) = self.rocket.filter(|_| !scheme.ends_by_increments()) {
+        if let Some(node) = self.rocket.filter(|_| !scheme.steps(Feature::Rockets)) {
             return Err(RocketError::Scheme { scheme: name, node }.into());
         }
-        match self.drag.filter(|_| !scheme.takes_drag()) {
+        let drag = self
+            .drag
+            .filter(|_| !scheme.steps(Feature::ParallelDashpots));
+        match drag {
             Some(element) => Err(SceneError::NoDrag {
                 scheme: name,
                 element,

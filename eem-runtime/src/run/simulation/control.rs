@@ -173,7 +173,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         // A step in the scheme goes to a time within one that has looked.
         let looks = may_switch;
-        let may_switch = may_switch && self.scheme == Scheme::Auto;
+        let may_switch = may_switch && self.may_change_scheme();
         let history = self.history();
         let found = self.with_control(|run, control| match control {
             None => run.step_by(run.step),

@@ -41,7 +41,8 @@ use way::{Way, Weighted, add};
 
 /// # Gradients
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Keeps the states of all further steps for [`gradient`](Self::gradient). This costs memory, but changes no bit of the run.
+    /// Keeps the states of all further steps for [`gradient`](Self::gradient). This costs memory, but changes no bit of the run;
+    /// [`Scheme::Auto`] keeps a scheme through whose steps gradients can be taken.
     pub fn keep_history(&mut self, history: History) {
         let (past, _) = self.stepper.past(&self.state);
         self.history = Some(Box::new(Record::new(&self.state, past, history)));
@@ -402,7 +403,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(GradientError::NotDifferentiable { what });
         }
         for (scheme, time) in kept.schemes().chain([(self.in_use, self.time())]) {
-            if !matches!(scheme, Scheme::EemTemperature | Scheme::EemEntropy) {
+            if !scheme.has_adjoint() {
                 return Err(no_adjoint(scheme, time));
             }
         }

@@ -4,7 +4,7 @@ use super::check::Needs;
 use crate::algebra::memory::MemoryLimit;
 use crate::element::state::State;
 use crate::run::checkpoint::{SavedChoice, SavedControl};
-use crate::step::automatic::Choice;
+use crate::step::automatic::SchemeSelection;
 use crate::step::control::{Accuracy, Kinds};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
@@ -64,7 +64,7 @@ pub(super) struct Halves<S> {
 
 /// The history of `Scheme::Auto`, and what a change of the scheme needs.
 pub(super) struct Automatic {
-    pub(super) choice: Choice,
+    pub(super) selection: SchemeSelection,
     pub(super) needs: Needs,
     /// The scheme before a trial.
     pub(super) previous: Scheme,
@@ -79,7 +79,7 @@ pub(super) struct Automatic {
 impl Automatic {
     pub(super) const fn new(needs: Needs, memory_limit: MemoryLimit) -> Self {
         Self {
-            choice: Choice::new(),
+            selection: SchemeSelection::new(),
             needs,
             previous: Scheme::EemTemperature,
             evaluations: 0,
