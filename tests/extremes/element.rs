@@ -99,13 +99,14 @@ impl Ends<'_> {
         (defect, terms + slopes + caloric.heat_capacity.abs())
     }
 
-    /// The largest of `|f|` at both ends and `|f*|`.
-    pub(crate) fn force(&self) -> f64 {
+    /// The largest of `|f|` at both ends and `|f*|`, with that of a dashpot in parallel in a step of this size.
+    pub(crate) fn force(&self, step: f64) -> f64 {
         let at = |end: usize| self.body.gradient(&self.doubles(end))[0].abs();
         let middle = self.response.0[0].abs();
         at(0)
             .max(at(1))
             .max(if middle.is_finite() { middle } else { 0.0 })
+            + self.drag(step)
     }
 
     pub(crate) fn length(&self) -> f64 {
@@ -120,9 +121,14 @@ impl Ends<'_> {
     /// `Σ over both ends (|f| λ + Σ |g γ| + |ψ| + θ |s| + c θ)`, with the rounding of f and g. The force of a dashpot in
     /// parallel is that of the step, at both.
     pub(crate) fn energies(&self, step: f64) -> f64 {
-        let way = (self.lambda[1] - self.lambda[0]).value().abs();
-        let drag = self.largest_drag() * way / step * (2.0 * self.length());
+        let drag = self.drag(step) * (2.0 * self.length());
         self.energies_at(0) + self.energies_at(1) + drag
+    }
+
+    /// The force of the dashpot in parallel, if there is one, N.
+    fn drag(&self, step: f64) -> f64 {
+        let way = (self.lambda[1] - self.lambda[0]).value().abs();
+        self.largest_drag() * way / step
     }
 
     /// η of the dashpot in parallel, if there is one.

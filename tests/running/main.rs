@@ -24,6 +24,7 @@ mod resuming;
 mod seeing;
 mod stopping;
 mod study;
+mod study_at_rest;
 #[cfg(feature = "parallel")]
 mod threads;
 mod tolerances;

@@ -141,7 +141,9 @@ fn work<const D: usize>(
     }
     for &support in &anchors {
         let reaction = linear(facts, states, &impulses(facts, states[0].time, step));
-        let forces: f64 = elements.iter().map(Ends::force).sum();
+        // f and, as the length rounds, k λ.
+        let rounding = |ends: &Ends<'_>| ends.force(step) + ends.stiffness() * ends.length();
+        let forces: f64 = elements.iter().map(rounding).sum();
         for (part, way) in reaction.iter().zip(way(support)) {
             work = work + part.change * way / Digits::from(step);
             terms += (part.terms / step + forces) * way.value().abs();

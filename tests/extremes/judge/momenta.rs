@@ -31,10 +31,10 @@ pub(super) fn momenta<const D: usize>(
         return Vec::new();
     }
     let impulses = impulses(facts, states[0].time, step);
-    let forces: f64 = elements.iter().map(Ends::force).sum();
+    let forces: f64 = elements.iter().map(|ends| ends.force(step)).sum();
     let moments: f64 = elements
         .iter()
-        .map(|ends| ends.force() * ends.length())
+        .map(|ends| ends.force(step) * ends.length())
         .sum();
     let origin = anchors
         .first()
