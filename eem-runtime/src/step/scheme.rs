@@ -277,6 +277,7 @@ impl Scheme {
     pub(crate) const fn accuracy(self) -> Accuracy {
         Accuracy {
             order: self.order(),
+            least_order: if self.is_damped() { 1 } else { self.order() },
             estimate: match self.closing() {
                 Closing::Explicit => Estimate::Embedded,
                 Closing::Increments | Closing::Start | Closing::Stages => Estimate::Halves,

@@ -214,15 +214,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    /// Checks the balances of the internal variables at the last response, given the received entropy, J/K, and the
-    /// magnitude of the terms of the energy, J.
+    /// Checks the balances of the internal variables at the last response, given the received entropy, J/K, the
+    /// magnitude of the terms of the energy, J, and the heat capacity, J/K.
     #[inline]
     pub(super) fn judge(
         &self,
         view: &StepView<'_, S>,
         (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
         r1: &Arms<K, S, D>,
-        (received, magnitude): (Received<S>, S),
+        (received, [magnitude, capacity]): (Received<S>, [S; 2]),
         tally: &mut Tally<S>,
     ) {
         for k in 0..M::DASHPOTS {
@@ -242,11 +242,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let theta = self.temperature();
         let taken = theta * self.response[Self::ENTROPY];
         if !self.is_prescribed {
-            if let Some(slot) = self.slots().thermal {
-                let capacity = view.state.energies[self.element.index()].heat_capacity;
-                let settling = view.conduction.settling(slot);
-                tally.see_relaxation(view.thermal_step(), settling, capacity);
-            }
+            tally.see_relaxation(view.thermal_step(), self.settling, capacity);
             let terms = magnitude + theta * received.terms;
             tally.balance(taken - theta * received.entropy, terms);
         }

@@ -94,8 +94,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 tally.exchange(view.step * point.largest_pull(&r1));
                 let energy = &mut next.energies[point.element.index()];
                 energy.add_secants(at_end, M::THERMAL);
-                let magnitude = energy.magnitude + forces;
-                point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
+                let sizes = [energy.magnitude + forces, energy.heat_capacity];
+                point.judge(view, (contact, trial), &r1, (received, sizes), tally);
             }
         }
         Ok(())

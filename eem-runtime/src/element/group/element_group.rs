@@ -133,6 +133,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
                 let slot = point.slots().thermal;
                 point.meets_reservoirs =
                     slot.is_some_and(|slot| sites.conduction.meets_reservoirs(slot));
+                point.settling = slot.map_or(S::zero(), |slot| sites.conduction.settling(slot));
                 if let Some(contact) = Contact::new(&nodes, slot, sites) {
                     point.contact = compact(self.contacts.len());
                     self.contacts.push(contact);

@@ -112,20 +112,6 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         power
     }
 
-    fn relaxation(&self, place: usize, state: &State<S>) -> S {
-        let (member, point) = self.at(place);
-        let point = &member.points.as_ref()[point];
-        let x = point.variables_in(&member.arms_in(state), state);
-        let (viscosities, _) = point.model.viscosity(x[M::Variables::LEN - 1]);
-        let (_, hessian) = point.model.hessian(&x);
-        let mut shortest = S::from_f64(f64::INFINITY);
-        for dashpot in 0..M::DASHPOTS {
-            let row = M::MEASURES + dashpot;
-            shortest = shortest.minimum(viscosities[dashpot] / hessian[row][row].abs());
-        }
-        shortest
-    }
-
     fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(Stiffness<'_, S>)) {
         for member in &self.members {
             let (nodes, r) = (member.site.nodes.as_ref(), member.arms_in(state));

@@ -89,9 +89,6 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// The power that the dashpots of the element at `place` turn into heat, W, at these velocities of nodes, m/s.
     fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S;
 
-    /// The shortest relaxation time η/k of a dashpot in series of the element at `place`, s; infinite without one.
-    fn relaxation(&self, place: usize, state: &State<S>) -> S;
-
     /// Adds the parameters of all elements to a digest.
     fn digest(&self, digest: &mut Digest);
 

@@ -108,6 +108,8 @@ pub(crate) struct Point<
     pub(super) meets_reservoirs: bool,
     /// Whether a thermostat prescribes its temperature.
     pub(super) is_prescribed: bool,
+    /// See [`settling`](crate::element::conduction::Conduction::settling), W/K.
+    pub(super) settling: S,
     /// The old state.
     pub(super) start: Start<S, M, C::Old>,
     /// Initial guesses that the scheme keeps from one iteration to the next.
@@ -171,6 +173,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             contact: u32::MAX,
             meets_reservoirs: false,
             is_prescribed: false,
+            settling: S::zero(),
             start: Start { x0: zeros, old },
             memory: C::memory(S::zero()),
             x: zeros,

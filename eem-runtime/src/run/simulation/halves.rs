@@ -14,7 +14,7 @@ use super::guard::or_restore;
 use super::memory::{Control, Halves};
 use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
-use crate::step::control::{Accuracy, Kinds, Scales};
+use crate::step::control::{Kinds, Scales};
 use crate::step::error::StepError;
 use crate::step::explicit::Demand;
 use eem_material::number::scalar::Real;
@@ -52,23 +52,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let accurate = (accuracy, size);
         let least = (memory.largest_momentum, &self.least);
         let scales = Scales::new(&memory.tolerance, accurate, ends, least);
-        let share = self.share_of_difference(accuracy);
+        let share: S = accuracy.share_of_difference();
         report.error = share * scales.error::<D>([&halves.whole, &self.state], &halves.kinds);
         if accuracy.accepts(report.error) {
             return Ok(Tried::Made(report));
         }
         self.return_to(halves);
         Ok(Tried::Rejected(report.error))
-    }
-
-    /// The error of two halves as a share of their difference from the whole step.
-    pub(super) fn share_of_difference(&self, accuracy: Accuracy) -> S {
-        if self.in_use.is_damped() {
-            // Where decays are not resolved, the errors of a damped scheme are of first order.
-            S::one()
-        } else {
-            accuracy.share_of_difference()
-        }
     }
 
     /// A whole step, stored in `halves`, and one in two halves. If one fails, the state is that before both.

@@ -111,16 +111,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if steps == 0 {
             return None;
         }
-        let held = self.loads.temperatures.iter();
-        let held: BTreeSet<usize> = held.map(|(element, _)| element.index()).collect();
-        let all = 0..self.places.len();
-        let finite = all.map(|index| (self.relaxation(index, held.contains(&index)), index));
-        let finite = finite.filter(|(relaxation, _)| relaxation.is_finite());
-        let (relaxation, index) = finite.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-        let [group, place] = self.places[index];
-        let elements = self.stepper.elements(group as usize);
+        let (relaxation, element) = self.fastest_relaxation()?;
         Some(Warning::Unresolved {
-            element: elements.handle(place as usize),
+            element,
             relaxation,
             step: largest.to_f64(),
             steps,
@@ -128,18 +121,30 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })
     }
 
-    /// The relaxation time of an element in the present state, s: that of its conduction, `c/(2 Σ κ to elements + Σ κ to
-    /// reservoirs)` unless its temperature is prescribed, or that of a dashpot if that is shorter.
-    fn relaxation(&self, index: usize, is_held: bool) -> f64 {
-        let [group, place] = self.places[index];
-        let elements = self.stepper.elements(group as usize);
-        let mut time = elements.relaxation(place as usize, &self.state).to_f64();
-        let slot = elements.slots(place as usize).thermal;
-        if let Some(slot) = slot.filter(|_| !is_held) {
-            let conductance = self.conduction.settling(slot).to_f64();
-            let heat_capacity = self.state.energies[index].heat_capacity.to_f64();
-            time = time.min(0.5 * heat_capacity / conductance);
+    /// The shortest relaxation time in the present state, s, and its element: of a dashpot, or `c/(2 Σ κ to elements + Σ κ to
+    /// reservoirs)` of a conduction unless a thermostat prescribes the temperature.
+    fn fastest_relaxation(&self) -> Option<(f64, Element)> {
+        let held = self.loads.temperatures.iter();
+        let held: BTreeSet<usize> = held.map(|(element, _)| element.index()).collect();
+        let mut fastest: Option<(f64, Element)> = None;
+        for elements in self.stepper.all() {
+            let mut place = 0;
+            elements.stiffness(&self.state, &mut |point| {
+                let element = elements.handle(place);
+                place += 1;
+                let mut rate = point.relaxation.to_f64();
+                if let Some((slot, capacity)) = point.capacity
+                    && !held.contains(&element.index())
+                {
+                    let settling = self.conduction.settling(slot).to_f64();
+                    rate = rate.max(2.0 * settling / capacity.to_f64());
+                }
+                let time = rate.recip();
+                if time.is_finite() && fastest.is_none_or(|(least, _)| time < least) {
+                    fastest = Some((time, element));
+                }
+            });
         }
-        time
+        fastest
     }
 }

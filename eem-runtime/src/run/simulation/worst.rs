@@ -28,7 +28,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let states = [&halves.whole, &*self.state];
                 let worst = scales.worst::<D>(states, &halves.kinds);
                 self.return_to(halves);
-                let share = self.share_of_difference(control.accuracy);
+                let share: S = control.accuracy.share_of_difference();
                 worst
                     .map(|(unknown, [difference, scale])| (unknown, [share * difference, scale]))?
             }

@@ -17,6 +17,8 @@ const LEAST_AFTER_ERROR: f64 = 0.2;
 pub(crate) struct Accuracy {
     /// p: the error of a step is of order p + 1.
     pub(crate) order: u8,
+    /// p where fast decays are not resolved, if that is less.
+    pub(crate) least_order: u8,
     pub(crate) estimate: Estimate,
 }
 
@@ -45,9 +47,9 @@ impl Accuracy {
         Self { estimate, ..self }
     }
 
-    /// The error of two halves as a share of their difference from the whole step, `1/(2ᵖ − 1)`.
+    /// The error of two halves as a share of their difference from the whole step, `1/(2ᵖ − 1)` with the least p.
     pub(crate) fn share_of_difference<S: Real>(self) -> S {
-        S::from_f64(self.order().exp2() - 1.0).recip()
+        S::from_f64(f64::from(self.least_order).exp2() - 1.0).recip()
     }
 
     /// The order, if errors are found from the step in two halves.
@@ -214,6 +216,7 @@ mod tests {
 
     const SECOND: Accuracy = Accuracy {
         order: 2,
+        least_order: 2,
         estimate: Estimate::Halves,
     };
 

@@ -317,6 +317,7 @@ mod tests {
     fn tolerances_of_steps_make_errors_of_the_state_proportional() {
         let accuracy = |order| Accuracy {
             order,
+            least_order: order,
             estimate: Estimate::Halves,
         };
         let step: f64 = accuracy(2).of_step(1e-6, 0.5);
@@ -330,6 +331,7 @@ mod tests {
     fn tolerances_below_the_floor_are_errors() {
         let accuracy = Accuracy {
             order: 2,
+            least_order: 2,
             estimate: Estimate::Halves,
         };
         for relative in [0.0, -1.0, f64::NAN, 1.0, 1e-12] {
