@@ -290,8 +290,8 @@ fn a_load_that_no_step_resolves_is_named() {
         panic!("{failure}");
     };
     assert_eq!(
-        limit,
-        &StepLimit::Load {
+        **limit,
+        StepLimit::Load {
             load: TimedLoad::Force(mass)
         }
     );

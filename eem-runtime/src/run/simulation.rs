@@ -250,10 +250,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         match begin {
             Begin::WithTolerance(tolerance) => {
                 run.find_first_step(&tolerance);
-                run.set_control(Some(run.new_control(tolerance)));
+                run.set_control(Some(Self::new_control(tolerance)));
             }
             Begin::WithStep(_) if scheme == Scheme::Auto => {
-                run.set_control(Some(run.new_control(Tolerance::default())));
+                run.set_control(Some(Self::new_control(Tolerance::default())));
             }
             Begin::WithStep(_) => {}
         }

@@ -208,7 +208,7 @@ pub enum StepFailure {
         /// Whether [`limit_steps`](crate::Simulation::limit_steps) has set it; else it is 16 ε of the time or of the step.
         is_set: bool,
         /// Why the last one was rejected.
-        limit: StepLimit,
+        limit: Box<StepLimit>,
         /// Memory needed by another scheme that [`Scheme::Auto`](crate::Scheme::Auto) could not try.
         too_large: Option<TooLarge>,
     },
@@ -359,7 +359,7 @@ pub enum StepLimit {
         /// In units of the tolerance.
         error: f64,
         /// The unknown with the largest error.
-        worst: Option<Box<WorstError>>,
+        worst: Option<WorstError>,
     },
     /// A load that is a function of time changes within a step in a way that the step would pass over.
     #[error(

@@ -19,10 +19,11 @@ use crate::step::error::StepFailure;
 /// run.control_steps(Tolerance::new(1e-4))?;
 /// run.limit_steps([0.02, 1.0])?;
 /// let failure = run.run_until(1.0).unwrap_err().failure;
-/// let StepFailure::TooSmall { limit: StepLimit::Load { load }, .. } = failure else {
+/// let StepFailure::TooSmall { limit, .. } = failure else {
 ///     return Err("another failure".into());
 /// };
-/// assert_eq!((load, load.to_string()), (TimedLoad::Force(mass), "the force on node 0".into()));
+/// let load = TimedLoad::Force(mass);
+/// assert_eq!((*limit, load.to_string()), (StepLimit::Load { load }, "the force on node 0".into()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -25,10 +25,10 @@ use super::momenta::momenta;
 fn refused(failure: &StepFailure) -> Option<(Law, f64)> {
     match failure {
         StepFailure::LawNotKept { law, defect, .. } => Some((*law, defect.abs())),
-        StepFailure::TooSmall {
-            limit: StepLimit::Failure(limit),
-            ..
-        } => refused(limit),
+        StepFailure::TooSmall { limit, .. } => match &**limit {
+            StepLimit::Failure(limit) => refused(limit),
+            _ => None,
+        },
         _ => None,
     }
 }

@@ -13,7 +13,7 @@ pub(crate) struct Stiffness<'a, S> {
     /// The nodes of its element.
     pub(crate) nodes: &'a [u32],
     /// The stiffness between them at constant entropy and viscous stretch, N/m.
-    pub(crate) stiffness: S,
+    pub(crate) elastic: S,
     /// The viscosity of its dashpots in parallel, N s/m.
     pub(crate) damping: S,
     /// The displacement that changes its gradients by their own size: the length of a spring, m.
@@ -72,7 +72,7 @@ pub(super) fn stiffness_of<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, c
     let drags = drags.as_ref().iter().enumerate();
     Stiffness {
         nodes,
-        stiffness: along.maximum(across),
+        elastic: along.maximum(across),
         damping: drags.fold(zero, |sum, (a, &drag)| sum + drag * slopes[a] * slopes[a]),
         length,
         force,

@@ -68,7 +68,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 controller: Controller::new(),
                 ..control.memory
             }),
-            None if scheme == Scheme::Auto => Some(self.new_control(Tolerance::default())),
+            None if scheme == Scheme::Auto => Some(Self::new_control(Tolerance::default())),
             None => None,
         };
         let checked = self.automatic.needs.check(in_use);

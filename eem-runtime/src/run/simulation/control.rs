@@ -51,14 +51,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn control_steps(&mut self, tolerance: Tolerance<S>) -> Result<(), SceneError> {
-        let memory = Some(self.new_control(tolerance));
+        let memory = Some(Self::new_control(tolerance));
         self.check_control(memory, (self.scheme, self.in_use))?;
         self.set_control(memory);
         Ok(())
     }
 
     /// The history of step control before the first step.
-    pub(super) fn new_control(&self, tolerance: Tolerance<S>) -> SavedControl<S> {
+    pub(super) fn new_control(tolerance: Tolerance<S>) -> SavedControl<S> {
         SavedControl {
             tolerance,
             controller: Controller::new(),
@@ -266,12 +266,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         mut limit: StepLimit,
     ) -> StepError {
         if let StepLimit::Error { worst, .. } = &mut limit {
-            *worst = self.worst_error(control, size).map(Box::new);
+            *worst = self.worst_error(control, size);
         }
         let failure = StepFailure::TooSmall {
             smallest: smallest.to_f64(),
             is_set: smallest.at_most(control.memory.smallest).all(),
-            limit,
+            limit: Box::new(limit),
             too_large: control.memory.statistics.too_large,
         };
         self.failed(usual, failure)

@@ -73,7 +73,7 @@ impl<S: Real> LeastScales<S> {
                 }
                 for &node in point.nodes {
                     let (sums, length) = &mut around[node as usize];
-                    let terms = [point.stiffness, point.damping, point.force];
+                    let terms = [point.elastic, point.damping, point.force];
                     for (sum, term) in sums.iter_mut().zip(terms) {
                         *sum += term;
                     }

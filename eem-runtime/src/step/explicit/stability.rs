@@ -102,8 +102,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 let [a, b] = element.ends();
                 let [by_a, by_b] = [a, b].map(per_root);
                 let both = by_a + by_b;
-                squares[a] += element.stiffness * by_a * both;
-                squares[b] += element.stiffness * by_b * both;
+                squares[a] += element.elastic * by_a * both;
+                squares[b] += element.elastic * by_b * both;
                 relaxation = relaxation.maximum(element.relaxation);
                 if let Some((slot, capacity)) = element.capacity {
                     // A thermostat keeps the temperature as a body of any size would.
