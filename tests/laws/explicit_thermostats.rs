@@ -308,3 +308,22 @@ fn heat_between_fixed_temperatures_closes_by_itself() {
         assert!(turnover > 100.0);
     }
 }
+
+/// `∂²ψ/∂λ²` is 5 N/m at the natural length and the reference temperature;
+/// at constant entropy it would be `k + β² θ/c`, 155 N/m.
+#[test]
+fn a_held_spring_vibrates_at_constant_temperature() {
+    let mut scene = Scene::<1>::new();
+    let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [0.5])];
+    let spring = scene.spring(GIVEN, ends);
+    scene.hold_temperature(spring, GIVEN.theta_ref);
+    let step = 10.0;
+    let error = Simulation::new(scene, SCHEME, step).unwrap().step();
+    let failure = error.unwrap_err().failure;
+    let StepFailure::Unstable { rate, product, .. } = failure else {
+        panic!("{failure}")
+    };
+    assert_eq!(rate, "ωh");
+    let exact = step * GIVEN.stiffness.sqrt();
+    assert!((product - exact).abs() <= 1e-12 * exact, "{product}");
+}

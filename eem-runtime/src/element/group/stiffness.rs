@@ -14,6 +14,8 @@ pub(crate) struct Stiffness<'a, S> {
     pub(crate) nodes: &'a [u32],
     /// The stiffness between them at constant entropy and viscous stretch, N/m.
     pub(crate) elastic: S,
+    /// The same at constant temperature.
+    pub(crate) isothermal: S,
     /// The viscosity of its dashpots in parallel, N s/m.
     pub(crate) damping: S,
     /// The displacement that changes its gradients by their own size: the length of a spring, m.
@@ -47,11 +49,12 @@ pub(super) fn stiffness_of<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, c
     let (gradient, hessian) = model.hessian(x);
     let zero = S::zero();
     let last = M::MEASURES + M::DASHPOTS;
-    let (mut along, mut across, mut force) = (zero, zero, zero);
+    let [mut along, mut isothermal, mut across, mut force] = [zero; 4];
     for a in 0..M::MEASURES {
         for b in 0..M::MEASURES {
             let mut entry = hessian[a][b];
             force += slopes[a] * (entry.abs() * sizes[b]);
+            isothermal += slopes[a] * entry.abs() * slopes[b];
             if M::THERMAL {
                 entry -= hessian[last][a] * hessian[last][b] / hessian[last][last];
             }
@@ -73,6 +76,7 @@ pub(super) fn stiffness_of<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, c
     Stiffness {
         nodes,
         elastic: along.maximum(across),
+        isothermal: isothermal.maximum(across),
         damping: drags.fold(zero, |sum, (a, &drag)| sum + drag * slopes[a] * slopes[a]),
         length,
         force,

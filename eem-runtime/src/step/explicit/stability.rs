@@ -102,13 +102,17 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 let [a, b] = element.ends();
                 let [by_a, by_b] = [a, b].map(per_root);
                 let both = by_a + by_b;
-                squares[a] += element.elastic * by_a * both;
-                squares[b] += element.elastic * by_b * both;
+                let held = |slot: usize| self.stage.is_held(slot);
+                let stiffness = match element.capacity {
+                    Some((slot, _)) if held(slot) => element.isothermal,
+                    _ => element.elastic,
+                };
+                squares[a] += stiffness * by_a * both;
+                squares[b] += stiffness * by_b * both;
                 relaxation = relaxation.maximum(element.relaxation);
                 if let Some((slot, capacity)) = element.capacity {
                     // A thermostat keeps the temperature as a body of any size would.
-                    let is_held = self.stage.is_held(slot);
-                    capacities[slot] = if is_held { S::MAX } else { capacity };
+                    capacities[slot] = if held(slot) { S::MAX } else { capacity };
                 }
             });
         }
