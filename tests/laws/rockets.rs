@@ -196,7 +196,7 @@ fn rockets_that_make_no_sense_are_refused() {
     }
     let mut auto = pushed([0.0, 1.0], 1.0, Scheme::Auto).unwrap();
     auto.run_until(0.5).unwrap();
-    assert!(STAGES.contains(&auto.scheme_in_use()), "{auto:?}");
+    assert_ne!(auto.scheme_in_use(), Scheme::EemExplicit);
 
     let mut run = pushed([0.0, 1.0], f64::NAN, Scheme::EemEntropy).unwrap();
     run.step().unwrap();
