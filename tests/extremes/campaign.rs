@@ -386,7 +386,7 @@ mod tests {
     fn driven_steps_keep_the_laws() {
         let exact = Scheme::ALL.into_iter().filter(|scheme| scheme.is_exact());
         for scheme in exact.filter(|&scheme| scheme != Scheme::EemExplicit) {
-            sample_of(Scenes::Driven, scheme, &[Steps::Controlled]);
+            sample_of(Scenes::Driven, scheme, &[Steps::Controlled, Steps::Fixed]);
         }
     }
 

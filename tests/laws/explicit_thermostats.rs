@@ -7,7 +7,7 @@ use eem::prelude::*;
 
 const SCHEME: Scheme = Scheme::EemExplicit;
 
-/// k_μ/η = 1e4/s and ω = 9/s of the branch alone.
+/// `k_μ/η` = 1e4/s and ω = 9/s of the branch alone.
 const DAMPER: MaxwellDamper = MaxwellDamper {
     stiffness: 3.0,
     coupling: 0.05,

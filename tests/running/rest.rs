@@ -61,11 +61,14 @@ struct Case {
     eta: f64,
     /// The end time, s.
     end: f64,
-    load: (&'static str, fn(f64) -> f64),
+    load: Load,
 }
 
+/// A load by name.
+type Load = (&'static str, fn(f64) -> f64);
+
 /// Loads over a unit of time, in units of the force.
-const LOADS: [(&str, fn(f64) -> f64); 7] = [
+const LOADS: [Load; 7] = [
     ("t²", |s| s.powi(2)),
     ("t³", |s| s.powi(3)),
     ("t⁴", |s| s.powi(4)),
@@ -267,8 +270,8 @@ fn hanging_masses_are_set_in_motion() {
         let mass = scene.mass(0.5, low, [0.0; D]);
         for corner in 0..D {
             let mut place = [0.0; D];
-            for axis in 0..D - 1 {
-                place[axis] = if axis == corner { 1.5 } else { -1.0 };
+            for (axis, entry) in place[..D - 1].iter_mut().enumerate() {
+                *entry = if axis == corner { 1.5 } else { -1.0 };
             }
             let hook = scene.anchor(place);
             let spring = Hencky {

@@ -37,8 +37,10 @@ fn steps_end_at_stop_times_to_the_last_bit() {
                 ControlFlow::Continue(())
             };
             run.run_until_with(3.0, keep).unwrap();
-            for stop in [0.7, 1.9, 3.0] {
-                let hits = times.iter().filter(|(time, _)| *time == stop);
+            for stop in [0.7_f64, 1.9, 3.0] {
+                let hits = times
+                    .iter()
+                    .filter(|(time, _)| time.to_bits() == stop.to_bits());
                 assert_eq!(hits.count(), 1, "{scheme} {stop}: {times:?}");
             }
             if !is_controlled && scheme != Scheme::Auto {

@@ -42,7 +42,10 @@
 //! rounding, and of the new positions and velocities, which are sums of increments w. These are far above the motion of a
 //! step where it is many periods long.
 //!
-//! Nothing limits A*, A⁺ and the impulses h|f*| in the bounds of momenta: where energies vanish, as when a Maxwell element
+//! The residuals r change momenta, too: beside Σ |p| and the impulses h|f*|, the bounds of momenta have the terms `h k λ` of
+//! the forces at all nodes, which are far above h|f*| where stiff springs are nearly relaxed.
+//!
+//! Nothing limits A*, A⁺ and the impulses in the bounds of momenta: where energies vanish, as when a Maxwell element
 //! is relaxed (`g → 0`), the rounding `|g| ε |γ|` of what is left vanishes more slowly than the energies `g²/2k`. Every term
 //! carries some roundings; 64 is eight times the largest `|R|/(ε (A* + A⁺))` seen in a correct step, near an anchor.
 //! Momenta and productions are checked as well.
@@ -295,8 +298,14 @@ impl<S: Real> Certificate<S> {
         for (own, other) in self.terms.iter_mut().zip(other.terms) {
             *own = S::select(is_own, *own, other);
         }
-        for (own, other) in self.judged.iter_mut().zip(other.judged) {
-            *own = S::select(is_own, *own, other);
+        for (own, other) in [
+            (&mut self.judged, other.judged),
+            (&mut self.linear, other.linear),
+            (&mut self.angular, other.angular),
+        ] {
+            for (own, other) in own.iter_mut().zip(other) {
+                *own = S::select(is_own, *own, other);
+            }
         }
         self.residual_work = S::select(is_own, self.residual_work, other.residual_work);
         self.is_balanced = (self.is_balanced & is_own) | (other.is_balanced & !is_own);

@@ -51,7 +51,7 @@ mod tests {
             .filter(|scheme| scheme.may_change_steps())
         {
             let rule = LoadRule::of_forces(scheme, None);
-            let order = i32::try_from(scheme.order()).unwrap();
+            let order = i32::from(scheme.order());
             for power in 0..order {
                 let terms = rule.times.iter().zip(rule.weights);
                 let mean: f64 = terms.map(|(time, weight)| weight * time.powi(power)).sum();

@@ -42,12 +42,11 @@ pub(crate) fn explained<const D: usize>(
     let (law, defect) = refused(&error.failure)?;
     let (time, step) = (error.time, error.step);
     let elements = element::ends(facts, [state, state]);
-    let bound = match law {
-        Law::Energy => energy(facts, state, &elements, [time, step]),
-        _ => {
-            let mut laws = momenta(facts, [state, state], &elements, step).into_iter();
-            laws.find(|own| own.law == law)?.bound
-        }
+    let bound = if law == Law::Energy {
+        energy(facts, state, &elements, [time, step])
+    } else {
+        let mut laws = momenta(facts, [state, state], &elements, step).into_iter();
+        laws.find(|own| own.law == law)?.bound
     };
     (defect <= bound).then(|| {
         let unit = law.unit();
