@@ -10,6 +10,7 @@ mod damped;
 mod dissipation;
 mod double_pendulums;
 mod explicit;
+mod explicit_at_rest;
 mod explicit_momenta;
 mod explicit_thermostats;
 mod free_bodies;

@@ -57,7 +57,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if next.meters.are_on {
             self.meter(h, next);
         }
-        let correction = self.correction(demand, time)?;
+        let correction = self.correction(view, demand, time)?;
         self.finish()?;
         self.store(next);
         self.books.largest_momentum = scales.momentum;
@@ -77,14 +77,26 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.is_ready = false;
     }
 
-    /// The largest defect of all components before closing; an error unless it is small.
-    fn correction(&self, demand: Demand<S>, time: S) -> Result<S, StepFailure> {
+    /// The largest defect of all components before closing; an error unless it is small, or rounding.
+    fn correction(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        demand: Demand<S>,
+        time: S,
+    ) -> Result<S, StepFailure> {
         let mut largest = S::zero();
-        for progress in &self.scratch.progress {
-            let is_larger = largest.abs().less(progress.correction.abs());
-            largest = S::select(is_larger, progress.correction, largest);
-        }
         let limit = demand.largest_correction();
+        for index in 0..self.scratch.progress.len() {
+            let progress = &self.scratch.progress[index];
+            let (mut own, scale) = (progress.correction, progress.scale);
+            if !own.abs().at_most(limit).all() {
+                let explained = self.explained(index, scale, view);
+                let is_rounding = (own * scale).abs().at_most(explained);
+                own = S::select(is_rounding, S::zero(), own);
+            }
+            let is_larger = largest.abs().less(own.abs());
+            largest = S::select(is_larger, own, largest);
+        }
         if largest.abs().at_most(limit).all() {
             return Ok(largest);
         }

@@ -1,7 +1,9 @@
 //! Entropies and targets at the end of a step, from its integrals.
 
+use super::components::Support;
 use super::guard::{PathRates, guarded, mean_drop};
 use super::thermostats::shift_weights;
+use super::vector::{add, dot};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
 use crate::element::state::State;
@@ -125,9 +127,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     fn book_loads(&mut self, h: S, next: &mut State<S>) {
-        for (target, sums) in self.books.targets.iter_mut().zip(&self.load_sums) {
-            target.energy.add(h * sums.work);
-            next.work.add(h * sums.work);
+        let targets = self.books.targets.iter_mut().zip(&self.load_sums);
+        for ((target, sums), component) in targets.zip(&self.components.all) {
+            let masses = &self.stage.places[component.masses.clone()];
+            let mut work = h * sums.work;
+            if let (Support::Free, [mass], None) = (component.support, masses, self.gravity) {
+                // The change of its kinetic energy, `I·(p + I/2)/m`, follows from the impulse I alone: a quadrature of the power
+                // would have an error that nothing can close.
+                let impulse = sums.impulse.map(|sum| h * sum);
+                let mut mean = mass.past.start[1];
+                add(&mut mean, S::from_f64(0.5), &impulse);
+                work = dot(&impulse, &mean) * mass.per_mass;
+            }
+            target.energy.add(work);
+            next.work.add(work);
             for (linear, &impulse) in target.linear.iter_mut().zip(&sums.impulse) {
                 linear.add(h * impulse);
             }

@@ -16,6 +16,7 @@
 mod energy;
 mod momenta;
 mod rigid;
+mod rounding;
 mod shape;
 
 use super::demand::{Demand, Scales};

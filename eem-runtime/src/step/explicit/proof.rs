@@ -30,7 +30,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
         let known = self.books.terms;
         let [old, mut terms] = known.unwrap_or_else(|| self.terms_at_start(start));
-        let (mut residue, mut counted, mut own) = (S::zero(), S::zero(), S::zero());
+        let [mut residue, mut counted, mut own, mut forgiven] = [S::zero(); 4];
         for index in 0..self.components.all.len() {
             let present = self.scratch.progress[index].present;
             let [defect, magnitude] = present.unwrap_or_else(|| self.defect_of(index));
@@ -39,13 +39,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             expect(Law::Energy, [-defect, rounding * magnitude], time)?;
             self.prove_momenta(index, time)?;
             residue -= defect;
+            let is_forgiven = self.scratch.progress[index].is_forgiven;
+            if self.is_driven && is_forgiven.any() {
+                // The rounding of this step is not that of later ones.
+                let debt = S::select(is_forgiven, defect, S::zero());
+                self.books.targets[index].energy.add(-debt);
+                forgiven += debt;
+            }
             let energy = &self.scratch.energies[index];
             counted += magnitude + energy.excess;
             own += self.scratch.motions[index].kinetic + energy.terms;
         }
         terms += own;
         let mut bound = rounding * (old + counted);
-        let old_residue = core::mem::replace(&mut self.books.residue, residue);
+        let old_residue = core::mem::replace(&mut self.books.residue, residue + forgiven);
         if known.is_none() {
             // After a restart the terms are not those of the step that left the old residue.
             bound += old_residue.abs();

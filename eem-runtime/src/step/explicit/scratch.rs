@@ -30,8 +30,11 @@ pub(super) struct Progress<S: Real> {
     pub(super) least: S,
     /// The factor by which the closing has changed every production.
     pub(super) factor: S,
-    /// `Σ |F||q|` if no correction of the energy was possible; zero otherwise, J.
+    /// Terms whose rounding explains the defect if no correction of the energy was possible, see
+    /// [`rounding`](super::closing); zero otherwise, J.
     pub(super) granularity: S,
+    /// Whether these are terms that do not vanish with the energy.
+    pub(super) is_forgiven: S::Mask,
     /// Whether the energy is within tolerance, and whether a correction needs forces.
     pub(super) is_closed: S::Mask,
     pub(super) needs_forces: S::Mask,
@@ -114,6 +117,9 @@ pub(super) struct Scratch<S: Real, const D: usize> {
     /// The smallest production of paths of heat between thermostats and reservoirs; `S::MAX` without any, J/K.
     pub(super) least: S,
     pub(super) stability: RowSums<S>,
+    /// The sum of the stiffnesses of elements at each node of the scene, N/m, and whether it is known in this step.
+    pub(super) stiffnesses: Vec<S>,
+    pub(super) has_stiffnesses: bool,
 }
 
 impl<S: Real> Progress<S> {
@@ -130,6 +136,7 @@ impl<S: Real> Progress<S> {
             least: S::MAX,
             factor: S::one(),
             granularity: S::zero(),
+            is_forgiven: S::Mask::none(),
             is_closed: S::Mask::none(),
             needs_forces: S::Mask::none(),
             is_rigid: false,
@@ -202,6 +209,8 @@ impl<S: Real, const D: usize> Scratch<S, D> {
                 capacities: vec![S::zero(); thermal],
                 flows: vec![S::zero(); thermal],
             },
+            stiffnesses: vec![S::zero(); nodes],
+            has_stiffnesses: false,
         }
     }
 
@@ -212,6 +221,7 @@ impl<S: Real, const D: usize> Scratch<S, D> {
         self.produced.fill(S::zero());
         self.held.fill(HeldBalance::none());
         self.unkept = None;
+        self.has_stiffnesses = false;
         self.least = S::MAX;
     }
 }

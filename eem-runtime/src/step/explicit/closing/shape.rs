@@ -4,7 +4,7 @@ use super::super::components::{Component, Support};
 use super::super::vector::{add, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
-use super::{FROZEN, MOST_ITERATIONS, Status};
+use super::{MOST_ITERATIONS, Status};
 use crate::element::state::State;
 use eem_material::number::scalar::{Discord, Mask, Real, unless};
 
@@ -79,7 +79,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let is_left = is_left & !shifts;
         if is_left.any() && !self.try_sink(index, is_left, next)? {
-            return Ok(self.unless_rounding(index, is_left));
+            return Ok(self.unless_rounding(index, is_left, view));
         }
         Ok(if is_closed.all() {
             Status::Closed
@@ -106,32 +106,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         self.scratch.inactive[index] = S::Mask::none();
         Ok(true)
-    }
-
-    /// Closed if the remaining defect is rounding, failed otherwise.
-    fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Status {
-        let granularity = self.granularity(index);
-        let progress = &mut self.scratch.progress[index];
-        progress.granularity = granularity;
-        let bound = S::from_f64(FROZEN) * S::EPSILON * (progress.scale + granularity);
-        let is_rounding = progress.defect.abs().at_most(bound);
-        progress.is_closed = progress.is_closed | (is_left & is_rounding);
-        if progress.is_closed.all() {
-            Status::Closed
-        } else {
-            Status::Failed
-        }
-    }
-
-    /// `Σ |F||q|`: times ε, the error of the energy by rounding of positions, J.
-    fn granularity(&self, index: usize) -> S {
-        let masses = self.components.all[index].masses.clone();
-        masses.fold(S::zero(), |sum, at| {
-            let terms = self.scratch.forces[at]
-                .iter()
-                .zip(self.stage.places[at].q());
-            terms.fold(sum, |sum, (&force, &q)| sum + (force * q).abs())
-        })
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {

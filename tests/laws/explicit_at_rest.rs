@@ -1,0 +1,96 @@
+//! The explicit scheme at rest: where energies vanish, what rounding of positions does to them is no reason to refuse a step, and the
+//! law of energy, found from positions and momenta, still holds to this rounding.
+
+use eem::Tolerance;
+use eem::prelude::*;
+
+const SCHEME: Scheme = Scheme::EemExplicit;
+
+/// ψ = ½ k (λ − 1)²
+#[derive(Clone, FreeEnergy)]
+#[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 1.0).powi(2))]
+struct Linear {
+    k: f64,
+}
+
+/// k, N/m, of a spring at a mass of 1 kg.
+const K: f64 = 100.0;
+
+/// Roundings of each term of an energy, as in the certificate.
+const ROUNDINGS: f64 = 64.0;
+
+/// Loads in N, at rest at first: the energies of the first steps are between 1e-15 and 1e-60 J.
+const LOADS: [fn(f64) -> f64; 4] = [
+    |t| t.powi(3),
+    |t| 0.5 * t.powi(4),
+    |t| 0.3 * t.powi(5),
+    |t| 10.0 * (-((t - 0.8) / 0.12).powi(2)).exp(),
+];
+
+/// The energy of a mass on a spring, and the terms whose rounding it has:
+/// those of the energy, `|f|λ`, and `ε k λ²` of a length that is rounded to ε λ, J.
+fn energy([q, p]: [f64; 2]) -> [f64; 2] {
+    let (kinetic, force) = (0.5 * p * p, K * (q - 1.0));
+    let stored = 0.5 * force * (q - 1.0);
+    let rounded = (force * q).abs() + f64::EPSILON * K * q * q;
+    [kinetic + stored, kinetic + stored + rounded]
+}
+
+#[test]
+fn a_mass_at_rest_begins_to_move() {
+    for (load, force) in LOADS.into_iter().enumerate() {
+        for relative in [1e-4, 1e-6, 1e-8] {
+            let mut scene = Scene::<1>::new();
+            let mass = scene.mass(1.0, [1.0], [0.0]);
+            let ends = [scene.anchor([0.0]), mass];
+            scene.spring(Linear { k: K }, ends);
+            scene.force(mass, move |t| [force(t)]);
+            let tolerance = Tolerance::new(relative);
+            let mut run = Simulation::with_tolerance(scene, SCHEME, tolerance).unwrap();
+            let at = |run: &Simulation<1>| {
+                let [q, p] = [run.position(mass), run.momentum(mass)];
+                [q.unwrap()[0], p.unwrap()[0]]
+            };
+            let ([mut before, mut terms], mut work) = (energy(at(&run)), 0.0);
+            let mut steps = 0;
+            while run.time() < 2.0 {
+                let step = run.step();
+                step.unwrap_or_else(|error| panic!("{load}, {relative:e}: {error}"));
+                let ([after, new_terms], all) = (energy(at(&run)), run.ledger().work);
+                let own = all - work;
+                let defect = after - before - own;
+                // The ledger is a sum, which is rounded as a whole.
+                let bound = ROUNDINGS * f64::EPSILON * (terms + new_terms + own.abs() + all.abs());
+                assert!(defect.abs() <= bound, "{load}: {defect:e}, {bound:e}");
+                (before, terms, work) = (after, new_terms, all);
+                steps += 1;
+            }
+            assert!(steps <= 150, "{load}, {relative:e}: {steps} steps");
+        }
+    }
+}
+
+/// `x = t⁷/42` for a force t⁵, and the kinetic energy is the work.
+#[test]
+fn a_free_mass_at_the_origin_has_the_work_of_its_load() {
+    let mut scene = Scene::<2>::new();
+    let mass = scene.mass(1.0, [0.0, 0.0], [0.0, 0.0]);
+    scene.force(mass, |t| [t.powi(5), 0.0]);
+    let tolerance = Tolerance::new(1e-6);
+    let mut run = Simulation::with_tolerance(scene, SCHEME, tolerance).unwrap();
+    let mut steps = 0.0;
+    while run.time() < 2.0 {
+        run.step().unwrap();
+        steps += 1.0;
+        let [p, _] = run.momentum(mass).unwrap().into();
+        let (kinetic, work) = (0.5 * p * p, run.ledger().work);
+        // Each step rounds the momentum and the work.
+        let bound = 4.0 * steps * f64::EPSILON * work;
+        assert!((kinetic - work).abs() <= bound, "{kinetic:e}, {work:e}");
+    }
+    let [x, y] = run.position(mass).unwrap().into();
+    let exact = run.time().powi(7) / 42.0;
+    assert!((x / exact - 1.0).abs() < 20.0 * 1e-6, "{x}, {exact}");
+    assert_eq!(y.to_bits(), 0.0_f64.to_bits());
+    assert!(steps < 100.0, "{steps}");
+}
