@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use eem::materials::ThermoelasticSpring;
 use eem::prelude::*;
 use eem::{EndState, Tolerance};
 
@@ -101,4 +102,46 @@ fn motions_damp_errors_or_amplify_them() {
     let long = |end| errors(|| krueger.scene().0, Scheme::EemExplicit, 1e-8, end)[1];
     let [early, late] = [2.0, 20.0].map(long);
     assert!(late > 100.0 * early, "{early} {late}");
+}
+
+/// Ovens act through the middle of a step in schemes of every order; an element follows one by
+///
+/// ```text
+/// θ̇ = r (θ_oven − θ),   θ_oven = 300 + a sin ωt:   θ = 300 + a (r² sin ωt − rω cos ωt + rω e^(−rt))/(r² + ω²)
+/// ```
+#[test]
+fn the_temperature_of_an_oven_is_followed_to_the_tolerance() {
+    let (rate, omega, swing, end) = (2.0_f64, 3.0_f64, 50.0, 4.0);
+    for scheme in [
+        Scheme::EemEntropy4,
+        Scheme::EemEntropy6,
+        Scheme::EemExplicit,
+        Scheme::Auto,
+    ] {
+        for relative in [1e-4, 1e-6] {
+            let mut scene = Scene::<1>::new();
+            let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+            let wire = ThermoelasticSpring {
+                stiffness: 1.0,
+                coupling: 0.0,
+                capacity: 2.0,
+                natural_length: 1.0,
+                theta_ref: 300.0,
+            };
+            let wire = scene.spring(wire, ends);
+            scene.set_temperature(wire, 300.0);
+            let oven = scene.oven(move |t| 300.0 + swing * (omega * t).sin());
+            scene.conduct(wire, oven, 2.0 * rate);
+            let mut run = Simulation::new(scene, scheme, 0.01).unwrap();
+            run.control_steps(Tolerance::new(relative)).unwrap();
+            run.run_until(end).unwrap();
+            let (sin, cos) = (omega * end).sin_cos();
+            let rest = rate * omega * (-rate * end).exp();
+            let sum = rate * rate * sin - rate * omega * cos + rest;
+            let exact = 300.0 + swing * sum / (rate * rate + omega * omega);
+            let error = (run.temperature(wire).unwrap() / exact - 1.0).abs() / relative;
+            // The mean of every step is right to one tolerance; the scheme's own errors add to it.
+            assert!(error < 4.0, "{scheme}, {relative:e}: {error} tolerances");
+        }
+    }
 }

@@ -212,7 +212,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         // The errors of earlier steps mean nothing for another scheme.
         control.memory.controller = Controller::new();
-        *control = self.control_of(control.memory);
+        // The step goes on to look at loads.
+        let horizon = control.horizon;
+        *control = Control {
+            horizon,
+            ..self.control_of(control.memory)
+        };
         true
     }
 

@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::memory::Control;
 use crate::scene::loads::{OfTime, ScalarOfTime};
-use crate::step::control::{Controller, norm};
+use crate::step::control::{Controller, Scales};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::load_rule::LoadRule;
 use crate::step::samples::{Grid, MOST};
@@ -17,8 +17,9 @@ const PER_RUN: f64 = 256.0;
 /// Intervals between samples in the shortest load.
 const PER_LOAD: f64 = 3.0;
 
-/// A step of at most this many intervals needs no samples: its scheme evaluates loads at times that are as close.
-const FEW: f64 = 2.0;
+/// A step of at most this many intervals needs no samples. A scheme of order 2 evaluates loads last after three quarters of a step,
+/// and a load `(1 + cos)/2` that lasts 2.56 intervals and begins there has in the rest `π²/3 (0.5/4/2.56)³/0.5 = 8e-4` of its impulse.
+const FEW: f64 = 0.5;
 
 /// Roundings between a time and one at which steps end, in ε: as between the last full step and the end of a run.
 const STOP_ROUNDINGS: f64 = 4.0;
@@ -80,6 +81,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         // The fewest samples if the run has no end.
         let longest = if longest.is_finite() { longest } else { size };
         let grid = Grid::new([self.time(), size], longest);
+        // The scales of the error of a step that changes nothing.
+        let (memory, accurate) = (&control.memory, (control.accuracy, size));
+        let least = (memory.largest_momentum, &self.least);
+        let scales = Scales::new(&memory.tolerance, accurate, [&self.state; 2], least);
         // A shorter step is cheaper than so many samples.
         let are_too_many = (S::from_f64(f64::from(MOST)) * longest).less(size).all();
         for timed in self.timed_loads() {
@@ -88,7 +93,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 continue;
             }
             let passes = are_too_many || {
-                let passes = self.passes_over(&timed, (control, size), &grid);
+                let passes = self.passes_over(&timed, (control, &scales), &grid);
                 passes.map_err(|failure| self.failed(size, failure))?
             };
             if passes {
@@ -98,11 +103,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(None)
     }
 
-    /// Whether a step of this size passes over a load.
+    /// Whether a step passes over a load.
     fn passes_over(
         &self,
         timed: &Timed<'_, S, D>,
-        (control, size): (&Control<S>, S),
+        (control, scales): (&Control<S>, &Scales<'_, S>),
         grid: &Grid<S>,
     ) -> Result<bool, StepFailure> {
         let tolerance = &control.memory.tolerance;
@@ -118,11 +123,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     }
                 };
                 if let TimedLoad::Motion(_) = load {
-                    let scale = norm(self.state.positions.values().iter().copied());
-                    let height = tolerance.relative * scale + tolerance.position;
-                    return Ok(grid.look(of)?.misses_height(height));
+                    return Ok(grid.look(of)?.misses_height(scales.height()));
                 }
-                self.passes_over_force(load, (control, size), (grid, &of))
+                self.passes_over_force(load, (control, scales), (grid, &of))
             }
             Timed::Scalar(load, of) => {
                 let is_force = matches!(load, TimedLoad::Thrust(_));
@@ -136,7 +139,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     }
                 };
                 if is_force {
-                    return self.passes_over_force(load, (control, size), (grid, &of));
+                    return self.passes_over_force(load, (control, scales), (grid, &of));
                 }
                 let look = grid.look(of)?;
                 let height = tolerance.relative * look.first[0] + tolerance.temperature;
@@ -155,50 +158,30 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     order: None,
                     ..rule
                 };
+                let [_, size] = grid.span();
                 Ok(look.differs(means, rule, [size * height, S::zero()]))
             }
         }
     }
 
-    /// Whether a step of this size passes over a force or a thrust.
+    /// Whether a step passes over a force or a thrust: the impulse that it may miss is the tolerance of the momentum.
     fn passes_over_force<const N: usize>(
         &self,
         load: &TimedLoad,
-        (control, size): (&Control<S>, S),
+        (control, scales): (&Control<S>, &Scales<'_, S>),
         (grid, of): (&Grid<S>, &impl Fn(S) -> Result<[S; N], StepFailure>),
     ) -> Result<bool, StepFailure> {
         let look = grid.look(of)?;
-        let impulse = self.allowed_impulse(load, (control, size));
+        let (TimedLoad::Force(node) | TimedLoad::Thrust(node)) = load else {
+            return Ok(false);
+        };
+        let impulse = scales.momentum(node.index);
         if look.misses_impulse(impulse) {
             return Ok(true);
         }
         let rule = LoadRule::of_forces(self.in_use, control.accuracy.order_of_halves());
         let means = grid.means(rule, of)?;
         Ok(look.differs(means, rule, [impulse, control.memory.tolerance.relative]))
-    }
-
-    /// The impulse that a step of this size may miss, N s: the tolerance of its momenta.
-    ///
-    /// A mass that has not moved yet has no momentum to compare with; what moves it in the step by less than the tolerance of
-    /// positions has no effect.
-    ///
-    /// ```text
-    /// r' (max |p|₂ + m r |q|₂/h) + a_p r'/r,   r' the relative tolerance of the step
-    /// ```
-    fn allowed_impulse(&self, load: &TimedLoad, (control, size): (&Control<S>, S)) -> S {
-        let (memory, accuracy) = (&control.memory, control.accuracy);
-        let tolerance = &memory.tolerance;
-        let part = tolerance.over.map_or(S::one(), |time| size / time);
-        let of_step = accuracy.of_step(tolerance.relative, part);
-        let size_of = |values: &[S]| norm(values.iter().copied());
-        let momentum = size_of(self.state.momenta.values()).maximum(memory.largest_momentum);
-        let mass = match load {
-            TimedLoad::Force(node) | TimedLoad::Thrust(node) => self.masses.get(node.index),
-            _ => None,
-        };
-        let position = tolerance.relative * size_of(self.state.positions.values());
-        let unmoved = mass.map_or(S::zero(), |mass| mass * position / size);
-        of_step * (momentum + unmoved) + tolerance.momentum * (of_step / tolerance.relative)
     }
 
     /// The end of the next step that is not later than `end`, s: `end` or an earlier time at which steps end. At the beginning of

@@ -231,6 +231,18 @@ impl<'a, S: Real> Scales<'a, S> {
         }
     }
 
+    /// What the tolerance allows a momentum of this node, kg m/s.
+    pub(crate) fn momentum(&self, node: usize) -> S {
+        let [relative, absolute] = self.momentum;
+        let momentum = self.least.momentum(node, self.momenta, self.step);
+        relative * momentum + absolute
+    }
+
+    /// What the tolerance of the state, not of this step, allows a position, m.
+    pub(crate) fn height(&self) -> S {
+        self.position * (self.step.relative / self.step.own)
+    }
+
     /// The largest difference between two states, in units of the tolerance.
     pub(crate) fn error<const D: usize>(&self, states: [&State<S>; 2], kinds: &Kinds) -> S {
         let mut largest = S::zero();
@@ -275,7 +287,6 @@ impl<'a, S: Real> Scales<'a, S> {
             Unknown::Position,
             &|_, _| self.position,
         );
-        let [relative, absolute] = self.momentum;
         each(
             [a.momenta.values(), b.momenta.values()],
             Unknown::Momentum,
@@ -283,8 +294,7 @@ impl<'a, S: Real> Scales<'a, S> {
                 if kinds.are_given.get(index) == Some(&true) {
                     S::MAX
                 } else {
-                    let momentum = self.least.momentum(index / D, self.momenta, self.step);
-                    relative * momentum + absolute
+                    self.momentum(index / D)
                 }
             },
         );
