@@ -260,6 +260,35 @@ pub enum StepFailure {
 }
 
 impl StepFailure {
+    /// The error of an invalid value of a load, in the component `axis`, at a time in s.
+    pub(crate) fn of_load(load: TimedLoad, axis: usize, value: f64, time: f64) -> Self {
+        match load {
+            TimedLoad::Force(node) => Self::Load {
+                node,
+                axis,
+                value,
+                time,
+            },
+            TimedLoad::Thrust(node) => Self::Thrust { node, value, time },
+            TimedLoad::Motion(node) => Self::Motion {
+                node,
+                axis,
+                value,
+                time,
+            },
+            TimedLoad::Temperature(element) => Self::PrescribedTemperature {
+                element,
+                value,
+                time,
+            },
+            TimedLoad::Oven(reservoir) => Self::Oven {
+                reservoir,
+                value,
+                time,
+            },
+        }
+    }
+
     /// Whether the step failed, and not an argument of the call.
     const fn is_of_a_step(&self) -> bool {
         !matches!(

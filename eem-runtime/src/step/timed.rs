@@ -3,7 +3,6 @@
 use core::fmt;
 
 use crate::element::handle::{Element, Node};
-use crate::step::error::StepFailure;
 
 /// A load that is a function of time.
 ///
@@ -49,37 +48,6 @@ impl fmt::Display for TimedLoad {
             Self::Motion(node) => write!(f, "the motion of {node}"),
             Self::Temperature(element) => write!(f, "the temperature prescribed on {element}"),
             Self::Oven(index) => write!(f, "the temperature of reservoir {index}"),
-        }
-    }
-}
-
-impl TimedLoad {
-    /// The error of an invalid value, in the component `axis`, at a time in s.
-    pub(crate) fn refuse(self, axis: usize, value: f64, time: f64) -> StepFailure {
-        match self {
-            Self::Force(node) => StepFailure::Load {
-                node,
-                axis,
-                value,
-                time,
-            },
-            Self::Thrust(node) => StepFailure::Thrust { node, value, time },
-            Self::Motion(node) => StepFailure::Motion {
-                node,
-                axis,
-                value,
-                time,
-            },
-            Self::Temperature(element) => StepFailure::PrescribedTemperature {
-                element,
-                value,
-                time,
-            },
-            Self::Oven(reservoir) => StepFailure::Oven {
-                reservoir,
-                value,
-                time,
-            },
         }
     }
 }

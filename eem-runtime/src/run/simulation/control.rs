@@ -4,7 +4,8 @@ use core::mem;
 
 use super::compiled::Functions;
 use super::guard::Guard;
-use super::memory::{Control, History, Snapshot};
+use super::memory::{Control, History, SMALLEST, Snapshot};
+use super::start::find_speeds;
 use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
@@ -55,6 +56,24 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.check_control(memory, (self.scheme, self.in_use))?;
         self.set_control(memory);
         Ok(())
+    }
+
+    /// Finds the first step for a tolerance, and the velocities of moved anchors within it.
+    pub(super) fn find_first_step(&mut self, tolerance: &Tolerance<S>) {
+        let step = self
+            .least
+            .first_step(tolerance.relative, self.in_use.accuracy());
+        // Longer than the rounding of the time.
+        let least = S::from_f64(SMALLEST) * S::EPSILON * self.start.abs();
+        self.step = step.maximum(least);
+        let mut velocities = self.state.velocities.values().to_vec();
+        // Those of a longer step have been found.
+        let span = [self.start, self.step];
+        if self.masses.are_coupled() && find_speeds(&self.loads, span, &mut velocities).is_empty() {
+            let all = &mut self.state.velocities;
+            all.write(|all| all.copy_from_slice(&velocities));
+            self.state.follow_velocities(D, &self.masses);
+        }
     }
 
     /// The history of step control before the first step.

@@ -4,8 +4,6 @@ use core::array;
 
 use nalgebra::SVector;
 
-use super::Simulation;
-use super::memory::SMALLEST;
 use super::stepper::Parts;
 use crate::element::group::Elements;
 use crate::element::layout::Layout;
@@ -107,7 +105,7 @@ pub(crate) fn initial_state<const D: usize, S: Real>(
 }
 
 /// Writes the initial velocities of all motions; the errors of those that have none.
-fn find_speeds<const D: usize, S: Real>(
+pub(super) fn find_speeds<const D: usize, S: Real>(
     loads: &Loads<S, D>,
     span: [S; 2],
     velocities: &mut [S],
@@ -125,26 +123,6 @@ fn find_speeds<const D: usize, S: Real>(
         }
     }
     errors
-}
-
-impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Finds the first step for a tolerance, and the velocities of moved anchors within it.
-    pub(super) fn find_first_step(&mut self, tolerance: &Tolerance<S>) {
-        let step = self
-            .least
-            .first_step(tolerance.relative, self.in_use.accuracy());
-        // Longer than the rounding of the time.
-        let least = S::from_f64(SMALLEST) * S::EPSILON * self.start.abs();
-        self.step = step.maximum(least);
-        let mut velocities = self.state.velocities.values().to_vec();
-        // Those of a longer step have been found.
-        let span = [self.start, self.step];
-        if self.masses.are_coupled() && find_speeds(&self.loads, span, &mut velocities).is_empty() {
-            let all = &mut self.state.velocities;
-            all.write(|all| all.copy_from_slice(&velocities));
-            self.state.follow_velocities(D, &self.masses);
-        }
-    }
 }
 
 /// The initial velocity of a motion, from its positions within the first step, m/s; not a number if it has none.

@@ -118,7 +118,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     let time = inside(time);
                     let value: [S; D] = of(time).into();
                     match value.iter().position(|value| !value.is_finite()) {
-                        Some(axis) => Err(load.refuse(axis, value[axis].to_f64(), time.to_f64())),
+                        Some(axis) => Err(StepFailure::of_load(
+                            *load,
+                            axis,
+                            value[axis].to_f64(),
+                            time.to_f64(),
+                        )),
                         None => Ok(value),
                     }
                 };
@@ -135,7 +140,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     if is_force && value.is_finite() || is_positive(value) {
                         Ok([value])
                     } else {
-                        Err(load.refuse(0, value.to_f64(), time.to_f64()))
+                        Err(StepFailure::of_load(
+                            *load,
+                            0,
+                            value.to_f64(),
+                            time.to_f64(),
+                        ))
                     }
                 };
                 if is_force {
