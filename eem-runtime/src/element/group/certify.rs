@@ -10,7 +10,7 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
-use eem_material::free_energy::Material;
+use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
@@ -233,7 +233,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 tally.balance(drag - self.response[row], terms);
                 // g* is a divided difference, with half the slope of g.
                 let slope = self.slopes[row][row].abs();
-                tally.see_relaxation(view.step, slope, self.own_viscosity(k));
+                tally.see_relaxation(view.step, slope, self.viscosities.0[k]);
             }
         }
         if !M::THERMAL {
@@ -242,7 +242,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let theta = self.temperature();
         let taken = theta * self.response[Self::ENTROPY];
         if !self.is_prescribed {
-            tally.see_relaxation(view.thermal_step(), self.settling, capacity);
+            if C::Damping::<()>::LEN == 0 {
+                tally.see_relaxation(view.thermal_step(), self.settling, capacity);
+            }
             let terms = magnitude + theta * received.terms;
             tally.balance(taken - theta * received.entropy, terms);
         }

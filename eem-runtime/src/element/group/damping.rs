@@ -1,4 +1,4 @@
-//! Damping towards the end of a step: heat flows at a temperature Θ nearer to the end than θ*, and dashpots are more viscous.
+//! Damping towards the end of a step: heat flows at a temperature Θ nearer to the end than θ*.
 //!
 //! ```text
 //! Θ = θ* + 2α (θ⁰ eʸ − θ⁰ (eʸ − 1)/y) = θ* + 2α θ⁰ y exp[0,y,y],     y = Δs/c⁰
@@ -17,34 +17,30 @@
 //! `Θ − θ*` has the sign of Δs. So both laws hold for every α ≥ 0, whatever the heat capacity and the motion are.
 //!
 //! With `x_a = h Σ_b κ_ab (1/c_a + 1/c_b)`, [`α(x_a)`](crate::element::conjugates::end_weight) makes the decay of two bodies
-//! exact, up to the dependence of capacities on temperature. No linear network alternates: `½ − α ≤ 1/x`, and
+//! exact for small differences of temperature, for larger ones up to their square over the temperature. No linear network alternates: `½ − α ≤ 1/x`, and
 //! `hK ≤ diag(x_a c_a)` for every path, since `(u − v)² ≤ (1 + t) u² + (1 + 1/t) v²` with `t = c_a/c_b`. Reservoirs, and
 //! elements at thermostats, have infinite capacity. Steady states stay the same, because Δs = 0 there.
 //!
-//! A dashpot has the viscosity `η + h α(hk/η) k`, all of whose heat is positive, with the largest stiffness k against its
-//! creep, see `stiffness_of` in `damp.rs`.
+//! Dashpots are left as they are. A viscosity `η + h α k` would damp a free relaxation in the same way, but also slow a
+//! dashpot that creeps steadily under a load, by the factor `1 + α hk/η`.
 
-use eem_material::free_energy::Array;
 use eem_material::number::kernel::exp_dd2;
 use eem_material::number::scalar::Real;
 
 /// The damping of a point, constant in a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Damping<S, V> {
+pub(super) struct Damping<S> {
     /// `2α θ⁰`, K; zero without paths of heat, and where a thermostat prescribes the temperature.
     pub(super) weight: S,
     /// `1/c⁰`, K/J.
     pub(super) per_capacity: S,
-    /// `h α k` of each dashpot, N s/m.
-    pub(super) viscosities: V,
 }
 
-impl<S: Real, V: Array<S>> Damping<S, V> {
+impl<S: Real> Damping<S> {
     pub(super) fn none() -> Self {
         Self {
             weight: S::zero(),
             per_capacity: S::zero(),
-            viscosities: V::filled(S::zero()),
         }
     }
 

@@ -135,7 +135,7 @@ pub(crate) struct Point<
     /// Only for schemes that evaluate the model at one point of the step.
     pub(super) single: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
     /// Only for a damped scheme.
-    pub(super) damping: C::Damping<Damping<S, M::Viscosities>>,
+    pub(super) damping: C::Damping<Damping<S>>,
 }
 
 impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
@@ -283,10 +283,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         self.viscosities = known.unwrap_or_else(|| self.model.viscosity(theta));
         let viscosities = self.viscosities.0.as_ref();
         match viscosities.iter().position(|&eta| !is_positive(eta)) {
-            None => {
-                self.thicken();
-                Ok(())
-            }
+            None => Ok(()),
             Some(dashpot) => Err(StateError::Viscosity {
                 element: self.element,
                 dashpot,

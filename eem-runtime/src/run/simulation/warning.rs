@@ -42,8 +42,9 @@ impl fmt::Display for Warning {
         let most = 2.0 * relaxation;
         write!(
             f,
-            "{steps} steps of up to {step:e} s do not resolve fast conduction or dashpots, which alternate or stay with {scheme} \
-             instead of decaying. {element} relaxes in {relaxation:e} s: use eem-damped, or steps below {most:e} s"
+            "steps of up to {step:.3e} s ({steps} so far) do not resolve fast conduction or dashpots, which alternate or stay with \
+             {scheme} instead of decaying. {element} relaxes in {relaxation:.3e} s: use eem-damped for conduction, and steps below \
+             {most:.3e} s or a tolerance for dashpots"
         )
     }
 }
@@ -52,9 +53,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Notes a step that did not resolve a relaxation.
     #[cold]
     pub(super) fn note_unresolved(&mut self, report: &StepReport<S>) {
-        if self.in_use.is_damped() {
-            return;
-        }
         let largest = self.unresolved.largest.maximum(report.step);
         self.unresolved = Unresolved {
             steps: self.unresolved.steps + 1,
@@ -63,8 +61,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
     }
 
-    /// Why the result of the steps so far may mislead although every one has kept its laws; `None` if nothing speaks for it, and in
-    /// lanes.
+    /// Why the result of the steps so far may mislead although every one has kept its laws; `None` if nothing speaks for it, in
+    /// lanes, and while a tolerance [controls](Self::control_steps) the steps: then their errors are known.
     ///
     /// ```
     /// use eem::prelude::*;
@@ -92,7 +90,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// // The bodies have exchanged their temperatures a hundred times.
     /// assert!((run.temperature(hot)? - 373.00).abs() < 0.01);
     /// let warning = run.warning().expect("1 s is far above the relaxation time of 7.5e-6 s");
-    /// assert!(warning.to_string().contains("relaxes in 7.5e-6 s: use eem-damped"), "{warning}");
+    /// assert!(warning.to_string().contains("relaxes in 7.500e-6 s: use eem-damped"), "{warning}");
     ///
     /// let (damped, hot) = scene();
     /// let mut run = Simulation::new(damped, Scheme::EemDamped, 1.0)?;
@@ -108,7 +106,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             largest,
             scheme,
         } = self.unresolved;
-        if steps == 0 {
+        if steps == 0 || self.control.is_some() {
             return None;
         }
         let (relaxation, element) = self.fastest_relaxation()?;
@@ -134,6 +132,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 place += 1;
                 let mut rate = point.relaxation.to_f64();
                 if let Some((slot, capacity)) = point.capacity
+                    && !self.in_use.is_damped()
                     && !held.contains(&element.index())
                 {
                     let settling = self.conduction.settling(slot).to_f64();
