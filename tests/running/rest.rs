@@ -389,6 +389,30 @@ fn a_free_mass_at_the_origin_begins_to_move() {
 }
 
 /// The unknown that limits a step is named.
+/// A Gaussian push whose tail is below the smallest normal number until t = 2.3 s; its impulse is `w √π`.
+#[test]
+fn a_free_mass_feels_a_load_that_begins_below_all_numbers() {
+    for scheme in [Scheme::EemTemperature, Scheme::EemEntropy6, Scheme::Auto] {
+        let mut scene = Scene::<1>::new();
+        let mass = scene.mass(2.0, [0.0], [0.0]);
+        scene.force(mass, |t: f64| [(-((t - 5.0) / 0.1).powi(2)).exp()]);
+        let tolerance = Tolerance::new(1e-4);
+        let mut run = Simulation::with_tolerance(scene, scheme, tolerance).unwrap();
+        run.run_until(10.0).unwrap();
+        let expected = 0.1 * core::f64::consts::PI.sqrt();
+        let momentum = run.momentum(mass).unwrap()[0];
+        assert!(
+            (momentum / expected - 1.0).abs() < 20.0 * 1e-4,
+            "{scheme}: {momentum}"
+        );
+        let steps = run.step_statistics().unwrap();
+        assert!(
+            steps.accepted + steps.rejected() < 5000,
+            "{scheme}: {steps:?}"
+        );
+    }
+}
+
 #[test]
 fn what_limits_a_step_is_named() {
     let load = LOADS[0];

@@ -104,14 +104,15 @@ impl<S: Real> Tally<S> {
         }
     }
 
-    /// Checks the defect of a balance, given the magnitude of its terms.
+    /// Checks the defect of a balance, given the magnitude of its terms. Below the smallest normal number, rounding is that of this
+    /// number.
     #[inline]
     pub(crate) fn balance(&mut self, residual: S, magnitude: S) {
         let roundings = match self.care {
             Care::Quick => BALANCE_ROUNDINGS,
             Care::Thorough => ROUNDINGS,
         };
-        let bound = S::from_f64(roundings) * S::EPSILON * magnitude;
+        let bound = S::from_f64(roundings) * S::EPSILON * (magnitude + S::MIN_POSITIVE);
         self.is_balanced = self.is_balanced & residual.abs().at_most(bound);
     }
 }

@@ -172,7 +172,9 @@ impl<S: Real> Certificate<S> {
     ) -> Self {
         let mut energy = motion.energy;
         energy.add(internal.change);
-        let terms = motion.kinetic + motion.works + tally.heat + internal.magnitude;
+        // Below the smallest normal number, rounding is that of this number.
+        let least = S::MIN_POSITIVE;
+        let terms = motion.kinetic + motion.works + tally.heat + internal.magnitude + least;
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
         let defect = energy.value();
         let has_produced = tally.least.less(S::MAX);
@@ -188,12 +190,15 @@ impl<S: Real> Certificate<S> {
             least_production: S::select(has_produced, tally.least, S::zero()),
             unresolved: tally.unresolved,
             linear: match motion.kept {
-                Kept::Both => [largest(&motion.linear), motion.momenta + tally.impulse],
+                Kept::Both => [
+                    largest(&motion.linear),
+                    motion.momenta + tally.impulse + least,
+                ],
                 Kept::None | Kept::Angular(_) => [S::zero(); 2],
             },
             angular: [
                 motion.angular.largest(),
-                motion.moments + motion.farthest * tally.impulse,
+                motion.moments + motion.farthest * tally.impulse + least,
             ],
             is_balanced: tally.is_balanced,
         }
