@@ -42,7 +42,10 @@ mod tests {
             );
             assert!((0.0..=0.5).contains(&alpha));
         }
-        let ends = [0.0, f64::MAX, f64::INFINITY].map(end_weight);
-        assert_eq!(ends.map(f64::to_bits), [0.0, 0.5, 0.5].map(f64::to_bits));
+        // With the rounding of the kernels, as above.
+        let ends = [(0.0, 0.0), (f64::MAX, 0.5), (f64::INFINITY, 0.5)];
+        for (x, expected) in ends {
+            assert!((end_weight(x) - expected).abs() <= 32.0 * f64::EPSILON * expected);
+        }
     }
 }

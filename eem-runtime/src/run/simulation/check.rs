@@ -5,6 +5,7 @@ use crate::scene::Scene;
 use crate::scene::error::RocketError;
 use crate::scene::error::SceneError;
 use crate::step::automatic::FIRST;
+use crate::step::control::Tolerance;
 use crate::step::features::Feature;
 use crate::step::scheme::{Closing, Scheme};
 use eem_material::number::scalar::{Real, is_positive};
@@ -97,4 +98,16 @@ pub(super) fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
         let value = step.to_f64();
         Err(SceneError::Step { value })
     }
+}
+
+/// An error unless steps of a scheme, and of the one that it uses first, can be controlled with a tolerance.
+pub(super) fn check_tolerance<S: Real>(
+    tolerance: &Tolerance<S>,
+    (scheme, in_use): (Scheme, Scheme),
+) -> Result<(), SceneError> {
+    if scheme.may_change_steps() {
+        return tolerance.check(in_use.accuracy());
+    }
+    let scheme = scheme.name();
+    Err(SceneError::FixedSteps { scheme })
 }

@@ -2,6 +2,7 @@
 
 use core::mem;
 
+use super::check::check_tolerance;
 use super::compiled::Functions;
 use super::guard::Guard;
 use super::memory::{Control, History, SMALLEST, Snapshot};
@@ -382,16 +383,4 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         (self.worst, self.corrections) = (snapshot.worst, snapshot.corrections);
         self.has_stepped = false;
     }
-}
-
-/// An error unless steps of a scheme, and of the one that it uses first, can be controlled with a tolerance.
-pub(super) fn check_tolerance<S: Real>(
-    tolerance: &Tolerance<S>,
-    (scheme, in_use): (Scheme, Scheme),
-) -> Result<(), SceneError> {
-    if scheme.may_change_steps() {
-        return tolerance.check(in_use.accuracy());
-    }
-    let scheme = scheme.name();
-    Err(SceneError::FixedSteps { scheme })
 }
