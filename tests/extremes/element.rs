@@ -157,14 +157,6 @@ impl Ends<'_> {
         work + psi + theta[end] * (self.entropy[end].value().abs() + capacity)
     }
 
-    /// By how much the temperature may differ within a step at lengths, viscous stretches and entropies of its ends, as
-    /// a factor: `e^(|Δs|/c)` with the least heat capacity c.
-    pub(crate) fn range(&self) -> f64 {
-        let change = (self.entropy[1] - self.entropy[0]).value().abs();
-        let capacity = |end: usize| self.body.caloric(&self.doubles(end)).heat_capacity;
-        (change / capacity(0).min(capacity(1))).exp()
-    }
-
     /// `Σ η Δγ²/h`, and `η Δλ²/h` of a dashpot in parallel, with the larger η of both ends: no creep from one end to the
     /// other dissipates less where η is constant.
     pub(crate) fn dissipations(&self, step: f64) -> [f64; 2] {

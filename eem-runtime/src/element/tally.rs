@@ -28,6 +28,8 @@ pub(crate) struct Tally<S: Real> {
     pub(crate) heat: S,
     /// `Σ h |f*|`, N s.
     pub(crate) impulse: S,
+    /// `Σ h k λ` of the forces at all nodes, whose rounding their balances leave, if bounds are thorough, N s.
+    pub(crate) residues: S,
     /// The contribution of the forces to A* and A⁺ of `step/certificate.rs`, J.
     pub(crate) forces: S,
     /// The entropy production, J/K.
@@ -47,6 +49,7 @@ impl<S: Real> Tally<S> {
             care,
             heat: S::zero(),
             impulse: S::zero(),
+            residues: S::zero(),
             forces: S::zero(),
             production: S::zero(),
             least: S::MAX,

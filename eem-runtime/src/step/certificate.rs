@@ -42,8 +42,9 @@
 //! rounding, and of the new positions and velocities, which are sums of increments w. These are far above the motion of a
 //! step where it is many periods long.
 //!
-//! The residuals r change momenta, too: beside Σ |p| and the impulses h|f*|, the bounds of momenta have the terms `h k λ` of
-//! the forces at all nodes, which are far above h|f*| where stiff springs are nearly relaxed.
+//! The residuals r change momenta, too. Iterations go on until momenta hold to the rounding of Σ |p| and of the impulses
+//! h|f*|; where none helps any more, what is left may be the rounding of the terms `h k λ` of the forces at all nodes, which are
+//! far above h|f*| where stiff springs are nearly relaxed.
 //!
 //! Nothing limits A*, A⁺ and the impulses in the bounds of momenta: where energies vanish, as when a Maxwell element
 //! is relaxed (`g → 0`), the rounding `|g| ε |γ|` of what is left vanishes more slowly than the energies `g²/2k`. Every term
@@ -121,6 +122,8 @@ pub(crate) struct Certificate<S: Real> {
     /// The largest component of the defect of each momentum, and the magnitude of its terms, kg m/s and kg m²/s.
     linear: [S; 2],
     angular: [S; 2],
+    /// The terms of the forces at the nodes in the linear and the angular momentum, if bounds are thorough.
+    residues: [S; 2],
     is_balanced: S::Mask,
 }
 
@@ -200,6 +203,7 @@ impl<S: Real> Certificate<S> {
                 motion.angular.largest(),
                 motion.moments + motion.farthest * tally.impulse + least,
             ],
+            residues: [tally.residues, motion.farthest * tally.residues],
             is_balanced: tally.is_balanced,
         }
     }
@@ -303,14 +307,11 @@ impl<S: Real> Certificate<S> {
         for (own, other) in self.terms.iter_mut().zip(other.terms) {
             *own = S::select(is_own, *own, other);
         }
-        for (own, other) in [
-            (&mut self.judged, other.judged),
-            (&mut self.linear, other.linear),
-            (&mut self.angular, other.angular),
-        ] {
-            for (own, other) in own.iter_mut().zip(other) {
-                *own = S::select(is_own, *own, other);
-            }
+        for (own, other) in self.judged.iter_mut().zip(other.judged) {
+            *own = S::select(is_own, *own, other);
+        }
+        for (own, other) in self.residues.iter_mut().zip(other.residues) {
+            *own = S::select(is_own, *own, other);
         }
         self.residual_work = S::select(is_own, self.residual_work, other.residual_work);
         self.is_balanced = (self.is_balanced & is_own) | (other.is_balanced & !is_own);
@@ -319,6 +320,17 @@ impl<S: Real> Certificate<S> {
 
     /// The first violated law, with its defect and the bound for rounding.
     pub(crate) fn broken_law(&self) -> Option<(Law, [S; 2])> {
+        self.broken_beyond([S::zero(); 2])
+    }
+
+    /// The first law that stays violated where no iteration helps any more.
+    #[cold]
+    pub(crate) fn unexplained_law(&self) -> Option<(Law, [S; 2])> {
+        self.broken_beyond(self.residues)
+    }
+
+    /// The first violated law, with these terms of the momenta beside their own.
+    fn broken_beyond(&self, residues: [S; 2]) -> Option<(Law, [S; 2])> {
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
         let [energy, bound] = self.judged;
         let [linear, momenta] = self.linear;
@@ -329,8 +341,16 @@ impl<S: Real> Certificate<S> {
                 energy - self.residual_work,
                 S::from_f64(1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound,
             ),
-            (Law::LinearMomentum, linear, rounding * momenta),
-            (Law::AngularMomentum, angular, rounding * moments),
+            (
+                Law::LinearMomentum,
+                linear,
+                rounding * (momenta + residues[0]),
+            ),
+            (
+                Law::AngularMomentum,
+                angular,
+                rounding * (moments + residues[1]),
+            ),
             (
                 Law::Production,
                 self.least_production.minimum(S::zero()),

@@ -30,7 +30,7 @@ impl Complaints {
         elements: &[Ends<'_>],
         (step, bound): (f64, f64),
     ) {
-        self.hold_heat(facts, states, elements, (step, bound));
+        self.hold_heat(facts, states, (step, bound));
         self.hold_lost_heat(facts, states, elements, (step, bound));
         if let Some((work, terms)) = work(facts, states, elements, step) {
             let booked = states[1].work - states[0].work;
@@ -47,7 +47,6 @@ impl Complaints {
         &mut self,
         facts: &Facts<D>,
         states: [&Stored; 2],
-        elements: &[Ends<'_>],
         (step, bound): (f64, f64),
     ) {
         let [heat, given] = [
@@ -70,15 +69,11 @@ impl Complaints {
             self.hold("entropy without a thermostat", given.value().abs(), 0.0);
             return;
         };
-        let has_own = facts.has_own_temperatures();
         let is_one = facts.kept.len() + facts.ovens.len() == 1 && facts.has_one_force();
-        if (most > least || has_own) && !is_one {
+        // Schemes with temperatures of their own in a step give heat at these.
+        if facts.has_own_temperatures() || most > least && !is_one {
             return;
         }
-        let range = facts.kept.iter().filter(|_| has_own);
-        let range = range.map(|&(index, _)| elements[index].range());
-        let range = range.fold(1.0, f64::max);
-        let [least, most] = [least / range, most * range];
         let middle = least + 0.5 * (most - least);
         let off = (heat - given * middle).value().abs();
         let within = 0.5 * (most - least) * given.value().abs();

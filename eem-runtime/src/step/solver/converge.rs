@@ -127,7 +127,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 update: progress.last.to_f64(),
             });
         }
-        match certificate.broken_law() {
+        match certificate.unexplained_law() {
             None => self.found(certificate),
             Some((law, sizes)) => {
                 let element = self.worst.filter(|_| law == Law::Energy);

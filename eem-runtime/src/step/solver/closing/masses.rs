@@ -50,7 +50,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                         None => S::zero(),
                         Some(&magnitude) => {
                             motion.fall_short(&residual, displacement, view.per_step);
-                            tally.exchange(magnitude);
+                            tally.residues += magnitude;
                             magnitude
                         }
                     };

@@ -57,7 +57,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                         motion.fall_short(&residual, &way, view.per_step);
                         if set == 0 {
                             // Those of all stages.
-                            tally.exchange(magnitude);
+                            tally.residues += magnitude;
                         }
                         magnitude
                     }
