@@ -6,7 +6,7 @@
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem::{Experiment, MemberFailure, Members, Outputs};
 use eem_testkit::scenes::ThermoViscoElastic;
 
 /// Members of the ensemble.
@@ -23,19 +23,14 @@ fn main() {
 }
 
 /// The published pendulum, started at different speeds.
-fn scene<S: Real>(speed: S) -> (Scene<2, S>, Element) {
-    let number = S::from_f64;
+fn scene(speed: f64) -> (Scene<2>, Element) {
     let mut scene = Scene::default();
-    let pivot = scene.anchor([number(0.0), number(0.0)]);
-    let bob = scene.mass(
-        number(1.0),
-        [number(3.0), number(0.0)],
-        [number(0.0), speed],
-    );
+    let pivot = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(1.0, [3.0, 0.0], [0.0, speed]);
     let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
-    scene.set_temperature(spring, number(380.0));
-    let air = scene.reservoir(number(300.0));
-    scene.conduct(spring, air, number(10.0));
+    scene.set_temperature(spring, 380.0);
+    let air = scene.reservoir(300.0);
+    scene.conduct(spring, air, 10.0);
     (scene, spring)
 }
 
@@ -49,15 +44,15 @@ impl Experiment<2> for Pendulums {
     type Handles = Element;
     type Output = f64;
 
-    fn build<S: Real>(&self, members: Members<'_, f64, S>) -> (Scene<2, S>, Element) {
+    fn build(&self, members: Members<'_, f64>) -> (Scene<2>, Element) {
         scene(members.number(|&speed| speed))
     }
 
-    fn observe<S: Real>(
+    fn observe(
         &self,
-        run: &mut Simulation<2, S>,
+        run: &mut Simulation<2>,
         spring: Element,
-        members: Members<'_, f64, S>,
+        members: Members<'_, f64>,
     ) -> Result<Outputs<f64>, MemberFailure> {
         for _ in 0..self.steps {
             run.step()?;

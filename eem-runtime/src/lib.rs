@@ -63,9 +63,9 @@ mod run;
 
 #[doc(inline)]
 pub use eem_material::{
-    Array, Caloric, ComponentEnergy, Describe, Description, Discord, Domain, DomainError,
-    DomainPoint, DomainReport, Entry, FreeEnergy, Inversion, InversionError, Joint, JointEnergy,
-    Least, Mask, Material, Rates, Real, Scalar, check_domain, describe, invert, kernel,
+    Array, Caloric, ComponentEnergy, Describe, Description, Domain, DomainError, DomainPoint,
+    DomainReport, Entry, FreeEnergy, Inversion, InversionError, Joint, JointEnergy, Least,
+    Material, Rates, Scalar, check_domain, describe, invert, kernel,
 };
 
 #[doc(inline)]

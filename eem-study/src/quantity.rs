@@ -2,7 +2,6 @@
 
 use core::fmt;
 
-use eem_material::number::scalar::Real;
 use eem_runtime::Simulation;
 
 /// The largest difference of the references for which an error is stated, relative to it.
@@ -91,7 +90,7 @@ pub struct EndState {
 impl EndState {
     /// The present state of a simulation.
     #[must_use]
-    pub fn of<const D: usize, S: Real>(run: &Simulation<D, S>) -> Self {
+    pub fn of<const D: usize>(run: &Simulation<D>) -> Self {
         Self {
             values: run.values(),
             are_strains: run.viscous_strains(),

@@ -63,7 +63,7 @@ const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// An error is stated only if the references differ by at most a hundredth of it, see
 /// [`Statement`](crate::Statement). Everything in the report except wall times has the same bits in every run.
 pub struct Study<'a, const D: usize> {
-    build: Box<Build<'a, D, f64>>,
+    build: Box<Build<'a, D>>,
     single: Option<Box<Build<'a, D, f32>>>,
     settings: Vec<Setting>,
     end: f64,

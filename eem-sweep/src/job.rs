@@ -15,7 +15,7 @@ use crate::record::{Batch, Failure, FailureKind, Record};
 pub(crate) struct Stepping {
     pub(crate) scheme: Scheme,
     pub(crate) step: f64,
-    pub(crate) newton: NewtonSettings<f64>,
+    pub(crate) newton: NewtonSettings,
 }
 
 /// Called with the number of members of the batch that are done.

@@ -93,7 +93,7 @@ impl Plan {
 
     /// The settings of Newton's method for all members.
     #[must_use]
-    pub fn newton(mut self, settings: NewtonSettings<f64>) -> Self {
+    pub fn newton(mut self, settings: NewtonSettings) -> Self {
         self.stepping.newton = settings;
         self
     }

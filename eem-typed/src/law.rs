@@ -7,7 +7,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 use eem_language::text::{self, Compiled, Source};
 use eem_material::Joint;
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 use eem_runtime::Strain;
 use eem_symbolic::Model;
 
@@ -211,7 +210,7 @@ impl Law {
         &self,
         states: &[f64],
         results: usize,
-        function: impl Fn(&Functions<f64>) -> &Tape<f64>,
+        function: impl Fn(&Functions) -> &Tape,
     ) -> Result<Vec<f64>, LawError> {
         let variables = self.shape().variables();
         if !states.len().is_multiple_of(variables) {
@@ -288,7 +287,6 @@ impl Law {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn model<
-        S: Real,
         H: Measures,
         const N: usize,
         const K: usize,
@@ -298,8 +296,8 @@ impl Law {
         const R: usize,
     >(
         &self,
-    ) -> Result<Typed<S, H, N, K, V, D, C, R>, LawError> {
-        let [law, material] = [self.shape(), Typed::<S, H, N, K, V, D, C, R>::SHAPE];
+    ) -> Result<Typed<H, N, K, V, D, C, R>, LawError> {
+        let [law, material] = [self.shape(), Typed::<H, N, K, V, D, C, R>::SHAPE];
         if law != material {
             return Err(LawError::Shape {
                 law: law.to_string(),
@@ -314,7 +312,7 @@ impl Law {
     }
 
     /// The tapes for numbers of one type.
-    fn functions<S: Real>(&self) -> Result<Arc<Functions<S>>, LawError> {
+    fn functions(&self) -> Result<Arc<Functions>, LawError> {
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
         let of_type = made.iter().find_map(|one| one.downcast_ref());
         if let Some(functions) = of_type {
@@ -322,7 +320,7 @@ impl Law {
         }
         let mut parameters = Vec::with_capacity(self.values.len());
         for (name, value) in self.parameters() {
-            let number = S::from_f64(value);
+            let number = value;
             if !number.is_finite() {
                 return Err(LawError::NotFinite {
                     name: name.to_owned(),

@@ -1,6 +1,5 @@
 //! The shapes of springs, and the choice among them when a program runs.
 
-use eem_material::number::scalar::Real;
 use eem_runtime::{Element, Node, Scene};
 
 use crate::error::LawError;

@@ -21,7 +21,7 @@ pub(crate) fn tolerance(
     relative: f64,
     [position, momentum, temperature]: [f64; 3],
     over: Option<f64>,
-) -> Tolerance<f64> {
+) -> Tolerance {
     let tolerance = Tolerance::new(relative)
         .with_position(position)
         .with_momentum(momentum)

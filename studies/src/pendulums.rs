@@ -1,7 +1,5 @@
 //! The published pendulums. Equations and sources are in the examples `single_pendulum` and `double_pendulum`.
 
-use eem::Real;
-
 use crate::build::Build;
 use crate::models::{Creeping, Thermoelastic};
 
@@ -21,7 +19,7 @@ pub const SPRING: Creeping = Creeping {
 };
 
 /// García Orden & Romero (2012), §4.1.
-pub fn single<S: Real>(factor: S) -> Build<2, S> {
+pub fn single(factor: f64) -> Build<2> {
     let mut build = Build::new(factor);
     let pivot = build.anchor([0.0, 0.0]);
     let bob = build.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
@@ -118,7 +116,7 @@ impl Double {
     };
 
     /// Its scene.
-    pub fn build<S: Real>(&self, factor: S) -> Build<3, S> {
+    pub fn build(&self, factor: f64) -> Build<3> {
         let mut build = Build::new(factor);
         let pivot = build.anchor([0.0; 3]);
         let masses =

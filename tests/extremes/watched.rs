@@ -69,7 +69,7 @@ impl<const D: usize> Watched<D> {
     }
 
     /// One step, judged if the scheme is exact. A step that fails must leave everything as it was.
-    pub(crate) fn step(&mut self) -> Result<StepReport<f64>, StepError> {
+    pub(crate) fn step(&mut self) -> Result<StepReport, StepError> {
         let saved = self.run.checkpoint();
         match self.run.step() {
             Ok(report) => {
@@ -97,7 +97,7 @@ impl<const D: usize> Watched<D> {
         &self.record
     }
 
-    fn judge(&mut self, report: &StepReport<f64>) {
+    fn judge(&mut self, report: &StepReport) {
         let record = &mut self.record;
         record.steps += 1;
         record.iterations += report.iterations;

@@ -326,7 +326,7 @@ fn a_solid_is_no_spring() {
         error.to_string(),
         "the model has 1 of role `Stretch`, the domain 0"
     );
-    let bond = Domain::<f64>::of_strains([[0.2, 0.1]]);
+    let bond = Domain::of_strains([[0.2, 0.1]]);
     assert_eq!(bond.ranges().count(), 1);
 }
 

@@ -6,7 +6,7 @@ use eem::prelude::*;
 use crate::support::{Pendulum, single_pendulum};
 
 /// An observer that only watches.
-fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport<f64>) -> ControlFlow<()> {
+fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
@@ -61,7 +61,7 @@ fn whole_numbers_of_steps_are_full_steps() {
 fn an_observer_stops_a_run() {
     let mut run = single_pendulum(Scheme::EemEntropy, 0.1).run;
     let mut seen = 0;
-    let observer = |_: &Simulation<2>, _: &StepReport<f64>| {
+    let observer = |_: &Simulation<2>, _: &StepReport| {
         seen += 1;
         match seen {
             5 => ControlFlow::Break(()),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use eem::prelude::*;
-use eem::{FormatError, LoadError, Real};
+use eem::{FormatError, LoadError};
 
 use crate::support::{busy, single_pendulum_scene};
 
@@ -25,10 +25,7 @@ impl Drop for Temporary {
 }
 
 /// A checkpoint after some steps is the same from a file, and a run goes on from it with the same bits.
-fn assert_survives<const D: usize, S: Real>(
-    build: impl Fn() -> Simulation<D, S>,
-    file: &Temporary,
-) {
+fn assert_survives<const D: usize>(build: impl Fn() -> Simulation<D>, file: &Temporary) {
     let mut run = build();
     for _ in 0..5 {
         run.step().unwrap();
@@ -79,7 +76,7 @@ fn a_file_that_lost_something_is_refused() {
     let whole = fs::read(&file.0).unwrap();
     let fault = |bytes: &[u8]| {
         fs::write(&file.0, bytes).unwrap();
-        match Checkpoint::<f64>::load(&file.0) {
+        match Checkpoint::load(&file.0) {
             Err(LoadError::Format { path, source }) => {
                 assert_eq!(path, file.0);
                 source
@@ -116,7 +113,7 @@ fn other_files_are_refused_with_what_they_are() {
     let (scene, ..) = single_pendulum_scene::<f32>();
     let run = Simulation::new(scene, Scheme::EemEntropy, 0.01_f32).unwrap();
     run.checkpoint().save(&file.0).unwrap();
-    let message = Checkpoint::<f64>::load(&file.0).unwrap_err().to_string();
+    let message = Checkpoint::load(&file.0).unwrap_err().to_string();
     assert!(message.ends_with("load it as `Checkpoint<f32>` instead of `Checkpoint<f64>`"));
 
     let text = fs::read_to_string(&file.0).unwrap();

@@ -15,7 +15,6 @@ use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
 
 pub use error::{MemberError, MemberFailure};
 pub use experiment::{Experiment, Members, Outputs};
@@ -58,15 +57,15 @@ use progress::{Progress, Watch};
 /// assert_eq!(refused.member, 2);
 /// assert!(matches!(refused.failure, MemberFailure::Scene(_)));
 /// ```
-pub struct Ensemble<'w, S: Real = f64> {
+pub struct Ensemble<'w> {
     scheme: Scheme,
-    step: S,
-    newton: NewtonSettings<S>,
+    step: f64,
+    newton: NewtonSettings,
     threads: usize,
     watch: Option<Watch<'w>>,
 }
 
-impl<S: Real> fmt::Debug for Ensemble<'_, S> {
+impl fmt::Debug for Ensemble<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Ensemble")
             .field("scheme", &self.scheme)
@@ -77,10 +76,10 @@ impl<S: Real> fmt::Debug for Ensemble<'_, S> {
     }
 }
 
-impl<S: Real> Ensemble<'_, S> {
+impl Ensemble<'_> {
     /// An ensemble with this scheme and step, s.
     #[must_use]
-    pub fn new(scheme: Scheme, step: S) -> Self {
+    pub fn new(scheme: Scheme, step: f64) -> Self {
         Self {
             scheme,
             step,
@@ -104,7 +103,7 @@ impl<S: Real> Ensemble<'_, S> {
 
     /// The settings of Newton's method for all members. Invalid settings make every member fail.
     #[must_use]
-    pub fn newton(mut self, settings: NewtonSettings<S>) -> Self {
+    pub fn newton(mut self, settings: NewtonSettings) -> Self {
         self.newton = settings;
         self
     }
@@ -118,7 +117,7 @@ impl<S: Real> Ensemble<'_, S> {
     pub fn watch<'v>(
         self,
         watch: impl FnMut(usize, usize) -> ControlFlow<()> + Send + 'v,
-    ) -> Ensemble<'v, S> {
+    ) -> Ensemble<'v> {
         Ensemble {
             scheme: self.scheme,
             step: self.step,
@@ -146,8 +145,8 @@ impl<S: Real> Ensemble<'_, S> {
     pub fn run<const D: usize, I, H, T>(
         self,
         inputs: &[I],
-        build: impl Fn(&I) -> (Scene<D, S>, H) + Sync,
-        observe: impl Fn(&mut Simulation<D, S>, H, &I) -> Result<T, MemberFailure> + Sync,
+        build: impl Fn(&I) -> (Scene<D>, H) + Sync,
+        observe: impl Fn(&mut Simulation<D>, H, &I) -> Result<T, MemberFailure> + Sync,
     ) -> Vec<Result<T, MemberError>>
     where
         I: Sync,

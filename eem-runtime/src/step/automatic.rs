@@ -11,7 +11,6 @@ use crate::algebra::system::MOST_FIXED;
 use crate::element::tableau::Tableau;
 use crate::step::control::Tolerance;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
 
 /// The relative tolerance above which order 2 is cheaper than order 6 where stability limits the steps.
 const ROUGH: f64 = 1e-4;
@@ -58,8 +57,8 @@ pub(crate) const fn first(asked: Scheme, needs_second: bool) -> Scheme {
 }
 
 /// The implicit scheme for a tolerance.
-pub(crate) fn implicit<S: Real>(tolerance: &Tolerance<S>, needs_second: bool) -> Scheme {
-    let is_rough = tolerance.relative.to_f64() >= ROUGH;
+pub(crate) fn implicit(tolerance: &Tolerance, needs_second: bool) -> Scheme {
+    let is_rough = tolerance.relative >= ROUGH;
     if is_rough || needs_second {
         Scheme::EemTemperature
     } else {

@@ -51,7 +51,7 @@ use crate::element::state::State;
 use crate::element::tally::{ROUNDINGS, Reevaluation, Tally};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 pub(crate) use motion::{Kept, Motion, NodeStep, Speeds};
 
@@ -80,52 +80,52 @@ const WIDE: f64 = 100.0;
 
 /// Energy and momentum if each node moved by its shortest element in a step: the scale for forces where nothing moves.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reach<S> {
+pub(crate) struct Reach {
     /// `Σ m (ℓ/h)²`, J.
-    pub(crate) energy: S,
+    pub(crate) energy: f64,
     /// `Σ m ℓ/h`, kg m/s.
-    pub(crate) momentum: S,
+    pub(crate) momentum: f64,
 }
 
 /// The proof of a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Certificate<S: Real> {
+pub(crate) struct Certificate {
     /// R, J.
-    pub(crate) defect: S,
+    pub(crate) defect: f64,
     /// B, J.
-    pub(crate) bound: S,
+    pub(crate) bound: f64,
     /// The magnitude of the terms of the motion, and of the energies at each end or their known part, J.
-    motion: S,
-    terms: [S; 2],
+    motion: f64,
+    terms: [f64; 2],
     /// The defect that decides, R or its replacement by discrete derivatives, and B*, J.
-    judged: [S; 2],
+    judged: [f64; 2],
     /// The entropy production of all dashpots and paths of heat, J/K.
-    pub(crate) production: S,
+    pub(crate) production: f64,
     /// The smallest production of one of them; zero without any, J/K.
-    pub(crate) least_production: S,
+    pub(crate) least_production: f64,
     /// The largest component of the defect of each momentum, and the magnitude of its terms, kg m/s and kg m²/s.
-    linear: [S; 2],
-    angular: [S; 2],
-    is_balanced: S::Mask,
+    linear: [f64; 2],
+    angular: [f64; 2],
+    is_balanced: bool,
 }
 
 /// The change of the internal energy in a step, from values at both ends.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Internal<S> {
+pub(crate) struct Internal {
     /// `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, J.
-    change: S,
+    change: f64,
     /// The magnitude of its terms at both ends, J.
-    magnitude: S,
+    magnitude: f64,
     /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of each end, or the known part of it, J.
-    terms: [S; 2],
+    terms: [f64; 2],
     /// The part of `terms` that is neither in `magnitude` nor in the amplitude of forces, J.
-    excess: S,
+    excess: f64,
 }
 
-impl<S: Real> Internal<S> {
-    pub(crate) fn new(reservoirs: &[S], [old, next]: [&State<S>; 2]) -> Self {
-        let [mut change, mut magnitude, mut excess] = [S::zero(); 3];
-        let mut terms = [S::zero(); 2];
+impl Internal {
+    pub(crate) fn new(reservoirs: &[f64], [old, next]: [&State; 2]) -> Self {
+        let [mut change, mut magnitude, mut excess] = [0.0; 3];
+        let mut terms = [0.0; 2];
         for (old, new) in old.energies.iter().zip(&next.energies) {
             change += new.value - old.value;
             magnitude += old.magnitude + new.magnitude;
@@ -148,46 +148,49 @@ impl<S: Real> Internal<S> {
     }
 }
 
-impl<S: Real> Reach<S> {
+impl Reach {
     pub(crate) fn none() -> Self {
-        let [energy, momentum] = [S::zero(); 2];
+        let [energy, momentum] = [0.0; 2];
         Self { energy, momentum }
     }
 
     /// Adds a node with this mass, kg, and the slowness h/ℓ, s/m.
-    pub(crate) fn add(&mut self, mass: S, slowness: S) {
+    pub(crate) fn add(&mut self, mass: f64, slowness: f64) {
         let momentum = mass / slowness;
         self.momentum += momentum;
         self.energy += momentum / slowness;
     }
 }
 
-impl<S: Real> Certificate<S> {
+impl Certificate {
     /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states;
     /// `reach` is called if needed.
     pub(crate) fn new<const D: usize>(
-        motion: &Motion<S, D>,
-        tally: &Tally<S>,
-        internal: &Internal<S>,
-        reach: impl Fn() -> Reach<S>,
+        motion: &Motion<D>,
+        tally: &Tally,
+        internal: &Internal,
+        reach: impl Fn() -> Reach,
     ) -> Self {
         let mut energy = motion.energy;
         energy.add(internal.change);
         let terms = motion.amplitude + tally.heat + internal.magnitude;
-        let most = S::EPSILON.recip().powf(S::from_f64(MOST_DIGITS));
+        let most = Scalar::powf(f64::EPSILON.recip(), MOST_DIGITS);
         let mut forces = tally.forces;
-        if !forces.at_most(most * terms).all() {
-            let slow = S::EPSILON.sqrt() * reach().energy;
-            forces = forces.minimum(most * (terms + slow));
+        if !(forces <= most * terms) {
+            let slow = f64::EPSILON.sqrt() * reach().energy;
+            forces = Scalar::minimum(forces, most * (terms + slow));
         }
         let mut impulse = tally.impulse;
-        if !impulse.at_most(most * motion.momenta).all() {
-            impulse = impulse.minimum(most * (motion.momenta + reach().momentum));
+        if !(impulse <= most * motion.momenta) {
+            impulse = Scalar::minimum(impulse, most * (motion.momenta + reach().momentum));
         }
-        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let rounding = ROUNDINGS * f64::EPSILON;
         let defect = energy.value();
-        let has_produced = tally.least.less(S::MAX);
-        let largest = |of: &[S]| of.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
+        let has_produced = tally.least < f64::MAX;
+        let largest = |of: &[f64]| {
+            of.iter()
+                .fold(0.0, |most, x| Scalar::maximum(most, x.abs()))
+        };
         Self {
             defect,
             bound: rounding * (terms + tally.forces + internal.excess),
@@ -195,10 +198,10 @@ impl<S: Real> Certificate<S> {
             terms: internal.terms,
             judged: [defect, rounding * (terms + forces)],
             production: tally.production,
-            least_production: S::select(has_produced, tally.least, S::zero()),
+            least_production: if has_produced { tally.least } else { 0.0 },
             linear: match motion.kept {
                 Kept::Both => [largest(&motion.linear), motion.momenta + impulse],
-                Kept::None | Kept::Angular(_) => [S::zero(); 2],
+                Kept::None | Kept::Angular(_) => [0.0; 2],
             },
             angular: [
                 motion.angular.largest(),
@@ -210,13 +213,13 @@ impl<S: Real> Certificate<S> {
 
     /// Takes energy changes that were evaluated again. They decide where the rounding of values exceeds the bound and
     /// explains the defect.
-    pub(crate) fn reevaluated(mut self, reevaluation: &Reevaluation<S>) -> Self {
+    pub(crate) fn reevaluated(mut self, reevaluation: &Reevaluation) -> Self {
         let [defect, bound] = self.judged;
-        let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
-        let is_explained = bound.less(rounding) & defect.abs().at_most(bound + rounding);
+        let rounding = VALUE_ROUNDINGS * f64::EPSILON * reevaluation.magnitude;
+        let is_explained = bound < rounding && defect.abs() <= bound + rounding;
         let reevaluated = defect + reevaluation.correction;
-        self.judged[0] = S::select(is_explained, reevaluated, defect);
-        self.bound += S::from_f64(REPORTED_VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
+        self.judged[0] = if is_explained { reevaluated } else { defect };
+        self.bound += REPORTED_VALUE_ROUNDINGS * f64::EPSILON * reevaluation.magnitude;
         self
     }
 
@@ -229,13 +232,13 @@ impl<S: Real> Certificate<S> {
     /// With the terms of the energies in both states, which are evaluated if the known part of them makes the bound wide.
     pub(crate) fn with_terms_of<const D: usize>(
         mut self,
-        groups: &[Box<dyn Group<S, D>>],
-        ends: [&State<S>; 2],
+        groups: &[Box<dyn Group<D>>],
+        ends: [&State; 2],
     ) -> Self {
         if self.is_bound_wide() {
             self.terms = ends.map(|state| {
                 let groups = groups.iter().map(|group| group.elements());
-                groups.fold(S::zero(), |sum, group| sum + group.energy_terms(state))
+                groups.fold(0.0, |sum, group| sum + group.energy_terms(state))
             });
         }
         self
@@ -249,26 +252,26 @@ impl<S: Real> Certificate<S> {
             motion: self.motion + later.motion,
             terms: [self.terms[0], later.terms[1]],
             production: self.production + later.production,
-            least_production: self.least_production.minimum(later.least_production),
+            least_production: Scalar::minimum(self.least_production, later.least_production),
             ..later
         }
     }
 
     /// An error unless the energy is a number after a step to `time`.
-    pub(crate) fn unless_infinite(&self, time: S) -> Result<(), StepFailure> {
+    pub(crate) fn unless_infinite(&self, time: f64) -> Result<(), StepFailure> {
         if self.defect.is_finite() {
             return Ok(());
         }
         Err(StepFailure::Energy {
-            value: self.defect.to_f64(),
-            time: time.to_f64(),
+            value: self.defect,
+            time,
         })
     }
 
     /// Whether the balances of all nodes, dashpots and temperatures hold to rounding.
     #[inline]
     pub(crate) fn is_balanced(&self) -> bool {
-        self.is_balanced.all()
+        self.is_balanced
     }
 
     /// Whether the balances and all laws hold to what rounding explains.
@@ -279,42 +282,41 @@ impl<S: Real> Certificate<S> {
 
     /// The lanes in which all equations hold as accurately as after another iteration.
     #[inline]
-    pub(crate) fn is_enough(&self) -> S::Mask {
-        let rounding = S::from_f64(ENOUGH_MOMENTUM) * S::EPSILON;
+    pub(crate) fn is_enough(&self) -> bool {
+        let rounding = ENOUGH_MOMENTUM * f64::EPSILON;
         let [linear, momenta] = self.linear;
         let [angular, moments] = self.angular;
-        self.is_balanced
-            & self.has_enough_energy()
-            & linear.at_most(rounding * momenta)
-            & angular.at_most(rounding * moments)
-            & S::zero().at_most(self.least_production)
+        self.is_balanced & self.has_enough_energy()
+            && linear <= rounding * momenta
+            && angular <= rounding * moments
+            && self.least_production >= 0.0
     }
 
     /// The lanes in which the energy is as accurate as after another iteration.
     #[inline]
-    pub(crate) fn has_enough_energy(&self) -> S::Mask {
+    pub(crate) fn has_enough_energy(&self) -> bool {
         let [defect, bound] = self.judged;
-        defect.abs().at_most(S::from_f64(ENOUGH) * bound)
+        defect.abs() <= ENOUGH * bound
     }
 
     /// This certificate in the lanes of the mask, `other` elsewhere; both are of the same step.
-    pub(crate) fn or(mut self, is_own: S::Mask, other: &Self) -> Self {
-        self.defect = S::select(is_own, self.defect, other.defect);
-        self.bound = S::select(is_own, self.bound, other.bound);
-        self.motion = S::select(is_own, self.motion, other.motion);
+    pub(crate) fn or(mut self, is_own: bool, other: &Self) -> Self {
+        self.defect = if is_own { self.defect } else { other.defect };
+        self.bound = if is_own { self.bound } else { other.bound };
+        self.motion = if is_own { self.motion } else { other.motion };
         for (own, other) in self.terms.iter_mut().zip(other.terms) {
-            *own = S::select(is_own, *own, other);
+            *own = if is_own { *own } else { other };
         }
         for (own, other) in self.judged.iter_mut().zip(other.judged) {
-            *own = S::select(is_own, *own, other);
+            *own = if is_own { *own } else { other };
         }
-        self.is_balanced = (self.is_balanced & is_own) | (other.is_balanced & !is_own);
+        self.is_balanced = self.is_balanced & is_own || (other.is_balanced && !is_own);
         self
     }
 
     /// The first violated law, with its defect and the bound for rounding.
-    pub(crate) fn broken_law(&self) -> Option<(Law, [S; 2])> {
-        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+    pub(crate) fn broken_law(&self) -> Option<(Law, [f64; 2])> {
+        let rounding = ROUNDINGS * f64::EPSILON;
         let [energy, bound] = self.judged;
         let [linear, momenta] = self.linear;
         let [angular, moments] = self.angular;
@@ -322,44 +324,44 @@ impl<S: Real> Certificate<S> {
             (
                 Law::Energy,
                 energy,
-                S::from_f64(1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound,
+                (1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound,
             ),
             (Law::LinearMomentum, linear, rounding * momenta),
             (Law::AngularMomentum, angular, rounding * moments),
             (
                 Law::Production,
-                self.least_production.minimum(S::zero()),
-                S::zero(),
+                Scalar::minimum(self.least_production, 0.0),
+                0.0,
             ),
         ];
         // A NaN violates a law.
         let broken = laws
             .into_iter()
-            .find(|(_, defect, bound)| !defect.abs().at_most(*bound).all());
+            .find(|(_, defect, bound)| !(defect.abs() <= *bound));
         broken.map(|(law, defect, bound)| (law, [defect, bound]))
     }
 }
 
 /// Whether a bound is far above the rounding of these terms of energies, J, or not a number.
-pub(crate) fn is_wide<S: Real>(bound: S, terms: S) -> bool {
-    let most = S::from_f64(WIDE * ROUNDINGS) * S::EPSILON * terms;
-    !bound.at_most(most).all()
+pub(crate) fn is_wide(bound: f64, terms: f64) -> bool {
+    let most = WIDE * ROUNDINGS * f64::EPSILON * terms;
+    !(bound <= most)
 }
 
 impl Law {
     /// The error of a step to `time` that violates the law, most of all in one element.
-    pub(crate) fn not_kept<S: Real>(
+    pub(crate) fn not_kept(
         self,
-        [defect, bound]: [S; 2],
+        [defect, bound]: [f64; 2],
         element: Option<Element>,
-        time: S,
+        time: f64,
     ) -> StepFailure {
         StepFailure::LawNotKept {
             law: self,
-            defect: defect.to_f64(),
-            bound: bound.to_f64(),
+            defect,
+            bound,
             element,
-            time: time.to_f64(),
+            time,
         }
     }
 }

@@ -11,7 +11,6 @@ use crate::element::handle::{Element, Node};
 use crate::step::law::Law;
 use crate::step::newton::NewtonIteration;
 use eem_material::number::readable::Readable;
-use eem_material::number::scalar::Discord;
 
 /// Why a step failed.
 #[derive(Clone, Debug, PartialEq, Error)]

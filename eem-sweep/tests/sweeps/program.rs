@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use clap::Parser;
 use eem::prelude::*;
 use eem::sweep::{Inputs, Plan, Record, Sweep, execute};
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem::{Experiment, MemberFailure, Members, Outputs};
 
 #[derive(FreeEnergy)]
 #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
@@ -42,24 +42,23 @@ impl Experiment<1> for Stone {
     type Handles = Node;
     type Output = End;
 
-    fn build<S: Real>(&self, members: Members<'_, [f64; 2], S>) -> (Scene<1, S>, Node) {
-        let number = S::from_f64;
+    fn build(&self, members: Members<'_, [f64; 2]>) -> (Scene<1>, Node) {
         let mut scene = Scene::default();
-        let hook = scene.anchor([number(0.0)]);
+        let hook = scene.anchor([0.0]);
         let speed = members.number(|[_, speed]| *speed);
-        let stone = scene.mass(number(1.0), [number(-1.0)], [speed]);
+        let stone = scene.mass(1.0, [-1.0], [speed]);
         let stiffness = members.number(|[stiffness, _]| *stiffness);
-        let length = number(1.0);
+        let length = 1.0;
         scene.spring(Spring { stiffness, length }, [hook, stone]);
-        scene.set_gravity([number(-10.0)]);
+        scene.set_gravity([-10.0]);
         (scene, stone)
     }
 
-    fn observe<S: Real>(
+    fn observe(
         &self,
-        run: &mut Simulation<1, S>,
+        run: &mut Simulation<1>,
         stone: Node,
-        members: Members<'_, [f64; 2], S>,
+        members: Members<'_, [f64; 2]>,
     ) -> Result<Outputs<End>, MemberFailure> {
         for _ in 0..self.steps {
             run.step()?;

@@ -11,15 +11,14 @@
 
 use crate::element::conjugates::element::{ElementScheme, Form, Placement, Start};
 use eem_material::free_energy::{Entry, FormRows, Material};
-use eem_material::number::scalar::Real;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EemTemperature;
 
-impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
+impl<M: Material> ElementScheme<M> for EemTemperature {
     const EXACT: bool = true;
-    const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = match M::ROWS {
+    const ROWS: Option<FormRows<f64, M, Self::Old, Self::Memory>> = match M::ROWS {
         Some(rows) => Some(rows.temperature_form),
         None => None,
     };
@@ -34,20 +33,20 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     }
 
     #[inline]
-    fn old(model: &M, x0: &M::Variables, _: S) -> Self::Old {
+    fn old(model: &M, x0: &M::Variables, _: f64) -> Self::Old {
         model.temperature_form_old(x0)
     }
 
-    fn memory(_: S) -> Self::Memory {}
+    fn memory(_: f64) -> Self::Memory {}
 
     #[inline]
     fn form(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         (): &Self::Memory,
-    ) -> Form<S, M> {
+    ) -> Form<f64, M> {
         model.temperature_form(&start.old, x)
     }
 
@@ -55,7 +54,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     fn response(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         (): &Self::Memory,
     ) -> M::Response {

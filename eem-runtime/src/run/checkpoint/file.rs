@@ -15,12 +15,11 @@ use super::Checkpoint;
 use super::error::{FormatError, KIND, LoadError, VERSION};
 use super::text::{Fault, Text};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 
 /// The beginning of the last line.
 const DIGEST: &str = "digest: ";
 
-impl<S: Real> Checkpoint<S> {
+impl Checkpoint {
     /// The name of the number type.
     const SCALAR: &str = {
         assert!(S::LANES == 1, "files have the numbers of one scene");

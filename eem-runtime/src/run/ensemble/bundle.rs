@@ -11,14 +11,13 @@ use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 #[cfg(feature = "lanes")]
 use eem_material::number::lanes::Lanes;
-use eem_material::number::scalar::{Discord, Real};
 
 /// How members are stepped, and whether they can be stepped in lanes.
 #[derive(Debug)]
 pub(super) struct Bundles {
     pub(super) scheme: Scheme,
     pub(super) step: f64,
-    pub(super) newton: NewtonSettings<f64>,
+    pub(super) newton: NewtonSettings,
     /// Whether a scene did not suit lanes; all scenes are alike in this.
     pub(super) is_unsuited: AtomicBool,
 }
@@ -54,23 +53,19 @@ impl Bundles {
     }
 
     /// The outputs of members in one number S; an error if one of them fails, or lanes diverge.
-    fn run_as<S: Real, const D: usize, E: Experiment<D>>(
+    fn run_as<const D: usize, E: Experiment<D>>(
         &self,
         experiment: &E,
         inputs: &[E::Input],
     ) -> Result<Vec<E::Output>, MemberFailure> {
         let members = Members::new(inputs);
         let (scene, handles) = experiment.build(members);
-        let run = Simulation::new(scene, self.scheme, S::from_f64(self.step));
+        let run = Simulation::new(scene, self.scheme, self.step);
         let mut run = run.map_err(SceneError::from)?;
         run.set_newton_settings(NewtonSettings {
             max_iterations: self.newton.max_iterations,
-            tolerance: S::from_f64(self.newton.tolerance),
+            tolerance: self.newton.tolerance,
         })?;
-        if S::LANES > 1 && !run.suits_lanes() {
-            self.is_unsuited.store(true, Ordering::Relaxed);
-            return Err(MemberFailure::other("the scene does not suit lanes"));
-        }
         let outputs = experiment.observe(&mut run, handles, members)?;
         if run.has_diverged() {
             // The experiment has ignored an error.

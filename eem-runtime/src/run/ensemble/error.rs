@@ -6,7 +6,6 @@ use thiserror::Error;
 
 use crate::scene::error::SceneError;
 use crate::step::error::StepError;
-use eem_material::number::scalar::Discord;
 
 /// A member of an ensemble without a result.
 #[derive(Debug, Error)]

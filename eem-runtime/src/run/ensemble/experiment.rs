@@ -5,7 +5,6 @@ use core::marker::PhantomData;
 use super::error::MemberFailure;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
-use eem_material::number::scalar::Real;
 
 /// A scene and its observation, generic in the number type, for
 /// [`Ensemble::run_experiment`](crate::Ensemble::run_experiment).
@@ -29,7 +28,7 @@ pub trait Experiment<const D: usize>: Sync {
     type Output: Send;
 
     /// Builds the scene. Numbers come from the inputs through [`Members::number`].
-    fn build<S: Real>(&self, members: Members<'_, Self::Input, S>) -> (Scene<D, S>, Self::Handles);
+    fn build(&self, members: Members<'_, Self::Input>) -> (Scene<D>, Self::Handles);
 
     /// Steps the simulation and returns the results through [`Members::outputs`].
     ///
@@ -39,30 +38,30 @@ pub trait Experiment<const D: usize>: Sync {
     /// # Errors
     ///
     /// Those of the simulation, by `?`, or [`MemberFailure::other`].
-    fn observe<S: Real>(
+    fn observe(
         &self,
-        run: &mut Simulation<D, S>,
+        run: &mut Simulation<D>,
         handles: Self::Handles,
-        members: Members<'_, Self::Input, S>,
+        members: Members<'_, Self::Input>,
     ) -> Result<Outputs<Self::Output>, MemberFailure>;
 }
 
 /// The members that a scene with numbers S represents: one if S is `f64`.
 #[derive(Debug)]
-pub struct Members<'a, I, S> {
+pub struct Members<'a, I> {
     inputs: &'a [I],
-    numbers: PhantomData<S>,
+    numbers: PhantomData<f64>,
 }
 
-impl<I, S> Clone for Members<'_, I, S> {
+impl<I> Clone for Members<'_, I> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<I, S> Copy for Members<'_, I, S> {}
+impl<I> Copy for Members<'_, I> {}
 
-impl<'a, I, S: Real> Members<'a, I, S> {
+impl<'a, I> Members<'a, I> {
     /// From one to as many inputs as S has lanes; further lanes repeat the last one.
     pub(super) fn new(inputs: &'a [I]) -> Self {
         Self {
@@ -73,13 +72,13 @@ impl<'a, I, S: Real> Members<'a, I, S> {
 
     /// A number of type S from the inputs.
     #[must_use]
-    pub fn number(self, of: impl Fn(&I) -> f64) -> S {
+    pub fn number(self, of: impl Fn(&I) -> f64) -> f64 {
         let last = self.inputs.len() - 1;
         S::pack(|lane| of(&self.inputs[lane.min(last)]))
     }
 
     /// Results from the input of each member and a function that extracts its number from a number S.
-    pub fn outputs<T>(self, mut output: impl FnMut(&I, &dyn Fn(S) -> f64) -> T) -> Outputs<T> {
+    pub fn outputs<T>(self, mut output: impl FnMut(&I, &dyn Fn(f64) -> f64) -> T) -> Outputs<T> {
         let inputs = self.inputs.iter().enumerate();
         let outputs = inputs.map(|(lane, input)| output(input, &|number| number.lane(lane)));
         Outputs(outputs.collect())

@@ -5,7 +5,7 @@ use crate::scene::Scene;
 use crate::scene::error::RocketError;
 use crate::scene::error::SceneError;
 use crate::step::scheme::{Closing, Scheme};
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// The features of a scene that not every scheme can step.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub(super) struct Needs {
 
 impl Needs {
     /// The features of this scene.
-    pub(super) fn of<const D: usize, S: Real>(scene: &Scene<D, S>) -> Self {
+    pub(super) fn of<const D: usize>(scene: &Scene<D>) -> Self {
         let group = |index: usize| scene.groups.get(index);
         let has_drag = |index| group(index).is_some_and(|group| group.shape().drag);
         let drag = scene
@@ -64,10 +64,10 @@ impl Needs {
 }
 
 /// All errors of a scene, the scheme for it and the step.
-pub(super) fn check_all<const D: usize, S: Real>(
-    scene: &Scene<D, S>,
+pub(super) fn check_all<const D: usize>(
+    scene: &Scene<D>,
     (scheme, needs): (Scheme, Needs),
-    step: S,
+    step: f64,
 ) -> Vec<SceneError> {
     let mut errors = scene.check();
     errors.extend(needs.check(scheme).err());
@@ -76,11 +76,11 @@ pub(super) fn check_all<const D: usize, S: Real>(
 }
 
 /// An error unless a step is positive and finite.
-pub(super) fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
+pub(super) fn check_step(step: f64) -> Result<(), SceneError> {
     if is_positive(step) {
         Ok(())
     } else {
-        let value = step.to_f64();
+        let value = step;
         Err(SceneError::Step { value })
     }
 }

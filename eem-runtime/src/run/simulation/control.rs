@@ -13,10 +13,10 @@ use crate::step::control::{AFTER_FAILURE, Controller, StepStatistics, Tolerance,
 use crate::step::error::{StepFailure, StepLimit};
 use crate::step::explicit::Demand;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::{Discord, Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// # Step control
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Switches step control on: steps get the size that the tolerance requires. The present size is tried first.
     ///
     /// A step that fails, is not accurate or does not prove its laws is repeated with a smaller size.
@@ -47,7 +47,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!(run.step_statistics().is_some_and(|steps| steps.accepted > 100));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn control_steps(&mut self, tolerance: Tolerance<S>) -> Result<(), SceneError> {
+    pub fn control_steps(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
         let memory = Some(self.new_control(tolerance));
         self.check_control(memory, (self.scheme, self.in_use))?;
         self.set_control(memory);
@@ -55,21 +55,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The history of step control before the first step.
-    pub(super) fn new_control(&self, tolerance: Tolerance<S>) -> SavedControl<S> {
+    pub(super) fn new_control(&self, tolerance: Tolerance) -> SavedControl {
         SavedControl {
             tolerance,
             controller: Controller::new(),
             statistics: StepStatistics::default(),
-            largest_momentum: S::zero(),
-            smallest: S::from_f64(SMALLEST) * S::EPSILON * self.step,
-            largest: S::MAX,
+            largest_momentum: 0.0,
+            smallest: SMALLEST * f64::EPSILON * self.step,
+            largest: f64::MAX,
         }
     }
 
     /// An error unless steps of a scheme, and of the one that it uses first, can be controlled with this tolerance.
     pub(super) fn check_control(
         &self,
-        memory: Option<SavedControl<S>>,
+        memory: Option<SavedControl>,
         (scheme, in_use): (Scheme, Scheme),
     ) -> Result<(), SceneError> {
         let Some(memory) = memory else {
@@ -81,16 +81,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let scheme = scheme.name();
             Err(SceneError::FixedSteps { scheme })
         };
-        checked.inspect_err(|_| self.diverge())
+        checked
     }
 
     /// Continues step control from its history; `None` switches it off.
-    pub(super) fn set_control(&mut self, memory: Option<SavedControl<S>>) {
+    pub(super) fn set_control(&mut self, memory: Option<SavedControl>) {
         self.control = memory.map(|memory| Box::new(self.control_of(memory)));
     }
 
     /// Step control of the scheme in use with this history.
-    pub(super) fn control_of(&self, memory: SavedControl<S>) -> Control<S> {
+    pub(super) fn control_of(&self, memory: SavedControl) -> Control {
         let accuracy = self.in_use.accuracy();
         let accuracy = match memory.tolerance.over {
             Some(_) => accuracy.over_time(),
@@ -112,7 +112,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The tolerance of step control; `None` if it is off.
     #[must_use]
-    pub fn tolerance(&self) -> Option<Tolerance<S>> {
+    pub fn tolerance(&self) -> Option<Tolerance> {
         Some(self.control.as_ref()?.memory.tolerance)
     }
 
@@ -130,20 +130,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// [`SceneError::StepLimits`] unless both are positive and finite, the first is not above the second, and steps
     /// are [controlled](Self::control_steps). The old limits remain.
-    pub fn limit_steps(&mut self, [smallest, largest]: [S; 2]) -> Result<(), SceneError> {
-        let is_range = S::zero().less(smallest) & smallest.at_most(largest) & largest.less(S::MAX);
+    pub fn limit_steps(&mut self, [smallest, largest]: [f64; 2]) -> Result<(), SceneError> {
+        let is_range = smallest > 0.0 && smallest <= largest && largest < f64::MAX;
         match &mut self.control {
-            Some(control) if is_range.all() => {
+            Some(control) if is_range => {
                 control.memory.smallest = smallest;
                 control.memory.largest = largest;
                 Ok(())
             }
             control => {
                 let is_controlled = control.is_some();
-                self.diverge();
                 Err(SceneError::StepLimits {
-                    smallest: smallest.to_f64(),
-                    largest: largest.to_f64(),
+                    smallest,
+                    largest,
                     is_controlled,
                 })
             }
@@ -152,7 +151,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// One step by the scheme in use, not beyond `end`, of an accurate size if steps are controlled; by another scheme
     /// if that is allowed and cheaper.
-    pub(super) fn step_towards(&mut self, end: S, may_switch: bool) -> StepResult<S> {
+    pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> StepResult {
         if self.control.is_none() {
             let full = self.step;
             let last = self.size_towards(end, full)?;
@@ -163,10 +162,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 self.arrive_at(end, &mut report);
             }
             return Ok(report);
-        }
-        if S::LANES > 1 {
-            // Each lane needs steps of its own.
-            return Err(self.refused(Discord.into()));
         }
         let may_switch = may_switch && self.scheme == Scheme::Auto;
         let history = self.history();
@@ -186,7 +181,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Calls a function with step control taken out of the simulation; it is put back even if a load panics.
-    fn with_control<T>(&mut self, act: impl FnOnce(&mut Self, Option<&mut Control<S>>) -> T) -> T {
+    fn with_control<T>(&mut self, act: impl FnOnce(&mut Self, Option<&mut Control>) -> T) -> T {
         let control = self.control.take();
         let mut guard = Guard::new((self, control), |(run, control)| {
             run.control = control.take();
@@ -196,17 +191,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// An accurate step of the scheme in use, not beyond `end`.
-    pub(super) fn find_accurate_step(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
+    pub(super) fn find_accurate_step(&mut self, control: &mut Control, end: f64) -> StepResult {
         loop {
             let memory = &control.memory;
-            self.step = self.step.maximum(memory.smallest).minimum(memory.largest);
+            self.step =
+                Scalar::minimum(Scalar::maximum(self.step, memory.smallest), memory.largest);
             let full = self.step;
             let arriving = self.size_towards(end, full)?;
             let size = arriving.unwrap_or(full);
             let (next, limit) = match self.attempt(control, size) {
                 Ok(Tried::Made(mut report)) => {
                     // A step that the end has shortened says nothing about the next ones.
-                    if !size.less(full).all() {
+                    if !(size < full) {
                         let controller = &mut control.memory.controller;
                         self.step = controller.next(size, report.error, control.accuracy);
                     }
@@ -219,7 +215,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 Ok(Tried::Rejected(error)) => {
                     control.memory.statistics.rejected_by_error += 1;
                     let next = size * control.accuracy.left_after(error);
-                    let error = error.to_f64();
                     (next, StepLimit::Error { error })
                 }
                 Err(error) => {
@@ -227,15 +222,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     if !statistics.note_failure(&error.failure) {
                         return Err(error);
                     }
-                    let next = S::from_f64(AFTER_FAILURE) * size;
+                    let next = AFTER_FAILURE * size;
                     (next, StepLimit::Failure(Box::new(error.failure)))
                 }
             };
             let smallest = control.smallest(self.time());
             // Also if `next` is not a number.
-            if !smallest.at_most(next).all() {
+            if !(smallest <= next) {
                 let failure = StepFailure::TooSmall {
-                    smallest: smallest.to_f64(),
+                    smallest,
                     limit,
                     too_large: control.memory.statistics.too_large,
                 };
@@ -246,11 +241,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Counts an accepted step.
-    pub(super) fn accept(&self, control: &mut Control<S>) {
+    pub(super) fn accept(&self, control: &mut Control) {
         let memory = &mut control.memory;
         memory.statistics.accepted += 1;
         let momentum = norm(self.state.momenta.values().iter().copied());
-        memory.largest_momentum = memory.largest_momentum.maximum(momentum);
+        memory.largest_momentum = Scalar::maximum(memory.largest_momentum, momentum);
     }
 
     /// Undoes the last step.
@@ -270,7 +265,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Another step from the beginning of the one that was undone, of this size; as accurate as that one if possible.
-    pub(super) fn step_again(&mut self, size: S) -> StepResult<S> {
+    pub(super) fn step_again(&mut self, size: f64) -> StepResult {
         self.with_control(|run, control| {
             let Some(control) = control else {
                 return run.step_by(size);
@@ -286,7 +281,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The history of step control and of the choice of a scheme.
-    pub(super) fn history(&self) -> History<S> {
+    pub(super) fn history(&self) -> History {
         History {
             step: self.step,
             control: self.control.as_ref().map(|control| control.memory),
@@ -295,7 +290,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Forgets the steps since this history.
-    pub(super) fn restore_history(&mut self, history: History<S>) {
+    pub(super) fn restore_history(&mut self, history: History) {
         self.step = history.step;
         let choice = history.choice;
         let mut too_large = None;
@@ -312,7 +307,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A copy of everything that further steps change.
-    pub(super) fn snapshot(&self) -> Snapshot<S> {
+    pub(super) fn snapshot(&self) -> Snapshot {
         Snapshot {
             state: State::clone(&self.state),
             past: self.stepper.past(&self.state),
@@ -322,7 +317,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    pub(super) fn return_to_snapshot(&mut self, snapshot: &Snapshot<S>) {
+    pub(super) fn return_to_snapshot(&mut self, snapshot: &Snapshot) {
         // First the scheme, which evaluates energies in its own way and has a history of its own.
         self.restore_history(snapshot.history);
         self.state.copy_all_from(&snapshot.state);

@@ -17,11 +17,10 @@ use crate::element::state::State;
 use crate::step::control::{Kinds, Scales};
 use crate::step::error::StepError;
 use crate::step::explicit::Demand;
-use eem_material::number::scalar::Real;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Work arrays for a whole step and for its two halves.
-    pub(super) fn new_halves(&self) -> Halves<S> {
+    pub(super) fn new_halves(&self) -> Halves {
         let (past, _) = self.stepper.past(&self.state);
         Halves {
             before: State::clone(&self.state),
@@ -35,11 +34,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A step of this size and its error; the state is unchanged if the step fails or is rejected.
-    pub(super) fn attempt(
-        &mut self,
-        control: &mut Control<S>,
-        size: S,
-    ) -> Result<Tried<S>, StepError> {
+    pub(super) fn attempt(&mut self, control: &mut Control, size: f64) -> Result<Tried, StepError> {
         let (memory, accuracy) = (&control.memory, control.accuracy);
         let Some(halves) = &mut control.halves else {
             return self.try_step(size, Demand::Within(memory.tolerance));
@@ -54,7 +49,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let ends = [&halves.before, &*self.state];
         let accurate = (accuracy, size);
         let scales = Scales::new(&memory.tolerance, accurate, ends, memory.largest_momentum);
-        let share = S::from_f64(accuracy.order().exp2() - 1.0).recip();
+        let share = (accuracy.order().exp2() - 1.0).recip();
         report.error = share * scales.error([&halves.whole, &self.state], &halves.kinds);
         if accuracy.accepts(report.error) {
             return Ok(Tried::Made(report));
@@ -64,15 +59,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Two steps of half a size. If one fails, the state is that before both.
-    pub(super) fn step_in_halves(&mut self, halves: &Halves<S>, size: S) -> StepResult<S> {
-        let half = S::from_f64(0.5) * size;
+    pub(super) fn step_in_halves(&mut self, halves: &Halves, size: f64) -> StepResult {
+        let half = 0.5 * size;
         let first = self.step_by(half)?;
         let second = or_restore(self, |run| run.return_to(halves), |run| run.step_by(half))?;
         Ok(first.and(second))
     }
 
     /// Goes back to the beginning of the step for which `halves` was filled.
-    pub(super) fn return_to(&mut self, halves: &Halves<S>) {
+    pub(super) fn return_to(&mut self, halves: &Halves) {
         self.has_stepped = false;
         self.state.copy_all_from(&halves.before);
         self.stepper.restore(&halves.past, None);

@@ -11,51 +11,51 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// The smallest step that is tried, in units in the last place of the time, and of the first size.
 pub(super) const SMALLEST: f64 = 16.0;
 
 /// The history of steps that decides the size and the scheme of the next one.
 #[derive(Clone, Copy)]
-pub(super) struct History<S> {
-    pub(super) step: S,
-    pub(super) control: Option<SavedControl<S>>,
+pub(super) struct History {
+    pub(super) step: f64,
+    pub(super) control: Option<SavedControl>,
     pub(super) choice: Option<SavedChoice>,
 }
 
 /// Everything that further steps change, restored after trial steps.
-pub(super) struct Snapshot<S> {
-    pub(super) state: State<S>,
-    pub(super) past: (SavedPast<S>, Option<SavedExplicit<S>>),
-    pub(super) history: History<S>,
-    pub(super) worst: Option<StepReport<S>>,
-    pub(super) corrections: Corrections<S>,
+pub(super) struct Snapshot {
+    pub(super) state: State,
+    pub(super) past: (SavedPast, Option<SavedExplicit>),
+    pub(super) history: History,
+    pub(super) worst: Option<StepReport>,
+    pub(super) corrections: Corrections,
 }
 
 /// Step control: its history, and work arrays for its estimate of the error.
-pub(super) struct Control<S> {
-    pub(super) memory: SavedControl<S>,
+pub(super) struct Control {
+    pub(super) memory: SavedControl,
     pub(super) accuracy: Accuracy,
     /// For schemes without an estimate of their own.
-    pub(super) halves: Option<Halves<S>>,
+    pub(super) halves: Option<Halves>,
 }
 
-impl<S: Real> Control<S> {
+impl Control {
     /// The smallest step at a time, s.
-    pub(super) fn smallest(&self, time: S) -> S {
-        let by_time = S::from_f64(SMALLEST) * S::EPSILON * time.abs();
-        self.memory.smallest.maximum(by_time)
+    pub(super) fn smallest(&self, time: f64) -> f64 {
+        let by_time = SMALLEST * f64::EPSILON * time.abs();
+        Scalar::maximum(self.memory.smallest, by_time)
     }
 }
 
 /// Work arrays for a step that is made whole and in two halves.
-pub(super) struct Halves<S> {
+pub(super) struct Halves {
     /// The state at its beginning, and the history of Newton's method.
-    pub(super) before: State<S>,
-    pub(super) past: SavedPast<S>,
+    pub(super) before: State,
+    pub(super) past: SavedPast,
     /// The state after the whole step.
-    pub(super) whole: State<S>,
+    pub(super) whole: State,
     pub(super) kinds: Kinds,
 }
 

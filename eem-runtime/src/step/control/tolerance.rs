@@ -3,7 +3,7 @@
 use crate::element::state::State;
 use crate::scene::error::SceneError;
 use crate::step::control::controller::Accuracy;
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::{Scalar, is_positive};
 
 /// The ε that separates double and single precision.
 const SINGLE: f64 = 1e-12;
@@ -46,36 +46,36 @@ const SINGLE: f64 = 1e-12;
     serde(deny_unknown_fields)
 )]
 #[non_exhaustive]
-pub struct Tolerance<S = f64> {
+pub struct Tolerance {
     /// The relative tolerance r.
-    pub relative: S,
+    pub relative: f64,
     /// The absolute tolerance `a_q` of positions and viscous stretches, m.
-    pub position: S,
+    pub position: f64,
     /// The absolute tolerance `a_p` of momenta, kg m/s.
-    pub momentum: S,
+    pub momentum: f64,
     /// The absolute tolerance `a_θ` of temperatures, K.
-    pub temperature: S,
+    pub temperature: f64,
     /// The time in which the errors of all steps may add up to the tolerance, s; without one, the time scale of the motion.
-    pub over: Option<S>,
+    pub over: Option<f64>,
 }
 
 /// A relative tolerance of 1e-6, in single precision of 1e-3.
-impl<S: Real> Default for Tolerance<S> {
+impl Default for Tolerance {
     fn default() -> Self {
-        let is_double = S::EPSILON.to_f64() < SINGLE;
-        Self::new(S::from_f64(if is_double { 1e-6 } else { 1e-3 }))
+        let is_double = f64::EPSILON < SINGLE;
+        Self::new(if is_double { 1e-6 } else { 1e-3 })
     }
 }
 
-impl<S: Real> Tolerance<S> {
+impl Tolerance {
     /// A relative tolerance, without absolute ones.
     #[must_use]
-    pub fn new(relative: S) -> Self {
+    pub fn new(relative: f64) -> Self {
         Self {
             relative,
-            position: S::zero(),
-            momentum: S::zero(),
-            temperature: S::zero(),
+            position: 0.0,
+            momentum: 0.0,
+            temperature: 0.0,
             over: None,
         }
     }
@@ -103,26 +103,26 @@ impl<S: Real> Tolerance<S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn over(self, time: S) -> Self {
+    pub fn over(self, time: f64) -> Self {
         let over = Some(time);
         Self { over, ..self }
     }
 
     /// Sets the absolute tolerance of positions and viscous stretches, m.
     #[must_use]
-    pub fn with_position(self, position: S) -> Self {
+    pub fn with_position(self, position: f64) -> Self {
         Self { position, ..self }
     }
 
     /// Sets the absolute tolerance of momenta, kg m/s.
     #[must_use]
-    pub fn with_momentum(self, momentum: S) -> Self {
+    pub fn with_momentum(self, momentum: f64) -> Self {
         Self { momentum, ..self }
     }
 
     /// Sets the absolute tolerance of temperatures, K.
     #[must_use]
-    pub fn with_temperature(self, temperature: S) -> Self {
+    pub fn with_temperature(self, temperature: f64) -> Self {
         Self {
             temperature,
             ..self
@@ -131,8 +131,8 @@ impl<S: Real> Tolerance<S> {
 
     /// An error unless a scheme of this accuracy can satisfy it.
     pub(crate) fn check(&self, accuracy: Accuracy) -> Result<(), SceneError> {
-        let floor = accuracy.floor::<S>();
-        let relative = self.relative.to_f64();
+        let floor = accuracy.floor();
+        let relative = self.relative;
         if !(relative >= floor && relative < 1.0) {
             return Err(SceneError::Tolerance { relative, floor });
         }
@@ -142,12 +142,10 @@ impl<S: Real> Tolerance<S> {
             ("temperatures", self.temperature, "K"),
         ];
         if let Some(time) = self.over.filter(|&time| !is_positive(time)) {
-            let time = time.to_f64();
             return Err(SceneError::ToleranceTime { time });
         }
         for (quantity, value, unit) in absolute {
-            if !(is_positive(value) || value.equal(S::zero()).all()) {
-                let value = value.to_f64();
+            if !(is_positive(value) || value == 0.0) {
                 return Err(SceneError::AbsoluteTolerance {
                     quantity,
                     value,
@@ -171,61 +169,66 @@ pub(crate) struct Kinds {
 
 /// The scales of the errors of a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scales<S> {
+pub(crate) struct Scales {
     /// Of a coordinate, m, of a momentum, kg m/s, and of a viscous strain.
-    position: S,
-    momentum: S,
-    strain: S,
+    position: f64,
+    momentum: f64,
+    strain: f64,
     /// The relative and the absolute tolerance of temperatures.
-    temperature: [S; 2],
+    temperature: [f64; 2],
 }
 
-impl<S: Real> Scales<S> {
+impl Scales {
     /// For a step of this size between two states, given the largest momentum so far, kg m/s.
     pub(crate) fn new(
-        tolerance: &Tolerance<S>,
-        (accuracy, step): (Accuracy, S),
-        [old, new]: [&State<S>; 2],
-        largest_momentum: S,
+        tolerance: &Tolerance,
+        (accuracy, step): (Accuracy, f64),
+        [old, new]: [&State; 2],
+        largest_momentum: f64,
     ) -> Self {
-        let part = tolerance.over.map_or(S::one(), |time| step / time);
+        let part = tolerance.over.map_or(1.0, |time| step / time);
         let relative = accuracy.of_step(tolerance.relative, part);
         let share = relative / tolerance.relative;
-        let of = |size: S, absolute: S| relative * size + share * absolute;
-        let size = |of: &dyn Fn(&State<S>) -> S| of(old).maximum(of(new));
+        let of = |size: f64, absolute: f64| relative * size + share * absolute;
+        let size = |of: &dyn Fn(&State) -> f64| Scalar::maximum(of(old), of(new));
         let positions = size(&|state| norm(state.positions.values().iter().copied()));
-        let momenta =
-            size(&|state| norm(state.momenta.values().iter().copied())).maximum(largest_momentum);
+        let momenta = Scalar::maximum(
+            size(&|state| norm(state.momenta.values().iter().copied())),
+            largest_momentum,
+        );
         Self {
             position: of(positions, tolerance.position),
             momentum: of(momenta, tolerance.momentum),
-            strain: of(S::one(), tolerance.position),
+            strain: of(1.0, tolerance.position),
             temperature: [relative, share * tolerance.temperature],
         }
     }
 
     /// The largest difference between two states, in units of the tolerance.
-    pub(crate) fn error(&self, [a, b]: [&State<S>; 2], kinds: &Kinds) -> S {
-        let mut largest = S::zero();
-        let mut see = |values: [&[S]; 2], scale: &dyn Fn(usize, S) -> S| {
+    pub(crate) fn error(&self, [a, b]: [&State; 2], kinds: &Kinds) -> f64 {
+        let mut largest = 0.0;
+        let mut see = |values: [&[f64]; 2], scale: &dyn Fn(usize, f64) -> f64| {
             for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
                 let difference = (a - b).abs();
                 let error = difference / scale(index, b);
                 // No difference is no error, even at scale zero.
-                let is_equal = difference.equal(S::zero());
-                largest = largest.maximum(S::select(is_equal, S::zero(), error));
+                let is_equal = difference == 0.0;
+                largest = Scalar::maximum(largest, if is_equal { 0.0 } else { error });
             }
         };
         see([a.positions.values(), b.positions.values()], &|_, _| {
             self.position
         });
-        see([a.momenta.values(), b.momenta.values()], &|index, _| {
-            if kinds.are_given.get(index) == Some(&true) {
-                S::MAX
-            } else {
-                self.momentum
-            }
-        });
+        see(
+            [a.momenta.values(), b.momenta.values()],
+            &(|index, _| {
+                if kinds.are_given.get(index) == Some(&true) {
+                    f64::MAX
+                } else {
+                    self.momentum
+                }
+            }),
+        );
         see([a.viscous.values(), b.viscous.values()], &|index, _| {
             if kinds.are_strains[index] {
                 self.strain
@@ -242,17 +245,23 @@ impl<S: Real> Scales<S> {
 }
 
 /// `|x|₂`, scaled where squares would under- or overflow.
-pub(crate) fn norm<S: Real>(x: impl Iterator<Item = S> + Clone) -> S {
-    let sum = x.clone().fold(S::zero(), |sum, x| sum + x * x);
-    let is_normal = S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX);
-    if is_normal.all() {
+pub(crate) fn norm(x: impl Iterator<Item = f64> + Clone) -> f64 {
+    let sum = x.clone().fold(0.0, |sum, x| sum + x * x);
+    let is_normal = sum > f64::MIN_POSITIVE && sum <= f64::MAX;
+    if is_normal {
         return sum.sqrt();
     }
-    let most = x.clone().fold(S::zero(), |most, x| most.maximum(x.abs()));
+    let most = x
+        .clone()
+        .fold(0.0, |most, x| Scalar::maximum(most, x.abs()));
     let scaled = x.map(|x| x / most);
-    let scaled = most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt();
-    let has_none = most.equal(S::zero());
-    S::select(is_normal, sum.sqrt(), S::select(has_none, most, scaled))
+    let scaled = most * scaled.fold(0.0, |sum, x| sum + x * x).sqrt();
+    let has_none = most == 0.0;
+    if is_normal {
+        sum.sqrt()
+    } else {
+        if has_none { most } else { scaled }
+    }
 }
 
 #[cfg(test)]
@@ -270,7 +279,7 @@ mod tests {
         assert!((step / 1e-9 - 1.0).abs() < 1e-12);
         let step: f64 = accuracy(2).over_time().of_step(1e-6, 0.5);
         assert_eq!(step.to_bits(), 5e-7_f64.to_bits());
-        assert!(accuracy(4).floor::<f64>() < accuracy(2).floor::<f64>());
+        assert!(accuracy(4).floor() < accuracy(2).floor());
     }
 
     #[test]

@@ -4,11 +4,11 @@ use super::guard::{PathRates, guarded, mean_drop};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
 use crate::element::state::State;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Entropies, books and targets at the end of the step, before it is closed.
-    pub(super) fn book(&mut self, view: &ExplicitView<'_, S, D>, next: &mut State<S>) {
+    pub(super) fn book(&mut self, view: &ExplicitView<'_, D>, next: &mut State) {
         next.copy_books(view.state);
         next.time.add(view.step);
         next.entropies.copy_from(&view.state.entropies);
@@ -25,7 +25,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Moves the exchanged entropy of each path from its second end to its first one, and adds its production to the
     /// second.
-    fn book_paths(&mut self, h: S, next: &mut State<S>) {
+    fn book_paths(&mut self, h: f64, next: &mut State) {
         let (stage, scratch) = (&self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
         let is_fixed = |end: usize| end >= slots || stage.is_held(end);
@@ -46,7 +46,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             } else {
                 &mut scratch.least
             };
-            *least = least.minimum(production);
+            *least = Scalar::minimum(least, production);
             next.entropies.add(a, flow);
             // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
             for change in [-flow, production] {
@@ -61,7 +61,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    fn book_dashpots(&mut self, h: S, next: &mut State<S>) {
+    fn book_dashpots(&mut self, h: f64, next: &mut State) {
         let scratch = &mut self.scratch;
         let integrals = self.stage.productions.iter();
         for (integral, dashpot) in integrals.zip(&self.components.dashpots) {
@@ -84,20 +84,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             } else {
                 &mut progress.least
             };
-            *least = least.minimum(production);
+            *least = Scalar::minimum(least, production);
         }
     }
 
     /// Adds the heat and the entropy production of dashpots and paths of heat in the step to the meters, with the factor by
     /// which the closing has scaled all productions of a component.
-    pub(super) fn meter(&self, h: S, next: &mut State<S>) {
+    pub(super) fn meter(&self, h: f64, next: &mut State) {
         let (stage, components) = (&self.stage, &self.components);
         let slots = self.scratch.produced.len();
         let progress = |component: u32| &self.scratch.progress[component as usize];
         for (index, dashpot) in components.dashpots.iter().enumerate() {
             let slot = dashpot.slot.map(|slot| slot as usize);
             let scale = if slot.is_some_and(|slot| stage.is_held(slot)) {
-                S::one()
+                1.0
             } else {
                 progress(dashpot.component).factor
             };
@@ -112,7 +112,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let progress = progress(path.component);
             let is_fixed = |end: usize| end >= slots || stage.is_held(end);
             let scale = if is_fixed(a) && is_fixed(b) {
-                S::one()
+                1.0
             } else {
                 progress.factor
             };
@@ -129,7 +129,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    fn book_loads(&mut self, h: S, next: &mut State<S>) {
+    fn book_loads(&mut self, h: f64, next: &mut State) {
         for (target, sums) in self.books.targets.iter_mut().zip(&self.load_sums) {
             target.energy.add(h * sums.work);
             next.work.add(h * sums.work);
@@ -154,28 +154,28 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 if takes {
                     scratch.capacities[end][0]
                 } else {
-                    S::zero()
+                    0.0
                 }
             });
             let all = capacities[0] + capacities[1];
-            if all.at_most(S::zero()).all() {
+            if all <= 0.0 {
                 continue;
             }
             for (end, capacity) in ends.into_iter().zip(capacities) {
-                if S::zero().less(capacity).all() {
+                if capacity > 0.0 {
                     scratch.produced[end] += production * (capacity / all);
                 }
             }
         }
         for (produced, &is_held) in scratch.produced.iter_mut().zip(&stage.held) {
             if is_held {
-                *produced = S::zero();
+                *produced = 0.0;
             }
         }
     }
 
     /// The heat of thermostats, `Δe − ∫ (f λ̇ + heat that flows in)`, by the first law of an element.
-    pub(super) fn book_thermostats(&mut self, h: S, next: &mut State<S>) {
+    pub(super) fn book_thermostats(&mut self, h: f64, next: &mut State) {
         for (slot, _) in self.stage.held.iter().enumerate().filter(|&(_, &is)| is) {
             let element = self.components.elements[slot] as usize;
             let change = next.energies[element].value - self.books.held_energies[slot];
@@ -187,7 +187,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The entropy that thermostats have given, once the state is closed.
-    pub(super) fn conclude_thermostats(&mut self, old: &State<S>, next: &mut State<S>) {
+    pub(super) fn conclude_thermostats(&mut self, old: &State, next: &mut State) {
         for (slot, _) in self.stage.held.iter().enumerate().filter(|&(_, &is)| is) {
             let element = self.components.elements[slot] as usize;
             self.books.held_energies[slot] = next.energies[element].value;

@@ -22,7 +22,6 @@ use crate::element::error::StateError;
 use crate::element::group::ClosingView;
 use crate::element::state::State;
 use crate::step::error::StepFailure;
-use eem_material::number::scalar::Real;
 
 /// Corrections of a component after which its closing fails.
 const MOST_ITERATIONS: usize = 10;
@@ -43,13 +42,13 @@ enum Status {
     Failed,
 }
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Closes all components.
     pub(super) fn close(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
-        (demand, scales): (Demand<S>, Scales<S>),
-        next: &mut State<S>,
+        view: &ExplicitView<'_, D>,
+        (demand, scales): (Demand, Scales),
+        next: &mut State,
     ) -> Result<(), StepFailure> {
         for index in 0..self.components.all.len() {
             self.restore_momenta(index);
@@ -90,7 +89,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Finds temperatures and energies of the elements of open components.
-    fn find_energies(&mut self, next: &mut State<S>) -> Result<(), StateError> {
+    fn find_energies(&mut self, next: &mut State) -> Result<(), StateError> {
         let scratch = &mut self.scratch;
         let open = scratch.open.iter().zip(&scratch.inactive);
         for (energy, (&is_open, &inactive)) in scratch.energies.iter_mut().zip(open) {
@@ -115,9 +114,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Finds the forces of elements and weights in the components that need them: the negative gradient of the energy.
-    fn find_forces(&mut self, view: &ExplicitView<'_, S, D>) {
+    fn find_forces(&mut self, view: &ExplicitView<'_, D>) {
         let scratch = &mut self.scratch;
-        let gravity: [S; D] = view.loads.gravity.into();
+        let gravity: [f64; D] = view.loads.gravity.into();
         for (force, place) in scratch.forces.iter_mut().zip(&self.stage.places) {
             *force = gravity.map(|g| place.mass * g);
         }

@@ -6,17 +6,17 @@ use super::vector::dot;
 use super::{Explicit, ExplicitView};
 use crate::step::control::{Tolerance, norm};
 use crate::step::error::StepFailure;
-use eem_material::number::scalar::{Mask, Real, Scalar};
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// The magnitudes of positions and momenta before the step is closed; an error unless all are finite.
-    pub(super) fn scales(&self, time: S) -> Result<Scales<S>, StepFailure> {
+    pub(super) fn scales(&self, time: f64) -> Result<Scales, StepFailure> {
         if !time.is_finite() {
-            let value = time.to_f64();
+            let value = time;
             return Err(StepFailure::Time { value });
         }
         let masses = &self.stage.places[..self.components.masses];
-        let mut squares = [S::zero(); 3];
+        let mut squares = [0.0; 3];
         for place in masses {
             let parts = [&place.past.start[0], place.q(), place.p()];
             for (square, part) in squares.iter_mut().zip(parts) {
@@ -24,8 +24,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
         }
         let mut sizes = squares.map(Scalar::sqrt);
-        let are_normal = squares.map(|sum| S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX));
-        if !are_normal.into_iter().all(Mask::all) {
+        let are_normal = squares.map(|sum| sum > f64::MIN_POSITIVE && sum <= f64::MAX);
+        if !are_normal.into_iter().all(MASK) {
             self.expect_finite()?;
             sizes = [
                 norm(masses.iter().flat_map(|place| place.past.start[0])),
@@ -35,8 +35,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let [start, end, momentum] = sizes;
         Ok(Scales {
-            position: start.maximum(end),
-            momentum: momentum.maximum(self.books.largest_momentum),
+            position: Scalar::maximum(start, end),
+            momentum: Scalar::maximum(momentum, self.books.largest_momentum),
         })
     }
 
@@ -50,7 +50,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                         node: node as usize,
                         axis,
                         quantity,
-                        value: vector[axis].to_f64(),
+                        value: vector[axis],
                     });
                 }
             }
@@ -68,22 +68,22 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// momenta, and θ.
     pub(super) fn estimate(
         &self,
-        view: &ExplicitView<'_, S, D>,
-        tolerance: &Tolerance<S>,
-        scales: Scales<S>,
-    ) -> S {
-        let mut sums = [S::zero(); 2];
-        let mut see = |errors: [S; 2], per_scale: S| {
+        view: &ExplicitView<'_, D>,
+        tolerance: &Tolerance,
+        scales: Scales,
+    ) -> f64 {
+        let mut sums = [0.0; 2];
+        let mut see = |errors: [f64; 2], per_scale: f64| {
             for (sum, error) in sums.iter_mut().zip(errors) {
                 let error = view.step * error * per_scale;
                 *sum += error * error;
             }
         };
-        let per_scale = |size: S, absolute: S| {
+        let per_scale = |size: f64, absolute: f64| {
             let scale = tolerance.relative * size + absolute;
             // Where the scale is zero nothing moves.
-            let has_scale = S::zero().less(scale).all();
-            if has_scale { scale.recip() } else { S::zero() }
+            let has_scale = scale > 0.0;
+            if has_scale { scale.recip() } else { 0.0 }
         };
         let masses = &self.stage.places[..self.components.masses];
         let position = per_scale(scales.position, tolerance.position);
@@ -109,9 +109,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
         }
         let [five, three] = sums;
-        if five.at_most(S::zero()).all() {
-            return S::zero();
+        if five <= 0.0 {
+            return 0.0;
         }
-        five / (five + S::from_f64(0.01) * three).sqrt()
+        five / (five + 0.01 * three).sqrt()
     }
 }

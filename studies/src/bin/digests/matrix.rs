@@ -2,8 +2,8 @@
 
 use std::error::Error;
 
+use eem::MemberFailure;
 use eem::prelude::*;
-use eem::{MemberFailure, Real};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::planar::{LARGE, PLANAR};
@@ -80,7 +80,7 @@ fn add<const D: usize, C: Case<D>>(
                     digest: outcome.digest,
                 });
             };
-            add("f64", pool.install(|| alone::<D, f64, _>(entry, scheme)));
+            add("f64", pool.install(|| alone::<D, _>(entry, scheme)));
             add("f32", pool.install(|| alone::<D, f32, _>(entry, scheme)));
             if let Some(outcome) = pool.install(|| in_lanes(scheme)) {
                 add("lanes", outcome);
@@ -116,14 +116,14 @@ impl Outcome {
 }
 
 /// The first member on its own.
-fn alone<const D: usize, S: Real, C: Case<D>>(entry: &Entry<C>, scheme: Scheme) -> Outcome {
-    let build = entry.case.build(S::from_f64(FACTORS[0]));
-    let run = Simulation::new(build.scene, scheme, S::from_f64(entry.step));
+fn alone<const D: usize, C: Case<D>>(entry: &Entry<C>, scheme: Scheme) -> Outcome {
+    let build = entry.case.build(FACTORS[0]);
+    let run = Simulation::new(build.scene, scheme, entry.step);
     let seen = run.map_err(|refused| name_of(&refused.errors()[0]));
     let seen = seen.and_then(|mut run| {
         let (numbers, mut seen) =
             watch(&mut run, &build.handles, entry.drive).map_err(|error| name_of(&error))?;
-        seen.digest = digest(numbers.iter().map(|number| number.to_f64().to_bits()));
+        seen.digest = digest(numbers.iter().map(|number| number.to_bits()));
         Ok(seen)
     });
     Outcome::of(&[seen])

@@ -1,6 +1,5 @@
 //! Scenes in space.
 
-use eem::Real;
 use eem_studies::build::Build;
 use eem_studies::models::Elastic;
 use eem_studies::pendulums::{Double, LOGARITHMIC, SPRING};
@@ -48,7 +47,7 @@ const HOOKE: Elastic = Elastic {
 };
 
 impl Case<3> for Spatial {
-    fn build<S: Real>(self, factor: S) -> Build<3, S> {
+    fn build(self, factor: f64) -> Build<3> {
         let mut build = Build::new(factor);
         let scene = &mut build;
         match self {
@@ -75,7 +74,7 @@ impl Case<3> for Spatial {
 }
 
 /// Four free masses and six springs of three kinds, two of them in contact.
-fn tetrahedron<S: Real>(scene: &mut Build<3, S>) {
+fn tetrahedron(scene: &mut Build<3>) {
     let places = [
         [1.1, 0.0, 0.0],
         [-0.5, 0.9, 0.0],

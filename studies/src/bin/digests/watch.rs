@@ -1,7 +1,7 @@
 //! Runs a scene as it is to be run, and digests how it ends.
 
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem::{Experiment, MemberFailure, Members, Outputs};
 use eem_studies::build::{Build, Handles};
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -18,7 +18,7 @@ pub(crate) enum Drive {
 
 /// A scene whose initial velocities are multiplied by a factor.
 pub(crate) trait Case<const D: usize>: Copy + Sync {
-    fn build<S: Real>(self, factor: S) -> Build<D, S>;
+    fn build(self, factor: f64) -> Build<D>;
 }
 
 /// How a run ended.
@@ -45,7 +45,7 @@ pub(crate) fn digest(numbers: impl Iterator<Item = u64>) -> u64 {
 }
 
 /// All numbers of the present state, and of its ledger.
-fn numbers<const D: usize, S: Real>(run: &Simulation<D, S>, handles: &Handles) -> Vec<S> {
+fn numbers<const D: usize>(run: &Simulation<D>, handles: &Handles) -> Vec<f64> {
     let mut numbers = vec![run.time(), run.step_size()];
     for &node in &handles.nodes {
         let vectors = [run.position(node), run.momentum(node), run.velocity(node)];
@@ -88,29 +88,29 @@ fn numbers<const D: usize, S: Real>(run: &Simulation<D, S>, handles: &Handles) -
 }
 
 /// Steps a simulation; how many steps and iterations were made is counted also if one fails.
-fn drive<const D: usize, S: Real>(
-    run: &mut Simulation<D, S>,
+fn drive<const D: usize>(
+    run: &mut Simulation<D>,
     drive: Drive,
     last: Option<Node>,
     [steps, iterations]: [&mut usize; 2],
 ) -> Result<(), MemberFailure> {
-    let mut count = |report: &StepReport<S>| {
+    let mut count = |report: &StepReport| {
         *steps += 1;
         *iterations += report.iterations;
     };
     match (drive, last) {
         (Drive::Event(end), Some(node)) => {
-            let mut events = [Event::crossing(move |run: &Simulation<D, S>| {
+            let mut events = [Event::crossing(move |run: &Simulation<D>| {
                 Ok(run.position(node)?[0])
             })];
-            run.run_until_event_with(S::from_f64(end), &mut events, |_, report| {
+            run.run_until_event_with(end, &mut events, |_, report| {
                 count(report);
                 ControlFlow::Continue(())
             })?;
         }
         (Drive::Steps(steps) | Drive::Controlled(_, steps), _) => {
             if let Drive::Controlled(tolerance, _) = drive {
-                run.control_steps(Tolerance::new(S::from_f64(tolerance)))?;
+                run.control_steps(Tolerance::new(tolerance))?;
             }
             for _ in 0..steps {
                 count(&run.step()?);
@@ -124,16 +124,16 @@ fn drive<const D: usize, S: Real>(
 /// Runs a scene; all numbers of its last state, and how it ended but for their digest.
 ///
 /// Members that move together fail together: then the error is returned, so that they are run one by one.
-pub(crate) fn watch<const D: usize, S: Real>(
-    run: &mut Simulation<D, S>,
+pub(crate) fn watch<const D: usize>(
+    run: &mut Simulation<D>,
     handles: &Handles,
     how: Drive,
-) -> Result<(Vec<S>, Seen), MemberFailure> {
+) -> Result<(Vec<f64>, Seen), MemberFailure> {
     let (mut steps, mut iterations) = (0, 0);
     let last = handles.nodes.last().copied();
     let error = match drive(run, how, last, [&mut steps, &mut iterations]) {
         Ok(()) => String::new(),
-        Err(failure) if S::LANES > 1 => return Err(failure),
+        Err(failure) if false => return Err(failure),
         Err(MemberFailure::Step(error)) => name_of(&error.failure),
         Err(MemberFailure::Scene(error)) => name_of(&error),
         Err(other) => name_of(&other),
@@ -158,16 +158,16 @@ impl<const D: usize, C: Case<D>> Experiment<D> for Watched<C> {
     type Handles = Handles;
     type Output = Seen;
 
-    fn build<S: Real>(&self, members: Members<'_, f64, S>) -> (Scene<D, S>, Handles) {
+    fn build(&self, members: Members<'_, f64>) -> (Scene<D>, Handles) {
         let build = self.case.build(members.number(|&factor| factor));
         (build.scene, build.handles)
     }
 
-    fn observe<S: Real>(
+    fn observe(
         &self,
-        run: &mut Simulation<D, S>,
+        run: &mut Simulation<D>,
         handles: Handles,
-        members: Members<'_, f64, S>,
+        members: Members<'_, f64>,
     ) -> Result<Outputs<Seen>, MemberFailure> {
         let (numbers, seen) = watch(run, &handles, self.drive)?;
         Ok(members.outputs(|_, of| Seen {

@@ -1,7 +1,8 @@
 //! The pendulum of a member: a spring whose numbers are drawn at random, and what is kept of its run.
 
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem::{Experiment, MemberFailure, Members, Outputs};
+use eem_material::number::scalar::Scalar;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -95,13 +96,13 @@ impl Experiment<2> for Pendulum {
     type Handles = Element;
     type Output = End;
 
-    fn build<S: Real>(&self, members: Members<'_, Spring, S>) -> (Scene<2, S>, Element) {
+    fn build(&self, members: Members<'_, Spring>) -> (Scene<2>, Element) {
         let value = |unknown: usize| members.number(|spring| spring.values[unknown]);
         let [k0, eta0, conductance, temperature, speed] = [0, 1, 2, 3, 4].map(value);
-        let (zero, number) = (S::zero(), S::from_f64);
-        let mut scene = Scene::<2, S>::default();
-        let pivot = scene.anchor([zero; 2]);
-        let bob = scene.mass(number(1.0), [number(3.0), zero], [zero, speed]);
+        let number = S::from_f64;
+        let mut scene = Scene::<2>::default();
+        let pivot = scene.anchor([0.0; 2]);
+        let bob = scene.mass(number(1.0), [number(3.0), 0.0], [0.0, speed]);
         let law = CreepingSpring {
             natural_length: 1.0,
             theta_ref: SURROUNDINGS,
@@ -122,24 +123,24 @@ impl Experiment<2> for Pendulum {
         (scene, spring)
     }
 
-    fn observe<S: Real>(
+    fn observe(
         &self,
-        run: &mut Simulation<2, S>,
+        run: &mut Simulation<2>,
         spring: Element,
-        members: Members<'_, Spring, S>,
+        members: Members<'_, Spring>,
     ) -> Result<Outputs<End>, MemberFailure> {
         let start = run.ledger();
         let mut entropy = start.entropy;
-        let mut energy_defect = S::zero();
-        let mut entropy_loss = S::from_f64(f64::NEG_INFINITY);
+        let mut energy_defect = 0.0;
+        let mut entropy_loss = f64::NEG_INFINITY;
         let last_quarter = self.steps - self.steps.div_ceil(4);
-        let mut temperatures = S::zero();
+        let mut temperatures = 0.0;
         for step in 0..self.steps {
             run.step()?;
             let ledger = run.ledger();
             let defect = (ledger.energy - start.energy).abs() / start.energy.abs();
-            energy_defect = energy_defect.maximum(defect);
-            entropy_loss = entropy_loss.maximum(entropy - ledger.entropy);
+            energy_defect = Scalar::maximum(energy_defect, defect);
+            entropy_loss = Scalar::maximum(entropy_loss, entropy - ledger.entropy);
             entropy = ledger.entropy;
             if step >= last_quarter {
                 temperatures += run.temperature(spring)?;

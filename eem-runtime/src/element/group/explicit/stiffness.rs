@@ -7,12 +7,12 @@ use crate::element::group::point::Point;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use eem_material::free_energy::Material;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::stiffness`](super::ExplicitGroup::stiffness).
     #[cold]
-    pub(super) fn stiffness_of_all(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>)) {
+    pub(super) fn stiffness_of_all(&self, state: &State, see: &mut dyn FnMut(NodeStiffness)) {
         for member in &self.elements.members {
             let nodes = member.site.nodes.as_ref();
             let r = member.arms_in(state);
@@ -24,13 +24,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitEleme
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
     /// The larger of `∂²e/∂λ² = ψ_λλ − ψ_λθ²/ψ_θθ`, along the element at constant entropy, and `f/λ`, across it.
-    fn stiffness_at(&self, x: &M::Variables, nodes: [usize; 2]) -> NodeStiffness<S> {
+    fn stiffness_at(&self, x: &M::Variables, nodes: [usize; 2]) -> NodeStiffness {
         let (gradient, hessian) = self.model.hessian(x);
         let mut stiffness = hessian[0][0];
         let mut capacity = None;
-        let mut theta = S::zero();
+        let mut theta = 0.0;
         if let Some(slot) = self.slots().thermal {
             let last = Self::TEMPERATURE;
             theta = x[last];
@@ -40,14 +40,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         }
         let across = (gradient[0] / x[0]).abs();
         let (viscosities, _) = self.model.viscosity(theta);
-        let mut relaxation = S::zero();
+        let mut relaxation = 0.0;
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
-            relaxation = relaxation.maximum(hessian[index][index].abs() / viscosities[k]);
+            relaxation = Scalar::maximum(relaxation, hessian[index][index].abs() / viscosities[k]);
         }
         NodeStiffness {
             nodes,
-            stiffness: stiffness.abs().maximum(across),
+            stiffness: Scalar::maximum(stiffness.abs(), across),
             capacity,
             relaxation,
         }
