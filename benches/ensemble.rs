@@ -1,12 +1,10 @@
-//! Throughput of an ensemble of single pendulums by number of threads, one scene at a time and one per
-//! SIMD lane; see `README.md`.
+//! Throughput of an ensemble of single pendulums by number of threads; see `README.md`.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs};
 use eem_testkit::scenes::ThermoViscoElastic;
 
 /// Members of the ensemble.
@@ -34,34 +32,6 @@ fn scene(speed: f64) -> (Scene<2>, Element) {
     (scene, spring)
 }
 
-/// So many steps of a pendulum, and its temperature.
-struct Pendulums {
-    steps: u32,
-}
-
-impl Experiment<2> for Pendulums {
-    type Input = f64;
-    type Handles = Element;
-    type Output = f64;
-
-    fn build(&self, members: Members<'_, f64>) -> (Scene<2>, Element) {
-        scene(members.number(|&speed| speed))
-    }
-
-    fn observe(
-        &self,
-        run: &mut Simulation<2>,
-        spring: Element,
-        members: Members<'_, f64>,
-    ) -> Result<Outputs<f64>, MemberFailure> {
-        for _ in 0..self.steps {
-            run.step()?;
-        }
-        let temperature = run.temperature(spring)?;
-        Ok(members.outputs(|_, of| of(temperature)))
-    }
-}
-
 /// From inputs to results, set-up included.
 #[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
 fn pendulums(bencher: Bencher<'_, '_>, threads: usize) {
@@ -78,65 +48,19 @@ fn set_up(bencher: Bencher<'_, '_>, threads: usize) {
     members.bench_local(|| run(threads, 0, black_box(&speeds)));
 }
 
-/// The same with four pendulums at once.
-#[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
-fn pendulums_in_lanes(bencher: Bencher<'_, '_>, threads: usize) {
-    let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
-    let members = bencher.counter(ItemsCount::new(MEMBERS));
-    members.bench_local(|| run_in_lanes(threads, STEPS, black_box(&speeds)));
-}
-
-/// Set-up alone.
-#[divan::bench(args = [1, 2], sample_size = 1, sample_count = 20)]
-fn set_up_in_lanes(bencher: Bencher<'_, '_>, threads: usize) {
-    let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
-    let members = bencher.counter(ItemsCount::new(MEMBERS));
-    members.bench_local(|| run_in_lanes(threads, 0, black_box(&speeds)));
-}
-
-/// The explicit scheme at a step where it is accurate, so many steps, one scene at a time.
+/// The explicit scheme at a step where it is accurate, so many steps.
 #[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
 fn explicit_pendulums(bencher: Bencher<'_, '_>, threads: usize) {
     let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
     let members = bencher.counter(ItemsCount::new(MEMBERS));
-    members.bench_local(|| run_one_by_one(EXPLICIT, threads, STEPS, black_box(&speeds)));
-}
-
-/// The same with four pendulums at once.
-#[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
-fn explicit_pendulums_in_lanes(bencher: Bencher<'_, '_>, threads: usize) {
-    let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
-    let members = bencher.counter(ItemsCount::new(MEMBERS));
-    members.bench_local(|| run_together(EXPLICIT, threads, STEPS, black_box(&speeds)));
-}
-
-fn run_in_lanes(threads: usize, steps: u32, speeds: &[f64]) -> usize {
-    run_together((Scheme::EemTemperature, STEP), threads, steps, speeds)
+    members.bench_local(|| run_with(EXPLICIT, threads, STEPS, black_box(&speeds)));
 }
 
 fn run(threads: usize, steps: u32, speeds: &[f64]) -> usize {
-    run_one_by_one((Scheme::EemTemperature, STEP), threads, steps, speeds)
+    run_with((Scheme::EemTemperature, STEP), threads, steps, speeds)
 }
 
-fn run_together(
-    (scheme, step): (Scheme, f64),
-    threads: usize,
-    steps: u32,
-    speeds: &[f64],
-) -> usize {
-    let ensemble = Ensemble::new(scheme, step).threads(threads);
-    let results = ensemble.run_experiment(&Pendulums { steps }, speeds);
-    let completed = results.iter().flatten().count();
-    assert_eq!(completed, speeds.len(), "a pendulum failed");
-    completed
-}
-
-fn run_one_by_one(
-    (scheme, step): (Scheme, f64),
-    threads: usize,
-    steps: u32,
-    speeds: &[f64],
-) -> usize {
+fn run_with((scheme, step): (Scheme, f64), threads: usize, steps: u32, speeds: &[f64]) -> usize {
     let ensemble = Ensemble::new(scheme, step).threads(threads);
     let results = ensemble.run(
         speeds,

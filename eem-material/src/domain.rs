@@ -184,7 +184,7 @@ fn examine<M: FreeEnergy<f64>>(
         wrong.map_or(Ok(()), |value| {
             Err(DomainError::NotFinite {
                 quantity,
-                value,
+                value: *value,
                 point: point(),
             })
         })

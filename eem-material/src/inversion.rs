@@ -115,76 +115,26 @@ pub fn temperature_near<const W: usize>(
 ) -> Result<(f64, [f64; W]), InversionError> {
     let mut limit = LARGEST_CORRECTION;
     let mut theta = guess;
-    let (mut found, mut found_other) = (theta, [theta; W]);
-    let mut converged = false;
     loop {
-        let (caloric, mut other) = caloric_at(theta);
+        let (caloric, other) = caloric_at(theta);
         let defect = entropy - caloric.entropy;
-        let mut correction = defect / caloric.heat_capacity;
+        let correction = defect / caloric.heat_capacity;
         let size = correction.abs();
         let is_stable = caloric.heat_capacity > 0.0;
-        let is_far = !(converged || (is_stable && size <= limit));
-        let mut last = size <= enough;
-        if is_far {
+        if !(is_stable && size <= limit) {
             // A residual of rounding cannot be reduced by a search.
             let rounding = ENTROPY_ROUNDINGS * f64::EPSILON * caloric.magnitude;
-            let is_noise = is_far & is_stable && defect.abs() <= rounding;
-            let is_far = is_far && !is_noise;
-            if is_far {
-                let sought = search_far(|theta| caloric_at(theta).0, entropy, guess, is_far)?;
-                if is_far {
-                    theta = sought;
-                }
-                if W > 0 {
-                    other = caloric_at(theta).1;
-                }
+            if is_stable && defect.abs() <= rounding {
+                return Ok((theta, other));
             }
-            if is_noise || is_far {
-                correction = 0.0;
-            }
-            last |= is_noise || is_far;
+            let found = search_from(|theta| caloric_at(theta).0, entropy, guess)?;
+            let other = if W > 0 { caloric_at(found).1 } else { other };
+            return Ok((found, other));
         }
-        found = theta + theta * correction;
-        for (found, other) in found_other.iter_mut().zip(other) {
-            *found = other;
-        }
-        converged |= last;
-        if converged {
-            return Ok((found, found_other));
+        if size <= enough {
+            return Ok((theta + theta * correction, other));
         }
         theta *= Scalar::exp(correction);
         limit = CONTRACTION * size;
     }
-}
-
-/// The temperatures of the lanes that are far off, searched one by one.
-#[cold]
-fn search_far(
-    mut caloric_at: impl FnMut(f64) -> Caloric<f64>,
-    entropy: f64,
-    guess: f64,
-    is_far: bool,
-) -> Result<f64, InversionError> {
-    return search_from(caloric_at, entropy, guess);
-    let mut failure = None;
-    let temperatures = S::pack(|lane| {
-        let start = guess.lane(lane);
-        let is_inactive = (if is_far { 0.0 } else { 1.0 }).lane(lane) > 0.0;
-        if is_inactive {
-            return start;
-        }
-        let caloric_at = |theta: f64| {
-            let caloric = caloric_at(theta);
-            Caloric {
-                entropy: caloric.entropy.lane(lane),
-                heat_capacity: caloric.heat_capacity.lane(lane),
-                magnitude: caloric.magnitude.lane(lane),
-            }
-        };
-        search_from(caloric_at, entropy.lane(lane), start).unwrap_or_else(|error| {
-            failure = Some(error);
-            start
-        })
-    });
-    failure.map_or(Ok(temperatures), Err)
 }

@@ -63,6 +63,7 @@ const THIRD_ROOT: f64 = 0.577_350_269_189_625_8;
 const SIXTH_ROOT: f64 = 0.408_248_290_463_863;
 
 /// `b_k` as `[xx, yy, zz, xy, xz, yz]`.
+#[must_use]
 pub fn basis(k: usize) -> [f64; COMPONENTS] {
     let [half, third, sixth] = [FRAC_1_SQRT_2, THIRD_ROOT, SIXTH_ROOT];
     match k {
@@ -76,6 +77,7 @@ pub fn basis(k: usize) -> [f64; COMPONENTS] {
 }
 
 /// `A:b_k` of a tensor.
+#[must_use]
 pub fn components(tensor: &[[f64; 3]; 3]) -> [f64; COMPONENTS] {
     array::from_fn(|k| {
         let [xx, yy, zz, xy, xz, yz] = basis(k);
@@ -88,6 +90,7 @@ pub fn components(tensor: &[[f64; 3]; 3]) -> [f64; COMPONENTS] {
 }
 
 /// `Σ A_k b_k`.
+#[must_use]
 pub fn tensor(components: &[f64]) -> [[f64; 3]; 3] {
     let mut sum = [0.0; COMPONENTS];
     for (k, &component) in components.iter().enumerate() {

@@ -8,6 +8,7 @@ use eem_material::free_energy::Array;
 pub type Functions<const D: usize> = Vec<(f64, [f64; D])>;
 
 /// The shape functions at a position in the parent cell.
+#[must_use]
 pub fn functions<H: Shape<D>, const D: usize>(place: [f64; D]) -> Functions<D> {
     let nodes = 0..H::NODES.len();
     nodes.map(|node| H::function(node, place)).collect()
@@ -20,6 +21,7 @@ pub fn rule<H: Shape<D>, const D: usize>() -> Vec<([f64; D], f64)> {
 }
 
 /// `∂X/∂ξ`, m, from the positions of the nodes in the reference configuration.
+#[must_use]
 pub fn jacobian<const D: usize>(
     reference: &[[f64; D]],
     functions: &[(f64, [f64; D])],
@@ -86,7 +88,7 @@ pub fn lump<H: Shape<D>, const D: usize>(masses: &mut Pairs<H, D>) {
 fn on_axis(points: usize) -> Vec<(f64, f64)> {
     match points {
         2 => {
-            let root = (1.0 / 3.0).sqrt();
+            let root = (1.0_f64 / 3.0).sqrt();
             vec![(-root, 1.0), (root, 1.0)]
         }
         3 => {

@@ -40,6 +40,7 @@ pub trait Shape<const D: usize>: Copy + Debug + Send + Sync + 'static {
 
     /// `N_a` and `∂N_a/∂ξ` of a node at a position in the parent cell.
     #[inline]
+    #[must_use]
     fn function(node: usize, place: [f64; D]) -> (f64, [f64; D]) {
         // A cell has mid-side nodes if it has more nodes than corners.
         if Self::NODES.len() > 1 << D {
@@ -182,7 +183,7 @@ impl<T: Send + Sync, const N: usize> Points<T> for [T; N] {
 
 /// `Π ½(1 + ξ_k ξ)` with its derivatives.
 fn multilinear<const D: usize>(node: &[i8; D], place: [f64; D]) -> (f64, [f64; D]) {
-    let sides = node.map(|side| f64::from(side));
+    let sides = node.map(f64::from);
     let factors = array::from_fn(|axis| 0.5 * (1.0 + sides[axis] * place[axis]));
     product(&factors, &sides.map(|side| 0.5 * side))
 }
@@ -190,7 +191,7 @@ fn multilinear<const D: usize>(node: &[i8; D], place: [f64; D]) -> (f64, [f64; D
 /// Corners `Π ½(1 + ξ_k ξ) (Σ ξ_k ξ − (D − 1))`, middles of edges `(1 − ξ²) Π ½(1 + ξ_k ξ)`, with
 /// their derivatives.
 fn serendipity<const D: usize>(node: &[i8; D], place: [f64; D]) -> (f64, [f64; D]) {
-    let sides = node.map(|side| f64::from(side));
+    let sides = node.map(f64::from);
     if let Some(along) = node.iter().position(|&side| side == 0) {
         let (mut factors, mut slopes) = ([0.0; D], [0.0; D]);
         for axis in 0..D {

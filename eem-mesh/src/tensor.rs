@@ -62,6 +62,7 @@ pub trait Symmetric<const D: usize>: Array<f64> {
 
 /// `a·b`.
 #[inline]
+#[must_use]
 pub fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     let first = a[0] * b[0];
     (1..D).fold(first, |sum, axis| sum + a[axis] * b[axis])
@@ -69,6 +70,7 @@ pub fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
 
 /// `F v`.
 #[inline]
+#[must_use]
 pub fn pushed<const D: usize>(tensor: &Tensor<D>, v: &[f64; D]) -> [f64; D] {
     array::from_fn(|axis| dot(&tensor[axis], v))
 }
@@ -86,7 +88,7 @@ pub fn add<A: Array<f64>>(sum: &mut A, factor: f64, tensor: &A) {
 pub fn scaled<A: Array<f64>>(factor: f64, tensor: &A) -> A {
     let mut scaled = *tensor;
     for entry in scaled.as_mut() {
-        *entry = factor * *entry;
+        *entry *= factor;
     }
     scaled
 }

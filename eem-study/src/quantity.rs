@@ -60,7 +60,7 @@ impl fmt::Display for StateQuantity {
 /// A number for each kind of quantity that the scene has.
 pub(crate) type PerQuantity = [Option<f64>; 4];
 
-/// A state in double precision, for comparison with others of the same scene.
+/// A state, for comparison with others of the same scene.
 ///
 /// ```
 /// use eem::{EndState, Scene, Scheme, Simulation, StateQuantity};

@@ -1,4 +1,4 @@
-//! A scene whose numbers are of any type, with the handles of everything in it.
+//! A scene with the handles of everything in it.
 
 use eem::prelude::*;
 use eem::{FreeEnergy, HeatPartner};
@@ -15,51 +15,33 @@ pub struct Handles {
 }
 
 /// A scene under construction.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Build<const D: usize> {
     /// The scene itself, for what has no method here.
     pub scene: Scene<D>,
     /// What is in it.
     pub handles: Handles,
-    /// Initial velocities are multiplied by it, so that members of an ensemble differ.
-    factor: f64,
-}
-
-/// A vector of numbers of any type.
-#[must_use]
-pub fn vector<const D: usize>(numbers: [f64; D]) -> [f64; D] {
-    numbers
 }
 
 impl<const D: usize> Build<D> {
-    /// An empty scene whose initial velocities are multiplied by `factor`.
+    /// An empty scene.
     #[must_use]
-    pub fn new(factor: f64) -> Self {
-        Self {
-            scene: Scene::default(),
-            handles: Handles::default(),
-            factor,
-        }
+    pub fn new() -> Self {
+        Self::default()
     }
 
     /// A node that does not move; m.
     pub fn anchor(&mut self, position: [f64; D]) -> Node {
-        let node = self.scene.anchor(vector(position));
+        let node = self.scene.anchor(position);
         self.handles.nodes.push(node);
         node
     }
 
     /// A mass (kg) with its position (m) and velocity (m/s).
     pub fn mass(&mut self, mass: f64, position: [f64; D], velocity: [f64; D]) -> Node {
-        let velocity = self.scaled(velocity);
-        let node = self.scene.mass(mass, vector(position), velocity);
+        let node = self.scene.mass(mass, position, velocity);
         self.handles.nodes.push(node);
         node
-    }
-
-    /// A velocity, times the factor of this scene.
-    pub fn scaled(&self, velocity: [f64; D]) -> [f64; D] {
-        velocity.map(|component| component * self.factor)
     }
 
     /// A spring without temperature.

@@ -124,20 +124,6 @@ fn a_run_allocates_nothing() {
 }
 
 #[test]
-fn single_precision_reaches_its_end_too() {
-    let mut scene = Scene::<2, f32>::default();
-    scene.anchor([0.0, 0.0]);
-    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
-    let mut steps = 0;
-    let observer = |_: &Simulation<2, f32>, _: &StepReport<f32>| {
-        steps += 1;
-        ControlFlow::Continue(())
-    };
-    run.run_until_with(20.0, observer).unwrap();
-    assert_eq!((run.time().to_bits(), steps), (20.0_f32.to_bits(), 200));
-}
-
-#[test]
 fn a_failed_step_says_which_shorter_one_can_be_made() {
     for (scheme, size) in [
         (Scheme::EemEntropy, 40.0),

@@ -1,7 +1,6 @@
 //! The search for the temperature of an entropy from a start that is not known to be close.
 //!
-//! Every step either reduces the residual as fast as Newton's method should, or halves an interval. Written for scalar
-//! numbers: masks are one `bool`.
+//! Every step either reduces the residual as fast as Newton's method should, or halves an interval.
 
 use super::error::InversionError;
 use crate::free_energy::Caloric;
@@ -179,14 +178,10 @@ pub(super) fn search_from(
 impl Search {
     /// Starts from a stable point.
     fn new(target: f64, first: Point) -> Self {
-        let infinity = 1.0 / 0.0;
         // ln of the largest number, less 2, so that θ and 1/θ are normal numbers.
         let widest = Scalar::ln(f64::MAX) - 2.0;
-        let large = LARGE_FACTOR;
-        let [is_above, is_below] = [
-            large * target < first.entropy,
-            large * first.entropy < target,
-        ];
+        let is_above = LARGE_FACTOR * target < first.entropy;
+        let is_below = LARGE_FACTOR * first.entropy < target;
         let mut search = Self {
             target,
             point: first,
@@ -198,8 +193,8 @@ impl Search {
                 Scalar::maximum(widest, first.x + 1.0),
             ],
             reach: 1.0,
-            last: infinity,
-            last_but_one: infinity,
+            last: f64::INFINITY,
+            last_but_one: f64::INFINITY,
             is_logarithmic: is_above || is_below,
             modelled: false,
             failures: 0,

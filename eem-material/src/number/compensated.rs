@@ -158,6 +158,7 @@ pub struct Sum {
 
 impl Sum {
     /// A sum that starts at `value`, exactly.
+    #[must_use]
     pub fn new(value: f64) -> Self {
         let carry = 0.0;
         Self { value, carry }
@@ -183,12 +184,14 @@ impl Sum {
 
     /// `self − value`.
     #[inline]
+    #[must_use]
     pub fn beyond(self, value: f64) -> f64 {
         (self.value - value) + self.carry
     }
 
     /// `self − old`, to rounding of the difference.
     #[inline]
+    #[must_use]
     pub fn change(self, old: Self) -> f64 {
         (self.value - old.value) + (self.carry - old.carry)
     }
@@ -238,16 +241,9 @@ impl Total {
     }
 
     /// The sum, rounded once.
+    #[must_use]
     pub fn value(self) -> f64 {
         self.value + self.rest
-    }
-
-    /// `then` where the mask holds and `otherwise` elsewhere.
-    pub fn select(mask: bool, then: Self, otherwise: Self) -> Self {
-        Self {
-            value: if mask { then.value } else { otherwise.value },
-            rest: if mask { then.rest } else { otherwise.rest },
-        }
     }
 
     /// The sum of some terms.

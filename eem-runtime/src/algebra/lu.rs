@@ -1,18 +1,11 @@
 //! Dense LU factorisation with partial pivoting, in place.
 //!
-//! For the few unknowns of a small scene or of one element. It works on any [`Real`] and on borrowed memory, so that a step
+//! For the few unknowns of a small scene or of one element. It works on borrowed memory, so that a step
 //! allocates nothing. Numbers of unknowns known at compile time use [`solve_fixed`], [`solve_one`] and [`solve_two`].
 
 mod fixed;
 
 pub(crate) use fixed::{Singular, solve_fixed, solve_one, solve_two};
-
-/// Lanes that need different pivots have none in common.
-impl From<Discord> for Singular {
-    fn from(Discord: Discord) -> Self {
-        Self
-    }
-}
 
 /// Factors the row-major `n × n` matrix, `n` the length of `pivots`: `P A = L U`.
 pub(crate) fn factor(matrix: &mut [f64], pivots: &mut [usize]) -> Result<(), Singular> {

@@ -14,12 +14,10 @@
 #[cfg(feature = "gradients")]
 mod columns;
 
-#[cfg(feature = "sparse")]
-use core::marker::PhantomData;
 use core::mem;
 
 #[cfg(feature = "sparse")]
-use eem_sparse::{Analysis, Precision, Solver};
+use eem_sparse::{Analysis, Solver};
 
 use crate::algebra::lu::{self, Singular};
 use crate::algebra::memory::{MemoryLimit, TooLarge, bytes};
@@ -167,31 +165,11 @@ fn solve_sparse<const W: usize>(
     right: &mut [[f64; W]],
 ) -> Result<(), Singular> {
     let values = &mut values[..sparse.pattern().entries()];
-    let factored = sparse.factor::<Stored>(values);
+    let factored = sparse.factor(values);
     let solved = factored.and_then(|mut factored| factored.solve(right));
     solved.map_err(|_| Singular)?;
     values.fill(0.0);
     Ok(())
-}
-
-/// Numbers of a scene, as stored for the sparse elimination, which computes in double precision.
-#[cfg(feature = "sparse")]
-#[derive(Clone, Copy)]
-struct Stored(PhantomData<f64>);
-
-#[cfg(feature = "sparse")]
-impl Precision for Stored {
-    type Number = f64;
-
-    #[inline]
-    fn widen(number: f64) -> f64 {
-        number
-    }
-
-    #[inline]
-    fn narrow(value: f64) -> f64 {
-        value
-    }
 }
 
 /// The elimination that is compiled for this number of unknowns, more than two.
@@ -323,7 +301,7 @@ impl<const W: usize> LinearSystem<W> {
             #[cfg(feature = "sparse")]
             Storage::Sparse(sparse) => {
                 let right = &mut self.right[..self.unknowns];
-                if sparse.solve_again::<Stored, W>(right).is_err() {
+                if sparse.solve_again(right).is_err() {
                     return false;
                 }
                 mem::swap(&mut self.right, &mut self.solution);

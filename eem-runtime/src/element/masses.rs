@@ -68,7 +68,7 @@ impl Masses {
     #[inline]
     pub(crate) fn get(&self, node: usize) -> Option<f64> {
         let mass = self.own[node];
-        (!(mass == 0.0)).then_some(mass)
+        (mass != 0.0).then_some(mass)
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = Option<f64>> + Clone + '_ {

@@ -11,6 +11,7 @@ use eem_material::number::compensated::{Compensated, Sum};
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
+#[derive(Default)]
 pub(crate) struct Meters {
     pub(crate) are_on: bool,
     /// The heat of each dashpot in series, then per element that of the dashpots in parallel, J.
@@ -19,17 +20,6 @@ pub(crate) struct Meters {
     pub(crate) produced: Compensated,
     /// The heat that each path has brought to its first thermal slot, by the index of its link there, J.
     pub(crate) conducted: Compensated,
-}
-
-impl Default for Meters {
-    fn default() -> Self {
-        Self {
-            are_on: false,
-            dissipated: Compensated::default(),
-            produced: Compensated::default(),
-            conducted: Compensated::default(),
-        }
-    }
 }
 
 impl Meters {
@@ -104,7 +94,7 @@ impl Meters {
     /// Copies the meters of a state of the same scene.
     #[inline]
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        if self.are_on | other.are_on {
+        if self.are_on || other.are_on {
             self.copy_kept(other);
         }
     }

@@ -32,7 +32,7 @@ pub(crate) struct Tally {
     pub(crate) forces: f64,
     /// The entropy production, J/K.
     pub(crate) production: f64,
-    /// The smallest production of a dashpot or a path of heat, J/K; `S::MAX` if there is none.
+    /// The smallest production of a dashpot or a path of heat, J/K; `f64::MAX` if there is none.
     pub(crate) least: f64,
     /// Every balance of a node or an internal variable holds to rounding.
     pub(crate) is_balanced: bool,
@@ -48,7 +48,7 @@ impl Tally {
             forces: 0.0,
             production: 0.0,
             least: f64::MAX,
-            is_balanced: !false,
+            is_balanced: true,
         }
     }
 

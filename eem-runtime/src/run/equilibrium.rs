@@ -188,7 +188,7 @@ impl<const D: usize> Functions<D> {
 
 /// # Equilibrium
 impl<const D: usize> Scene<D> {
-    /// Moves the scene into a stable state at rest under its loads at the start, to start a run from. Only in double precision.
+    /// Moves the scene into a stable state at rest under its loads at the start, to start a run from.
     ///
     /// ```text
     /// Σ ∂ψ/∂q = m g + F(t₀) + thrust(t₀) n(q),   v = 0

@@ -242,6 +242,6 @@ impl<const D: usize> fmt::Display for Ledger<D> {
 }
 
 fn line(f: &mut fmt::Formatter<'_>, name: &str, value: f64, unit: &str) -> fmt::Result {
-    let value = format!("{:.15e}", value);
+    let value = format!("{value:.15e}");
     writeln!(f, "| {name:<19} | {value:<20} | {unit:<5} |")
 }

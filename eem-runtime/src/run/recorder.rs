@@ -24,9 +24,8 @@ const TIME: &str = "time";
 
 /// Records quantities while a simulation runs.
 ///
-/// The first column is the time, s; the first row is the state when the recorder was made. Values are in double
-/// precision for every number type. Memory grows with the number of rows; [`reserve`](Self::reserve) reserves it in
-/// advance.
+/// The first column is the time, s; the first row is the state when the recorder was made. Memory grows
+/// with the number of rows; [`reserve`](Self::reserve) reserves it in advance.
 ///
 /// ```
 /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
@@ -237,7 +236,6 @@ impl<const D: usize> Recorder<D> {
     ///
     /// [`SceneError::ForeignHandle`] if `run` belongs to another scene than the recorder. Nothing is recorded then.
     pub fn record(&mut self, run: &Simulation<D>) -> Result<(), SceneError> {
-        // A row has one value per column, not one per lane.
         if run.scene() != self.scene {
             let handle = "the recorder".to_owned();
             return Err(SceneError::ForeignHandle { handle });

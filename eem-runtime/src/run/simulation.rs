@@ -39,10 +39,9 @@ mod stepper;
 
 use core::fmt;
 use core::mem;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::AtomicBool;
 use std::collections::BTreeMap;
 
-use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
 use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
@@ -120,9 +119,6 @@ pub struct Simulation<const D: usize> {
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport>,
     corrections: Corrections,
-    /// Whether something failed in lanes, so that no further result counts: some lanes might have succeeded alone.
-    /// Never set for a single number.
-    has_diverged: AtomicBool,
 }
 
 /// The report of a step, or why it failed.
@@ -228,7 +224,6 @@ impl<const D: usize> Simulation<D> {
             wants_meters: AtomicBool::new(false),
             worst: None,
             corrections: Corrections::none(),
-            has_diverged: AtomicBool::new(false),
         };
         if scheme == Scheme::Auto {
             run.set_control(Some(run.new_control(Tolerance::default())));
@@ -236,22 +231,12 @@ impl<const D: usize> Simulation<D> {
         Ok(run)
     }
 
-    /// Whether the lanes have to be run one by one.
-    #[inline]
-    pub(crate) fn has_diverged(&self) -> bool {
-        false
-    }
-
-    /// Records that something is impossible in lanes; no effect on a single number.
-    pub(crate) fn diverge(&self) {}
-
     /// The error of a step of this size, with the iterations so far.
     #[cold]
     fn failed(&self, size: f64, failure: StepFailure) -> StepError {
-        let iterations = self.effort.history.iter();
         StepError {
             step: size,
-            history: iterations.collect(),
+            history: self.effort.history.as_slice().into(),
             ..self.refused(failure)
         }
     }
@@ -266,15 +251,5 @@ impl<const D: usize> Simulation<D> {
             shorter: None,
             history: Box::default(),
         }
-    }
-
-    /// Whether lanes can take steps together: by dense elimination of a few unknowns with pivots on the diagonal in a
-    /// scheme with one set of forces, or by the explicit scheme; and with weight in all lanes or in none.
-    pub(crate) fn suits_lanes(&self) -> bool {
-        let suits = match &self.stepper {
-            Stepper::Newton(newton) => newton.stages.is_empty() && self.unknowns() <= MOST_FIXED,
-            Stepper::Explicit(_) => true,
-        };
-        suits && self.control.is_none() && self.loads.has_weight().is_ok()
     }
 }

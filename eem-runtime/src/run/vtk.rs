@@ -189,7 +189,7 @@ impl<const D: usize> VtkSeries<D> {
 
 /// A vector in three dimensions.
 fn in_space(vector: &[f64]) -> [f64; 3] {
-    core::array::from_fn(|axis| vector.get(axis).map_or(0.0, |value| value))
+    core::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }
 
 /// An error that is not one of a file.

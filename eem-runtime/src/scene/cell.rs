@@ -122,8 +122,8 @@ impl<const D: usize> Scene<D> {
             let entry = &mut self.nodes[nodes[a].index];
             let mass = entry.mass.as_mut().unwrap_or(&mut entry.held);
             // A negative mass is that of the node itself, as masses of solids are positive.
-            if mass < 0.0 {
-                let (node, value) = (nodes[a], mass);
+            if *mass < 0.0 {
+                let (node, value) = (nodes[a], *mass);
                 self.errors.push(SceneError::Mass { node, value });
             }
             *mass += row[a];

@@ -25,9 +25,8 @@ impl<const D: usize> NodeEntry<D> {
 
 /// The components of a vector that are not finite, with their axes.
 pub(crate) fn infinite(vector: &[f64]) -> impl Iterator<Item = (usize, f64)> {
-    let components = vector.iter().enumerate();
-    let infinite = components.filter(|(_, component)| !component.is_finite());
-    infinite.map(|(axis, component)| (axis, component))
+    let components = vector.iter().copied().enumerate();
+    components.filter(|(_, component)| !component.is_finite())
 }
 
 /// The group of the points of an invalid solid.

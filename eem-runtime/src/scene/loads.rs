@@ -46,6 +46,7 @@ pub(crate) enum Course<F, T> {
 
 /// The value between one at the beginning and one at the end of a step, at a share of it.
 fn between(from: f64, to: f64, share: f64) -> f64 {
+    #[expect(clippy::float_cmp, reason = "the end itself")]
     if share == 1.0 {
         to
     } else {
@@ -127,15 +128,9 @@ impl<const D: usize> Loads<D> {
         self.rockets.iter().map(|rocket| rocket.line).collect()
     }
 
+    /// Whether gravity is not zero.
     pub(crate) fn have_weight(&self) -> bool {
-        self.has_weight()
-    }
-
-    /// Whether gravity is not zero, per lane.
-    pub(crate) fn has_weight(&self) -> bool {
-        let none = false;
-        let components = self.gravity.iter();
-        components.fold(none, |any, &component| any || !(component == 0.0))
+        self.gravity.iter().any(|&component| component != 0.0)
     }
 }
 

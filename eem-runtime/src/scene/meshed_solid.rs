@@ -117,7 +117,7 @@ impl<const D: usize> Scene<D> {
         let places = mesh.nodes().iter().zip(shared);
         let nodes = places.map(|(place, shared)| match shared {
             Some(shared) => shared.node,
-            None => self.node(place, [0.0; D]),
+            None => self.node(*place, [0.0; D]),
         });
         nodes.collect()
     }

@@ -12,7 +12,7 @@ use crate::scene::error::SceneError;
 use eem_material::free_energy::Material;
 
 impl<const D: usize> Scene<D> {
-    /// An empty scene in double precision. Use [`Scene::default`] for other number types.
+    /// An empty scene.
     #[must_use]
     pub fn new() -> Self {
         Self::default()

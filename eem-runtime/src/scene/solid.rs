@@ -143,9 +143,10 @@ impl<const D: usize> Scene<D> {
 fn invalid_shear(element: Element, strain: &[[f64; 3]; 3], is_plane: bool) -> Option<SolidError> {
     [[0, 1], [0, 2], [1, 2]].into_iter().find_map(|[i, j]| {
         let values = [strain[i][j], strain[j][i]];
+        #[expect(clippy::float_cmp, reason = "a tensor is symmetric to the last bit")]
         let is_symmetric = values[0] == values[1];
-        let is_out_of_plane = is_plane && j == 2 && !(values[0] == 0.0);
-        (!is_symmetric || is_out_of_plane).then(|| SolidError::ViscousShear {
+        let is_out_of_plane = is_plane && j == 2 && values[0] != 0.0;
+        (!is_symmetric || is_out_of_plane).then_some(SolidError::ViscousShear {
             element,
             place: [i, j],
             values,

@@ -280,38 +280,35 @@ impl Certificate {
         self.is_balanced() && self.broken_law().is_none()
     }
 
-    /// The lanes in which all equations hold as accurately as after another iteration.
+    /// Whether all equations hold as accurately as after another iteration.
     #[inline]
     pub(crate) fn is_enough(&self) -> bool {
         let rounding = ENOUGH_MOMENTUM * f64::EPSILON;
         let [linear, momenta] = self.linear;
         let [angular, moments] = self.angular;
-        self.is_balanced & self.has_enough_energy()
+        self.is_balanced
+            && self.has_enough_energy()
             && linear <= rounding * momenta
             && angular <= rounding * moments
             && self.least_production >= 0.0
     }
 
-    /// The lanes in which the energy is as accurate as after another iteration.
+    /// Whether the energy is as accurate as after another iteration.
     #[inline]
     pub(crate) fn has_enough_energy(&self) -> bool {
         let [defect, bound] = self.judged;
         defect.abs() <= ENOUGH * bound
     }
 
-    /// This certificate in the lanes of the mask, `other` elsewhere; both are of the same step.
-    pub(crate) fn or(mut self, is_own: bool, other: &Self) -> Self {
-        self.defect = if is_own { self.defect } else { other.defect };
-        self.bound = if is_own { self.bound } else { other.bound };
-        self.motion = if is_own { self.motion } else { other.motion };
-        for (own, other) in self.terms.iter_mut().zip(other.terms) {
-            *own = if is_own { *own } else { other };
+    /// The certificate of a more thorough closing of the same step, with the momenta of this one.
+    pub(crate) fn sharpened_by(self, thorough: Self) -> Self {
+        Self {
+            production: self.production,
+            least_production: self.least_production,
+            linear: self.linear,
+            angular: self.angular,
+            ..thorough
         }
-        for (own, other) in self.judged.iter_mut().zip(other.judged) {
-            *own = if is_own { *own } else { other };
-        }
-        self.is_balanced = self.is_balanced & is_own || (other.is_balanced && !is_own);
-        self
     }
 
     /// The first violated law, with its defect and the bound for rounding.

@@ -105,7 +105,7 @@ impl StepLoads {
                     return Err(StepFailure::Load {
                         node: *node,
                         axis,
-                        value: sum,
+                        value: *sum,
                         time,
                     });
                 }

@@ -26,7 +26,7 @@ pub struct NewtonSettings {
     /// step; reports and errors count all iterations.
     pub max_iterations: usize,
     /// The largest update that can be the last one, relative to the shortest stretch at each node and to the
-    /// temperatures. The default is √ε, 1.5·10⁻⁸ in double precision; the error after the update is its square. A
+    /// temperatures. The default is √ε, 1.5·10⁻⁸; the error after the update is its square. A
     /// smaller tolerance costs iterations and gains nothing.
     pub tolerance: f64,
 }
@@ -99,7 +99,7 @@ impl StepReport {
             residual: Scalar::maximum(self.residual, later.residual),
             defect: self.defect + later.defect,
             bound: self.bound + later.bound,
-            is_bound_wide: self.is_bound_wide | later.is_bound_wide,
+            is_bound_wide: self.is_bound_wide || later.is_bound_wide,
             production: self.production + later.production,
             least_production: Scalar::minimum(self.least_production, later.least_production),
             error: Scalar::maximum(self.error, later.error),
@@ -119,20 +119,14 @@ pub(crate) const STAGNATION: f64 = 0.25;
 /// Whether an update is the last one, given the one before.
 #[inline]
 pub(crate) fn is_last(update: f64, before: Option<f64>, tolerance: f64) -> bool {
-    let is_small = update <= tolerance;
-    if !is_small {
+    if !(update <= tolerance) {
         return false;
     }
     let Some(before) = before else {
-        return is_small;
+        return true;
     };
-    let contracts = is_small && update <= CONTRACTION * before;
-    if !(is_small && !contracts) {
-        return contracts;
-    }
     let is_on_floor = update <= CONTRACTION * tolerance;
-    let stagnates = STAGNATION * before <= update;
-    contracts | (is_small & is_on_floor & stagnates)
+    update <= CONTRACTION * before || (is_on_floor && STAGNATION * before <= update)
 }
 
 /// The largest magnitude of many numbers, NaN unless all of them are finite.

@@ -61,7 +61,7 @@ pub(crate) struct Solver<const D: usize> {
     /// The part of the nodal forces that depends on the old state and the loads only, N; empty if there is none.
     old_force: Vec<[f64; D]>,
     past: Past<D>,
-    /// The unit of length of each node: its shortest element in the old state, m; `S::MAX` without elements.
+    /// The unit of length of each node: its shortest element in the old state, m; `f64::MAX` without elements.
     lengths: Vec<f64>,
     /// Whether other initial guesses remain, so that an attempt may be given up early.
     has_other_starts: bool,

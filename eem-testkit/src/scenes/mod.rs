@@ -88,15 +88,11 @@ pub fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
     }
 }
 
-/// The scene of the single pendulum in numbers of any type, with bob, spring and air.
+/// The scene of the single pendulum, with bob, spring and air.
 pub fn single_pendulum_scene() -> (Scene<2>, Node, Element, Reservoir) {
     let mut scene = Scene::default();
     let pivot = scene.anchor([0.0; 2]);
-    let bob = scene.mass(
-        1.0,
-        [3.0, 0.0].map(S::from_f64),
-        [0.0, 1.0].map(S::from_f64),
-    );
+    let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
     let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
     scene.set_temperature(spring, 380.0);
     let air = scene.reservoir(300.0);

@@ -40,7 +40,7 @@ fn evaluate(operation: &Operation, parameters: &[f64], folded: &[Folded]) -> Opt
     let of = |value: Value| folded[value.index()].number();
     Some(Folded::Number(match *operation {
         Operation::Input(index) => *parameters.get(index)?,
-        Operation::Constant(number) => number,
+        Operation::Constant(number) => number.to_f64(),
         Operation::Add(a, b) => of(a)? + of(b)?,
         Operation::Sub(a, b) => of(a)? - of(b)?,
         Operation::Mul(a, b) => of(a)? * of(b)?,

@@ -28,16 +28,16 @@ impl<
         self.strains_at_point()
     }
 
-    type AtPoint<T: Real>
+    type AtPoint
         = Self
     where
-        Self: Material<T>;
+        Self: Material;
 
-    fn at_point<T: Real>(&self) -> Self
+    fn at_point(&self) -> Self
     where
-        Self: Material<T>,
+        Self: Material,
     {
-        FreeEnergy::<T>::duplicate(self)
+        FreeEnergy::<f64>::duplicate(self)
     }
 }
 
@@ -60,16 +60,16 @@ impl<
         self.strains_at_point()
     }
 
-    type AtPoint<T: Real>
+    type AtPoint
         = ComponentEnergy<Self, N1, K1, R1, KEPT_WITH_COMPONENTS, KEPT_WITH_COMPONENTS>
     where
-        Self: Material<T>;
+        Self: Material;
 
-    fn at_point<T: Real>(&self) -> Self::AtPoint<T>
+    fn at_point(&self) -> Self::AtPoint
     where
-        Self: Material<T>,
+        Self: Material,
     {
-        ComponentEnergy::new(FreeEnergy::<T>::duplicate(self))
+        ComponentEnergy::new(FreeEnergy::<f64>::duplicate(self))
     }
 }
 

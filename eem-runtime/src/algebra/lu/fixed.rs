@@ -25,7 +25,7 @@ pub(crate) fn solve_one<const W: usize>(
     let ([pivot, ..], [right, ..], [x, ..]) = (matrix, b, x) else {
         return Err(Singular);
     };
-    if !pivot.is_finite() || pivot == 0.0 {
+    if !pivot.is_finite() || *pivot == 0.0 {
         return Err(Singular);
     }
     *x = right.map(|value| value / *pivot);

@@ -2,8 +2,6 @@
 
 use core::array;
 
-#[cfg(feature = "sparse")]
-use super::Stored;
 use super::{LinearSystem, MOST_FIXED, Storage, solve_fixed};
 use crate::algebra::lu::{self, Singular};
 
@@ -49,7 +47,7 @@ impl LinearSystem<1> {
             #[cfg(feature = "sparse")]
             Storage::Sparse(sparse) => {
                 let values = &mut values[..sparse.pattern().entries()];
-                let mut factored = sparse.factor::<Stored>(values).map_err(|_| Singular)?;
+                let mut factored = sparse.factor(values).map_err(|_| Singular)?;
                 columns.try_for_each(|column| {
                     let solved = factored.solve(column);
                     solved.map(drop).map_err(|_| Singular)

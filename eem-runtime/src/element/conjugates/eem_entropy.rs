@@ -205,7 +205,7 @@ struct Search<M: FreeEnergy<f64>> {
     guesses: M::Corners,
     /// The largest correction with which Newton's method continues.
     limit: f64,
-    /// Lanes that have converged.
+    /// Whether it has converged.
     settled: bool,
 }
 
@@ -234,7 +234,6 @@ impl<M: FreeEnergy<f64>> Search<M> {
         } else {
             LAST_CORRECTION * root
         };
-        let settled = self.settled;
         let mut found = *corners;
         let (mut largest, mut sum, mut least) = (0.0, 0.0, f64::MAX);
         for index in 0..M::Corners::LEN {
@@ -251,19 +250,12 @@ impl<M: FreeEnergy<f64>> Search<M> {
             found[index] = corners[index] + corners[index] * growth(correction);
         }
         let size = largest + 0.0 * sum;
-        let is_far = !(settled || (size <= self.limit && least > 0.0));
+        let is_far = !(size <= self.limit && least > 0.0);
         if is_far {
-            let sought = search_corners(model, start, x1, self.guesses)?;
-            for index in 0..M::Corners::LEN {
-                if is_far {
-                    found[index] = sought[index];
-                }
-            }
+            found = search_corners(model, start, x1, self.guesses)?;
         }
-        for index in 0..M::Corners::LEN {
-            corners[index] = found[index];
-        }
-        self.settled = settled || size <= enough || is_far;
+        *corners = found;
+        self.settled = size <= enough || is_far;
         self.limit = SHRINKING * size;
         Ok(())
     }

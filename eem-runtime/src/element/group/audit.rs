@@ -46,7 +46,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             return Err(StateError::NotFinite {
                 element: self.element,
                 quantity: "force or entropy",
-                value,
+                value: *value,
             });
         }
         let theta = if M::THERMAL {
@@ -63,9 +63,9 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             Some((dashpot, eta)) => Err(StateError::Viscosity {
                 element: self.element,
                 dashpot,
-                value: eta,
+                value: *eta,
                 unit: K::VISCOSITY_UNIT,
-                temperature: M::THERMAL.then(|| theta),
+                temperature: M::THERMAL.then_some(theta),
             }),
         }
     }

@@ -159,7 +159,7 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
         }
     }
 
-    fn correct(&mut self, solution: &[[f64; 1]], settled: bool) -> f64 {
+    fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
         let mut largest = 0.0;
         if Point::<M, K, C, D>::UNKNOWNS == 0 {
             return largest;
@@ -167,10 +167,8 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
         for member in &mut self.members {
             let motion = member.site.motion_in(solution);
             for point in member.points.as_mut() {
-                let found = point.values_to_restore(settled);
                 let contact = point.contact_in(&self.contacts);
                 let update = point.correct(&motion, contact, solution);
-                point.restore(found, settled);
                 largest = Scalar::maximum(largest, update);
             }
         }

@@ -129,12 +129,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         known: Known<C::Memory, M::Response, M>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
-        self.points.as_mut().iter_mut().try_for_each(|point| {
-            let found = point.values_to_restore(trial.settled);
-            point.respond_alone(view, trial, &arms, known)?;
-            point.restore(found, trial.settled);
-            Ok(())
-        })
+        let mut points = self.points.as_mut().iter_mut();
+        points.try_for_each(|point| point.respond_alone(view, trial, &arms, known))
     }
 
     /// Evaluates responses and tangents, which may be known, and the contribution of the element to the system of the next
@@ -155,7 +151,6 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         let arms = self.trial_arms(view, trial);
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
-            let found = point.values_to_restore(trial.settled);
             let measures = point.locate_trial(&arms.placed, trial, known.map(|known| known.0))?;
             let pose = point.pose(&arms, &measures);
             point.sensitivity = pose.sensitivity;
@@ -179,7 +174,6 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
             }
             point.keep(&form);
             point.drop_drag(&elastic);
-            point.restore(found, trial.settled);
         }
         Ok(())
     }

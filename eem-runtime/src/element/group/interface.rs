@@ -119,9 +119,9 @@ pub(crate) trait Group<const D: usize>: Send + Sync {
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError>;
 
-    /// Applies the local corrections for a global solution, except in lanes that have converged; returns the largest,
+    /// Applies the local corrections for a global solution and returns the largest,
     /// in units of the measure (viscous stretches) and of the temperature.
-    fn correct(&mut self, solution: &[[f64; 1]], settled: bool) -> f64;
+    fn correct(&mut self, solution: &[[f64; 1]]) -> f64;
 
     /// Applies a fraction of the last corrections instead.
     fn apply(&mut self, share: f64);

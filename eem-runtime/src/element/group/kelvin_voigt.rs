@@ -271,9 +271,9 @@ pub(super) fn check_drag<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize>(
     match drag.as_ref().iter().find(|&&eta| !is_positive(eta)) {
         None => Ok(()),
         Some(eta) => Err(WrongDrag {
-            value: eta,
+            value: *eta,
             unit: K::VISCOSITY_UNIT,
-            temperature: M::THERMAL.then(|| theta),
+            temperature: M::THERMAL.then_some(theta),
         }),
     }
 }

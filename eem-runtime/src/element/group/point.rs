@@ -274,7 +274,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
                 dashpot,
                 value: viscosities[dashpot],
                 unit: K::VISCOSITY_UNIT,
-                temperature: M::THERMAL.then(|| theta),
+                temperature: M::THERMAL.then_some(theta),
             }),
         }
     }

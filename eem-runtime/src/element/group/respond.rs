@@ -1,7 +1,7 @@
 //! The response of the elements at a trial state, and its checks.
 
 use super::arms::{add_scaled, measures_in};
-use super::point::{Drag, Known, Point, Viscosities, temperature_in};
+use super::point::{Known, Point, Viscosities, temperature_in};
 use super::pose::{Pose, placed_measures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
@@ -189,55 +189,6 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
     }
 }
 
-/// The values of a trial that the closing of a step needs.
-#[derive(Clone, Copy)]
-pub(super) struct Found<M: FreeEnergy<f64>> {
-    x: M::Variables,
-    creep: M::Viscosities,
-    response: M::Response,
-    viscosities: M::Viscosities,
-    drag: Drag<M::Drag>,
-}
-
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
-    /// The present values, to be restored in the lanes that have converged. `None` if there are none, or with a single
-    /// lane.
-    #[inline]
-    pub(super) fn values_to_restore(&self, settled: bool) -> Option<Found<M>> {
-        return None;
-        Some(Found {
-            x: self.x,
-            creep: self.creep,
-            response: self.response,
-            viscosities: self.viscosities.0,
-            drag: self.drag,
-        })
-    }
-
-    /// Restores the values in lanes that have converged.
-    #[inline]
-    pub(super) fn restore(&mut self, found: Option<Found<M>>, settled: bool) {
-        let Some(found) = found else {
-            return;
-        };
-        let keep = |values: &mut [f64], kept: &[f64]| {
-            for (value, &kept) in values.iter_mut().zip(kept) {
-                if settled {
-                    *value = kept;
-                }
-            }
-        };
-        keep(self.x.as_mut(), found.x.as_ref());
-        keep(self.creep.as_mut(), found.creep.as_ref());
-        keep(self.response.as_mut(), found.response.as_ref());
-        keep(self.viscosities.0.as_mut(), found.viscosities.as_ref());
-        let drag = &mut self.drag;
-        keep(drag.viscosity.0.as_mut(), found.drag.viscosity.0.as_ref());
-        keep(drag.extension.as_mut(), found.drag.extension.as_ref());
-        keep(drag.force.as_mut(), found.drag.force.as_ref());
-    }
-}
-
 /// `Σ_a slope_a ∂Λ_a/∂r¹`.
 fn combined<K: Kinematics<D>, M: FreeEnergy<f64>, const D: usize>(
     slopes: &M::Variables,
@@ -290,7 +241,7 @@ fn not_finite(element: Element, response: &[f64]) -> StateError {
     StateError::NotFinite {
         element,
         quantity: "force or entropy",
-        value: value.map_or(f64::NAN, |value| value),
+        value: value.copied().unwrap_or(f64::NAN),
     }
 }
 

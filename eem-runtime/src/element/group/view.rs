@@ -92,8 +92,6 @@ pub(crate) struct Trial<const D: usize> {
     /// Elements use the [starting form](crate::element::conjugates::ElementScheme::starting_form) of their scheme, if
     /// it has one.
     pub(crate) is_start: bool,
-    /// Lanes that have converged while others iterate.
-    pub(crate) settled: bool,
 }
 
 impl<const D: usize> Trial<D> {
@@ -106,7 +104,6 @@ impl<const D: usize> Trial<D> {
             carries: points,
             interface: InterfaceTemperatures::new(sets * interface),
             is_start: false,
-            settled: false,
         }
     }
 

@@ -12,7 +12,7 @@ use eem_mesh::tensor::dot;
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
 ///
 /// It is computed as `√Σr²`, so that `Σr²` must neither underflow nor overflow: λ lies between
-/// 1.5·10⁻¹⁵⁴ m and 1.3·10¹⁵⁴ m in double precision, between 1.1·10⁻¹⁹ m and 1.8·10¹⁹ m in single.
+/// 1.5·10⁻¹⁵⁴ m and 1.3·10¹⁵⁴ m.
 ///
 /// ```text
 /// ∂λ/∂r = r/λ,   ∂²λ/∂r² = (1 − n nᵀ)/λ,   n = r/λ

@@ -57,10 +57,10 @@ impl<'a> Entry<'a> {
         Self::new(name, Rule::Sum, pairs).counted(sums.values().len())
     }
 
-    /// Counts as lists of their bytes, which every number type represents exactly.
+    /// Counts as lists of their bytes, which numbers represent exactly.
     fn counts(name: &'static str, counts: impl IntoIterator<Item = u64> + 'a) -> Self {
         let bytes = counts.into_iter().flat_map(u64::to_le_bytes);
-        Self::new(name, Rule::None, bytes.map(|byte| byte.into()))
+        Self::new(name, Rule::None, bytes.map(f64::from))
     }
 
     fn list(name: &'static str, list: &'a [f64]) -> Self {

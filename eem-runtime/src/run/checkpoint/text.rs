@@ -79,9 +79,9 @@ impl<'a> Text<'a> {
     pub(super) fn numbers(&mut self, name: &'static str, own: Option<&[f64]>) -> Read<Vec<f64>> {
         let show = |number: &f64, text: &mut String| {
             // Writing to a string does not fail.
-            _ = write!(text, "{:?}", number);
+            _ = write!(text, "{number:?}");
         };
-        self.line(name, own, show, |item| Some(item.parse().ok()?))
+        self.line(name, own, show, |item| item.parse().ok())
     }
 
     /// N numbers.

@@ -386,7 +386,7 @@ impl<const D: usize> Gradient<D> {
         let pairs = self.pairs.iter().map(|(_, by)| by);
         let sizes = self.sizes.iter().map(|(_, by)| by);
         let others = others.chain(parameters).chain(pairs).chain(sizes);
-        self.start.numbers().chain(others).collect()
+        self.start.numbers().chain(others.copied()).collect()
     }
 
     fn own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {

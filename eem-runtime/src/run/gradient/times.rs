@@ -73,7 +73,7 @@ impl<const D: usize> Gradient<D> {
             };
             self.add_moved(rate, &mut moved)?;
         }
-        moved.sort_by(|(one, _), (other, _)| one.total_cmp(&other));
+        moved.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let starts = [self.started]
             .into_iter()
             .chain(self.sizes.iter().map(|&(end, _)| end));
@@ -81,7 +81,7 @@ impl<const D: usize> Gradient<D> {
         let mut found = self.sizes.clone();
         let mut later = 0.0;
         for (&start, (end, by)) in starts.iter().zip(&mut found).rev() {
-            while let Some((_, value)) = moved.pop_if(|(time, _)| end <= *time) {
+            while let Some((_, value)) = moved.pop_if(|(time, _)| *end <= *time) {
                 later += value;
             }
             *by += later;
@@ -91,7 +91,7 @@ impl<const D: usize> Gradient<D> {
             }
         }
         match found.iter().find(|(_, by)| !by.is_finite()) {
-            Some((end, _)) => Err(GradientError::NotFinite { time: end }),
+            Some((end, _)) => Err(GradientError::NotFinite { time: *end }),
             None => Ok(found),
         }
     }

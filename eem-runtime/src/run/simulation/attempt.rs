@@ -96,10 +96,6 @@ impl<const D: usize> Simulation<D> {
 
     /// Writes the next state.
     fn find_next(&mut self, size: f64, demand: Demand) -> Result<Attempt, StepFailure> {
-        if self.has_diverged() {
-            // Otherwise an experiment that ignores failed steps and waits for a time or state would loop forever.
-            return Err(Discord.into());
-        }
         let end = self.time() + size;
         if !end.is_finite() {
             let value = end;

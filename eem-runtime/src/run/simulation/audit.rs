@@ -106,11 +106,13 @@ impl<const D: usize> Simulation<D> {
         let mut expected = state.clone();
         expected.follow_velocities(D, &self.masses);
         let mut pairs = expected.momenta.values().iter().zip(state.momenta.values());
-        match pairs.find(|(expected, value)| !(expected == **value)) {
+        #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
+        let different = |(expected, value): &(&f64, &f64)| expected != value;
+        match pairs.find(different) {
             None => Ok(()),
             Some((_, value)) => Err(RestoreError::Value {
                 quantity: "momenta",
-                value,
+                value: *value,
                 required: "those of the velocities, p = M v",
             }),
         }
@@ -145,7 +147,9 @@ impl<const D: usize> Simulation<D> {
                     Course::Function(of) => Some(of),
                     Course::Constant(_) | Course::Set(_) => None,
                 });
-                let is_right = motion.map_or(value == created && carry == 0.0, |by| {
+                #[expect(clippy::float_cmp, reason = "nothing has moved it")]
+                let is_at_home = value == created && carry == 0.0;
+                let is_right = motion.map_or(is_at_home, |by| {
                     follows(&|time| by(time)[axis], value, [time, begin], scale)
                 });
                 if !is_right {
@@ -190,7 +194,7 @@ impl<const D: usize> Simulation<D> {
 /// A sum, unless it and its compensation are zero.
 fn not_zero((value, carry): (f64, f64)) -> Option<f64> {
     let is_zero = value == 0.0 && carry == 0.0;
-    (!is_zero).then(|| value + carry)
+    (!is_zero).then_some(value + carry)
 }
 
 /// Whether a value of this scale is that of a function at a time, to the rounding of both.
@@ -211,5 +215,5 @@ fn follows(function: &dyn Fn(f64) -> f64, value: f64, [time, begin]: [f64; 2], s
     let bound = Scalar::maximum(bound, roundings * begin.abs());
     let low = ends.into_iter().fold(now, Scalar::minimum) - bound;
     let high = ends.into_iter().fold(now, Scalar::maximum) + bound;
-    low <= value && value <= high
+    (low..=high).contains(&value)
 }

@@ -8,7 +8,7 @@ use crate::element::state::Energy;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::control::Controller;
-use crate::step::error::{StepError, StepFailure};
+use crate::step::error::StepFailure;
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
@@ -29,7 +29,7 @@ impl<const D: usize> Simulation<D> {
         self.judge_trial(control);
         if self.in_use.closing() == Closing::Explicit {
             self.measure_stability(control);
-            if let Some(report) = self.try_implicit(control, end)? {
+            if let Some(report) = self.try_implicit(control, end) {
                 return Ok(report);
             }
         } else {
@@ -104,22 +104,16 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// One step of an implicit scheme, if a trial is due and the step is accurate.
-    fn try_implicit(
-        &mut self,
-        control: &mut Control,
-        end: f64,
-    ) -> Result<Option<StepReport>, StepError> {
+    fn try_implicit(&mut self, control: &mut Control, end: f64) -> Option<StepReport> {
         let unknowns = self.layout.unknowns;
         let scheme = implicit(
             &control.memory.tolerance,
             self.automatic.needs.are_implicit(),
         );
-        let Some(size) = self.automatic.choice.implicit_trial(scheme, unknowns) else {
-            return Ok(None);
-        };
+        let size = self.automatic.choice.implicit_trial(scheme, unknowns)?;
         let size = Scalar::minimum(size, control.memory.largest);
-        if !self.is_candidate(scheme, control) || self.size_towards(end, size)?.is_some() {
-            return Ok(None);
+        if !self.is_candidate(scheme, control) || self.size_towards(end, size).is_some() {
+            return None;
         }
         let (before, usual) = (self.scheme_at_work(), self.step);
         if self.switches_to(scheme, control) {
@@ -130,7 +124,7 @@ impl<const D: usize> Simulation<D> {
                 self.step = controller.next(size, report.error, control.accuracy);
                 self.accept(control);
                 self.record_switch(control, usual);
-                return Ok(Some(report));
+                return Some(report);
             }
             self.count(0, 0.0);
             let statistics = &mut control.memory.statistics;
@@ -141,7 +135,7 @@ impl<const D: usize> Simulation<D> {
             self.return_to_scheme(&before, control);
         }
         self.automatic.choice.wait_longer();
-        Ok(None)
+        None
     }
 
     /// Switches to the explicit scheme for some steps, if a trial is due.

@@ -71,7 +71,7 @@ impl<const D: usize> Simulation<D> {
             None => None,
         };
         self.automatic.needs.check(in_use)?;
-        self.check_control(control, (scheme, in_use))?;
+        Self::check_control(control, (scheme, in_use))?;
         self.automatic.is_motion_first = self.is_motion_first();
         if in_use != self.in_use {
             self.use_scheme(in_use)?;

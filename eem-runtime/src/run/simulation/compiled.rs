@@ -1,8 +1,8 @@
-//! Simulations in double precision in one to three dimensions are compiled with this crate.
+//! Simulations in one to three dimensions are compiled with this crate.
 //!
 //! Generic functions are compiled again in every optimised program that calls them: a program with one material took 30
 //! CPU seconds, and takes 7 without those of `Simulation`. So the work of a simulation starts in a table of functions:
-//! that of this crate or, for other scalars and dimensions, one that is compiled where it is used.
+//! that of this crate or, for other dimensions, one that is compiled where it is used.
 
 #[cfg(not(test))]
 use core::any::Any;
@@ -136,11 +136,11 @@ impl<const D: usize> Functions<D> {
     #[inline]
     pub(super) fn get() -> &'static Self {
         #[cfg(not(test))]
-        if const { S::IS_DOUBLE && D == 1 } {
+        if const { D == 1 } {
             return cast(&LINE);
-        } else if const { S::IS_DOUBLE && D == 2 } {
+        } else if const { D == 2 } {
             return cast(&PLANE);
-        } else if const { S::IS_DOUBLE && D == 3 } {
+        } else if const { D == 3 } {
             return cast(&SPACE);
         }
         const { &Self::HERE }
@@ -153,5 +153,5 @@ impl<const D: usize> Functions<D> {
 fn cast<const D: usize>(functions: &'static dyn Any) -> &'static Functions<D> {
     functions
         .downcast_ref()
-        .expect("the scalar is f64, and the dimension that of the table")
+        .expect("the dimension is that of the table")
 }

@@ -49,7 +49,7 @@ impl<const D: usize> Simulation<D> {
     /// ```
     pub fn control_steps(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
         let memory = Some(self.new_control(tolerance));
-        self.check_control(memory, (self.scheme, self.in_use))?;
+        Self::check_control(memory, (self.scheme, self.in_use))?;
         self.set_control(memory);
         Ok(())
     }
@@ -68,20 +68,18 @@ impl<const D: usize> Simulation<D> {
 
     /// An error unless steps of a scheme, and of the one that it uses first, can be controlled with this tolerance.
     pub(super) fn check_control(
-        &self,
         memory: Option<SavedControl>,
         (scheme, in_use): (Scheme, Scheme),
     ) -> Result<(), SceneError> {
         let Some(memory) = memory else {
             return Ok(());
         };
-        let checked = if scheme.may_change_steps() {
+        if scheme.may_change_steps() {
             memory.tolerance.check(in_use.accuracy())
         } else {
             let scheme = scheme.name();
             Err(SceneError::FixedSteps { scheme })
-        };
-        checked
+        }
     }
 
     /// Continues step control from its history; `None` switches it off.
@@ -154,7 +152,7 @@ impl<const D: usize> Simulation<D> {
     pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> StepResult {
         if self.control.is_none() {
             let full = self.step;
-            let last = self.size_towards(end, full)?;
+            let last = self.size_towards(end, full);
             let size = last.unwrap_or(full);
             let made = self.step_by(size);
             let mut report = made.map_err(|error| self.with_shorter(error, size))?;
@@ -172,7 +170,7 @@ impl<const D: usize> Simulation<D> {
         });
         if found.is_err() {
             let statistics = self.step_statistics();
-            self.restore_history(history);
+            self.restore_history(&history);
             if let (Some(control), Some(statistics)) = (&mut self.control, statistics) {
                 control.memory.statistics = statistics;
             }
@@ -197,7 +195,7 @@ impl<const D: usize> Simulation<D> {
             self.step =
                 Scalar::minimum(Scalar::maximum(self.step, memory.smallest), memory.largest);
             let full = self.step;
-            let arriving = self.size_towards(end, full)?;
+            let arriving = self.size_towards(end, full);
             let size = arriving.unwrap_or(full);
             let (next, limit) = match self.attempt(control, size) {
                 Ok(Tried::Made(mut report)) => {
@@ -290,7 +288,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Forgets the steps since this history.
-    pub(super) fn restore_history(&mut self, history: History) {
+    pub(super) fn restore_history(&mut self, history: &History) {
         self.step = history.step;
         let choice = history.choice;
         let mut too_large = None;
@@ -319,7 +317,7 @@ impl<const D: usize> Simulation<D> {
 
     pub(super) fn return_to_snapshot(&mut self, snapshot: &Snapshot) {
         // First the scheme, which evaluates energies in its own way and has a history of its own.
-        self.restore_history(snapshot.history);
+        self.restore_history(&snapshot.history);
         self.state.copy_all_from(&snapshot.state);
         let (past, explicit) = &snapshot.past;
         self.stepper.restore(past, explicit.as_ref());

@@ -52,7 +52,7 @@ impl<const D: usize> Simulation<D> {
         let had_none = self.loads.forces.is_empty();
         let is_new = set(&mut self.loads.forces, node, force.into());
         let Some(is_new) = is_new else {
-            return Err(self.given(&node, "force"));
+            return Err(Self::given(&node, "force"));
         };
         let rebuilt = self.reload(is_new && had_none);
         rebuilt.inspect_err(|_| {
@@ -95,7 +95,7 @@ impl<const D: usize> Simulation<D> {
         }
         let is_new = set(&mut self.loads.motions, anchor, velocity.into());
         let Some(is_new) = is_new else {
-            return Err(self.given(&anchor, "motion"));
+            return Err(Self::given(&anchor, "motion"));
         };
         let rebuilt = self.reload(is_new);
         rebuilt.inspect_err(|_| {
@@ -152,7 +152,7 @@ impl<const D: usize> Simulation<D> {
         let mut all = self.loads.temperatures.iter_mut();
         match all.find(|(own, _)| *own == element) {
             Some((_, Course::Set(own))) => *own = temperature,
-            Some(_) => return Err(self.given(&element, "temperature")),
+            Some(_) => return Err(Self::given(&element, "temperature")),
             None => {
                 return Err(SceneError::NoThermostat { element });
             }
@@ -162,7 +162,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// The error of setting a load that the scene already has as a function of time or as a constant.
-    fn given(&self, handle: &dyn ToString, quantity: &'static str) -> SceneError {
+    fn given(handle: &dyn ToString, quantity: &'static str) -> SceneError {
         let handle = handle.to_string();
         SceneError::GivenLoad { handle, quantity }
     }

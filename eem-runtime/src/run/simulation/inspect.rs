@@ -329,7 +329,7 @@ impl<const D: usize> Simulation<D> {
     #[doc(hidden)]
     #[must_use]
     pub fn values(&self) -> [Vec<f64>; 4] {
-        let all = |values: &[f64]| values.iter().collect();
+        let all = |values: &[f64]| values.to_vec();
         let of_masses = |values: &[f64]| {
             let nodes = self.masses.iter().zip(values.chunks_exact(D));
             let moving = nodes.filter(|(mass, _)| mass.is_some());

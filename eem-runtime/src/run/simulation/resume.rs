@@ -105,7 +105,7 @@ impl<const D: usize> Simulation<D> {
     fn restore_in_scheme(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
         checkpoint.check(&self.checkpoint_here())?;
         self.audit(&checkpoint.state, checkpoint.step)?;
-        self.check_control(checkpoint.control, (self.scheme, self.in_use))?;
+        Self::check_control(checkpoint.control, (self.scheme, self.in_use))?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);

@@ -133,28 +133,22 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Whether the end of a run lies ahead.
-    pub(super) fn is_before(&self, end: f64) -> Result<bool, StepError> {
-        self.decide(self.time() < end)
-    }
-
-    /// One decision for all lanes.
-    fn decide(&self, mask: bool) -> Result<bool, StepError> {
-        let decided = mask;
-        decided.map_err(|discord| self.refused(discord.into()))
+    pub(super) fn is_before(&self, end: f64) -> bool {
+        self.time() < end
     }
 
     /// The size of a step that ends at `end`, if one of this size would end there or beyond it.
-    pub(super) fn size_towards(&self, end: f64, full: f64) -> Result<Option<f64>, StepError> {
+    pub(super) fn size_towards(&self, end: f64, full: f64) -> Option<f64> {
         // With the time to twice the precision.
         let Sum { value, carry } = self.state.time;
         let left = (end - value) - carry;
         let scale = self.time().abs() + Scalar::minimum(full, left);
         let rounding = END_ROUNDINGS * f64::EPSILON * scale;
-        if self.decide(full + rounding < left)? {
-            return Ok(None);
+        if full + rounding < left {
+            return None;
         }
-        let is_full = self.decide((left - full).abs() <= rounding)?;
-        Ok(Some(if is_full { full } else { left }))
+        let is_full = (left - full).abs() <= rounding;
+        Some(if is_full { full } else { left })
     }
 
     /// Sets the end of the last step to this time, which it misses by rounding.
@@ -209,17 +203,16 @@ impl<const D: usize> Simulation<D> {
         let mut last = self.time();
         for &time in times {
             if !(last <= time) {
-                let end = time;
-                return Err(self.refused(StepFailure::End { end }));
+                return Err(self.refused(StepFailure::End { end: time }));
             }
             last = time;
         }
         let mut left = times;
         while let [time, ..] = *left {
             let mut passed = 0;
-            if self.is_before(time)? {
+            if self.is_before(time) {
                 self.advance(Aim::Towards(last))?;
-                let is_passed = |time: &&f64| time < self.time();
+                let is_passed = |time: &&f64| **time < self.time();
                 passed = left.iter().take_while(is_passed).count();
                 if passed > 0 && self.sample(&left[..passed], &mut observer)?.is_break() {
                     return Ok(RunEnd::Stopped);
@@ -248,7 +241,7 @@ impl<const D: usize> Simulation<D> {
         run.undo();
         // One after the other, so that entropy does not fall between the times.
         for &time in times {
-            while run.is_before(time)? {
+            while run.is_before(time) {
                 run.advance(Aim::InSchemeTowards(time))?;
             }
             if observer(run).is_break() {

@@ -100,15 +100,8 @@ fn first_speed<const D: usize>(motion: &OfTime<D>, [start, step]: [f64; 2]) -> [
     let spans = shares().map(|share| share * step);
     let (first, places) = (motion(start), spans.map(|span| motion(start + span)));
     array::from_fn(|axis| {
-        S::pack(|lane| {
-            let spans = spans.map(|span| span.lane(lane));
-            let values = places.map(|place| place[axis].lane(lane));
-            derivative(
-                first[axis].lane(lane),
-                (spans, values),
-                f64::EPSILON.lane(lane),
-            )
-        })
+        let values = places.map(|place| place[axis]);
+        derivative(first[axis], (spans, values))
     })
 }
 

@@ -85,9 +85,12 @@ impl Accuracy {
     pub(crate) fn left_after(self, error: f64) -> f64 {
         let power = -1.0 / self.order_of_estimate();
         let left = AIM * Scalar::powf(error, power);
-        let least = LEAST_AFTER_ERROR;
-        // NaN if the error is NaN.
-        if least < left { left } else { least }
+        // Not NaN if the error is NaN.
+        if left > LEAST_AFTER_ERROR {
+            left
+        } else {
+            LEAST_AFTER_ERROR
+        }
     }
 
     /// The power of the step size to which its estimated error, in units of the tolerance, is proportional.

@@ -5,9 +5,6 @@ use crate::scene::error::SceneError;
 use crate::step::control::controller::Accuracy;
 use eem_material::number::scalar::{Scalar, is_positive};
 
-/// The ε that separates double and single precision.
-const SINGLE: f64 = 1e-12;
-
 /// The tolerance of step control.
 ///
 /// Errors of positions are relative to `|q|₂`, of momenta to the largest `|p|₂` of the run so far, and of each
@@ -59,11 +56,10 @@ pub struct Tolerance {
     pub over: Option<f64>,
 }
 
-/// A relative tolerance of 1e-6, in single precision of 1e-3.
+/// A relative tolerance of 1e-6.
 impl Default for Tolerance {
     fn default() -> Self {
-        let is_double = f64::EPSILON < SINGLE;
-        Self::new(if is_double { 1e-6 } else { 1e-3 })
+        Self::new(1e-6)
     }
 }
 
@@ -247,21 +243,17 @@ impl Scales {
 /// `|x|₂`, scaled where squares would under- or overflow.
 pub(crate) fn norm(x: impl Iterator<Item = f64> + Clone) -> f64 {
     let sum = x.clone().fold(0.0, |sum, x| sum + x * x);
-    let is_normal = sum > f64::MIN_POSITIVE && sum <= f64::MAX;
-    if is_normal {
+    if sum > f64::MIN_POSITIVE && sum <= f64::MAX {
         return sum.sqrt();
     }
     let most = x
         .clone()
         .fold(0.0, |most, x| Scalar::maximum(most, x.abs()));
-    let scaled = x.map(|x| x / most);
-    let scaled = most * scaled.fold(0.0, |sum, x| sum + x * x).sqrt();
-    let has_none = most == 0.0;
-    if is_normal {
-        sum.sqrt()
-    } else {
-        if has_none { most } else { scaled }
+    if most == 0.0 {
+        return most;
     }
+    let scaled = x.map(|x| x / most);
+    most * scaled.fold(0.0, |sum, x| sum + x * x).sqrt()
 }
 
 #[cfg(test)]

@@ -78,7 +78,7 @@ impl<const D: usize> Explicit<D> {
 
     /// The largest defect of all components before closing; an error unless it is small.
     fn correction(&self, demand: Demand, time: f64) -> Result<f64, StepFailure> {
-        let mut largest = 0.0;
+        let mut largest = 0.0_f64;
         for progress in &self.scratch.progress {
             let is_larger = largest.abs() < progress.correction.abs();
             if is_larger {

@@ -46,7 +46,7 @@ impl<const D: usize> Explicit<D> {
             } else {
                 &mut scratch.least
             };
-            *least = Scalar::minimum(least, production);
+            *least = Scalar::minimum(*least, production);
             next.entropies.add(a, flow);
             // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
             for change in [-flow, production] {
@@ -84,7 +84,7 @@ impl<const D: usize> Explicit<D> {
             } else {
                 &mut progress.least
             };
-            *least = Scalar::minimum(least, production);
+            *least = Scalar::minimum(*least, production);
         }
     }
 

@@ -19,7 +19,7 @@ mod shape;
 use super::demand::{Demand, Scales};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::ClosingView;
+use crate::element::group::{ClosingView, ComponentEnergy};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 
@@ -73,7 +73,7 @@ impl<const D: usize> Explicit<D> {
                 self.find_forces(view);
                 for index in 0..self.components.all.len() {
                     if self.scratch.needs_forces[index] {
-                        let status = self.reshape(index, view, next)?;
+                        let status = self.reshape(index, view, next);
                         self.scratch.open[index] = status == Status::Changed;
                         if status == Status::Failed {
                             self.turn_rigidly(index, (view, demand, scales), next)?;
@@ -91,15 +91,13 @@ impl<const D: usize> Explicit<D> {
     /// Finds temperatures and energies of the elements of open components.
     fn find_energies(&mut self, next: &mut State) -> Result<(), StateError> {
         let scratch = &mut self.scratch;
-        let open = scratch.open.iter().zip(&scratch.inactive);
-        for (energy, (&is_open, &inactive)) in scratch.energies.iter_mut().zip(open) {
+        for (energy, &is_open) in scratch.energies.iter_mut().zip(&scratch.open) {
             if is_open {
-                energy.clear(inactive);
+                *energy = ComponentEnergy::none();
             }
         }
         let mut view = ClosingView {
             open: &scratch.open,
-            inactive: &scratch.inactive,
             stage: &mut self.stage,
             capacities: &mut scratch.capacities,
             unkept: &mut scratch.unkept,

@@ -25,7 +25,7 @@ impl<const D: usize> Explicit<D> {
         }
         let mut sizes = squares.map(Scalar::sqrt);
         let are_normal = squares.map(|sum| sum > f64::MIN_POSITIVE && sum <= f64::MAX);
-        if !are_normal.into_iter().all(MASK) {
+        if !are_normal.into_iter().all(|is_normal| is_normal) {
             self.expect_finite()?;
             sizes = [
                 norm(masses.iter().flat_map(|place| place.past.start[0])),

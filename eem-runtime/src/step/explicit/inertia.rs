@@ -14,7 +14,7 @@ mod principal;
 pub(super) mod turning;
 
 use super::vector::{dot, length};
-use crate::algebra::bivector::{Bivector, planes};
+use crate::algebra::bivector::Bivector;
 
 pub(super) use moments::{Moments, WEAK};
 pub(super) use principal::Principal;
@@ -30,8 +30,6 @@ pub(super) enum Inertia<const D: usize> {
     Space(Inverse),
     /// Nearly on a line, or in more than three dimensions.
     Principal(Principal<D>),
-    /// Of several lanes, whose bodies differ in shape.
-    Lanes(Moments<D>),
 }
 
 impl<const D: usize> Inertia<D> {
@@ -45,7 +43,7 @@ impl<const D: usize> Inertia<D> {
         {
             return Self::Space(inverse);
         }
-        Self::Principal(Principal::of(&moments.lane(0)))
+        Self::Principal(Principal::of(&moments))
     }
 
     /// Of a body with one arm, given the arm of one of its masses and `Σ m r²`.
@@ -65,30 +63,17 @@ impl<const D: usize> Inertia<D> {
     pub(super) fn solve(&self, momentum: &Bivector<f64, D>) -> Bivector<f64, D> {
         match self {
             Self::Single(moment) => {
-                let is_none = moment <= 0.0;
+                let is_none = *moment <= 0.0;
                 momentum.map(0.0, |j| if is_none { 0.0 } else { j / *moment })
             }
             Self::Line { along, moment } => {
-                let is_none = moment <= 0.0;
+                let is_none = *moment <= 0.0;
                 let turning = momentum.turn(along);
                 let speed = turning.map(|w| if is_none { 0.0 } else { w / *moment });
                 Bivector::wedge(along, &speed)
             }
             Self::Space(inverse) => inverse.solve(momentum),
-            Self::Principal(principal) => {
-                let omega = principal.solve(&momentum.map(0.0, |j| j.lane(0)));
-                omega.map(0.0, S::from_f64)
-            }
-            Self::Lanes(moments) => {
-                let mut omega = Bivector::zero();
-                for plane in planes::<D>() {
-                    *omega.at_mut(plane) = S::pack(|lane| {
-                        let own = Inertia::of_body(moments.lane(lane));
-                        own.solve(&momentum.map(0.0, |j| j.lane(lane))).at(plane)
-                    });
-                }
-                omega
-            }
+            Self::Principal(principal) => principal.solve(momentum),
         }
     }
 }
@@ -140,6 +125,7 @@ impl Inverse {
 mod tests {
     use super::super::vector::difference;
     use super::*;
+    use crate::algebra::bivector::planes;
 
     /// The angular momentum of masses 1, 2, … that turn, and their moments.
     fn turning<const D: usize>(

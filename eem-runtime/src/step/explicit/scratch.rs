@@ -25,16 +25,15 @@ pub(super) struct Progress {
     pub(super) correction: f64,
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: f64,
-    /// The total entropy production, and the smallest one before the closing, `S::MAX` without any, J/K.
+    /// The total entropy production, and the smallest one before the closing, `f64::MAX` without any, J/K.
     pub(super) production: Total,
     pub(super) least: f64,
     /// The factor by which the closing has changed every production.
     pub(super) factor: f64,
     /// `Σ |F||q|` if no correction of the energy was possible; zero otherwise, J.
     pub(super) granularity: f64,
-    /// Whether the energy is within tolerance, and whether a correction needs forces.
+    /// Whether the energy is within tolerance.
     pub(super) is_closed: bool,
-    pub(super) needs_forces: bool,
     /// Whether the component was rotated rigidly because no correction was possible.
     pub(super) is_rigid: bool,
 }
@@ -74,8 +73,6 @@ pub(super) struct Scratch<const D: usize> {
     /// Whether a component has to be evaluated, and whether its forces are needed.
     pub(super) open: Vec<bool>,
     pub(super) needs_forces: Vec<bool>,
-    /// Lanes that have not changed and are inactive while the others are evaluated.
-    pub(super) inactive: Vec<bool>,
     /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
     pub(super) capacities: Vec<[f64; 2]>,
     pub(super) produced: Vec<f64>,
@@ -88,7 +85,7 @@ pub(super) struct Scratch<const D: usize> {
     pub(super) creep: Vec<[f64; 2]>,
     /// The production Π of each path of heat, J/K.
     pub(super) paths: Vec<f64>,
-    /// The smallest production of paths of heat between thermostats and reservoirs; `S::MAX` without any, J/K.
+    /// The smallest production of paths of heat between thermostats and reservoirs; `f64::MAX` without any, J/K.
     pub(super) least: f64,
     pub(super) stability: RowSums,
 }
@@ -108,7 +105,6 @@ impl Progress {
             factor: 1.0,
             granularity: 0.0,
             is_closed: false,
-            needs_forces: false,
             is_rigid: false,
         }
     }
@@ -165,7 +161,6 @@ impl<const D: usize> Scratch<D> {
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
             needs_forces: vec![false; count],
-            inactive: vec![S::Mask::none(); count],
             capacities: vec![[0.0; 2]; thermal],
             produced: vec![0.0; thermal],
             unkept: None,
@@ -185,7 +180,6 @@ impl<const D: usize> Scratch<D> {
     /// Clears the workspace for the closing of a step.
     pub(super) fn clear(&mut self) {
         self.progress.fill(Progress::none());
-        self.inactive.fill(false);
         self.produced.fill(0.0);
         self.unkept = None;
         self.least = f64::MAX;

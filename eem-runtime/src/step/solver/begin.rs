@@ -109,7 +109,6 @@ impl<const D: usize> Solver<D> {
 
     /// Sets moving nodes to their predicted positions, and interface temperatures to the old ones.
     fn start(&mut self, view: &StepView<'_>, start: Start) {
-        self.trial.settled = false;
         let is_coupled = !self.coupling.is_none();
         let momenta = points::<D>(view.state.momenta.values());
         let (values, right, solution) = self.tangent.renew();
@@ -200,9 +199,10 @@ impl<const D: usize> Solver<D> {
     }
 }
 
-/// The reciprocal of a unit of length, 1/m; 1 for a node without elements, whose unit is given as `S::MAX`.
+/// The reciprocal of a unit of length, 1/m; 1 for a node without elements, whose unit is given as `f64::MAX`.
 #[inline]
 pub(super) fn inverse_length(length: f64) -> f64 {
+    #[expect(clippy::float_cmp, reason = "a mark, not a length")]
     if length == f64::MAX {
         1.0
     } else {

@@ -29,10 +29,8 @@ impl<const D: usize> Solver<D> {
         if !self.scheme.is_exact() {
             return Ok(certificate);
         }
-        let is_enough = certificate.is_enough();
-        if !is_enough {
-            let thorough = self.close_thoroughly(groups, view, next)?;
-            certificate = certificate.or(is_enough, &thorough);
+        if !certificate.is_enough() {
+            certificate = certificate.sharpened_by(self.close_thoroughly(groups, view, next)?);
         }
         Ok(certificate.with_terms_of(groups, [view.state, next]))
     }

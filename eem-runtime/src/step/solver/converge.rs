@@ -15,7 +15,7 @@ use eem_material::number::scalar::natural_power;
 const HALVINGS: u32 = 30;
 
 impl<const D: usize> Solver<D> {
-    /// Newton's method from the trial state. Lanes that have converged keep their values until all have.
+    /// Newton's method from the trial state.
     ///
     /// A step ends at a trial at which the elements have been evaluated, if the last update is small and the step
     /// closed from there proves its laws. Otherwise the iteration continues until rounding stops it.
@@ -33,8 +33,6 @@ impl<const D: usize> Solver<D> {
         let mut purpose = Purpose::Iterate;
         let mut progress = Progress::new();
         self.factors.renew();
-        // Lanes that have converged, and lanes that converge with the next evaluation.
-        let (mut settled, mut last) = (false, false);
         for left in (0..=max_iterations).rev() {
             let is_full = self.advance(groups, view, purpose)?;
             if is_full && purpose == Purpose::Close {
@@ -44,32 +42,28 @@ impl<const D: usize> Solver<D> {
                         return Ok(());
                     }
                     Conclusion::Refused(failure) => return Err(failure),
-                    Conclusion::Open(is_enough) => {
-                        settled = self.settle(is_enough);
-                        last = false;
+                    Conclusion::Open => {
                         before = effort.history.last().map(|last| last.update);
                         self.linearize_again(groups, view)?;
                     }
                 }
             }
-            settled = self.settle(settled | last);
             if left == 0 {
                 break;
             }
-            let update = self.iterate(groups, view, effort, settled)?;
+            let update = self.iterate(groups, view, effort)?;
             if !update.is_finite() {
                 break;
             }
             let previous = before.replace(update).filter(|_| is_full);
             purpose = Purpose::Iterate;
-            let ends = is_last(update, previous, self.factors.tolerance(tolerance)) && !settled;
+            let ends = is_last(update, previous, self.factors.tolerance(tolerance));
             self.factors.judge(update, previous);
-            let is_stuck = self.is_stuck(&mut progress, update, previous, settled);
+            let is_stuck = self.is_stuck(&mut progress, update, previous);
             if self.has_other_starts && progress.is_hopeless() {
                 break;
             }
-            last = ends;
-            if is_stuck || (ends && (settled || last)) {
+            if is_stuck || ends {
                 purpose = Purpose::Close;
             }
         }
@@ -94,7 +88,7 @@ impl<const D: usize> Solver<D> {
                 if !self.scheme.is_exact() || progress.is_over() {
                     return Conclusion::Refused(failure);
                 }
-                return Conclusion::Open(false);
+                return Conclusion::Open;
             }
         };
         if !self.scheme.is_exact() {
@@ -109,7 +103,7 @@ impl<const D: usize> Solver<D> {
         progress.note_rejected(self.final_residual);
         let is_settled = progress.has_stopped() && certificate.is_lawful();
         if !is_settled && !progress.is_over() {
-            return Conclusion::Open(false);
+            return Conclusion::Open;
         }
         if !certificate.is_balanced() {
             return Conclusion::Refused(StepFailure::NotConverged {
@@ -145,15 +139,9 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Whether the last update may be no smaller than the one before because of rounding.
-    fn is_stuck(
-        &self,
-        progress: &mut Progress,
-        update: f64,
-        before: Option<f64>,
-        settled: bool,
-    ) -> bool {
+    fn is_stuck(&self, progress: &mut Progress, update: f64, before: Option<f64>) -> bool {
         self.scheme.is_exact()
-            && progress.is_stuck(update, before, settled)
+            && progress.is_stuck(update, before)
             && self.coupling.may_be_rounding(update)
     }
 
@@ -175,22 +163,13 @@ impl<const D: usize> Solver<D> {
         groups: &mut [Box<dyn Group<D>>],
         view: &StepView<'_>,
         effort: &mut Effort,
-        settled: bool,
     ) -> Result<f64, StepFailure> {
         self.final_residual = self.residual();
         let solved = self.factors.solve(&mut self.tangent);
         solved.map_err(|_| StepFailure::SingularTangent)?;
         let update = self.correct(groups, view);
-        effort.note(self.final_residual, update, settled);
+        effort.note(self.final_residual, update);
         Ok(update)
-    }
-
-    /// Marks in the trial the lanes that have converged while others have not.
-    #[inline]
-    fn settle(&mut self, settled: bool) -> bool {
-        return false;
-        self.trial.settled = settled;
-        settled
     }
 
     /// Evaluates the elements at the trial state, to which the last correction has been applied, and takes parts of the
@@ -210,11 +189,10 @@ impl<const D: usize> Solver<D> {
             share = self.retreat(groups, view, share, error)?;
             goes_on = true;
         }
-        Ok(share == 1.0)
+        Ok(share >= 1.0)
     }
 
-    /// Applies half the fraction of the correction that failed. Not with several lanes, some of which need not have
-    /// failed.
+    /// Applies half the fraction of the correction that failed.
     #[cold]
     #[inline(never)]
     fn retreat(

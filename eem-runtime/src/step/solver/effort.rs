@@ -14,37 +14,16 @@ const LONGEST_HISTORY: usize = 4096;
 pub(crate) struct Effort {
     pub(crate) settings: NewtonSettings,
     /// The iterations of the last step.
-    pub(crate) history: Vec<Iteration>,
+    pub(crate) history: Vec<NewtonIteration>,
     /// The largest residual and the largest last update of the phases of the last step.
-    pub(crate) end: Iteration,
+    pub(crate) end: NewtonIteration,
 }
 
-/// One iteration of Newton's method.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Iteration {
-    /// The largest momentum residual before the update, N s.
-    pub(crate) residual: f64,
-    /// The largest scaled update.
-    pub(crate) update: f64,
-}
-
-impl Iteration {
-    /// No iteration.
-    fn none() -> Self {
-        Self {
-            residual: 0.0,
-            update: 0.0,
-        }
-    }
-
-    /// The same in double precision.
-    pub(crate) fn to_f64(self) -> NewtonIteration {
-        NewtonIteration {
-            residual: self.residual,
-            update: self.update,
-        }
-    }
-}
+/// No iteration.
+const NONE: NewtonIteration = NewtonIteration {
+    residual: 0.0,
+    update: 0.0,
+};
 
 impl Effort {
     /// The usual settings, before the first step.
@@ -52,21 +31,21 @@ impl Effort {
         Self {
             settings: NewtonSettings::default(),
             history: Vec::new(),
-            end: Iteration::none(),
+            end: NONE,
         }
     }
 
-    /// Records an iteration; lanes that had converged before keep their last one.
+    /// Records an iteration.
     #[inline]
-    pub(crate) fn note(&mut self, residual: f64, update: f64, settled: bool) {
-        self.history.push(Iteration { residual, update });
+    pub(crate) fn note(&mut self, residual: f64, update: f64) {
+        self.history.push(NewtonIteration { residual, update });
     }
 
     /// Ends a phase of the step, with this residual after the last update.
     #[inline]
     pub(crate) fn conclude(&mut self, residual: f64) {
         let update = self.history.last().map_or(0.0, |last| last.update);
-        self.end = Iteration {
+        self.end = NewtonIteration {
             residual: Scalar::maximum(self.end.residual, residual),
             update: Scalar::maximum(self.end.update, update),
         };
@@ -77,7 +56,7 @@ impl Effort {
         // At worst, two phases of a staggered step, each from two starts and through all continuation steps.
         let parts = 2 * usize::from(CONTINUATION_STEPS + 2);
         let most = self.settings.max_iterations.saturating_mul(parts);
-        self.end = Iteration::none();
+        self.end = NONE;
         self.history.clear();
         self.history.reserve(most.min(LONGEST_HISTORY));
     }

@@ -7,7 +7,7 @@ use crate::element::group::{Group, StepView};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
 use crate::step::solver::converge::Purpose;
-use crate::step::solver::effort::{Effort, Iteration};
+use crate::step::solver::effort::Effort;
 use eem_material::number::compensated::correct;
 use eem_material::number::scalar::Scalar;
 
@@ -44,7 +44,6 @@ impl<const D: usize> Solver<D> {
     pub(super) fn correct(&mut self, groups: &mut [Box<dyn Group<D>>], view: &StepView<'_>) -> f64 {
         let (values, right, solution) = self.tangent.renew();
         let trial = &mut self.trial;
-        let settled = trial.settled;
         let mut largest = Largest::none();
         for node in &self.nodes {
             let at = node.place.in_trial();
@@ -53,8 +52,7 @@ impl<const D: usize> Solver<D> {
             // Entry by entry, as the solution was stored: a wider load would stall.
             for axis in 0..D {
                 let change = change[axis];
-                let applied = change;
-                correct(&mut displacement[axis], &mut rest[axis], applied);
+                correct(&mut displacement[axis], &mut rest[axis], change);
                 largest.see(change * node.per_length);
             }
             (trial.displacements[at], trial.carries[at]) = (displacement, rest);
@@ -68,7 +66,7 @@ impl<const D: usize> Solver<D> {
         }
         self.couple(view);
         for group in groups.iter_mut() {
-            largest.see(group.correct(self.tangent.solution(), settled));
+            largest.see(group.correct(self.tangent.solution()));
         }
         largest.found()
     }
@@ -147,9 +145,9 @@ impl<const D: usize> Solver<D> {
                 break;
             }
             let updates = groups.iter_mut();
-            let updates = updates.map(|group| group.correct(self.tangent.solution(), false));
+            let updates = updates.map(|group| group.correct(self.tangent.solution()));
             let update = updates.fold(0.0, Scalar::maximum);
-            effort.history.push(Iteration { residual, update });
+            effort.note(residual, update);
             let stagnated = before <= update;
             if !update.is_finite() || effort.history.len() > effort.settings.max_iterations {
                 return Err(StepFailure::NotConverged { update });

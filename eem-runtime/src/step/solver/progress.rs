@@ -25,8 +25,8 @@ pub(super) enum Target<'a> {
 pub(super) enum Conclusion {
     /// The step ends there.
     Found,
-    /// Another iteration is needed, except in the lanes of the mask.
-    Open(bool),
+    /// Another iteration is needed.
+    Open,
     /// No iteration will help.
     Refused(StepFailure),
 }
@@ -46,7 +46,7 @@ pub(super) struct Progress {
     /// Consecutive updates that did not fall.
     stuck: u32,
     /// Rejected states at rounding level since the residual last fell, and that residual, N s.
-    pub(super) retries: u32,
+    retries: u32,
     residual: f64,
 }
 
@@ -77,7 +77,7 @@ impl Progress {
     ///
     /// The smallest possible update depends on the conditioning, so that its size does not decide: the balances are
     /// checked wherever an update does not fall.
-    pub(super) fn is_stuck(&mut self, update: f64, before: Option<f64>, settled: bool) -> bool {
+    pub(super) fn is_stuck(&mut self, update: f64, before: Option<f64>) -> bool {
         self.iterations += 1;
         self.last = update;
         self.smallest = Scalar::minimum(self.smallest, update);
@@ -86,7 +86,7 @@ impl Progress {
         };
         let stagnates = STAGNATION * before <= update;
         let is_small = update < CONTRACTION;
-        self.stuck = if stagnates && is_small && !settled {
+        self.stuck = if stagnates && is_small {
             self.stuck + 1
         } else {
             0

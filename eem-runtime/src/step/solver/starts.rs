@@ -12,8 +12,7 @@ use crate::step::solver::progress::Target;
 impl<const D: usize> Solver<D> {
     /// Finds the state after the step, or after the phase of it that the view names; returns its certificate.
     ///
-    /// If Newton's method fails from the usual initial guess, all but the classical schemes try others. With several lanes
-    /// they do not, as some of the lanes need not have failed.
+    /// If Newton's method fails from the usual initial guess, all but the classical schemes try others.
     pub(crate) fn solve(
         &mut self,
         groups: &mut [Box<dyn Group<D>>],

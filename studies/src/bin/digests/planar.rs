@@ -1,8 +1,8 @@
 //! Scenes in the plane.
 
+use eem::Scalar;
 use eem::prelude::*;
-use eem_material::number::scalar::Scalar;
-use eem_studies::build::{Build, vector};
+use eem_studies::build::Build;
 use eem_studies::models::{Elastic, Thermoelastic, TwoDashpots, Voigt};
 use eem_studies::pendulums::{LOGARITHMIC, SPRING, single};
 
@@ -73,7 +73,7 @@ pub(crate) const PLANAR: [Entry<Planar>; 18] = [
     entry("event", Planar::Single, 0.05, Drive::Event(2.0)),
 ];
 
-/// Too large for lanes.
+/// With sparse elimination.
 pub(crate) const LARGE: [Entry<Planar>; 1] = [entry(
     "long-chain",
     Planar::LongChain,
@@ -82,11 +82,11 @@ pub(crate) const LARGE: [Entry<Planar>; 1] = [entry(
 )];
 
 impl Case<2> for Planar {
-    fn build(self, factor: f64) -> Build<2> {
-        let mut build = Build::new(factor);
+    fn build(self) -> Build<2> {
+        let mut build = Build::new();
         let scene = &mut build;
         match self {
-            Self::Single => return single(factor),
+            Self::Single => return single(),
             Self::Elastic => {
                 let ends = pendulum(scene);
                 scene.spring(ELASTIC, ends);
@@ -113,7 +113,7 @@ impl Case<2> for Planar {
                 for ends in row(scene, 3, 1.1) {
                     scene.spring(ELASTIC, ends);
                 }
-                scene.scene.set_gravity(vector([1.0, -9.81]));
+                scene.scene.set_gravity([1.0, -9.81]);
             }
             Self::Loads => loads(scene),
             Self::Thermostat => thermostat(scene),
@@ -186,7 +186,7 @@ fn loads(scene: &mut Build<2>) {
         scene.warm(SPRING, ends, 320.0);
     }
     let [first, last] = ends[1];
-    scene.scene.dead_load(last, vector([3.0, -2.0]));
+    scene.scene.dead_load(last, [3.0, -2.0]);
     let force = |time: f64| [Scalar::sin(5.0 * time), 1.0];
     scene.scene.force(first, force);
 }

@@ -1,9 +1,9 @@
-//! Solids, elastic ones and warm ones. They are not for lanes, so that nothing of them is compiled for lanes.
+//! Solids, elastic ones and warm ones.
 
+use eem::Scalar;
 use eem::kinematics::{Hex8, Quad4, Shape};
 use eem::prelude::*;
 use eem::{FreeEnergy, StrainEnergy};
-use eem_material::number::scalar::Scalar;
 use eem_studies::build::Build;
 use eem_studies::models::{Solid, WarmSolid};
 
@@ -57,8 +57,8 @@ const RUBBER: WarmSolid = WarmSolid {
 };
 
 impl Case<2> for Sheet {
-    fn build(self, factor: f64) -> Build<2> {
-        let mut build = Build::new(factor);
+    fn build(self) -> Build<2> {
+        let mut build = Build::new();
         let mesh = made(Mesh::<Quad4, 2>::block([9, 5], [[0.0, 9.0], [0.0, 5.0]]));
         let speed = |[x, y]: [f64; 2]| [Scalar::sin(0.7 * x + y), Scalar::cos(x - 0.3 * y)];
         match self {
@@ -70,8 +70,8 @@ impl Case<2> for Sheet {
 }
 
 impl Case<3> for Block {
-    fn build(self, factor: f64) -> Build<3> {
-        let mut build = Build::new(factor);
+    fn build(self) -> Build<3> {
+        let mut build = Build::new();
         let mesh = made(Mesh::<Hex8, 3>::block(
             [3, 2, 2],
             [[0.0, 3.0], [0.0, 2.0], [0.0, 2.0]],
@@ -103,7 +103,7 @@ where
 {
     let body = build.scene.solid(model, mesh, bulk);
     for (&node, &place) in body.nodes().iter().zip(mesh.nodes()) {
-        let velocity = build.scaled(speed(place));
+        let velocity = speed(place);
         build.scene.set_velocity(node, velocity);
     }
     build.handles.nodes.extend(body.nodes());

@@ -47,13 +47,13 @@ const HOOKE: Elastic = Elastic {
 };
 
 impl Case<3> for Spatial {
-    fn build(self, factor: f64) -> Build<3> {
-        let mut build = Build::new(factor);
+    fn build(self) -> Build<3> {
+        let mut build = Build::new();
         let scene = &mut build;
         match self {
-            Self::Romero => return Double::ROMERO.build(factor),
-            Self::Krueger => return Double::KRUEGER.build(factor),
-            Self::Log => return Double::LOG.build(factor),
+            Self::Romero => return Double::ROMERO.build(),
+            Self::Krueger => return Double::KRUEGER.build(),
+            Self::Log => return Double::LOG.build(),
             Self::FreePair => {
                 let ends = [
                     scene.mass(1.0, [0.1, 0.2, 0.3], [0.5, -1.0, 0.2]),

@@ -1,7 +1,7 @@
 //! Runs a scene as it is to be run, and digests how it ends.
 
+use eem::MemberFailure;
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs};
 use eem_studies::build::{Build, Handles};
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -16,13 +16,12 @@ pub(crate) enum Drive {
     Event(f64),
 }
 
-/// A scene whose initial velocities are multiplied by a factor.
+/// A scene.
 pub(crate) trait Case<const D: usize>: Copy + Sync {
-    fn build(self, factor: f64) -> Build<D>;
+    fn build(self) -> Build<D>;
 }
 
 /// How a run ended.
-#[derive(Clone)]
 pub(crate) struct Seen {
     pub(crate) steps: usize,
     pub(crate) iterations: usize,
@@ -121,58 +120,25 @@ fn drive<const D: usize>(
     Ok(())
 }
 
-/// Runs a scene; all numbers of its last state, and how it ended but for their digest.
-///
-/// Members that move together fail together: then the error is returned, so that they are run one by one.
+/// Runs a scene; how it ended.
 pub(crate) fn watch<const D: usize>(
     run: &mut Simulation<D>,
     handles: &Handles,
     how: Drive,
-) -> Result<(Vec<f64>, Seen), MemberFailure> {
+) -> Seen {
     let (mut steps, mut iterations) = (0, 0);
     let last = handles.nodes.last().copied();
     let error = match drive(run, how, last, [&mut steps, &mut iterations]) {
         Ok(()) => String::new(),
-        Err(failure) if false => return Err(failure),
         Err(MemberFailure::Step(error)) => name_of(&error.failure),
         Err(MemberFailure::Scene(error)) => name_of(&error),
         Err(other) => name_of(&other),
     };
-    let seen = Seen {
+    let numbers = numbers(run, handles);
+    Seen {
         steps,
         iterations,
         error,
-        digest: 0,
-    };
-    Ok((numbers(run, handles), seen))
-}
-
-/// A case as an experiment, whose inputs are the factors.
-pub(crate) struct Watched<C> {
-    pub(crate) case: C,
-    pub(crate) drive: Drive,
-}
-
-impl<const D: usize, C: Case<D>> Experiment<D> for Watched<C> {
-    type Input = f64;
-    type Handles = Handles;
-    type Output = Seen;
-
-    fn build(&self, members: Members<'_, f64>) -> (Scene<D>, Handles) {
-        let build = self.case.build(members.number(|&factor| factor));
-        (build.scene, build.handles)
-    }
-
-    fn observe(
-        &self,
-        run: &mut Simulation<D>,
-        handles: Handles,
-        members: Members<'_, f64>,
-    ) -> Result<Outputs<Seen>, MemberFailure> {
-        let (numbers, seen) = watch(run, &handles, self.drive)?;
-        Ok(members.outputs(|_, of| Seen {
-            digest: digest(numbers.iter().map(|&number| of(number).to_bits())),
-            ..seen.clone()
-        }))
+        digest: digest(numbers.iter().map(|number| number.to_bits())),
     }
 }

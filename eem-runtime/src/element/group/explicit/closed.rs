@@ -41,11 +41,9 @@ impl Values {
     /// Evaluates the magnitude of ψ where it may matter, given the terms of the energy; otherwise keeps the last one.
     #[inline]
     pub(super) fn update(&mut self, terms: f64, magnitude: impl FnOnce() -> f64) -> f64 {
-        let change = CHANGE;
-        let is_near = terms <= change * self.terms && self.terms <= change * terms;
+        let is_near = terms <= CHANGE * self.terms && self.terms <= CHANGE * terms;
         let is_small = self.magnitude <= UNIMPORTANT * terms;
-        let is_known = is_near & is_small;
-        if !is_known {
+        if !(is_near && is_small) {
             self.magnitude = magnitude();
             self.terms = terms;
         }
@@ -71,35 +69,6 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> Closed<M, K, D> {
                 magnitude: 0.0,
                 terms: 0.0,
             },
-        }
-    }
-
-    /// Stores a new evaluation; inactive lanes keep the old one.
-    #[inline]
-    pub(super) fn replace(&mut self, inactive: bool, mut found: Self) {
-        *self = found;
-    }
-
-    fn keep(&mut self, inactive: bool, old: &Self) {
-        let keep = |new: &mut f64, old: f64| *new = if inactive { old } else { *new };
-        keep(&mut self.theta, old.theta);
-        keep(&mut self.values.magnitude, old.values.magnitude);
-        keep(&mut self.values.terms, old.values.terms);
-        for index in 0..M::Variables::LEN {
-            keep(&mut self.rates.forces[index], old.rates.forces[index]);
-            keep(&mut self.rates.slopes[index], old.rates.slopes[index]);
-        }
-        for k in 0..M::DASHPOTS {
-            keep(&mut self.viscosities.0[k], old.viscosities.0[k]);
-            keep(&mut self.viscosities.1[k], old.viscosities.1[k]);
-        }
-        for a in 0..M::MEASURES {
-            let arms = self.gradient[a].as_mut().iter_mut();
-            for (arm, old) in arms.zip(old.gradient[a].as_ref()) {
-                for axis in 0..D {
-                    keep(&mut arm[axis], old[axis]);
-                }
-            }
         }
     }
 

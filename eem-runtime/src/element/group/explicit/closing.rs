@@ -85,7 +85,6 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
         if !self.kinematics.is_admissible(r, &measures) {
             return Err(self.kinematics.refusal(self.element, r));
         }
-        let inactive = view.inactive[component as usize];
         let theta = self.temperature_in(view.stage);
         let x = self.variables_at(&measures, view.stage, theta);
         let at = self.model.rates_at(x);
@@ -110,11 +109,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
         self.unless_infinite(psi)?;
         let mut energy = Energy::without_temperature(psi);
         if let Some(slot) = thermal {
-            let mut kept = view.next.entropies.values()[slot];
             if free.is_none() {
-                kept = entropy;
-                view.next.entropies.set(slot, kept);
+                view.next.entropies.set(slot, entropy);
             }
+            let kept = view.next.entropies.values()[slot];
             let capacity = rates.forces[Self::TEMPERATURE];
             Infeasible::unless_stable(capacity, theta)
                 .map_err(|infeasible| infeasible.of(self.element))?;
@@ -123,13 +121,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
             let heat = theta * (kept.abs() + capacity);
             energy.magnitude = energy.value.abs() + heat;
             energy.terms += heat;
-            let theta = view.stage.theta_mut(slot);
-            *theta = recovered.corrected;
-            let own = &mut view.capacities[slot];
-            *own = [capacity, recovered.bend];
+            *view.stage.theta_mut(slot) = recovered.corrected;
+            view.capacities[slot] = [capacity, recovered.bend];
         }
         self.add_bounds_of(r, x, &mut found, &mut energy);
-        closed.replace(inactive, found);
+        *closed = found;
         self.write_energy(component, &energy, view);
         Ok(())
     }
@@ -153,11 +149,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
         }));
     }
 
-    /// Writes the energy in a new state and adds it to that of the component, except in inactive lanes.
+    /// Writes the energy in a new state and adds it to that of the component.
     #[inline]
     fn write_energy(&self, component: u32, energy: &Energy, view: &mut ClosingView<'_, D>) {
-        let inactive = view.inactive[component as usize];
-        view.energies[component as usize].add(inactive, energy);
+        view.energies[component as usize].add(energy);
         let stored = &mut view.next.energies[self.element.index()];
         stored.value = energy.value;
         stored.magnitude = energy.magnitude;

@@ -125,7 +125,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
             drift += slopes[a] * speed;
         }
         for (index, arm) in pull.as_ref().iter().enumerate() {
-            stage.places[nodes[index + 1] as usize].pull(&arm.map(f64::neg));
+            stage.places[nodes[index + 1] as usize].pull(&arm.map(|component| -component));
             stage.places[nodes[0] as usize].pull(arm);
         }
         let viscous = self.slots().viscous;
@@ -196,7 +196,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
                     dashpot,
                     value: eta,
                     unit: K::VISCOSITY_UNIT,
-                    temperature: M::THERMAL.then(|| theta),
+                    temperature: M::THERMAL.then_some(theta),
                 };
             }
         }

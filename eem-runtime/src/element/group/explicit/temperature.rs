@@ -55,14 +55,11 @@ impl<M: FreeEnergy<f64>, T> Recovered<M, T> {
 /// transition of the width w has `|∂c/∂ ln θ| = c θ/w`.
 #[inline]
 pub(crate) fn is_met(change: f64, [capacity, bend]: [f64; 2]) -> bool {
-    let eighth = 0.125;
-    bend * change * change <= eighth * f64::EPSILON * capacity
+    bend * change * change <= 0.125 * f64::EPSILON * capacity
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
     /// The temperature of an entropy near a guess by Newton's method in ln θ.
-    ///
-    /// Each lane stops where it would stop alone.
     #[inline]
     pub(super) fn temperature_of<T>(
         &self,
@@ -77,20 +74,17 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
         // √u, whose square is a rounding.
         let enough = (0.5 * f64::EPSILON).sqrt();
         let mut theta = guess;
-        let (mut has_converged, mut is_lost) = (false, false);
         for _ in 0..MOST_EVALUATIONS {
             let (rates, values) = at(theta);
             let capacity = rates.forces[Self::TEMPERATURE];
             let correction = (entropy - values.as_ref()[0]) / capacity;
             let size = correction.abs();
-            let is_near = capacity > 0.0 && size <= LARGEST_CORRECTION;
-            is_lost |= !is_near;
-            let is_last = size <= enough;
-            if is_last {
+            if !(capacity > 0.0 && size <= LARGEST_CORRECTION) {
+                break;
+            }
+            if size <= enough {
                 let bend = self.bend(x, [theta, capacity]);
-                let is_last = is_last & is_met(correction, [capacity, bend]);
-                has_converged = has_converged | is_last && !is_lost;
-                if has_converged {
+                if is_met(correction, [capacity, bend]) {
                     return Ok(Recovered {
                         theta,
                         evaluated: (rates, values),
@@ -99,13 +93,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
                     });
                 }
             }
-            if has_converged || is_lost {
-                break;
-            }
-            let next = theta * Scalar::exp(correction);
-            theta = next;
+            theta *= Scalar::exp(correction);
         }
-        self.search(x, at, [entropy, guess], (has_converged, theta), unkept)
+        self.search(x, at, [entropy, guess], unkept)
     }
 
     /// `|∂c/∂ ln θ| = |c + θ² ∂²s/∂θ²|`, J/K.
@@ -117,15 +107,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
         (capacity + theta * theta * second).abs()
     }
 
-    /// The same from a poor guess, by the safeguarded search, in the lanes in which Newton's method has not converged.
-    /// A temperature that misses the entropy is reported in `unkept`.
+    /// The same from a poor guess, by the safeguarded search. A temperature that misses the entropy is reported in
+    /// `unkept`.
     #[cold]
     fn search<T: Copy + AsRef<[f64]>>(
         &self,
         x: &M::Variables,
         at: &impl Fn(f64) -> (Rates<M::Variables>, T),
         [entropy, guess]: [f64; 2],
-        (has_converged, recovered): (bool, f64),
         unkept: &mut Option<UnkeptEntropy>,
     ) -> Result<Recovered<M, T>, StateError> {
         let caloric_at = self.model.caloric_at(*x);
@@ -133,12 +122,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
         let root = f64::EPSILON.sqrt();
         let enough = root * root.sqrt();
         let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
-        let (found, []) =
+        let (theta, []) =
             found.map_err(|source| Infeasible::Entropy { entropy, source }.of(self.element))?;
-        let theta = if has_converged { recovered } else { found };
         let (rates, values) = at(theta);
         let capacity = rates.forces[Self::TEMPERATURE];
-        let defect = entropy - values.as_ref()[0];
+        let left = (entropy - values.as_ref()[0]).abs();
         let slopes = rates.slopes.as_ref()[..Self::TEMPERATURE].iter();
         let slopes = slopes.zip(x.as_ref());
         let terms = slopes.fold(
@@ -146,22 +134,16 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
             |sum, (&slope, &x)| sum + (slope * x).abs(),
         );
         let bound = KEPT_ROUNDINGS * f64::EPSILON * terms;
-        let left = defect.abs();
         if !(left <= bound) && unkept.is_none() {
             *unkept = Some(UnkeptEntropy {
                 element: self.element,
                 sizes: [left, bound],
             });
         }
-        let correction = defect / capacity;
         Ok(Recovered {
             theta,
             evaluated: (rates, values),
-            corrected: if has_converged {
-                theta + theta * correction
-            } else {
-                theta
-            },
+            corrected: theta,
             bend: self.bend(x, [theta, capacity]),
         })
     }

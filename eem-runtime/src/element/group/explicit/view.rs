@@ -10,8 +10,6 @@ use eem_material::number::compensated::Total;
 pub(crate) struct ClosingView<'a, const D: usize> {
     /// Whether a component is still to be closed.
     pub(crate) open: &'a [bool],
-    /// Inactive lanes of each component, whose values stay.
-    pub(crate) inactive: &'a [bool],
     /// Its temperatures are guesses; `close` replaces them by those found from the entropies, except at thermostats.
     pub(crate) stage: &'a mut Stage<D>,
     /// c and `|∂c/∂ ln θ|` per thermal slot, J/K.
@@ -55,20 +53,13 @@ impl ComponentEnergy {
         }
     }
 
-    /// Adds the energy of an element, except in inactive lanes.
+    /// Adds the energy of an element.
     #[inline]
-    pub(crate) fn add(&mut self, inactive: bool, energy: &Energy) {
-        let added = |value: f64| value;
-        self.value.add(added(energy.value));
-        self.magnitude += added(energy.magnitude);
-        self.terms += added(energy.terms);
-        self.excess += added(energy.excess);
-    }
-
-    /// Sets all sums to zero, except in inactive lanes.
-    pub(crate) fn clear(&mut self, inactive: bool) {
-        let mut cleared = Self::none();
-        *self = cleared;
+    pub(crate) fn add(&mut self, energy: &Energy) {
+        self.value.add(energy.value);
+        self.magnitude += energy.magnitude;
+        self.terms += energy.terms;
+        self.excess += energy.excess;
     }
 }
 

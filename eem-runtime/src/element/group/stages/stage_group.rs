@@ -179,7 +179,7 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
         }
     }
 
-    fn correct(&mut self, solution: &[[f64; 1]], _: bool) -> f64 {
+    fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
         let (rule, local) = (self.rule, &mut self.local);
         let mut largest = 0.0;
         for stages in &mut self.members {

@@ -297,7 +297,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
             return Err(StateError::NotFinite {
                 element: in_state.element,
                 quantity: "force or entropy",
-                value,
+                value: *value,
             });
         }
         in_state.find_viscosities(theta, None)?;

@@ -3,7 +3,7 @@
 use super::Sense;
 use eem_material::number::scalar::Scalar;
 
-/// Step sizes on both sides of a change of sign. For single numbers only, no lanes.
+/// Step sizes on both sides of a change of sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bracket {
     low: f64,
@@ -27,7 +27,7 @@ impl Bracket {
         let counts = match sense {
             Sense::Rising => rises,
             Sense::Falling => falls,
-            Sense::Either => falls | rises,
+            Sense::Either => falls || rises,
         };
         let bracket = Self {
             low: if after == 0.0 { step } else { 0.0 },

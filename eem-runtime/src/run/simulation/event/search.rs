@@ -94,11 +94,11 @@ impl<const D: usize> Simulation<D> {
             return Err(self.refused(StepFailure::End { end }));
         }
         self.begin_search(events)?;
-        while self.is_before(end)? {
+        while self.is_before(end) {
             let before = (!events.is_empty()).then(|| self.history());
             let mut report = self.advance(Aim::Towards(end))?;
             if let Some(before) = before {
-                let restore = |run: &mut Self| run.restore_history(before);
+                let restore = |run: &mut Self| run.restore_history(&before);
                 let locate = Functions::get().end_at_event;
                 report = or_restore(self, restore, |run| locate(run, events, report, end))?;
             }
@@ -176,7 +176,7 @@ impl<const D: usize> Simulation<D> {
             StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
         );
         let middle = self.time() + 0.5 * whole.step;
-        if self.control.is_none() || is_of_event || !self.is_before(middle)? {
+        if self.control.is_none() || is_of_event || !self.is_before(middle) {
             return Err(error);
         }
         let shorter = self.advance(Aim::InSchemeTowards(middle))?;
@@ -211,6 +211,7 @@ impl<const D: usize> Simulation<D> {
             return self.advance(Aim::Again(bracket.high));
         }
         let mut report = self.advance(Aim::Again(whole.step))?;
+        #[expect(clippy::float_cmp, reason = "whether the step ended there")]
         if whole.time == end {
             self.arrive_at(end, &mut report);
         }

@@ -75,7 +75,7 @@ fn at<T: Copy>(values: &[(f64, T)], time: f64) -> Option<T> {
 
 /// The largest magnitude, or one if all are zero.
 fn size_of(values: impl IntoIterator<Item = f64>) -> f64 {
-    let largest = values.into_iter().map(|value| value.abs());
+    let largest = values.into_iter().map(f64::abs);
     let largest = largest.fold(0.0, f64::max);
     if largest > 0.0 { largest } else { 1.0 }
 }

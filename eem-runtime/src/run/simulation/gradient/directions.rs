@@ -308,7 +308,7 @@ impl<const D: usize> Simulation<D> {
                 let node = self.loads.rockets[*place].line.node.index;
                 push(node, along * (h * by(middle)));
             }
-            if change.gravity.iter().any(|axis| !(axis == 0.0)) {
+            if change.gravity.iter().any(|&axis| axis != 0.0) {
                 for (node, &sum) in way.outline.sums.iter().enumerate() {
                     push(node, change.gravity * (h * sum));
                 }

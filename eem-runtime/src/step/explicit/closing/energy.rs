@@ -85,8 +85,6 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Corrects the energy by heat as long as no element has to be evaluated for it.
-    ///
-    /// Each lane takes the branch that it would take alone.
     pub(super) fn balance(&mut self, index: usize, next: &mut State) -> Status {
         loop {
             let is_finite = self.look(index);
@@ -96,17 +94,16 @@ impl<const D: usize> Explicit<D> {
             }
             let iterations = progress.iterations;
             progress.iterations += 1;
-            let mut heats = false;
-            if iterations < HEAT_ITERATIONS && is_finite && !self.is_motion_first {
-                heats = self.heat_within_share(index, next);
-            }
-            let progress = &mut self.scratch.progress[index];
-            progress.needs_forces = !(heats | progress.is_closed);
-            if progress.needs_forces {
-                return Status::NeedsForces;
-            }
-            if !self.scratch.inactive[index] {
-                return Status::Changed;
+            let tries_heat = iterations < HEAT_ITERATIONS && is_finite && !self.is_motion_first;
+            let heated = if tries_heat {
+                self.heat_within_share(index, next)
+            } else {
+                None
+            };
+            match heated {
+                None => return Status::NeedsForces,
+                Some(false) => return Status::Changed,
+                Some(true) => {}
             }
         }
     }
@@ -118,39 +115,26 @@ impl<const D: usize> Explicit<D> {
         progress.present = Some(present);
         let [defect, magnitude] = present;
         progress.defect = defect;
-        let begins = progress.scale == 0.0;
-        if begins {
+        if progress.scale == 0.0 {
             let has_terms = magnitude > 0.0;
-            let correction = if has_terms { defect / magnitude } else { 0.0 };
-            if begins {
-                progress.correction = correction;
-            }
-            if begins {
-                progress.scale = magnitude;
-            }
+            progress.correction = if has_terms { defect / magnitude } else { 0.0 };
+            progress.scale = magnitude;
         }
         let enough = 0.5 * ENOUGH * f64::EPSILON * progress.scale;
-        progress.is_closed |= defect.abs() <= enough;
-        self.scratch.inactive[index] = !false;
+        progress.is_closed = progress.is_closed || defect.abs() <= enough;
         defect.is_finite()
     }
 
-    /// Closes a component by heat in the lanes where the heat is small compared with what is produced; returns these
-    /// lanes.
-    fn heat_within_share(&mut self, index: usize, next: &mut State) -> bool {
-        let progress = &self.scratch.progress[index];
-        let (defect, is_closed) = (progress.defect, progress.is_closed);
+    /// Closes a component by heat if the heat is small compared with what is produced; then returns whether the result is
+    /// known without another evaluation.
+    fn heat_within_share(&mut self, index: usize, next: &mut State) -> Option<bool> {
+        let defect = self.scratch.progress[index].defect;
         let produced = self.produced_heat(index);
-        let most = HEAT_SHARE * produced;
-        let heats = defect.abs() <= most && !is_closed;
-        if heats {
-            let progress = &mut self.scratch.progress[index];
-            progress.has_heated |= heats;
-            let part = defect / produced;
-            let is_known = self.heat(index, part, next);
-            self.scratch.inactive[index] = is_known || !heats;
+        if !(defect.abs() <= HEAT_SHARE * produced) {
+            return None;
         }
-        heats
+        self.scratch.progress[index].has_heated = true;
+        Some(self.heat(index, defect / produced, next))
     }
 
     /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.
@@ -163,24 +147,24 @@ impl<const D: usize> Explicit<D> {
         })
     }
 
-    /// Scales each element's entropy production by 1 + ε. Returns the lanes in which the second-order update is
-    /// accurate to rounding.
+    /// Scales each element's entropy production by 1 + ε. Returns whether the second-order update is accurate to
+    /// rounding.
     pub(super) fn heat(&mut self, index: usize, part: f64, next: &mut State) -> bool {
         let scratch = &mut self.scratch;
         let lost = &mut scratch.progress[index].lost;
         let change = *lost * part;
-        if !(change == 0.0) {
+        if change != 0.0 {
             *lost += change;
             next.dissipated.add(change);
             self.books.targets[index].lost.add(change);
         }
         scratch.progress[index].factor *= 1.0 + part;
         scratch.progress[index].present = None;
-        let mut is_small = !false;
+        let mut is_small = true;
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;
             let entropy = self.scratch.produced[slot] * part;
-            if !(entropy == 0.0) {
+            if entropy != 0.0 {
                 is_small &= self.warm(index, slot, entropy, next);
             }
         }
@@ -192,7 +176,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Gives the entropy x to an element as if it had produced it: θ becomes `θ (1 + r + r²/2)` with `r = x/c`, and e becomes
-    /// `e + θ x (1 + r/2)`. Returns the lanes in which that is exact to rounding, and θ matches the stored entropy.
+    /// `e + θ x (1 + r/2)`. Returns whether that is exact to rounding, and θ matches the stored entropy.
     pub(super) fn warm(
         &mut self,
         index: usize,

@@ -105,18 +105,17 @@ impl<const D: usize> Explicit<D> {
         moments
     }
 
-    /// Adds a rigid motion to the momenta, except in inactive lanes, and updates the sums over the masses.
-    fn add_rigid(&mut self, index: usize, rigid: &Rigid<D>, inactive: bool) {
+    /// Adds a rigid motion to the momenta and updates the sums over the masses.
+    fn add_rigid(&mut self, index: usize, rigid: &Rigid<D>) {
         let masses = self.components.all[index].masses.clone();
         let mut motion = Motion::none();
         for place in &mut self.stage.places[masses] {
             let arm = rigid.origin.arm(place.q());
             let turning = rigid.omega.turn(&arm);
-            let mut momentum = *place.p();
+            let momentum = &mut place.now[1];
             for axis in 0..D {
                 momentum[axis] += place.mass * (rigid.velocity[axis] + turning[axis]);
             }
-            place.now[1] = core::array::from_fn(|axis| momentum[axis]);
             motion.add(place, &arm, self.gravity.as_ref());
         }
         self.scratch.motions[index] = motion;
@@ -131,46 +130,41 @@ impl<const D: usize> Explicit<D> {
         }
         // The energy is summed with the corrected momenta.
         self.sum_motion(index, Motion::add_momenta);
-        let mut inactive = self.scratch.inactive[index];
         for _ in 0..most_turns::<D>() {
-            inactive = self.approach_momenta(index, inactive);
-            if inactive {
+            if self.approach_momenta(index) {
                 return;
             }
         }
     }
 
-    /// Rotates the body if needed and corrects its momenta, except in inactive lanes; returns these lanes and those
-    /// whose momenta are accurate to rounding.
-    fn approach_momenta(&mut self, index: usize, inactive: bool) -> bool {
+    /// Rotates the body if needed and corrects its momenta. Returns whether they are known to be accurate to rounding.
+    fn approach_momenta(&mut self, index: usize) -> bool {
         let mut body = self.body(&self.components.all[index]);
         let is_weak = match &body.inertia {
             Some(Inertia::Line { along, .. }) => self.leaves_plane(index, along),
-            Some(Inertia::Principal(_) | Inertia::Lanes(_)) => true,
+            Some(Inertia::Principal(_)) => true,
             _ => false,
         };
-        if is_weak && self.turn_body(index, &body, inactive) {
+        if is_weak && self.turn_body(index, &body) {
             self.look_at_motion(index);
             body = self.body(&self.components.all[index]);
         }
-        let mut correct = inactive;
         for _ in 0..=MOST_CORRECTIONS {
             let (linear, angular) = self.missing_momenta(index);
             let component = &self.components.all[index];
             let rigid = body.motion(component, (&linear, &angular));
-            self.add_rigid(index, &rigid, correct);
+            self.add_rigid(index, &rigid);
             let [_, terms] = self.scratch.motions[index].terms;
             // The rotation is known to ε/WEAK of itself.
-            correct |= angular.largest() <= WEAK * terms;
-            if D < 3 || correct {
+            if D < 3 || angular.largest() <= WEAK * terms {
                 break;
             }
         }
         if D < 4 {
-            return inactive;
+            return false;
         }
         let (_, left) = self.missing_momenta(index);
-        inactive || left.largest() <= self.own_rounding(index)
+        left.largest() <= self.own_rounding(index)
     }
 
     /// The defects of linear and angular momentum of a component.
@@ -201,42 +195,24 @@ impl<const D: usize> Explicit<D> {
         target.map(0.0, |sum| sum.value)
     }
 
-    /// Rotates positions and momenta of a component, except in inactive lanes, so that its momenta can be corrected;
-    /// returns whether it did.
+    /// Rotates positions and momenta of a component, so that its momenta can be corrected; returns whether it did.
     #[cold]
-    fn turn_body(&mut self, index: usize, body: &Body<D>, inactive: bool) -> bool {
+    fn turn_body(&mut self, index: usize, body: &Body<D>) -> bool {
         let (component, origin) = (&self.components.all[index], &body.origin);
-        let motion = &self.scratch.motions[index];
-        let (linear, present) = (motion.linear, motion.angular);
-        let target = self.angular_target(index);
-        let rounding = self.own_rounding(index);
-        let moves = if inactive { 0.0 } else { 1.0 };
-        let change = |lane: usize| {
-            if moves.lane(lane) < 1.0 {
-                return None;
-            }
-            let of_lane = |momentum: &Bivector<f64, D>| momentum.map(0.0, |j| j.lane(lane));
-            let momenta = [&of_lane(&present), &of_lane(&target)];
-            let own = match body.inertia {
-                Some(Inertia::Principal(principal)) => Inertia::Principal(principal),
-                _ => Inertia::of_body(self.moments(component, origin).lane(lane)),
-            };
-            match own {
-                Inertia::Principal(principal) => turning(&principal, momenta, rounding.lane(lane)),
-                // No inertia is weak: the momenta alone are corrected, as in a run of this lane alone.
-                _ => None,
-            }
+        let inertia = match body.inertia {
+            Some(inertia @ Inertia::Principal(_)) => inertia,
+            _ => Inertia::of_body(self.moments(component, origin)),
         };
-        let changes: [_; MOST_LANES] = core::array::from_fn(|lane| {
-            let is_lane = lane < S::LANES;
-            is_lane.then(|| change(lane)).flatten()
-        });
-        if changes.iter().all(Option::is_none) {
+        let Inertia::Principal(principal) = inertia else {
+            // No inertia is weak: the momenta alone are corrected.
             return false;
-        }
-        let change: [[f64; D]; D] = core::array::from_fn(|i| {
-            core::array::from_fn(|j| S::pack(|lane| changes[lane].map_or(0.0, |by| by[i][j])))
-        });
+        };
+        let motion = &self.scratch.motions[index];
+        let linear = motion.linear;
+        let momenta = [&motion.angular, &self.angular_target(index)];
+        let Some(change) = turning(&principal, momenta, self.own_rounding(index)) else {
+            return false;
+        };
         let velocity = component.velocity(&linear);
         let masses = component.masses.clone();
         for place in &mut self.stage.places[masses] {

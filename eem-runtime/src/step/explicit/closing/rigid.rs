@@ -63,7 +63,6 @@ impl<const D: usize> Explicit<D> {
         progress.present = None;
         progress.production = Total::default();
         progress.factor = 0.0;
-        self.scratch.inactive[index] = false;
         self.restore_momenta(index);
         self.scratch.open[index] = true;
         Ok(())

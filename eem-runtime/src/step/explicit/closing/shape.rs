@@ -37,18 +37,18 @@ struct Means<const D: usize> {
 }
 
 impl<const D: usize> Explicit<D> {
-    /// Corrects the energy of a component by other means than heat, in the lanes that need it.
+    /// Corrects the energy of a component by other means than heat.
     pub(super) fn reshape(
         &mut self,
         index: usize,
         view: &ExplicitView<'_, D>,
         next: &mut State,
-    ) -> Result<Status, Discord> {
+    ) -> Status {
         self.scratch.progress[index].present = None;
         let progress = self.scratch.progress[index];
         let (defect, iterations) = (progress.defect, progress.iterations);
         if !defect.is_finite() {
-            return Ok(Status::Failed);
+            return Status::Failed;
         }
         let means = self.means(index, view);
         let share = defect / means.all;
@@ -57,56 +57,31 @@ impl<const D: usize> Explicit<D> {
             LEAST_MOTION * means.all <= means.motion + means.motion && -means.motion < defect;
         let rest = REST_OF_HEAT * means.motion;
         let is_rest = progress.has_heated && defect.abs() <= rest;
-        let has_motion = means.motion > 0.0;
-        let moves = progress.needs_forces & has_motion & (is_rest | (is_small & moves));
-        if moves {
+        if means.motion > 0.0 && (is_rest || (is_small && moves)) {
             let x = defect / means.motion;
             let part = x / (1.0 + (1.0 + x).sqrt());
             self.scale_motion(index, &means.rigid, part);
+            self.scratch.progress[index].is_closed = true;
+            return Status::Closed;
         }
-        let is_closed = progress.is_closed | moves;
-        self.scratch.progress[index].is_closed = is_closed;
-        let is_left = progress.needs_forces && !moves;
-        let mut shifts = is_left & is_small;
-        if iterations >= MOST_ITERATIONS || iterations > SHAPE_ITERATIONS {
-            shifts = false;
-        }
-        if shifts {
+        if is_small && iterations < MOST_ITERATIONS && iterations <= SHAPE_ITERATIONS {
             self.shift(index, (view, &means), share, next);
-            self.scratch.inactive[index] &= !shifts;
             self.restore_momenta(index);
+            return Status::Changed;
         }
-        let is_left = is_left && !shifts;
-        if is_left && !self.try_sink(index, is_left, next)? {
-            return Ok(self.unless_rounding(index, is_left));
+        if iterations < MOST_ITERATIONS && self.sink(index, defect, next) {
+            return Status::Changed;
         }
-        Ok(if is_closed {
-            Status::Closed
-        } else {
-            Status::Changed
-        })
-    }
-
-    /// Last resort: converts the defect to entropy or back. False if no element can take it or the limit of corrections
-    /// is reached.
-    fn try_sink(&mut self, index: usize, is_left: bool, next: &mut State) -> Result<bool, Discord> {
-        let progress = &self.scratch.progress[index];
-        let defect = progress.defect;
-        if !is_left || progress.iterations >= MOST_ITERATIONS || !self.sink(index, defect, next)? {
-            return Ok(false);
-        }
-        self.scratch.inactive[index] = false;
-        Ok(true)
+        self.unless_rounding(index)
     }
 
     /// Closed if the remaining defect is rounding, failed otherwise.
-    fn unless_rounding(&mut self, index: usize, is_left: bool) -> Status {
+    fn unless_rounding(&mut self, index: usize) -> Status {
         let granularity = self.granularity(index);
         let progress = &mut self.scratch.progress[index];
         progress.granularity = granularity;
         let bound = FROZEN * f64::EPSILON * (progress.scale + granularity);
-        let is_rounding = progress.defect.abs() <= bound;
-        progress.is_closed |= is_left && is_rounding;
+        progress.is_closed = progress.defect.abs() <= bound;
         if progress.is_closed {
             Status::Closed
         } else {
@@ -141,12 +116,12 @@ impl<const D: usize> Explicit<D> {
             all: 0.0,
             drift,
         };
-        let (half, mut shape) = (0.5, 0.0);
+        let mut shape = 0.0;
         for place in component.masses.clone() {
             let own = self.inner_momentum(place, &rigid);
             let force = self.inner_force(place, &means);
             let per_mass = self.stage.places[place].per_mass;
-            means.motion += half * dot(&own, &own) * per_mass;
+            means.motion += 0.5 * dot(&own, &own) * per_mass;
             shape += dot(&force, &force) * per_mass;
         }
         means.all = means.motion + means.motion + h * h * shape;
@@ -259,13 +234,13 @@ impl<const D: usize> Explicit<D> {
         }
     }
 
-    /// Converts energy to entropy, or back as far as it was produced in this step; returns false if no element can take
-    /// it.
-    fn sink(&mut self, index: usize, defect: f64, next: &mut State) -> Result<bool, Discord> {
+    /// Last resort: converts energy to entropy, or back as far as it was produced in this step; returns false if no element
+    /// can take it.
+    fn sink(&mut self, index: usize, defect: f64, next: &mut State) -> bool {
         if defect < 0.0 {
             let produced = self.produced_heat(index);
             if !(produced > 0.0) {
-                return Ok(false);
+                return false;
             }
             let most = 1.0 - ROUNDED * f64::EPSILON;
             let part = defect / produced;
@@ -274,7 +249,7 @@ impl<const D: usize> Explicit<D> {
                 // The rest is rounding, for which no factor is known.
                 self.scratch.progress[index].factor = 0.0;
             }
-            return Ok(true);
+            return true;
         }
         let slots = self
             .slots_of(index)
@@ -292,7 +267,7 @@ impl<const D: usize> Explicit<D> {
                     next.meters.produce(slot, entropy);
                 }
             }
-            return Ok(true);
+            return true;
         }
         let loses = self.components.loses_heat(Some(index));
         if loses {
@@ -300,6 +275,6 @@ impl<const D: usize> Explicit<D> {
             next.dissipated.add(defect);
             self.books.targets[index].lost.add(defect);
         }
-        Ok(loses)
+        loses
     }
 }

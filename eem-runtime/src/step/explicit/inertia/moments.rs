@@ -4,7 +4,7 @@
 /// at least a hundred times as large as in other planes, so that the body is rotated instead.
 pub(in super::super) const WEAK: f64 = 1e-4;
 
-/// The fraction below which it is rounding: 64 ε in double precision.
+/// The fraction below which it is rounding: 64 ε.
 pub(super) const NO_INERTIA: f64 = 1.4e-14;
 
 /// `M = Σ m r rᵀ`, kg m². Only the entries on and above the diagonal are used.
@@ -30,9 +30,5 @@ impl<const D: usize> Moments<D> {
     #[inline]
     pub(super) fn trace(&self) -> f64 {
         (0..D).fold(0.0, |sum, axis| sum + self.0[axis][axis])
-    }
-
-    pub(in super::super) fn lane(&self, lane: usize) -> Moments<D> {
-        Moments(self.0.map(|row| row.map(|entry| entry.lane(lane))))
     }
 }

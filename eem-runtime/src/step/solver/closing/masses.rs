@@ -81,7 +81,7 @@ impl<const D: usize> Solver<D> {
             let at = node.place.node();
             let force = self.rockets.add_to(view.loads.force(at), [0, at]);
             for (force, &displacement) in force.into_iter().zip(&self.trial.displacements[at]) {
-                if !(force == 0.0) {
+                if force != 0.0 {
                     next.work.add(force * displacement);
                 }
             }
