@@ -17,8 +17,8 @@
 //! `Θ − θ*` has the sign of Δs. So both laws hold for every α ≥ 0, whatever the heat capacity and the motion are.
 //!
 //! With `x_a = h Σ_b κ_ab (1/c_a + 1/c_b)`, [`α(x_a)`](crate::element::conjugates::end_weight) makes the decay of two bodies
-//! exact for small differences of temperature, for larger ones up to their square over the temperature. No linear network alternates: `½ − α ≤ 1/x`, and
-//! `hK ≤ diag(x_a c_a)` for every path, since `(u − v)² ≤ (1 + t) u² + (1 + 1/t) v²` with `t = c_a/c_b`. Reservoirs, and
+//! exact for small differences of temperature, for larger ones up to their square over the temperature. No linear network
+//! alternates: `½ − α ≤ 1/x`, and `hK ≤ diag(x_a c_a)` for every path, since `(u − v)² ≤ (1 + t) u² + (1 + 1/t) v²` with `t = c_a/c_b`. Reservoirs, and
 //! elements at thermostats, have infinite capacity. Steady states stay the same, because Δs = 0 there.
 //!
 //! Dashpots are left as they are. A viscosity `η + h α k` would damp a free relaxation in the same way, but also slow a
