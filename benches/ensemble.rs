@@ -1,12 +1,10 @@
-//! Throughput of an ensemble of single pendulums by number of threads, one scene at a time and one per
-//! SIMD lane; see `README.md`.
+//! Throughput of an ensemble of single pendulums by number of threads; see `README.md`.
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
 use eem_testkit::scenes::ThermoViscoElastic;
 
 /// Members of the ensemble.
@@ -23,48 +21,15 @@ fn main() {
 }
 
 /// The published pendulum, started at different speeds.
-fn scene<S: Real>(speed: S) -> (Scene<2, S>, Element) {
-    let number = S::from_f64;
+fn scene(speed: f64) -> (Scene<2>, Element) {
     let mut scene = Scene::default();
-    let pivot = scene.anchor([number(0.0), number(0.0)]);
-    let bob = scene.mass(
-        number(1.0),
-        [number(3.0), number(0.0)],
-        [number(0.0), speed],
-    );
+    let pivot = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(1.0, [3.0, 0.0], [0.0, speed]);
     let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
-    scene.set_temperature(spring, number(380.0));
-    let air = scene.reservoir(number(300.0));
-    scene.conduct(spring, air, number(10.0));
+    scene.set_temperature(spring, 380.0);
+    let air = scene.reservoir(300.0);
+    scene.conduct(spring, air, 10.0);
     (scene, spring)
-}
-
-/// So many steps of a pendulum, and its temperature.
-struct Pendulums {
-    steps: u32,
-}
-
-impl Experiment<2> for Pendulums {
-    type Input = f64;
-    type Handles = Element;
-    type Output = f64;
-
-    fn build<S: Real>(&self, members: Members<'_, f64, S>) -> (Scene<2, S>, Element) {
-        scene(members.number(|&speed| speed))
-    }
-
-    fn observe<S: Real>(
-        &self,
-        run: &mut Simulation<2, S>,
-        spring: Element,
-        members: Members<'_, f64, S>,
-    ) -> Result<Outputs<f64>, MemberFailure> {
-        for _ in 0..self.steps {
-            run.step()?;
-        }
-        let temperature = run.temperature(spring)?;
-        Ok(members.outputs(|_, of| of(temperature)))
-    }
 }
 
 /// From inputs to results, set-up included.
@@ -83,65 +48,19 @@ fn set_up(bencher: Bencher<'_, '_>, threads: usize) {
     members.bench_local(|| run(threads, 0, black_box(&speeds)));
 }
 
-/// The same with four pendulums at once.
-#[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
-fn pendulums_in_lanes(bencher: Bencher<'_, '_>, threads: usize) {
-    let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
-    let members = bencher.counter(ItemsCount::new(MEMBERS));
-    members.bench_local(|| run_in_lanes(threads, STEPS, black_box(&speeds)));
-}
-
-/// Set-up alone.
-#[divan::bench(args = [1, 2], sample_size = 1, sample_count = 20)]
-fn set_up_in_lanes(bencher: Bencher<'_, '_>, threads: usize) {
-    let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
-    let members = bencher.counter(ItemsCount::new(MEMBERS));
-    members.bench_local(|| run_in_lanes(threads, 0, black_box(&speeds)));
-}
-
-/// The explicit scheme at a step where it is accurate, so many steps, one scene at a time.
+/// The explicit scheme at a step where it is accurate, so many steps.
 #[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
 fn explicit_pendulums(bencher: Bencher<'_, '_>, threads: usize) {
     let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
     let members = bencher.counter(ItemsCount::new(MEMBERS));
-    members.bench_local(|| run_one_by_one(EXPLICIT, threads, STEPS, black_box(&speeds)));
-}
-
-/// The same with four pendulums at once.
-#[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
-fn explicit_pendulums_in_lanes(bencher: Bencher<'_, '_>, threads: usize) {
-    let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
-    let members = bencher.counter(ItemsCount::new(MEMBERS));
-    members.bench_local(|| run_together(EXPLICIT, threads, STEPS, black_box(&speeds)));
-}
-
-fn run_in_lanes(threads: usize, steps: u32, speeds: &[f64]) -> usize {
-    run_together((Scheme::EemTemperature, STEP), threads, steps, speeds)
+    members.bench_local(|| run_with(EXPLICIT, threads, STEPS, black_box(&speeds)));
 }
 
 fn run(threads: usize, steps: u32, speeds: &[f64]) -> usize {
-    run_one_by_one((Scheme::EemTemperature, STEP), threads, steps, speeds)
+    run_with((Scheme::EemTemperature, STEP), threads, steps, speeds)
 }
 
-fn run_together(
-    (scheme, step): (Scheme, f64),
-    threads: usize,
-    steps: u32,
-    speeds: &[f64],
-) -> usize {
-    let ensemble = Ensemble::new(scheme, step).threads(threads);
-    let results = ensemble.run_experiment(&Pendulums { steps }, speeds);
-    let completed = results.iter().flatten().count();
-    assert_eq!(completed, speeds.len(), "a pendulum failed");
-    completed
-}
-
-fn run_one_by_one(
-    (scheme, step): (Scheme, f64),
-    threads: usize,
-    steps: u32,
-    speeds: &[f64],
-) -> usize {
+fn run_with((scheme, step): (Scheme, f64), threads: usize, steps: u32, speeds: &[f64]) -> usize {
     let ensemble = Ensemble::new(scheme, step).threads(threads);
     let results = ensemble.run(
         speeds,

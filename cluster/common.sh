@@ -26,7 +26,7 @@ debian() {
 
 # PROGRAM skips the build, such as for a site that has the program already.
 if [ -z "${PROGRAM:-}" ]; then
-    cargo build --locked --quiet --release -p eem-studies --features lanes,arrow --bin sweep
+    cargo build --locked --quiet --release -p eem-studies --features arrow --bin sweep
     PROGRAM="${CARGO_TARGET_DIR:-target}/release/sweep"
 fi
 PROGRAM="$(realpath "$PROGRAM")"

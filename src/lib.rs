@@ -169,6 +169,6 @@ pub mod __private {
     pub use core;
     pub use eem_runtime::{
         Array, Caloric, ComponentEnergy, Describe, Description, FreeEnergy, Joint, JointEnergy,
-        Material, Rates, Real, Scalar, Strain, StrainEnergy, describe, kernel,
+        Material, Rates, Scalar, Strain, StrainEnergy, describe, kernel,
     };
 }

@@ -14,7 +14,6 @@ mod chain;
 
 use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::joint::JointEnergy;
-use crate::number::scalar::Real;
 use chain::Chain;
 
 /// The free energy of a material `M` with joint invariants, of N variables with K dashpots,
@@ -67,14 +66,13 @@ impl<M, const N: usize, const K: usize, const R: usize, const A: usize, const B:
 // Keeps this type out of the compiler's lists of types that implement the trait.
 #[diagnostic::do_not_recommend]
 impl<
-    S: Real,
-    M: FreeEnergy<S> + JointEnergy,
+    M: FreeEnergy<f64> + JointEnergy,
     const N: usize,
     const K: usize,
     const R: usize,
     const A: usize,
     const B: usize,
-> FreeEnergy<S> for ComponentEnergy<M, N, K, R, A, B>
+> FreeEnergy<f64> for ComponentEnergy<M, N, K, R, A, B>
 {
     const MEASURES: usize = N - K - M::THERMAL as usize;
     const DASHPOTS: usize = K;
@@ -88,15 +86,15 @@ impl<
     const PARAMETER_UNITS: &'static [&'static str] = M::PARAMETER_UNITS;
 
     type Parameters = M::Parameters;
-    type Variables = [S; N];
-    type Hessian = [[S; N]; N];
-    type Viscosities = [S; K];
+    type Variables = [f64; N];
+    type Hessian = [[f64; N]; N];
+    type Viscosities = [f64; K];
     type Drag = M::Drag;
     type Corners = M::Corners;
-    type Response = [S; R];
-    type Tangent = [[S; N]; R];
-    type EntropyFormOld = [S; A];
-    type TemperatureFormOld = [S; B];
+    type Response = [f64; R];
+    type Tangent = [[f64; N]; R];
+    type EntropyFormOld = [f64; A];
+    type TemperatureFormOld = [f64; B];
 
     fn duplicate(&self) -> Self {
         Self::new(self.material.duplicate())
@@ -124,16 +122,16 @@ impl<
         self.material.has_constant_capacity()
     }
 
-    fn parameter(&self, index: usize) -> S {
+    fn parameter(&self, index: usize) -> f64 {
         self.material.parameter(index)
     }
 
-    fn free_energy(&self, x: &[S; N]) -> S {
+    fn free_energy(&self, x: &[f64; N]) -> f64 {
         self.material.free_energy(&self.material.variables(x))
     }
 
     // The rounding of the invariants is included.
-    fn energy_magnitude(&self, x: &[S; N]) -> S {
+    fn energy_magnitude(&self, x: &[f64; N]) -> f64 {
         let (tensors, variables) = (M::tensors(x), self.material.variables(x));
         let gradient = self.material.gradient(&variables);
         let own = self.material.energy_magnitude(&variables);
@@ -142,83 +140,87 @@ impl<
         })
     }
 
-    fn internal_energy(&self, x: &[S; N]) -> S {
+    fn internal_energy(&self, x: &[f64; N]) -> f64 {
         self.material.internal_energy(&self.material.variables(x))
     }
 
-    fn gradient(&self, x: &[S; N]) -> [S; N] {
+    fn gradient(&self, x: &[f64; N]) -> [f64; N] {
         let gradient = self.material.gradient(&self.material.variables(x));
         self.material
-            .conjugates(&M::tensors(x), gradient.as_ref(), S::one())
+            .conjugates(&M::tensors(x), gradient.as_ref(), 1.0)
     }
 
-    fn hessian(&self, x: &[S; N]) -> ([S; N], [[S; N]; N]) {
+    fn hessian(&self, x: &[f64; N]) -> ([f64; N], [[f64; N]; N]) {
         let tensors = M::tensors(x);
         let (gradient, hessian) = self.material.hessian(&self.material.variables(x));
         let gradient = gradient.as_ref();
         (
-            self.material.conjugates(&tensors, gradient, S::one()),
+            self.material.conjugates(&tensors, gradient, 1.0),
             self.material
-                .slopes([&tensors; 2], (gradient, hessian.as_ref()), [S::one(); 2]),
+                .slopes([&tensors; 2], (gradient, hessian.as_ref()), [1.0; 2]),
         )
     }
 
-    fn caloric(&self, x: &[S; N]) -> Caloric<S> {
+    fn caloric(&self, x: &[f64; N]) -> Caloric<f64> {
         self.material.caloric(&self.material.variables(x))
     }
 
-    fn caloric_at(&self, x: [S; N]) -> impl Fn(S) -> (Caloric<S>, S) {
+    fn caloric_at(&self, x: [f64; N]) -> impl Fn(f64) -> (Caloric<f64>, f64) {
         self.material.caloric_at(self.material.variables(&x))
     }
 
     // Mixed states consist of old and new strains and invariants, not of components.
     fn caloric_between(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
+        x0: &[f64; N],
+        x1: &[f64; N],
         new: usize,
-    ) -> impl Fn(S) -> (Caloric<S>, S) {
+    ) -> impl Fn(f64) -> (Caloric<f64>, f64) {
         let [x0, x1] = [x0, x1].map(|x| self.material.variables(x));
         self.material.caloric_at(x0.beginning_as(&x1, new))
     }
 
-    fn entropy_hessian(&self, x: &[S; N]) -> [[S; N]; N] {
+    fn entropy_hessian(&self, x: &[f64; N]) -> [[f64; N]; N] {
         let (tensors, variables) = (M::tensors(x), self.material.variables(x));
         let hessian = self.material.entropy_hessian(&variables);
         // ∂s/∂x = −∂²ψ/∂θ∂x
         let slopes = self.material.rates(&variables).slopes;
         let of_material = (slopes.as_ref(), hessian.as_ref());
-        self.material
-            .slopes([&tensors; 2], of_material, [S::one(); 2])
+        self.material.slopes([&tensors; 2], of_material, [1.0; 2])
     }
 
-    fn viscosity(&self, theta: S) -> ([S; K], [S; K]) {
+    fn viscosity(&self, theta: f64) -> ([f64; K], [f64; K]) {
         let (viscosities, slopes) = self.material.viscosity(theta);
         (M::spread(viscosities.as_ref()), M::spread(slopes.as_ref()))
     }
 
-    fn drag(&self, theta: S) -> (M::Drag, M::Drag) {
+    fn drag(&self, theta: f64) -> (M::Drag, M::Drag) {
         self.material.drag(theta)
     }
 
-    fn entropy_form_old(&self, x0: &[S; N]) -> [S; A] {
+    fn entropy_form_old(&self, x0: &[f64; N]) -> [f64; A] {
         let own = self.material.entropy_form_old(&self.material.variables(x0));
         M::joined(own.as_ref(), x0)
     }
 
     fn entropy_form(
         &self,
-        old: &[S; A],
-        x1: &[S; N],
+        old: &[f64; A],
+        x1: &[f64; N],
         corners: &M::Corners,
-    ) -> ([S; R], [[S; N]; R]) {
+    ) -> ([f64; R], [[f64; N]; R]) {
         let (own, tensors) = M::split(old);
         let variables = self.material.variables(x1);
         let form = self.material.entropy_form(&own, &variables, corners);
         self.material.form(&tensors, x1, form)
     }
 
-    fn entropy_form_response(&self, old: &[S; A], x1: &[S; N], corners: &M::Corners) -> [S; R] {
+    fn entropy_form_response(
+        &self,
+        old: &[f64; A],
+        x1: &[f64; N],
+        corners: &M::Corners,
+    ) -> [f64; R] {
         let (own, tensors) = M::split(old);
         let (material, variables) = (&self.material, self.material.variables(x1));
         let response = material.entropy_form_response(&own, &variables, corners);
@@ -227,9 +229,9 @@ impl<
 
     fn mixed_states(
         &self,
-        x0: &[S; N],
-        old: &[S; A],
-        x1: &[S; N],
+        x0: &[f64; N],
+        old: &[f64; A],
+        x1: &[f64; N],
         corners: &M::Corners,
     ) -> [M::Corners; 2] {
         let (own, _) = M::split(old);
@@ -237,14 +239,14 @@ impl<
         self.material.mixed_states(&x0, &own, &x1, corners)
     }
 
-    fn temperature_form_old(&self, x0: &[S; N]) -> [S; B] {
+    fn temperature_form_old(&self, x0: &[f64; N]) -> [f64; B] {
         let own = self
             .material
             .temperature_form_old(&self.material.variables(x0));
         M::joined(own.as_ref(), x0)
     }
 
-    fn temperature_form(&self, old: &[S; B], x1: &[S; N]) -> ([S; R], [[S; N]; R]) {
+    fn temperature_form(&self, old: &[f64; B], x1: &[f64; N]) -> ([f64; R], [[f64; N]; R]) {
         let (own, tensors) = M::split(old);
         let form = self
             .material
@@ -252,7 +254,7 @@ impl<
         self.material.form(&tensors, x1, form)
     }
 
-    fn temperature_form_response(&self, old: &[S; B], x1: &[S; N]) -> [S; R] {
+    fn temperature_form_response(&self, old: &[f64; B], x1: &[f64; N]) -> [f64; R] {
         let (own, tensors) = M::split(old);
         let variables = self.material.variables(x1);
         let response = self.material.temperature_form_response(&own, &variables);
@@ -261,9 +263,9 @@ impl<
 
     fn temperature_form_adjoint(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
-        weights: &[S; R],
+        x0: &[f64; N],
+        x1: &[f64; N],
+        weights: &[f64; R],
     ) -> M::Parameters {
         let weights = self.material.response_weights([x0, x1], weights);
         let [x0, x1] = [x0, x1].map(|x| self.material.variables(x));
@@ -272,10 +274,10 @@ impl<
 
     fn temperature_form_tangent(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
+        x0: &[f64; N],
+        x1: &[f64; N],
         direction: &M::Parameters,
-    ) -> [S; R] {
+    ) -> [f64; R] {
         let [old, new] = [x0, x1].map(|x| self.material.variables(x));
         let (material, tensors) = (&self.material, M::tensors(x0));
         let tangent = material.temperature_form_tangent(&old, &new, direction);
@@ -284,10 +286,10 @@ impl<
 
     fn entropy_form_adjoint(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
+        x0: &[f64; N],
+        x1: &[f64; N],
         corners: &M::Corners,
-        weights: &[S; R],
+        weights: &[f64; R],
     ) -> M::Parameters {
         let weights = self.material.response_weights([x0, x1], weights);
         let [x0, x1] = [x0, x1].map(|x| self.material.variables(x));
@@ -297,34 +299,34 @@ impl<
 
     fn entropy_form_tangent(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
+        x0: &[f64; N],
+        x1: &[f64; N],
         corners: &M::Corners,
         direction: &M::Parameters,
-    ) -> [S; R] {
+    ) -> [f64; R] {
         let [old, new] = [x0, x1].map(|x| self.material.variables(x));
         let (material, tensors) = (&self.material, M::tensors(x0));
         let tangent = material.entropy_form_tangent(&old, &new, corners, direction);
         self.material.response(&tensors, x1, &tangent)
     }
 
-    fn gradient_adjoint(&self, x: &[S; N], weights: &[S; N]) -> M::Parameters {
-        let weights = self.material.weights(&M::tensors(x), weights, S::one());
+    fn gradient_adjoint(&self, x: &[f64; N], weights: &[f64; N]) -> M::Parameters {
+        let weights = self.material.weights(&M::tensors(x), weights, 1.0);
         self.material
             .gradient_adjoint(&self.material.variables(x), &weights)
     }
 
-    fn energy_by_parameters(&self, x: &[S; N]) -> M::Parameters {
+    fn energy_by_parameters(&self, x: &[f64; N]) -> M::Parameters {
         self.material
             .energy_by_parameters(&self.material.variables(x))
     }
 
-    fn viscosity_adjoint(&self, theta: S, weights: &[S; K]) -> M::Parameters {
+    fn viscosity_adjoint(&self, theta: f64, weights: &[f64; K]) -> M::Parameters {
         let weights = M::gathered(weights);
         self.material.viscosity_adjoint(theta, &weights)
     }
 
-    fn drag_adjoint(&self, theta: S, weights: &M::Drag) -> M::Parameters {
+    fn drag_adjoint(&self, theta: f64, weights: &M::Drag) -> M::Parameters {
         self.material.drag_adjoint(theta, weights)
     }
 }

@@ -10,7 +10,6 @@ mod search;
 mod state;
 
 use crate::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::Real;
 
 pub use error::DomainError;
 pub use point::{DomainReport, Least};
@@ -34,17 +33,17 @@ use state::Kind;
 /// assert_eq!(domain.ranges().count(), 3);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Domain<S = f64> {
+pub struct Domain {
     kind: Kind,
-    measures: Vec<[S; 2]>,
-    viscous: Vec<[S; 2]>,
-    temperature: Option<[S; 2]>,
+    measures: Vec<[f64; 2]>,
+    viscous: Vec<[f64; 2]>,
+    temperature: Option<[f64; 2]>,
 }
 
-impl<S: Real> Domain<S> {
+impl Domain {
     /// All stretches between two lengths, m.
     #[must_use]
-    pub fn of_stretch(range: [S; 2]) -> Self {
+    pub fn of_stretch(range: [f64; 2]) -> Self {
         Self::of(Kind::Spring, vec![range])
     }
 
@@ -53,11 +52,11 @@ impl<S: Real> Domain<S> {
     /// The strains of a body are not independent, so the box contains impossible states. You can ignore errors
     /// about those.
     #[must_use]
-    pub fn of_strains(ranges: impl IntoIterator<Item = [S; 2]>) -> Self {
+    pub fn of_strains(ranges: impl IntoIterator<Item = [f64; 2]>) -> Self {
         Self::of(Kind::Solid, ranges.into_iter().collect())
     }
 
-    fn of(kind: Kind, measures: Vec<[S; 2]>) -> Self {
+    fn of(kind: Kind, measures: Vec<[f64; 2]>) -> Self {
         Self {
             kind,
             measures,
@@ -68,20 +67,20 @@ impl<S: Real> Domain<S> {
 
     /// With the viscous stretches of the next dashpot, m; viscous strains in a solid.
     #[must_use]
-    pub fn with_viscous(mut self, range: [S; 2]) -> Self {
+    pub fn with_viscous(mut self, range: [f64; 2]) -> Self {
         self.viscous.push(range);
         self
     }
 
     /// With all temperatures between two, K.
     #[must_use]
-    pub fn with_temperature(mut self, range: [S; 2]) -> Self {
+    pub fn with_temperature(mut self, range: [f64; 2]) -> Self {
         self.temperature = Some(range);
         self
     }
 
     /// The intervals in the order of the variables: stretch or strains, viscous variables, temperature.
-    pub fn ranges(&self) -> impl Iterator<Item = [S; 2]> + '_ {
+    pub fn ranges(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let mechanical = self.measures.iter().chain(&self.viscous);
         mechanical.copied().chain(self.temperature)
     }
@@ -152,9 +151,9 @@ impl<S: Real> Domain<S> {
 /// assert!((value - (100.0 - 7500.0 * strain.powi(2) / theta)).abs() < 1e-12);
 /// # Ok::<(), DomainError>(())
 /// ```
-pub fn check_domain<S: Real, M: FreeEnergy<S>>(
+pub fn check_domain<M: FreeEnergy<f64>>(
     model: &M,
-    domain: &Domain<S>,
+    domain: &Domain,
     samples: usize,
 ) -> Result<DomainReport, DomainError> {
     let shape = Shape {
@@ -164,28 +163,28 @@ pub fn check_domain<S: Real, M: FreeEnergy<S>>(
         thermal: M::THERMAL,
     };
     shape.expect(domain.shape())?;
-    let ranges: Vec<[f64; 2]> = domain.ranges().map(|range| range.map(S::to_f64)).collect();
+    let ranges: Vec<[f64; 2]> = domain.ranges().collect();
     let space = Space::new(shape, ranges)?;
     search::search(&space, samples, &|x| examine(model, &space, x))
 }
 
 /// The heat capacity of a valid state, then the viscosities of its dashpots, then that of the stretch, as far as it has them.
-fn examine<S: Real, M: FreeEnergy<S>>(
+fn examine<M: FreeEnergy<f64>>(
     model: &M,
     space: &Space,
     x: &[f64],
 ) -> Result<Vec<f64>, DomainError> {
-    let mut variables = M::Variables::filled(S::zero());
+    let mut variables = M::Variables::filled(0.0);
     for (variable, &value) in variables.as_mut().iter_mut().zip(x) {
-        *variable = S::from_f64(value);
+        *variable = value;
     }
     let point = || space.point(x);
-    let finite = |quantity: &'static str, values: &[S]| {
+    let finite = |quantity: &'static str, values: &[f64]| {
         let wrong = values.iter().find(|value| !value.is_finite());
         wrong.map_or(Ok(()), |value| {
             Err(DomainError::NotFinite {
                 quantity,
-                value: value.to_f64(),
+                value: *value,
                 point: point(),
             })
         })
@@ -197,8 +196,7 @@ fn examine<S: Real, M: FreeEnergy<S>>(
         finite("second derivative of the free energy", row.as_ref())?;
     }
     let mut found = Vec::with_capacity(1 + M::DASHPOTS);
-    let mut take = |value: S, error: &dyn Fn(f64, DomainPoint) -> DomainError| {
-        let value = value.to_f64();
+    let mut take = |value: f64, error: &dyn Fn(f64, DomainPoint) -> DomainError| {
         if value > 0.0 && value.is_finite() {
             found.push(value);
             return Ok(());
@@ -212,7 +210,7 @@ fn examine<S: Real, M: FreeEnergy<S>>(
             point,
         })?;
     }
-    let theta = S::from_f64(if M::THERMAL { x[x.len() - 1] } else { 0.0 });
+    let theta = if M::THERMAL { x[x.len() - 1] } else { 0.0 };
     for (dashpot, &value) in model.viscosity(theta).0.as_ref().iter().enumerate() {
         take(value, &|value, point| DomainError::Viscosity {
             dashpot,

@@ -470,11 +470,11 @@ pub struct FormRows<S: Scalar, M: FreeEnergy<S> + ?Sized, Old, Memory> {
 /// #[free_energy(|lambda: Stretch| 3.0 * lambda.powi(2))]
 /// struct Spring;
 ///
-/// fn measures<M: Material<f64>>(_: &M) -> usize {
+/// fn measures<M: Material>(_: &M) -> usize {
 ///     M::MEASURES
 /// }
 /// assert_eq!(measures(&Spring), 1);
 /// ```
-pub trait Material<S: Scalar>: FreeEnergy<S> + Send + Sync + 'static {}
+pub trait Material: FreeEnergy<f64> + Send + Sync + 'static {}
 
-impl<S: Scalar, M: FreeEnergy<S> + Send + Sync + 'static> Material<S> for M {}
+impl<M: FreeEnergy<f64> + Send + Sync + 'static> Material for M {}

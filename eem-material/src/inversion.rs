@@ -10,7 +10,7 @@ mod error;
 mod search;
 
 use crate::free_energy::Caloric;
-use crate::number::scalar::{Mask, Real, is_positive, unless};
+use crate::number::scalar::{Scalar, is_positive};
 use search::search_from;
 
 pub use error::InversionError;
@@ -21,9 +21,9 @@ const ENOUGH: f64 = 2.0;
 
 /// A temperature found by [`invert`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Inversion<S> {
+pub struct Inversion {
     /// The temperature, in the unit of the start.
-    pub temperature: S,
+    pub temperature: f64,
     /// How many times the entropy was evaluated.
     pub evaluations: usize,
 }
@@ -65,22 +65,20 @@ pub struct Inversion<S> {
 /// assert!((found.temperature - 2.0).abs() < 1e-15);
 /// # Ok::<(), eem_material::InversionError>(())
 /// ```
-pub fn invert<S: Real>(
-    mut evaluate: impl FnMut(S) -> Caloric<S>,
-    entropy: S,
-    start: S,
-) -> Result<Inversion<S>, InversionError> {
+pub fn invert(
+    mut evaluate: impl FnMut(f64) -> Caloric<f64>,
+    entropy: f64,
+    start: f64,
+) -> Result<Inversion, InversionError> {
     if !is_positive(start) {
-        return Err(InversionError::InvalidStart {
-            start: start.to_f64(),
-        });
+        return Err(InversionError::InvalidStart { start });
     }
     let mut evaluations = 0;
     let counted = |theta| {
         evaluations += 1;
         (evaluate(theta), [])
     };
-    let enough = S::from_f64(ENOUGH) * S::EPSILON;
+    let enough = ENOUGH * f64::EPSILON;
     let (temperature, _) = temperature_near(counted, entropy, start, enough)?;
     Ok(Inversion {
         temperature,
@@ -109,82 +107,34 @@ const CONTRACTION: f64 = 0.25;
 ///
 /// As [`invert`].
 #[inline]
-pub fn temperature_near<S: Real, const W: usize>(
-    mut caloric_at: impl FnMut(S) -> (Caloric<S>, [S; W]),
-    entropy: S,
-    guess: S,
-    enough: S,
-) -> Result<(S, [S; W]), InversionError> {
-    let mut limit = S::from_f64(LARGEST_CORRECTION);
+pub fn temperature_near<const W: usize>(
+    mut caloric_at: impl FnMut(f64) -> (Caloric<f64>, [f64; W]),
+    entropy: f64,
+    guess: f64,
+    enough: f64,
+) -> Result<(f64, [f64; W]), InversionError> {
+    let mut limit = LARGEST_CORRECTION;
     let mut theta = guess;
-    let (mut found, mut found_other) = (theta, [theta; W]);
-    let mut converged = S::Mask::none();
     loop {
-        let (caloric, mut other) = caloric_at(theta);
+        let (caloric, other) = caloric_at(theta);
         let defect = entropy - caloric.entropy;
-        let mut correction = defect / caloric.heat_capacity;
+        let correction = defect / caloric.heat_capacity;
         let size = correction.abs();
-        let is_stable = S::zero().less(caloric.heat_capacity);
-        let is_far = !(converged | (is_stable & size.at_most(limit)));
-        let mut last = size.at_most(enough);
-        if is_far.any() {
+        let is_stable = caloric.heat_capacity > 0.0;
+        if !(is_stable && size <= limit) {
             // A residual of rounding cannot be reduced by a search.
-            let rounding = S::from_f64(ENTROPY_ROUNDINGS) * S::EPSILON * caloric.magnitude;
-            let is_noise = is_far & is_stable & defect.abs().at_most(rounding);
-            let is_far = is_far & !is_noise;
-            if is_far.any() {
-                let sought = search_far(|theta| caloric_at(theta).0, entropy, guess, is_far)?;
-                theta = S::select(is_far, sought, theta);
-                if W > 0 {
-                    other = caloric_at(theta).1;
-                }
+            let rounding = ENTROPY_ROUNDINGS * f64::EPSILON * caloric.magnitude;
+            if is_stable && defect.abs() <= rounding {
+                return Ok((theta, other));
             }
-            correction = S::select(is_noise | is_far, S::zero(), correction);
-            last = last | is_noise | is_far;
+            let found = search_from(|theta| caloric_at(theta).0, entropy, guess)?;
+            let other = if W > 0 { caloric_at(found).1 } else { other };
+            return Ok((found, other));
         }
-        found = unless(converged, found, theta + theta * correction);
-        for (found, other) in found_other.iter_mut().zip(other) {
-            *found = unless(converged, *found, other);
+        if size <= enough {
+            return Ok((theta + theta * correction, other));
         }
-        converged = converged | last;
-        if converged.all() {
-            return Ok((found, found_other));
-        }
-        theta *= correction.exp();
-        limit = S::from_f64(CONTRACTION) * size;
+        theta *= Scalar::exp(correction);
+        limit = CONTRACTION * size;
     }
-}
-
-/// The temperatures of the lanes that are far off, searched one by one.
-#[cold]
-fn search_far<S: Real>(
-    mut caloric_at: impl FnMut(S) -> Caloric<S>,
-    entropy: S,
-    guess: S,
-    is_far: S::Mask,
-) -> Result<S, InversionError> {
-    if S::LANES == 1 {
-        return search_from(caloric_at, entropy, guess);
-    }
-    let mut failure = None;
-    let temperatures = S::pack(|lane| {
-        let start = guess.lane(lane);
-        let is_inactive = S::select(is_far, S::zero(), S::one()).lane(lane) > 0.0;
-        if is_inactive {
-            return start;
-        }
-        let caloric_at = |theta: f64| {
-            let caloric = caloric_at(S::from_f64(theta));
-            Caloric {
-                entropy: caloric.entropy.lane(lane),
-                heat_capacity: caloric.heat_capacity.lane(lane),
-                magnitude: caloric.magnitude.lane(lane),
-            }
-        };
-        search_from(caloric_at, entropy.lane(lane), start).unwrap_or_else(|error| {
-            failure = Some(error);
-            start
-        })
-    });
-    failure.map_or(Ok(temperatures), Err)
 }

@@ -12,8 +12,6 @@
 use core::array;
 use core::f64::consts::FRAC_1_SQRT_2;
 
-use crate::number::scalar::Scalar;
-
 /// Components of a symmetric tensor of space.
 pub const COMPONENTS: usize = 6;
 
@@ -65,36 +63,38 @@ const THIRD_ROOT: f64 = 0.577_350_269_189_625_8;
 const SIXTH_ROOT: f64 = 0.408_248_290_463_863;
 
 /// `b_k` as `[xx, yy, zz, xy, xz, yz]`.
-pub fn basis<S: Scalar>(k: usize) -> [S; COMPONENTS] {
-    let [zero, half, third, sixth] = [0.0, FRAC_1_SQRT_2, THIRD_ROOT, SIXTH_ROOT].map(S::from_f64);
+#[must_use]
+pub fn basis(k: usize) -> [f64; COMPONENTS] {
+    let [half, third, sixth] = [FRAC_1_SQRT_2, THIRD_ROOT, SIXTH_ROOT];
     match k {
-        0 => [half, -half, zero, zero, zero, zero],
-        1 => [sixth, sixth, -(sixth + sixth), zero, zero, zero],
-        2 => [zero, zero, zero, half, zero, zero],
-        3 => [zero, zero, zero, zero, half, zero],
-        4 => [zero, zero, zero, zero, zero, half],
-        _ => [third, third, third, zero, zero, zero],
+        0 => [half, -half, 0.0, 0.0, 0.0, 0.0],
+        1 => [sixth, sixth, -(sixth + sixth), 0.0, 0.0, 0.0],
+        2 => [0.0, 0.0, 0.0, half, 0.0, 0.0],
+        3 => [0.0, 0.0, 0.0, 0.0, half, 0.0],
+        4 => [0.0, 0.0, 0.0, 0.0, 0.0, half],
+        _ => [third, third, third, 0.0, 0.0, 0.0],
     }
 }
 
 /// `A:b_k` of a tensor.
-pub fn components<S: Scalar>(tensor: &[[S; 3]; 3]) -> [S; COMPONENTS] {
-    let half = S::from_f64(0.5);
+#[must_use]
+pub fn components(tensor: &[[f64; 3]; 3]) -> [f64; COMPONENTS] {
     array::from_fn(|k| {
-        let [xx, yy, zz, xy, xz, yz] = basis::<S>(k);
-        let along = |axis: usize, b: S| b * tensor[axis][axis];
+        let [xx, yy, zz, xy, xz, yz] = basis(k);
+        let along = |axis: usize, b: f64| b * tensor[axis][axis];
         // Twice the mean of both.
-        let across = |i: usize, j: usize, b: S| (b + b) * (half * (tensor[i][j] + tensor[j][i]));
+        let across = |i: usize, j: usize, b: f64| (b + b) * (0.5 * (tensor[i][j] + tensor[j][i]));
         (along(0, xx) + along(1, yy) + along(2, zz))
             + (across(0, 1, xy) + across(0, 2, xz) + across(1, 2, yz))
     })
 }
 
 /// `Σ A_k b_k`.
-pub fn tensor<S: Scalar>(components: &[S]) -> [[S; 3]; 3] {
-    let mut sum = [S::zero(); COMPONENTS];
+#[must_use]
+pub fn tensor(components: &[f64]) -> [[f64; 3]; 3] {
+    let mut sum = [0.0; COMPONENTS];
     for (k, &component) in components.iter().enumerate() {
-        for (sum, entry) in sum.iter_mut().zip(basis::<S>(k)) {
+        for (sum, entry) in sum.iter_mut().zip(basis(k)) {
             *sum += component * entry;
         }
     }
@@ -104,16 +104,16 @@ pub fn tensor<S: Scalar>(components: &[S]) -> [[S; 3]; 3] {
 
 /// Components of E and Γ.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tensors<S> {
-    pub(super) strain: [S; COMPONENTS],
-    pub(super) viscous: [S; COMPONENTS],
+pub(super) struct Tensors {
+    pub(super) strain: [f64; COMPONENTS],
+    pub(super) viscous: [f64; COMPONENTS],
 }
 
-impl<S: Scalar> Tensors<S> {
+impl Tensors {
     /// Tensors with these components; the others are zero.
-    pub(super) fn new(strain: &[S], viscous: &[S]) -> Self {
-        let all = |some: &[S]| {
-            let mut all = [S::zero(); COMPONENTS];
+    pub(super) fn new(strain: &[f64], viscous: &[f64]) -> Self {
+        let all = |some: &[f64]| {
+            let mut all = [0.0; COMPONENTS];
             all[..some.len()].copy_from_slice(some);
             all
         };
@@ -125,9 +125,8 @@ impl<S: Scalar> Tensors<S> {
 
     /// The mean of two states.
     pub(super) fn mean(&self, other: &Self) -> Self {
-        let half = S::from_f64(0.5);
         let mean =
-            |a: &[S; COMPONENTS], b: &[S; COMPONENTS]| array::from_fn(|k| half * (a[k] + b[k]));
+            |a: &[f64; COMPONENTS], b: &[f64; COMPONENTS]| array::from_fn(|k| 0.5 * (a[k] + b[k]));
         Self {
             strain: mean(&self.strain, &other.strain),
             viscous: mean(&self.viscous, &other.viscous),
@@ -135,17 +134,17 @@ impl<S: Scalar> Tensors<S> {
     }
 
     /// The value of an invariant.
-    pub(super) fn value(&self, joint: Joint) -> S {
+    pub(super) fn value(&self, joint: Joint) -> f64 {
         match joint {
-            Joint::Trace => S::from_f64(TRACE) * self.viscous[DEVIATORIC],
+            Joint::Trace => TRACE * self.viscous[DEVIATORIC],
             Joint::Square => dot(&self.viscous, &self.viscous),
             Joint::Strain => dot(&self.strain, &self.viscous),
         }
     }
 
     /// The sum of the absolute values of the terms of an invariant.
-    pub(super) fn size(&self, joint: Joint) -> S {
-        let sizes = |components: &[S; COMPONENTS]| components.map(S::abs);
+    pub(super) fn size(&self, joint: Joint) -> f64 {
+        let sizes = |components: &[f64; COMPONENTS]| components.map(f64::abs);
         match joint {
             Joint::Trace => self.value(joint).abs(),
             Joint::Square => self.value(joint),
@@ -154,18 +153,18 @@ impl<S: Scalar> Tensors<S> {
     }
 
     /// `∂m/∂E` along `b_k`; for a mean of two states the discrete gradient between them.
-    pub(super) fn by_strain(&self, joint: Joint, k: usize) -> S {
+    pub(super) fn by_strain(&self, joint: Joint, k: usize) -> f64 {
         match joint {
-            Joint::Trace | Joint::Square => S::zero(),
+            Joint::Trace | Joint::Square => 0.0,
             Joint::Strain => self.viscous[k],
         }
     }
 
     /// `∂m/∂Γ` along `b_k`; for a mean of two states the discrete gradient between them.
-    pub(super) fn by_viscous(&self, joint: Joint, k: usize) -> S {
+    pub(super) fn by_viscous(&self, joint: Joint, k: usize) -> f64 {
         match joint {
-            Joint::Trace if k == DEVIATORIC => S::from_f64(TRACE),
-            Joint::Trace => S::zero(),
+            Joint::Trace if k == DEVIATORIC => TRACE,
+            Joint::Trace => 0.0,
             Joint::Square => self.viscous[k] + self.viscous[k],
             Joint::Strain => self.strain[k],
         }
@@ -175,6 +174,6 @@ impl<S: Scalar> Tensors<S> {
 /// The trace of the last `b_k`, `√3`.
 const TRACE: f64 = 1.732_050_807_568_877_2;
 
-fn dot<S: Scalar>(a: &[S; COMPONENTS], b: &[S; COMPONENTS]) -> S {
+fn dot(a: &[f64; COMPONENTS], b: &[f64; COMPONENTS]) -> f64 {
     (1..COMPONENTS).fold(a[0] * b[0], |sum, k| sum + a[k] * b[k])
 }

@@ -23,4 +23,4 @@ pub use inversion::{Inversion, InversionError, invert};
 pub use joint::{Joint, JointEnergy};
 #[doc(inline)]
 pub use number::kernel;
-pub use number::scalar::{Discord, Mask, Real, Scalar};
+pub use number::scalar::Scalar;

@@ -5,7 +5,5 @@ pub mod compensated;
 pub mod derivative;
 pub mod digest;
 pub mod kernel;
-#[cfg(feature = "lanes")]
-pub mod lanes;
 pub mod readable;
 pub mod scalar;

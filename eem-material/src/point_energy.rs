@@ -1,23 +1,22 @@
 //! The free energy of a point of a solid: the free energy per volume times the volume.
 
 use crate::free_energy::{Array, Caloric, FreeEnergy, Rates};
-use crate::number::scalar::Real;
 
 /// The free energy of a volume. Energy, entropy, forces and viscosities are multiplied by the volume, temperatures are not.
 #[derive(Clone, Debug)]
-pub struct PointEnergy<S, M> {
+pub struct PointEnergy<M> {
     density: M,
     /// w, m³.
-    volume: S,
+    volume: f64,
 }
 
-impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
+impl<M: FreeEnergy<f64>> PointEnergy<M> {
     /// The free energy of a `volume` in m³, from that per volume.
-    pub fn new(density: M, volume: S) -> Self {
+    pub fn new(density: M, volume: f64) -> Self {
         Self { density, volume }
     }
 
-    fn scaled<A: Array<S>>(&self, mut values: A) -> A {
+    fn scaled<A: Array<f64>>(&self, mut values: A) -> A {
         for value in values.as_mut() {
             *value *= self.volume;
         }
@@ -38,7 +37,7 @@ impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
         }
     }
 
-    fn scaled_caloric(&self, caloric: Caloric<S>) -> Caloric<S> {
+    fn scaled_caloric(&self, caloric: Caloric<f64>) -> Caloric<f64> {
         Caloric {
             entropy: self.volume * caloric.entropy,
             heat_capacity: self.volume * caloric.heat_capacity,
@@ -46,7 +45,10 @@ impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
         }
     }
 
-    fn scaled_at(&self, density: impl Fn(S) -> (Caloric<S>, S)) -> impl Fn(S) -> (Caloric<S>, S) {
+    fn scaled_at(
+        &self,
+        density: impl Fn(f64) -> (Caloric<f64>, f64),
+    ) -> impl Fn(f64) -> (Caloric<f64>, f64) {
         move |theta| {
             let (caloric, psi) = density(theta);
             (self.scaled_caloric(caloric), self.volume * psi)
@@ -80,7 +82,7 @@ impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
+impl<M: FreeEnergy<f64>> FreeEnergy<f64> for PointEnergy<M> {
     const MEASURES: usize = M::MEASURES;
     const DASHPOTS: usize = M::DASHPOTS;
     const THERMAL: bool = M::THERMAL;
@@ -131,19 +133,19 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         self.density.has_constant_capacity()
     }
 
-    fn parameter(&self, index: usize) -> S {
+    fn parameter(&self, index: usize) -> f64 {
         self.density.parameter(index)
     }
 
-    fn free_energy(&self, x: &M::Variables) -> S {
+    fn free_energy(&self, x: &M::Variables) -> f64 {
         self.volume * self.density.free_energy(x)
     }
 
-    fn energy_magnitude(&self, x: &M::Variables) -> S {
+    fn energy_magnitude(&self, x: &M::Variables) -> f64 {
         self.volume * self.density.energy_magnitude(x)
     }
 
-    fn internal_energy(&self, x: &M::Variables) -> S {
+    fn internal_energy(&self, x: &M::Variables) -> f64 {
         self.volume * self.density.internal_energy(x)
     }
 
@@ -156,11 +158,11 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         (self.scaled(gradient), self.scaled_rows(hessian))
     }
 
-    fn caloric(&self, x: &M::Variables) -> Caloric<S> {
+    fn caloric(&self, x: &M::Variables) -> Caloric<f64> {
         self.scaled_caloric(self.density.caloric(x))
     }
 
-    fn caloric_at(&self, x: M::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
+    fn caloric_at(&self, x: M::Variables) -> impl Fn(f64) -> (Caloric<f64>, f64) {
         self.scaled_at(self.density.caloric_at(x))
     }
 
@@ -169,7 +171,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         x0: &M::Variables,
         x1: &M::Variables,
         new: usize,
-    ) -> impl Fn(S) -> (Caloric<S>, S) {
+    ) -> impl Fn(f64) -> (Caloric<f64>, f64) {
         self.scaled_at(self.density.caloric_between(x0, x1, new))
     }
 
@@ -177,7 +179,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         self.scaled_rates(self.density.rates(x))
     }
 
-    fn rates_at(&self, x: M::Variables) -> impl Fn(S) -> (Rates<M::Variables>, [S; 2]) {
+    fn rates_at(&self, x: M::Variables) -> impl Fn(f64) -> (Rates<M::Variables>, [f64; 2]) {
         let density = self.density.rates_at(x);
         move |theta| {
             let (rates, values) = density(theta);
@@ -189,12 +191,12 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         self.scaled_rows(self.density.entropy_hessian(x))
     }
 
-    fn viscosity(&self, theta: S) -> (M::Viscosities, M::Viscosities) {
+    fn viscosity(&self, theta: f64) -> (M::Viscosities, M::Viscosities) {
         let (viscosities, slopes) = self.density.viscosity(theta);
         (self.scaled(viscosities), self.scaled(slopes))
     }
 
-    fn drag(&self, theta: S) -> (M::Drag, M::Drag) {
+    fn drag(&self, theta: f64) -> (M::Drag, M::Drag) {
         let (drag, slope) = self.density.drag(theta);
         (self.scaled(drag), self.scaled(slope))
     }
@@ -301,12 +303,12 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         self.scaled(self.density.energy_by_parameters(x))
     }
 
-    fn viscosity_adjoint(&self, theta: S, weights: &M::Viscosities) -> M::Parameters {
+    fn viscosity_adjoint(&self, theta: f64, weights: &M::Viscosities) -> M::Parameters {
         let weights = self.scaled(*weights);
         self.density.viscosity_adjoint(theta, &weights)
     }
 
-    fn drag_adjoint(&self, theta: S, weights: &M::Drag) -> M::Parameters {
+    fn drag_adjoint(&self, theta: f64, weights: &M::Drag) -> M::Parameters {
         self.density.drag_adjoint(theta, &self.scaled(*weights))
     }
 }

@@ -3,13 +3,13 @@
 use crate::shape::Shape;
 use crate::tensor::{Symmetric, Tensor};
 use eem_material::free_energy::Array;
-use eem_material::number::scalar::Real;
 
 /// `N_a` and `∂N_a/∂ξ` of all nodes.
-pub type Functions<S, const D: usize> = Vec<(S, [S; D])>;
+pub type Functions<const D: usize> = Vec<(f64, [f64; D])>;
 
 /// The shape functions at a position in the parent cell.
-pub fn functions<H: Shape<D>, S: Real, const D: usize>(place: [S; D]) -> Functions<S, D> {
+#[must_use]
+pub fn functions<H: Shape<D>, const D: usize>(place: [f64; D]) -> Functions<D> {
     let nodes = 0..H::NODES.len();
     nodes.map(|node| H::function(node, place)).collect()
 }
@@ -21,11 +21,12 @@ pub fn rule<H: Shape<D>, const D: usize>() -> Vec<([f64; D], f64)> {
 }
 
 /// `∂X/∂ξ`, m, from the positions of the nodes in the reference configuration.
-pub fn jacobian<S: Real, const D: usize>(
-    reference: &[[S; D]],
-    functions: &[(S, [S; D])],
-) -> Tensor<S, D> {
-    let mut jacobian = [[S::zero(); D]; D];
+#[must_use]
+pub fn jacobian<const D: usize>(
+    reference: &[[f64; D]],
+    functions: &[(f64, [f64; D])],
+) -> Tensor<D> {
+    let mut jacobian = [[0.0; D]; D];
     for (node, (_, slope)) in reference.iter().zip(functions).skip(1) {
         for (axis, row) in jacobian.iter_mut().enumerate() {
             for (entry, &slope) in row.iter_mut().zip(slope) {
@@ -37,19 +38,19 @@ pub fn jacobian<S: Real, const D: usize>(
 }
 
 /// A mass per pair of nodes, kg.
-pub type Pairs<H, S, const D: usize> = <H as Shape<D>>::PerNode<<H as Shape<D>>::PerNode<S>>;
+pub type Pairs<H, const D: usize> = <H as Shape<D>>::PerNode<<H as Shape<D>>::PerNode<f64>>;
 
 /// The consistent mass `∫ ρ N_a N_b dV` of each pair of nodes, kg, exact for any cell whose edges are straight.
 /// The density is per area in the plane.
-pub fn masses<H: Shape<D>, S: Real, const D: usize>(
-    reference: &H::PerNode<[S; D]>,
-    density: S,
-) -> Pairs<H, S, D> {
+pub fn masses<H: Shape<D>, const D: usize>(
+    reference: &H::PerNode<[f64; D]>,
+    density: f64,
+) -> Pairs<H, D> {
     let reference = reference.as_ref();
-    let mut masses = Pairs::<H, S, D>::filled(H::PerNode::filled(S::zero()));
+    let mut masses = Pairs::<H, D>::filled(H::PerNode::filled(0.0));
     for (place, weight) in gauss(H::PER_AXIS + 1) {
-        let functions = functions::<H, S, D>(place);
-        let volume = H::Tensor::<S>::determinant(&jacobian(reference, &functions));
+        let functions = functions::<H, D>(place);
+        let volume = H::Tensor::determinant(&jacobian(reference, &functions));
         let mass = density * weight * volume;
         for (row, (by, _)) in masses.as_mut().iter_mut().zip(&functions) {
             for (entry, (other, _)) in row.as_mut().iter_mut().zip(&functions) {
@@ -63,14 +64,14 @@ pub fn masses<H: Shape<D>, S: Real, const D: usize>(
 /// Lumps the mass on the diagonal; off-diagonal entries become zero. With linear shape functions a node gets the sum of its
 /// row. With others some of these sums are negative, so the whole mass is distributed in proportion to the diagonal (Hinton,
 /// Rock & Zienkiewicz 1976).
-pub fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S, D>) {
+pub fn lump<H: Shape<D>, const D: usize>(masses: &mut Pairs<H, D>) {
     let rows = masses.as_ref().iter();
-    let sums: Vec<S> = rows
-        .map(|row| row.as_ref().iter().fold(S::zero(), |sum, &mass| sum + mass))
+    let sums: Vec<f64> = rows
+        .map(|row| row.as_ref().iter().fold(0.0, |sum, &mass| sum + mass))
         .collect();
-    let total = sums.iter().fold(S::zero(), |total, &sum| total + sum);
+    let total = sums.iter().fold(0.0, |total, &sum| total + sum);
     let diagonal = (0..sums.len()).map(|a| masses[a][a]);
-    let diagonal = diagonal.fold(S::zero(), |sum, mass| sum + mass);
+    let diagonal = diagonal.fold(0.0, |sum, mass| sum + mass);
     let is_linear = H::NODES.iter().all(|node| !node.contains(&0));
     for (a, row) in masses.as_mut().iter_mut().enumerate() {
         let own = if is_linear {
@@ -78,31 +79,29 @@ pub fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S, D>) {
         } else {
             row[a] * total / diagonal
         };
-        *row = H::PerNode::filled(S::zero());
+        *row = H::PerNode::filled(0.0);
         row[a] = own;
     }
 }
 
 /// Abscissas and weights on [−1, 1].
-fn on_axis<S: Real>(points: usize) -> Vec<(S, S)> {
-    let number = S::from_f64;
+fn on_axis(points: usize) -> Vec<(f64, f64)> {
     match points {
         2 => {
-            let root = (S::one() / number(3.0)).sqrt();
-            vec![(-root, S::one()), (root, S::one())]
+            let root = (1.0_f64 / 3.0).sqrt();
+            vec![(-root, 1.0), (root, 1.0)]
         }
         3 => {
-            let root = number(0.6).sqrt();
-            let [edge, middle] = [5.0, 8.0].map(|nine| number(nine) / number(9.0));
-            vec![(-root, edge), (S::zero(), middle), (root, edge)]
+            let root = 0.6_f64.sqrt();
+            let [edge, middle] = [5.0, 8.0].map(|nine| nine / 9.0);
+            vec![(-root, edge), (0.0, middle), (root, edge)]
         }
         // x² = 3/7 ∓ 2/7 √(6/5), weights (18 ± √30)/36
         _ => {
-            let shift = number(2.0) * number(1.2).sqrt();
-            let [inner, outer] = [number(3.0) - shift, number(3.0) + shift]
-                .map(|seventh| (seventh / number(7.0)).sqrt());
-            let [heavy, light] = [number(30.0).sqrt(), -number(30.0).sqrt()]
-                .map(|root| (number(18.0) + root) / number(36.0));
+            let shift = 2.0 * 1.2_f64.sqrt();
+            let [inner, outer] = [3.0 - shift, 3.0 + shift].map(|seventh| (seventh / 7.0).sqrt());
+            let [heavy, light] =
+                [30.0_f64.sqrt(), -30.0_f64.sqrt()].map(|root| (18.0 + root) / 36.0);
             let half = [(outer, light), (inner, heavy)];
             let [first, second] = half.map(|(at, weight)| (-at, weight));
             vec![first, second, half[1], half[0]]
@@ -112,11 +111,11 @@ fn on_axis<S: Real>(points: usize) -> Vec<(S, S)> {
 
 /// The points of a cell with their weights, the first coordinate fastest.
 #[must_use]
-pub fn gauss<S: Real, const D: usize>(per_axis: usize) -> Vec<([S; D], S)> {
-    let axis = on_axis::<S>(per_axis);
+pub fn gauss<const D: usize>(per_axis: usize) -> Vec<([f64; D], f64)> {
+    let axis = on_axis(per_axis);
     let points = (0..D).fold(1, |points, _| points * axis.len());
     let point = |mut index: usize| {
-        let (mut place, mut weight) = ([S::zero(); D], S::one());
+        let (mut place, mut weight) = ([0.0; D], 1.0);
         for at in &mut place {
             let (abscissa, share) = axis[index % axis.len()];
             index /= axis.len();

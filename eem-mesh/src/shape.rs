@@ -4,7 +4,6 @@ use core::{array, fmt::Debug};
 
 use crate::tensor::Symmetric;
 use eem_material::free_energy::{Array, Entry};
-use eem_material::number::scalar::Real;
 
 /// The shape of a cell in `D` dimensions: [`Quad4`], [`Quad8`], [`Hex8`] or [`Hex20`].
 ///
@@ -26,7 +25,7 @@ pub trait Shape<const D: usize>: Copy + Debug + Send + Sync + 'static {
     /// `[T; number of points]`.
     type PerPoint<T: Send + Sync>: Points<T>;
     /// A symmetric tensor.
-    type Tensor<S: Real>: Symmetric<S, D>;
+    type Tensor: Symmetric<D>;
     /// `[T; number of components of a symmetric tensor]`.
     type PerComponent<T: Entry>: Array<T>;
 
@@ -41,7 +40,8 @@ pub trait Shape<const D: usize>: Copy + Debug + Send + Sync + 'static {
 
     /// `N_a` and `∂N_a/∂ξ` of a node at a position in the parent cell.
     #[inline]
-    fn function<S: Real>(node: usize, place: [S; D]) -> (S, [S; D]) {
+    #[must_use]
+    fn function(node: usize, place: [f64; D]) -> (f64, [f64; D]) {
         // A cell has mid-side nodes if it has more nodes than corners.
         if Self::NODES.len() > 1 << D {
             serendipity(&Self::NODES[node], place)
@@ -71,7 +71,7 @@ impl Shape<2> for Quad4 {
     type PerNode<T: Entry> = [T; 4];
     type PerArm<T: Entry> = [T; 3];
     type PerPoint<T: Send + Sync> = [T; 4];
-    type Tensor<S: Real> = [S; 3];
+    type Tensor = [f64; 3];
     type PerComponent<T: Entry> = [T; 3];
 
     const NAME: &'static str = "Quad4";
@@ -84,7 +84,7 @@ impl Shape<2> for Quad8 {
     type PerNode<T: Entry> = [T; 8];
     type PerArm<T: Entry> = [T; 7];
     type PerPoint<T: Send + Sync> = [T; 9];
-    type Tensor<S: Real> = [S; 3];
+    type Tensor = [f64; 3];
     type PerComponent<T: Entry> = [T; 3];
 
     const NAME: &'static str = "Quad8";
@@ -106,7 +106,7 @@ impl Shape<3> for Hex8 {
     type PerNode<T: Entry> = [T; 8];
     type PerArm<T: Entry> = [T; 7];
     type PerPoint<T: Send + Sync> = [T; 8];
-    type Tensor<S: Real> = [S; 6];
+    type Tensor = [f64; 6];
     type PerComponent<T: Entry> = [T; 6];
 
     const NAME: &'static str = "Hex8";
@@ -126,7 +126,7 @@ impl Shape<3> for Hex20 {
     type PerNode<T: Entry> = [T; 20];
     type PerArm<T: Entry> = [T; 19];
     type PerPoint<T: Send + Sync> = [T; 27];
-    type Tensor<S: Real> = [S; 6];
+    type Tensor = [f64; 6];
     type PerComponent<T: Entry> = [T; 6];
 
     const NAME: &'static str = "Hex20";
@@ -182,41 +182,39 @@ impl<T: Send + Sync, const N: usize> Points<T> for [T; N] {
 }
 
 /// `Π ½(1 + ξ_k ξ)` with its derivatives.
-fn multilinear<S: Real, const D: usize>(node: &[i8; D], place: [S; D]) -> (S, [S; D]) {
-    let half = S::from_f64(0.5);
-    let sides = node.map(|side| S::from_f64(f64::from(side)));
-    let factors = array::from_fn(|axis| half * (S::one() + sides[axis] * place[axis]));
-    product(&factors, &sides.map(|side| half * side))
+fn multilinear<const D: usize>(node: &[i8; D], place: [f64; D]) -> (f64, [f64; D]) {
+    let sides = node.map(f64::from);
+    let factors = array::from_fn(|axis| 0.5 * (1.0 + sides[axis] * place[axis]));
+    product(&factors, &sides.map(|side| 0.5 * side))
 }
 
 /// Corners `Π ½(1 + ξ_k ξ) (Σ ξ_k ξ − (D − 1))`, middles of edges `(1 − ξ²) Π ½(1 + ξ_k ξ)`, with
 /// their derivatives.
-fn serendipity<S: Real, const D: usize>(node: &[i8; D], place: [S; D]) -> (S, [S; D]) {
-    let half = S::from_f64(0.5);
-    let sides = node.map(|side| S::from_f64(f64::from(side)));
+fn serendipity<const D: usize>(node: &[i8; D], place: [f64; D]) -> (f64, [f64; D]) {
+    let sides = node.map(f64::from);
     if let Some(along) = node.iter().position(|&side| side == 0) {
-        let (mut factors, mut slopes) = ([S::zero(); D], [S::zero(); D]);
+        let (mut factors, mut slopes) = ([0.0; D], [0.0; D]);
         for axis in 0..D {
             let at = place[axis];
             (factors[axis], slopes[axis]) = if axis == along {
-                ((S::one() - at) * (S::one() + at), -(at + at))
+                ((1.0 - at) * (1.0 + at), -(at + at))
             } else {
-                (half * (S::one() + sides[axis] * at), half * sides[axis])
+                (0.5 * (1.0 + sides[axis] * at), 0.5 * sides[axis])
             };
         }
         return product(&factors, &slopes);
     }
     let (value, slopes) = multilinear(node, place);
-    let mut sum = S::one();
+    let mut sum = 1.0;
     for axis in 0..D {
-        sum += sides[axis] * place[axis] - S::one();
+        sum += sides[axis] * place[axis] - 1.0;
     }
     let total = array::from_fn(|axis| slopes[axis] * sum + value * sides[axis]);
     (value * sum, total)
 }
 
 /// A product of functions, one per axis, with its derivatives.
-fn product<S: Real, const D: usize>(factors: &[S; D], slopes: &[S; D]) -> (S, [S; D]) {
+fn product<const D: usize>(factors: &[f64; D], slopes: &[f64; D]) -> (f64, [f64; D]) {
     let of = |changed: usize| {
         let factor = |axis: usize| [factors, slopes][usize::from(axis == changed)][axis];
         (1..D).fold(factor(0), |product, axis| product * factor(axis))

@@ -13,13 +13,12 @@ use core::array;
 
 use eem_material::free_energy::Array;
 use eem_material::joint::basis;
-use eem_material::number::scalar::Real;
 
 /// A tensor, row by row.
-pub type Tensor<S, const D: usize> = [[S; D]; D];
+pub type Tensor<const D: usize> = [[f64; D]; D];
 
 /// A symmetric tensor in `D` dimensions; two are for plane strain, `F₃₃ = 1`.
-pub trait Symmetric<S: Real, const D: usize>: Array<S> {
+pub trait Symmetric<const D: usize>: Array<f64> {
     /// The unit tensor.
     fn unit() -> Self;
 
@@ -27,22 +26,22 @@ pub trait Symmetric<S: Real, const D: usize>: Array<S> {
     fn basis(k: usize) -> Self;
 
     /// `½(FᵀF − 1)`.
-    fn green_lagrange(tensor: &[[S; D]; D]) -> Self;
+    fn green_lagrange(tensor: &[[f64; D]; D]) -> Self;
 
     /// `tr A`.
-    fn trace(&self) -> S;
+    fn trace(&self) -> f64;
 
     /// `A:B`.
-    fn contracted(&self, other: &Self) -> S;
+    fn contracted(&self, other: &Self) -> f64;
 
     /// `A v`.
-    fn applied(&self, v: &[S; D]) -> [S; D];
+    fn applied(&self, v: &[f64; D]) -> [f64; D];
 
     /// `sym(u ⊗ v)`.
-    fn symmetrised(u: &[S; D], v: &[S; D]) -> Self;
+    fn symmetrised(u: &[f64; D], v: &[f64; D]) -> Self;
 
     /// `det(1 + 2A) − 1`.
-    fn growth(&self) -> S;
+    fn growth(&self) -> f64;
 
     /// `cof(1 + A)`.
     #[must_use]
@@ -55,28 +54,30 @@ pub trait Symmetric<S: Real, const D: usize>: Array<S> {
     fn change_of_slope(sum: &Self, difference: &Self, change: &Self) -> Self;
 
     /// `det F`.
-    fn determinant(tensor: &[[S; D]; D]) -> S;
+    fn determinant(tensor: &[[f64; D]; D]) -> f64;
 
     /// `cof F`.
-    fn cofactor(tensor: &[[S; D]; D]) -> [[S; D]; D];
+    fn cofactor(tensor: &[[f64; D]; D]) -> [[f64; D]; D];
 }
 
 /// `a·b`.
 #[inline]
-pub fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
+#[must_use]
+pub fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     let first = a[0] * b[0];
     (1..D).fold(first, |sum, axis| sum + a[axis] * b[axis])
 }
 
 /// `F v`.
 #[inline]
-pub fn pushed<S: Real, const D: usize>(tensor: &Tensor<S, D>, v: &[S; D]) -> [S; D] {
+#[must_use]
+pub fn pushed<const D: usize>(tensor: &Tensor<D>, v: &[f64; D]) -> [f64; D] {
     array::from_fn(|axis| dot(&tensor[axis], v))
 }
 
 /// `sum += factor tensor`.
 #[inline]
-pub fn add<S: Real, A: Array<S>>(sum: &mut A, factor: S, tensor: &A) {
+pub fn add<A: Array<f64>>(sum: &mut A, factor: f64, tensor: &A) {
     for (sum, &entry) in sum.as_mut().iter_mut().zip(tensor.as_ref()) {
         *sum += factor * entry;
     }
@@ -84,26 +85,26 @@ pub fn add<S: Real, A: Array<S>>(sum: &mut A, factor: S, tensor: &A) {
 
 /// `factor tensor`.
 #[inline]
-pub fn scaled<S: Real, A: Array<S>>(factor: S, tensor: &A) -> A {
+pub fn scaled<A: Array<f64>>(factor: f64, tensor: &A) -> A {
     let mut scaled = *tensor;
     for entry in scaled.as_mut() {
-        *entry = factor * *entry;
+        *entry *= factor;
     }
     scaled
 }
 
 /// `A + factor B`.
 #[inline]
-pub fn plus<S: Real, A: Array<S>>(a: &A, factor: S, b: &A) -> A {
+pub fn plus<A: Array<f64>>(a: &A, factor: f64, b: &A) -> A {
     let mut sum = *a;
     add(&mut sum, factor, b);
     sum
 }
 
-impl<S: Real> Symmetric<S, 2> for [S; 3] {
+impl Symmetric<2> for [f64; 3] {
     #[inline]
     fn unit() -> Self {
-        [S::one(), S::one(), S::zero()]
+        [1.0, 1.0, 0.0]
     }
 
     #[inline]
@@ -113,48 +114,47 @@ impl<S: Real> Symmetric<S, 2> for [S; 3] {
     }
 
     #[inline]
-    fn green_lagrange([[xx, xy], [yx, yy]]: &[[S; 2]; 2]) -> Self {
-        let half = S::from_f64(0.5);
+    fn green_lagrange([[xx, xy], [yx, yy]]: &[[f64; 2]; 2]) -> Self {
         [
-            half * ((*xx * *xx + *yx * *yx) - S::one()),
-            half * ((*xy * *xy + *yy * *yy) - S::one()),
-            half * (*xx * *xy + *yx * *yy),
+            0.5 * ((*xx * *xx + *yx * *yx) - 1.0),
+            0.5 * ((*xy * *xy + *yy * *yy) - 1.0),
+            0.5 * (*xx * *xy + *yx * *yy),
         ]
     }
 
     #[inline]
-    fn trace(&self) -> S {
+    fn trace(&self) -> f64 {
         self[0] + self[1]
     }
 
     #[inline]
-    fn contracted(&self, other: &Self) -> S {
-        (self[0] * other[0] + self[1] * other[1]) + S::from_f64(2.0) * (self[2] * other[2])
+    fn contracted(&self, other: &Self) -> f64 {
+        (self[0] * other[0] + self[1] * other[1]) + 2.0 * (self[2] * other[2])
     }
 
     #[inline]
-    fn applied(&self, v: &[S; 2]) -> [S; 2] {
+    fn applied(&self, v: &[f64; 2]) -> [f64; 2] {
         let [xx, yy, xy] = *self;
         [xx * v[0] + xy * v[1], xy * v[0] + yy * v[1]]
     }
 
     #[inline]
-    fn symmetrised(u: &[S; 2], v: &[S; 2]) -> Self {
-        let shear = S::from_f64(0.5) * (u[0] * v[1] + u[1] * v[0]);
+    fn symmetrised(u: &[f64; 2], v: &[f64; 2]) -> Self {
+        let shear = 0.5 * (u[0] * v[1] + u[1] * v[0]);
         [u[0] * v[0], u[1] * v[1], shear]
     }
 
     // det C − 1 = 2 tr E + 4 det E
     #[inline]
-    fn growth(&self) -> S {
+    fn growth(&self) -> f64 {
         let [xx, yy, xy] = *self;
-        S::from_f64(2.0) * (xx + yy) + S::from_f64(4.0) * (xx * yy - xy * xy)
+        2.0 * (xx + yy) + 4.0 * (xx * yy - xy * xy)
     }
 
     #[inline]
     fn cofactor_of_one_plus(&self) -> Self {
         let [xx, yy, xy] = *self;
-        [S::one() + yy, S::one() + xx, -xy]
+        [1.0 + yy, 1.0 + xx, -xy]
     }
 
     #[inline]
@@ -168,19 +168,19 @@ impl<S: Real> Symmetric<S, 2> for [S; 3] {
     }
 
     #[inline]
-    fn determinant([[xx, xy], [yx, yy]]: &[[S; 2]; 2]) -> S {
+    fn determinant([[xx, xy], [yx, yy]]: &[[f64; 2]; 2]) -> f64 {
         *xx * *yy - *xy * *yx
     }
 
     #[inline]
-    fn cofactor(&[[xx, xy], [yx, yy]]: &[[S; 2]; 2]) -> [[S; 2]; 2] {
+    fn cofactor(&[[xx, xy], [yx, yy]]: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
         [[yy, -yx], [-xy, xx]]
     }
 }
 
 /// `cof A`.
 #[inline]
-fn cofactor<S: Real>([xx, yy, zz, xy, xz, yz]: [S; 6]) -> [S; 6] {
+fn cofactor([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> [f64; 6] {
     [
         yy * zz - yz * yz,
         xx * zz - xz * xz,
@@ -193,7 +193,7 @@ fn cofactor<S: Real>([xx, yy, zz, xy, xz, yz]: [S; 6]) -> [S; 6] {
 
 /// `A ⨯ B`.
 #[inline]
-fn crossed<S: Real>(a: &[S; 6], b: &[S; 6]) -> [S; 6] {
+fn crossed(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
     // (A ⨯ B)_ij = A_k B_l + B_k A_l − A_m B_n − B_m A_n
     let of = |[k, l]: [usize; 2], [m, n]: [usize; 2]| {
         (a[k] * b[l] + b[k] * a[l]) - (a[m] * b[n] + b[m] * a[n])
@@ -210,15 +210,14 @@ fn crossed<S: Real>(a: &[S; 6], b: &[S; 6]) -> [S; 6] {
 
 /// `1 ⨯ A = tr A 1 − A`.
 #[inline]
-fn crossed_with_unit<S: Real>(&[xx, yy, zz, xy, xz, yz]: &[S; 6]) -> [S; 6] {
+fn crossed_with_unit(&[xx, yy, zz, xy, xz, yz]: &[f64; 6]) -> [f64; 6] {
     [yy + zz, xx + zz, xx + yy, -xy, -xz, -yz]
 }
 
-impl<S: Real> Symmetric<S, 3> for [S; 6] {
+impl Symmetric<3> for [f64; 6] {
     #[inline]
     fn unit() -> Self {
-        let (one, zero) = (S::one(), S::zero());
-        [one, one, one, zero, zero, zero]
+        [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]
     }
 
     #[inline]
@@ -227,34 +226,33 @@ impl<S: Real> Symmetric<S, 3> for [S; 6] {
     }
 
     #[inline]
-    fn green_lagrange(tensor: &[[S; 3]; 3]) -> Self {
-        let half = S::from_f64(0.5);
-        let columns: [[S; 3]; 3] = array::from_fn(|column| tensor.map(|row| row[column]));
+    fn green_lagrange(tensor: &[[f64; 3]; 3]) -> Self {
+        let columns: [[f64; 3]; 3] = array::from_fn(|column| tensor.map(|row| row[column]));
         let product = |i: usize, j: usize| dot(&columns[i], &columns[j]);
-        let stretched = |i: usize| half * (product(i, i) - S::one());
+        let stretched = |i: usize| 0.5 * (product(i, i) - 1.0);
         [
             stretched(0),
             stretched(1),
             stretched(2),
-            half * product(0, 1),
-            half * product(0, 2),
-            half * product(1, 2),
+            0.5 * product(0, 1),
+            0.5 * product(0, 2),
+            0.5 * product(1, 2),
         ]
     }
 
     #[inline]
-    fn trace(&self) -> S {
+    fn trace(&self) -> f64 {
         self[0] + self[1] + self[2]
     }
 
     #[inline]
-    fn contracted(&self, other: &Self) -> S {
+    fn contracted(&self, other: &Self) -> f64 {
         let of = |k: usize| self[k] * other[k];
-        (of(0) + of(1) + of(2)) + S::from_f64(2.0) * (of(3) + of(4) + of(5))
+        (of(0) + of(1) + of(2)) + 2.0 * (of(3) + of(4) + of(5))
     }
 
     #[inline]
-    fn applied(&self, v: &[S; 3]) -> [S; 3] {
+    fn applied(&self, v: &[f64; 3]) -> [f64; 3] {
         let [xx, yy, zz, xy, xz, yz] = *self;
         [
             dot(&[xx, xy, xz], v),
@@ -264,8 +262,8 @@ impl<S: Real> Symmetric<S, 3> for [S; 6] {
     }
 
     #[inline]
-    fn symmetrised(u: &[S; 3], v: &[S; 3]) -> Self {
-        let shear = |i: usize, j: usize| S::from_f64(0.5) * (u[i] * v[j] + u[j] * v[i]);
+    fn symmetrised(u: &[f64; 3], v: &[f64; 3]) -> Self {
+        let shear = |i: usize, j: usize| 0.5 * (u[i] * v[j] + u[j] * v[i]);
         [
             u[0] * v[0],
             u[1] * v[1],
@@ -278,49 +276,44 @@ impl<S: Real> Symmetric<S, 3> for [S; 6] {
 
     // det C − 1 = 2 tr E + 4 tr cof E + 8 det E
     #[inline]
-    fn growth(&self) -> S {
-        let number = S::from_f64;
+    fn growth(&self) -> f64 {
         let minors = cofactor(*self);
         let determinant = self[0] * minors[0] + (self[3] * minors[3] + self[4] * minors[4]);
-        let squares = number(4.0) * minors.trace();
-        number(2.0) * self.trace() + (squares + number(8.0) * determinant)
+        let squares = 4.0 * minors.trace();
+        2.0 * self.trace() + (squares + 8.0 * determinant)
     }
 
     // cof(1 + A) = 1 + 1 ⨯ A + cof A
     #[inline]
     fn cofactor_of_one_plus(&self) -> Self {
         let linear = crossed_with_unit(self);
-        let mut sum = plus(&cofactor(*self), S::one(), &linear);
-        add(&mut sum, S::one(), &Self::unit());
+        let mut sum = plus(&cofactor(*self), 1.0, &linear);
+        add(&mut sum, 1.0, &Self::unit());
         sum
     }
 
     // ΔC = 2ΔE, so that cof(ΔC)/12 = cof(ΔE)/3.
     #[inline]
     fn slope_of_determinant(sum: &Self, difference: &Self) -> Self {
-        let third = S::one() / S::from_f64(3.0);
+        let third = 1.0 / 3.0;
         plus(&sum.cofactor_of_one_plus(), third, &cofactor(*difference))
     }
 
     // ⅓(C⁰ + 2C¹) = 1 + (E⁰ + E¹) + ⅓(E¹ − E⁰)
     #[inline]
     fn change_of_slope(sum: &Self, difference: &Self, change: &Self) -> Self {
-        let third = S::one() / S::from_f64(3.0);
+        let third = 1.0 / 3.0;
         let strain = plus(sum, third, difference);
-        plus(
-            &crossed_with_unit(change),
-            S::one(),
-            &crossed(&strain, change),
-        )
+        plus(&crossed_with_unit(change), 1.0, &crossed(&strain, change))
     }
 
     #[inline]
-    fn determinant(tensor: &[[S; 3]; 3]) -> S {
+    fn determinant(tensor: &[[f64; 3]; 3]) -> f64 {
         dot(&tensor[0], &Self::cofactor(tensor)[0])
     }
 
     #[inline]
-    fn cofactor(tensor: &[[S; 3]; 3]) -> [[S; 3]; 3] {
+    fn cofactor(tensor: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let of = |i: usize, j: usize| {
             let [k, l] = [(i + 1) % 3, (i + 2) % 3];
             let [m, n] = [(j + 1) % 3, (j + 2) % 3];

@@ -47,7 +47,7 @@
 //! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
 //! | find states at rest differently | `step/solver/rest.rs`; `run/equilibrium`: settings, thermal balance, names of free motions |
 //! | differentiate other quantities, or by other inputs | `run/gradient`, `run/simulation/gradient`, by inputs in `inputs.rs` (adjoint) and `directions.rs` (tangents); memory: `run/gradient/snapshots.rs`; equations of a step: `step/adjoint.rs`, `pull_back.rs` and `push_forward.rs` in `element/group` |
-//! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material` |
+//! | run many scenes at once | `run/ensemble` |
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
 //! | check a material before use | `domain` in `eem-material` |
 
@@ -63,9 +63,9 @@ mod run;
 
 #[doc(inline)]
 pub use eem_material::{
-    Array, Caloric, ComponentEnergy, Describe, Description, Discord, Domain, DomainError,
-    DomainPoint, DomainReport, Entry, FreeEnergy, Inversion, InversionError, Joint, JointEnergy,
-    Least, Mask, Material, Rates, Real, Scalar, check_domain, describe, invert, kernel,
+    Array, Caloric, ComponentEnergy, Describe, Description, Domain, DomainError, DomainPoint,
+    DomainReport, Entry, FreeEnergy, Inversion, InversionError, Joint, JointEnergy, Least,
+    Material, Rates, Scalar, check_domain, describe, invert, kernel,
 };
 
 #[doc(inline)]
@@ -80,7 +80,7 @@ pub use element::handle::{Element, HeatPartner, HeatPath, Node, Reservoir};
 pub use element::kinematics;
 pub use element::kinematics::{SolidState, Strain, StrainEnergy};
 pub use run::checkpoint::{Checkpoint, FormatError, LoadError, RestoreError};
-pub use run::ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Members, Outputs};
+pub use run::ensemble::{Ensemble, MemberError, MemberFailure};
 pub use run::equilibrium::error::EquilibriumError;
 pub use run::equilibrium::motion::{FreeMotion, MotionKind};
 pub use run::equilibrium::{Equilibrium, EquilibriumReport};

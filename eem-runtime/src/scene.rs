@@ -35,7 +35,6 @@ use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use eem_material::free_energy::FreeEnergy;
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::Real;
 use entry::{ElementEntry, NodeEntry};
 
 /// A scene in `D` dimensions: masses, anchors, springs, solids, reservoirs and loads.
@@ -58,24 +57,24 @@ use entry::{ElementEntry, NodeEntry};
 /// assert_eq!(air.to_string(), "reservoir 0");
 /// ```
 #[derive(Debug)]
-pub struct Scene<const D: usize, S: Real = f64> {
+pub struct Scene<const D: usize> {
     pub(crate) lineage: Lineage,
-    pub(crate) nodes: Vec<NodeEntry<S, D>>,
+    pub(crate) nodes: Vec<NodeEntry<D>>,
     /// Masses of solids that couple two nodes, kg.
-    pub(crate) pairs: Vec<([usize; 2], S)>,
-    pub(crate) elements: Vec<ElementEntry<S>>,
-    pub(crate) reservoirs: Vec<S>,
-    pub(crate) conductors: Vec<Conductor<S>>,
-    pub(crate) groups: Vec<Box<dyn Loose<S, D>>>,
-    pub(crate) loads: Loads<S, D>,
+    pub(crate) pairs: Vec<([usize; 2], f64)>,
+    pub(crate) elements: Vec<ElementEntry>,
+    pub(crate) reservoirs: Vec<f64>,
+    pub(crate) conductors: Vec<Conductor>,
+    pub(crate) groups: Vec<Box<dyn Loose<D>>>,
+    pub(crate) loads: Loads<D>,
     /// The time at which a run begins, s.
-    pub(crate) start: S,
+    pub(crate) start: f64,
     pub(crate) memory_limit: MemoryLimit,
     /// Errors so far, reported by `Simulation::new`.
     pub(crate) errors: Vec<SceneError>,
 }
 
-impl<const D: usize, S: Real> Default for Scene<D, S> {
+impl<const D: usize> Default for Scene<D> {
     fn default() -> Self {
         const {
             assert!(D >= 1, "a scene has at least one dimension");
@@ -89,14 +88,14 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
             conductors: Vec::new(),
             groups: Vec::new(),
             loads: Loads::none(),
-            start: S::zero(),
+            start: 0.0,
             memory_limit: MemoryLimit::NONE,
             errors: Vec::new(),
         }
     }
 }
 
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// The errors of the calls so far: handles of other scenes, loads on anchors, invalid cells of solids.
     /// [`Simulation::new`](crate::Simulation::new) reports these, too, and checks all numbers.
     ///
@@ -115,7 +114,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The numbering of its unknowns and state variables, and its paths of heat.
-    pub(crate) fn numbering(&self) -> (Layout, Conduction<S>) {
+    pub(crate) fn numbering(&self) -> (Layout, Conduction) {
         let is_mass = self.nodes.iter().map(|node| node.mass.is_some());
         let elements = self.elements.iter();
         let shapes = elements.map(|entry| self.groups[entry.group].shape());
@@ -135,10 +134,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         ends
     }
 
-    fn push_node(&mut self, mass: Option<S>, position: [S; D], velocity: [S; D]) -> Node {
+    fn push_node(&mut self, mass: Option<f64>, position: [f64; D], velocity: [f64; D]) -> Node {
         self.nodes.push(NodeEntry {
             mass,
-            held: S::zero(),
+            held: 0.0,
             position: position.into(),
             velocity: velocity.into(),
             momentum: None,
@@ -157,7 +156,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The handle of the next element, of this model.
-    fn next_element<M: FreeEnergy<S>>(&self, model: &M) -> Element {
+    fn next_element<M: FreeEnergy<f64>>(&self, model: &M) -> Element {
         let index = self.elements.len();
         Element::new(
             self.lineage.giver(Kind::Element, index),
@@ -167,7 +166,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The index of the group for elements of one type and kind, created if necessary, and the group.
-    fn set_of<B: Loose<S, D>>(&mut self, kind: u64, new: impl FnOnce() -> B) -> (usize, &mut B) {
+    fn set_of<B: Loose<D>>(&mut self, kind: u64, new: impl FnOnce() -> B) -> (usize, &mut B) {
         let mut groups = self.groups.iter();
         let same = groups.position(|group| group.as_any().is::<B>() && group.kind() == kind);
         let group = same.unwrap_or_else(|| {
@@ -180,7 +179,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The temperatures of all reservoirs at the start, K.
-    pub(crate) fn reservoir_temperatures(&self) -> Vec<S> {
+    pub(crate) fn reservoir_temperatures(&self) -> Vec<f64> {
         let mut temperatures = self.reservoirs.clone();
         for (index, temperature) in &self.loads.ovens {
             temperatures[*index] = temperature(self.start);
@@ -204,7 +203,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The mass matrix. Anchors keep their masses as nodes of solids.
-    pub(crate) fn masses(&self) -> Masses<S> {
+    pub(crate) fn masses(&self) -> Masses {
         let mut pairs = self.pairs.clone();
         let mut is_of_solid = vec![false; self.nodes.len()];
         let coupled = self.pairs.iter().flat_map(|&(nodes, _)| nodes);
@@ -257,7 +256,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
 /// assert_eq!(run.velocity(mass)?[0], 5.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-impl<const D: usize, S: Real> Clone for Scene<D, S> {
+impl<const D: usize> Clone for Scene<D> {
     fn clone(&self) -> Self {
         let counts = Counts {
             nodes: self.nodes.len(),

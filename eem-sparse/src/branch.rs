@@ -13,7 +13,6 @@ use crate::division::Division;
 use crate::elimination::{Blocks, Scratch};
 use crate::fronts::{Extent, Front, Fronts};
 use crate::gathering::{Matrix, Rows, add, gather};
-use crate::precision::Precision;
 use crate::threads;
 
 /// Memory for the factors of consecutive fronts; the layout is that of `Factors`.
@@ -78,10 +77,10 @@ struct Waiting {
 
 impl Waiting {
     /// Removes the latest front if its Schur complement belongs to the given front, and returns it.
-    fn pop_for<'a, P: Precision, const L: usize>(
+    fn pop_for<'a, const L: usize>(
         &mut self,
         front: &Front<'_>,
-        matrix: &Matrix<'a, P, L>,
+        matrix: &Matrix<'a, L>,
     ) -> Option<Front<'a>> {
         let last = matrix.fronts.front(*self.fronts.last()? as usize);
         if !last.contributes_to(front) {
@@ -146,11 +145,7 @@ impl Branch {
     }
 
     /// Factors its parts, then its own fronts.
-    pub(crate) fn factor<P: Precision, const L: usize>(
-        &mut self,
-        matrix: Matrix<'_, P, L>,
-        memory: Memory<'_>,
-    ) {
+    pub(crate) fn factor<const L: usize>(&mut self, matrix: Matrix<'_, L>, memory: Memory<'_>) {
         let of_parts = in_blocks(total(&self.parts), L);
         let (of_parts, mut memory) = memory.split_at(of_parts);
         factor_together(&mut self.parts, matrix, of_parts);
@@ -165,11 +160,11 @@ impl Branch {
     }
 
     /// Eliminates the own unknowns of a front.
-    fn eliminate<P: Precision, const L: usize>(
+    fn eliminate<const L: usize>(
         &mut self,
         at: usize,
         front: &Front<'_>,
-        matrix: &Matrix<'_, P, L>,
+        matrix: &Matrix<'_, L>,
         memory: Memory<'_>,
     ) {
         let Memory {
@@ -233,9 +228,9 @@ fn in_blocks([lower, upper, pivots]: [usize; 3], length: usize) -> [usize; 3] {
 }
 
 /// Factors independent branches.
-fn factor_together<P: Precision, const L: usize>(
+fn factor_together<const L: usize>(
     branches: &mut [Branch],
-    matrix: Matrix<'_, P, L>,
+    matrix: Matrix<'_, L>,
     memory: Memory<'_>,
 ) {
     let Some((first, rest)) = branches.split_first_mut() else {
@@ -296,7 +291,7 @@ mod tests {
         let pool = pool.build().unwrap();
         // The second time, memory is as the first time left it.
         for _ in 0..2 {
-            let matrix = Matrix::<f64, 1> {
+            let matrix = Matrix::<1> {
                 fronts: &fronts,
                 pattern: &pattern,
                 values: &values,

@@ -1,7 +1,6 @@
 //! Columns of numbers from and for the caller: all of them have to be finite.
 
 use crate::error::{Error, Operand};
-use crate::precision::Precision;
 
 /// An error with the position of the first number that is not finite.
 pub(crate) fn all_finite(
@@ -15,16 +14,15 @@ pub(crate) fn all_finite(
 }
 
 /// Writes a solution in the order of elimination to a column in that of the unknowns.
-pub(crate) fn store<P: Precision, const W: usize, const L: usize>(
+pub(crate) fn store<const W: usize, const L: usize>(
     x: &[[f64; L]],
     order: &[u32],
-    (right, column): (&mut [[P::Number; W]], usize),
+    (right, column): (&mut [[f64; W]], usize),
 ) -> Result<(), Error> {
-    let stored = |x: f64| P::widen(P::narrow(x));
-    if !x.as_flattened().iter().all(|&x| stored(x).is_finite()) {
+    if !x.as_flattened().iter().all(|x| x.is_finite()) {
         let mut natural = order.iter().zip(x);
         let found = natural.find_map(|(&node, x)| {
-            let at = x.iter().position(|&x| !stored(x).is_finite())?;
+            let at = x.iter().position(|x| !x.is_finite())?;
             Some(node as usize * L + at)
         });
         return Err(Error::NotFinite {
@@ -35,7 +33,7 @@ pub(crate) fn store<P: Precision, const W: usize, const L: usize>(
     for (x, &node) in x.iter().zip(order) {
         let rows = &mut right[node as usize * L..][..L];
         for (row, &x) in rows.iter_mut().zip(x) {
-            row[column] = P::narrow(x);
+            row[column] = x;
         }
     }
     Ok(())

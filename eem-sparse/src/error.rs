@@ -8,7 +8,7 @@ use core::fmt;
 /// use eem_sparse::{Error, Pattern, Solver};
 ///
 /// let mut solver = Solver::new(&Pattern::new(2, |_| {}))?;
-/// let refused = solver.factor::<f64>(&[1.0; 5]).err();
+/// let refused = solver.factor(&[1.0; 5]).err();
 /// assert_eq!(refused, Some(Error::Count { expected: 2, found: 5 }));
 /// # Ok::<(), Error>(())
 /// ```
@@ -64,7 +64,7 @@ pub enum Operand {
     Matrix,
     /// The rows of b.
     Right,
-    /// The rows of x. A finite solution in double precision can be infinite in single precision.
+    /// The rows of x.
     Solution,
 }
 

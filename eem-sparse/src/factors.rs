@@ -5,7 +5,6 @@ use crate::definite::block_is_positive_definite;
 use crate::division::Division;
 use crate::fronts::{Front, Fronts};
 use crate::gathering::Matrix;
-use crate::precision::Precision;
 use crate::threads;
 
 /// L and U of all fronts, and the memory in which they are found.
@@ -42,7 +41,7 @@ impl Factors {
     }
 
     /// Factors a matrix.
-    pub(crate) fn factor<P: Precision, const L: usize>(&mut self, matrix: Matrix<'_, P, L>) {
+    pub(crate) fn factor<const L: usize>(&mut self, matrix: Matrix<'_, L>) {
         let memory = Memory {
             lower: &mut self.lower,
             upper: &mut self.upper,

@@ -3,17 +3,16 @@
 use crate::columns::all_finite;
 use crate::error::{Error, Operand};
 use crate::pivoting::Pivoting;
-use crate::precision::Precision;
 use crate::refinement::{Equations, Failure};
 
 /// Solves with delayed pivots; returns the number of refinements.
 #[cold]
-pub(crate) fn solve_by_pivoting<P: Precision, B: Fn(usize) -> [f64; L], const L: usize>(
-    equations: &Equations<'_, P, B, L>,
+pub(crate) fn solve_by_pivoting<B: Fn(usize) -> [f64; L], const L: usize>(
+    equations: &Equations<'_, B, L>,
     (x, residual): (&mut [[f64; L]], &mut Vec<f64>),
 ) -> Result<usize, Error> {
     let matrix = &equations.matrix;
-    let entries = matrix.values.iter().map(|&value| P::widen(value));
+    let entries = matrix.values.iter().copied();
     all_finite(Operand::Matrix, entries)?;
     all_finite(Operand::Right, (0..x.len()).flat_map(&equations.b))?;
     for (x, &node) in x.iter_mut().zip(&matrix.fronts.order) {

@@ -6,24 +6,20 @@ use core::ops::Range;
 use crate::elimination::Blocks;
 use crate::fronts::{Front, Fronts};
 use crate::pattern::Pattern;
-use crate::precision::Precision;
 
 /// The matrix to factor, with blocks of `L` rows.
 #[derive(Clone, Copy)]
-pub(crate) struct Matrix<'a, P: Precision, const L: usize> {
+pub(crate) struct Matrix<'a, const L: usize> {
     pub(crate) fronts: &'a Fronts,
     pub(crate) pattern: &'a Pattern,
     /// Block by block, each row by row.
-    pub(crate) values: &'a [P::Number],
+    pub(crate) values: &'a [f64],
 }
 
-impl<P: Precision, const L: usize> Matrix<'_, P, L> {
+impl<const L: usize> Matrix<'_, L> {
     /// The blocks of a node, each with the node of its columns, ascending.
     #[inline]
-    pub(crate) fn blocks_of(
-        &self,
-        node: usize,
-    ) -> impl Iterator<Item = (usize, &[[P::Number; L]; L])> {
+    pub(crate) fn blocks_of(&self, node: usize) -> impl Iterator<Item = (usize, &[[f64; L]; L])> {
         let columns = self.pattern.row(node).iter();
         let blocks = self.pattern.blocks(node);
         columns
@@ -33,7 +29,7 @@ impl<P: Precision, const L: usize> Matrix<'_, P, L> {
 
     /// The block of this number.
     #[inline]
-    pub(crate) fn block(&self, at: usize) -> &[[P::Number; L]; L] {
+    pub(crate) fn block(&self, at: usize) -> &[[f64; L]; L] {
         &self.values.as_chunks().0.as_chunks().0[at]
     }
 }
@@ -82,11 +78,11 @@ impl Rows {
 }
 
 /// Writes the rows and columns of the own unknowns of a front, as far as they are not eliminated yet.
-pub(crate) fn gather<P: Precision, const L: usize>(
+pub(crate) fn gather<const L: usize>(
     blocks: &mut Blocks<'_>,
     front: &Front<'_>,
     rows: &Rows,
-    matrix: &Matrix<'_, P, L>,
+    matrix: &Matrix<'_, L>,
 ) {
     let Matrix {
         fronts, pattern, ..
@@ -102,14 +98,14 @@ pub(crate) fn gather<P: Precision, const L: usize>(
             }
             let row = rows.of(place, front) * L;
             if row < width {
-                write::<P, L>(block, &mut blocks.lower[row * tall..], (own, tall));
+                write::<L>(block, &mut blocks.lower[row * tall..], (own, tall));
                 continue;
             }
             let right = &mut blocks.upper[(row - width) * width..];
-            write::<P, L>(block, right, (own, width));
+            write::<L>(block, right, (own, width));
             if let Some(mirror) = pattern.block(other, node) {
                 let below = &mut blocks.lower[own * tall..];
-                write::<P, L>(matrix.block(mirror), below, (row, tall));
+                write::<L>(matrix.block(mirror), below, (row, tall));
             }
         }
     }
@@ -117,14 +113,10 @@ pub(crate) fn gather<P: Precision, const L: usize>(
 
 /// Writes a block at the given row of the first `L` columns, which have `tall` rows each.
 #[inline]
-fn write<P: Precision, const L: usize>(
-    block: &[[P::Number; L]; L],
-    columns: &mut [f64],
-    (row, tall): (usize, usize),
-) {
+fn write<const L: usize>(block: &[[f64; L]; L], columns: &mut [f64], (row, tall): (usize, usize)) {
     for (row, entries) in (row..).zip(block) {
         for (column, entry) in entries.iter().enumerate() {
-            columns[column * tall + row] = P::widen(*entry);
+            columns[column * tall + row] = *entry;
         }
     }
 }

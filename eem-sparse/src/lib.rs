@@ -30,7 +30,7 @@
 //! }
 //! let mut solver = Solver::new(&pattern)?;
 //! let mut x = [[3.0], [4.0], [3.0]];
-//! let report = solver.factor::<f64>(&values)?.solve(&mut x)?;
+//! let report = solver.factor(&values)?.solve(&mut x)?;
 //! for [x] in x {
 //!     assert!((x - 1.0).abs() < 1e-15);
 //! }
@@ -54,7 +54,6 @@
 // Each module imports only from those above it.
 mod compact;
 mod error;
-mod precision;
 
 mod columns;
 mod threads;
@@ -85,7 +84,6 @@ mod solver;
 pub use analysis::Analysis;
 pub use error::{Error, Operand};
 pub use pattern::{LARGEST_BLOCK, Pattern};
-pub use precision::Precision;
 pub use solver::{Factored, Report, Solver};
 
 /// The example of the README is part of the tests.

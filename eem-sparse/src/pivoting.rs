@@ -21,7 +21,6 @@ use crate::dense::{columns, columns_mut, solve, subtract, subtract_product};
 use crate::error::Error;
 use crate::fronts::Front;
 use crate::gathering::Matrix;
-use crate::precision::Precision;
 
 /// A pivot is at least this share of the largest entry of its column, so L has no larger entry than 1 / SHARE.
 const SHARE: f64 = 0.25;
@@ -61,9 +60,7 @@ pub(crate) struct Pivoting {
 
 impl Pivoting {
     /// Factors a matrix; `None` if it is singular.
-    pub(crate) fn new<P: Precision, const L: usize>(
-        matrix: &Matrix<'_, P, L>,
-    ) -> Result<Option<Self>, Error> {
+    pub(crate) fn new<const L: usize>(matrix: &Matrix<'_, L>) -> Result<Option<Self>, Error> {
         let count = matrix.pattern.unknowns();
         let mut at = [vec![0; count], vec![0; count]];
         let mut waiting: Vec<Left> = Vec::new();
@@ -143,8 +140,8 @@ struct Dense {
 impl Dense {
     /// The entries of the matrix and what is left of earlier fronts. `at` is memory for the places of rows and
     /// columns.
-    fn gather<P: Precision, const L: usize>(
-        matrix: &Matrix<'_, P, L>,
+    fn gather<const L: usize>(
+        matrix: &Matrix<'_, L>,
         front: &Front<'_>,
         children: &[Left],
         at: &mut [Vec<u32>; 2],
@@ -179,13 +176,13 @@ impl Dense {
                     continue;
                 }
                 each(block, |row, column, entry| {
-                    add(own * L + row, place * L + column, P::widen(entry));
+                    add(own * L + row, place * L + column, entry);
                 });
                 if place >= front.own.end
                     && let Some(mirror) = matrix.pattern.block(other, node)
                 {
                     each(matrix.block(mirror), |row, column, entry| {
-                        add(place * L + row, own * L + column, P::widen(entry));
+                        add(place * L + row, own * L + column, entry);
                     });
                 }
             }

@@ -13,7 +13,6 @@
 //! Solutions are in the order of elimination, right-hand sides in that of the unknowns.
 
 use crate::gathering::Matrix;
-use crate::precision::Precision;
 
 /// The backward error of rows with at most 255 entries that counts as rounding, in units of the last
 /// place.
@@ -47,12 +46,12 @@ pub(crate) struct Failure {
 
 /// A matrix, and a right-hand side as a function of the number of the node.
 #[derive(Clone, Copy)]
-pub(crate) struct Equations<'a, P: Precision, B, const L: usize> {
-    pub(crate) matrix: Matrix<'a, P, L>,
+pub(crate) struct Equations<'a, B, const L: usize> {
+    pub(crate) matrix: Matrix<'a, L>,
     pub(crate) b: B,
 }
 
-impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B, L> {
+impl<B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, B, L> {
     /// `b − A x` and `|b| + |A| (|x| + floor)` in the rows of a node.
     ///
     /// Numbers below the smallest normal one have an absolute error instead of a relative one, so
@@ -66,7 +65,6 @@ impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B,
             let x = &x[self.matrix.fronts.places[column] as usize];
             for (row, entries) in block.iter().enumerate() {
                 for (&value, x) in entries.iter().zip(x) {
-                    let value = P::widen(value);
                     residual[row] -= value * x;
                     size[row] += value.abs() * (x.abs() + floor);
                 }
@@ -110,7 +108,7 @@ impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B,
                 let columns = &mut memory[column * L..][..L];
                 for entries in block {
                     for (largest, &entry) in columns.iter_mut().zip(entries) {
-                        *largest = largest.max(P::widen(entry).abs());
+                        *largest = largest.max(entry.abs());
                     }
                 }
             }
@@ -196,7 +194,7 @@ mod tests {
     /// Calls `ask` with the equations `diagonal[i] x[i] = b[i]`.
     fn ask<R>(
         [diagonal, b]: [[f64; 2]; 2],
-        ask: impl FnOnce(&Equations<'_, f64, &dyn Fn(usize) -> [f64; 1], 1>) -> R,
+        ask: impl FnOnce(&Equations<'_, &dyn Fn(usize) -> [f64; 1], 1>) -> R,
     ) -> R {
         let pattern = Pattern::new(2, |_| {});
         let matrix = Matrix {
@@ -276,7 +274,7 @@ mod tests {
     fn ask_star<R>(
         nodes: usize,
         b: &dyn Fn(usize) -> [f64; 2],
-        ask: impl FnOnce(&Equations<'_, f64, &dyn Fn(usize) -> [f64; 2], 2>) -> R,
+        ask: impl FnOnce(&Equations<'_, &dyn Fn(usize) -> [f64; 2], 2>) -> R,
     ) -> R {
         let star = Pattern::new(nodes, |pair| (1..nodes).for_each(|node| pair(0, node)));
         let pattern = star.in_blocks(2).unwrap();
@@ -332,7 +330,7 @@ mod tests {
     fn refinement_stops_when_the_solution_is_accepted_or_after_three_steps() {
         let steps = |share: f64| {
             ask([[2.0; 2], [6.0; 2]], |equations| {
-                let mut x = [[0.0]; 2];
+                let mut x = [[0.0_f64]; 2];
                 let correct = |rest: &mut [[f64; 1]]| {
                     for [rest] in rest {
                         *rest *= 0.5 * (1.0 - share);

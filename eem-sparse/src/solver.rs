@@ -10,7 +10,6 @@ use crate::fallback::solve_by_pivoting;
 use crate::fronts::Fronts;
 use crate::gathering::Matrix;
 use crate::pattern::Pattern;
-use crate::precision::Precision;
 use crate::refinement::Equations;
 
 /// The analysis of a pattern, and the memory for factors of matrices with this pattern.
@@ -23,7 +22,7 @@ use crate::refinement::Equations;
 /// // ⎡ 4 1 ⎤ x = ⎡ 6 ⎤
 /// // ⎣ 2 3 ⎦     ⎣ 8 ⎦
 /// let mut x = [[6.0], [8.0]];
-/// solver.factor::<f64>(&[4.0, 1.0, 2.0, 3.0])?.solve(&mut x)?;
+/// solver.factor(&[4.0, 1.0, 2.0, 3.0])?.solve(&mut x)?;
 /// assert_eq!(x, [[1.0], [2.0]]);
 /// # Ok::<(), eem_sparse::Error>(())
 /// ```
@@ -134,7 +133,7 @@ impl Solver {
     /// use eem_sparse::{Pattern, Solver};
     ///
     /// let mut solver = Solver::new(&Pattern::new(1, |_| {}))?;
-    /// let mut factored = solver.factor::<f32>(&[4.0])?;
+    /// let mut factored = solver.factor(&[4.0])?;
     /// let mut x = [[1.0, 2.0]];
     /// factored.solve(&mut x)?;
     /// assert_eq!(x, [[0.25, 0.5]]);
@@ -145,18 +144,15 @@ impl Solver {
     ///
     /// [`Error::Count`] unless there are as many values as the pattern has entries. A singular matrix is
     /// found when a right-hand side is solved.
-    pub fn factor<'a, P: Precision>(
-        &'a mut self,
-        values: &'a [P::Number],
-    ) -> Result<Factored<'a, P>, Error> {
+    pub fn factor<'a>(&'a mut self, values: &'a [f64]) -> Result<Factored<'a>, Error> {
         let (expected, found) = (self.pattern.entries(), values.len());
         if found != expected {
             return Err(Error::Count { expected, found });
         }
         match self.pattern.block_length() {
-            1 => self.factor_blocks::<P, 1>(values),
-            2 => self.factor_blocks::<P, 2>(values),
-            _ => self.factor_blocks::<P, 3>(values),
+            1 => self.factor_blocks::<1>(values),
+            2 => self.factor_blocks::<2>(values),
+            _ => self.factor_blocks::<3>(values),
         }
         Ok(Factored {
             solver: self,
@@ -171,9 +167,9 @@ impl Solver {
     /// use eem_sparse::{Pattern, Solver};
     ///
     /// let mut solver = Solver::new(&Pattern::new(2, |pair| pair(0, 1)))?;
-    /// solver.factor::<f64>(&[2.0, 1.0, 1.0, 2.0])?;
+    /// solver.factor(&[2.0, 1.0, 1.0, 2.0])?;
     /// assert!(solver.is_positive_definite());
-    /// solver.factor::<f64>(&[1.0, 2.0, 2.0, 1.0])?;
+    /// solver.factor(&[1.0, 2.0, 2.0, 1.0])?;
     /// assert!(!solver.is_positive_definite());
     /// # Ok::<(), eem_sparse::Error>(())
     /// ```
@@ -190,25 +186,22 @@ impl Solver {
     ///
     /// // A step of an iteration for another matrix near the last one.
     /// let mut solver = Solver::new(&Pattern::new(1, |_| {}))?;
-    /// solver.factor::<f64>(&[4.0])?;
+    /// solver.factor(&[4.0])?;
     /// let mut x = [[2.0]];
-    /// solver.solve_again::<f64, 1>(&mut x)?;
+    /// solver.solve_again(&mut x)?;
     /// assert_eq!(x, [[0.5]]);
     /// # Ok::<(), eem_sparse::Error>(())
     /// ```
     ///
     /// # Errors
     ///
-    /// [`Error::Count`] unless `right` has a row for each unknown; [`Error::NotFinite`] as [`Factored::solve`].
-    pub fn solve_again<P: Precision, const W: usize>(
-        &mut self,
-        right: &mut [[P::Number; W]],
-    ) -> Result<(), Error> {
+    /// [`Error::Count`] unless `right` has a row for each unknown; [`Error::NotFinite`] if a solution is infinite or NaN.
+    pub fn solve_again<const W: usize>(&mut self, right: &mut [[f64; W]]) -> Result<(), Error> {
         self.expect_rows(right.len())?;
         match self.pattern.block_length() {
-            1 => self.solve_blocks_again::<P, W, 1>(right),
-            2 => self.solve_blocks_again::<P, W, 2>(right),
-            _ => self.solve_blocks_again::<P, W, 3>(right),
+            1 => self.solve_blocks_again::<W, 1>(right),
+            2 => self.solve_blocks_again::<W, 2>(right),
+            _ => self.solve_blocks_again::<W, 3>(right),
         }
     }
 
@@ -221,24 +214,24 @@ impl Solver {
         Err(Error::Count { expected, found })
     }
 
-    fn solve_blocks_again<P: Precision, const W: usize, const L: usize>(
+    fn solve_blocks_again<const W: usize, const L: usize>(
         &mut self,
-        right: &mut [[P::Number; W]],
+        right: &mut [[f64; W]],
     ) -> Result<(), Error> {
         let order = &self.fronts.order;
         let x = self.solution.as_chunks_mut::<L>().0;
         for column in 0..W {
             for (x, &node) in x.iter_mut().zip(order) {
-                *x = array::from_fn(|at| P::widen(right[node as usize * L + at][column]));
+                *x = array::from_fn(|at| right[node as usize * L + at][column]);
             }
             self.factors.solve(&self.fronts, x);
-            store::<P, W, L>(x, order, (right, column))?;
+            store::<W, L>(x, order, (right, column))?;
         }
         Ok(())
     }
 
-    fn factor_blocks<P: Precision, const L: usize>(&mut self, values: &[P::Number]) {
-        let matrix = Matrix::<P, L> {
+    fn factor_blocks<const L: usize>(&mut self, values: &[f64]) {
+        let matrix = Matrix::<L> {
             fronts: &self.fronts,
             pattern: &self.pattern,
             values,
@@ -249,12 +242,12 @@ impl Solver {
 
 /// A matrix with its factors.
 #[derive(Debug)]
-pub struct Factored<'a, P: Precision> {
+pub struct Factored<'a> {
     solver: &'a mut Solver,
-    values: &'a [P::Number],
+    values: &'a [f64],
 }
 
-impl<P: Precision> Factored<'_, P> {
+impl Factored<'_> {
     /// Overwrites `W` right-hand sides with their solutions.
     ///
     /// Each solution has a componentwise backward error of a few roundings: in row i with k entries
@@ -263,8 +256,7 @@ impl<P: Precision> Factored<'_, P> {
     /// |b − A x|ᵢ ≤ max(256, k + 1) ε (|A| |x| + |b|)ᵢ        ε = 2⁻⁵²
     /// ```
     ///
-    /// before it is rounded to the precision in which it is stored. Magnitudes below the smallest normal
-    /// number count as that number. If the largest entries of all columns of A are within a factor 1/ε
+    /// Magnitudes below the smallest normal number count as that number. If the largest entries of all columns of A are within a factor 1/ε
     /// of each other, components of x below `ε max |x|` count as `ε max |x|`. A solution that does not pass is
     /// refined up to three times. If it still fails, elimination with delayed pivots solves, with the same check.
     ///
@@ -273,11 +265,11 @@ impl<P: Precision> Factored<'_, P> {
     ///
     /// let mut solver = Solver::new(&Pattern::new(2, |pair| pair(0, 1)))?;
     /// let mut x = [[2.0], [3.0]];
-    /// let report = solver.factor::<f64>(&[0.0, 1.0, 1.0, 0.0])?.solve(&mut x)?;
+    /// let report = solver.factor(&[0.0, 1.0, 1.0, 0.0])?.solve(&mut x)?;
     /// assert_eq!(x, [[3.0], [2.0]]);
     /// assert_eq!(report.fallbacks, 0);
     /// // Two equations that contradict each other.
-    /// let refused = solver.factor::<f64>(&[1.0, 1.0, 1.0, 1.0])?.solve(&mut x);
+    /// let refused = solver.factor(&[1.0, 1.0, 1.0, 1.0])?.solve(&mut x);
     /// assert!(matches!(refused, Err(Error::Unsolved { .. })));
     /// # Ok::<(), Error>(())
     /// ```
@@ -285,12 +277,12 @@ impl<P: Precision> Factored<'_, P> {
     /// # Errors
     ///
     /// - [`Error::Count`] unless `right` has a row for each unknown;
-    /// - [`Error::NotFinite`] if an entry, a right-hand side or a solution is infinite or NaN;
-    /// - [`Error::Unsolved`] if no solution passes the check, as for a singular matrix;
+    /// - [`Error::NotFinite`] if an entry or a right-hand side is infinite or NaN;
+    /// - [`Error::Unsolved`] if no solution passes the check, as for a singular matrix, or overflows;
     /// - [`Error::OutOfMemory`] if the elimination with delayed pivots is needed and has no memory.
     ///
     /// After an error, columns before the one that failed are solved, and all others are unchanged.
-    pub fn solve<const W: usize>(&mut self, right: &mut [[P::Number; W]]) -> Result<Report, Error> {
+    pub fn solve<const W: usize>(&mut self, right: &mut [[f64; W]]) -> Result<Report, Error> {
         self.solver.expect_rows(right.len())?;
         match self.solver.pattern.block_length() {
             1 => self.solve_blocks::<W, 1>(right),
@@ -301,7 +293,7 @@ impl<P: Precision> Factored<'_, P> {
 
     fn solve_blocks<const W: usize, const L: usize>(
         &mut self,
-        right: &mut [[P::Number; W]],
+        right: &mut [[f64; W]],
     ) -> Result<Report, Error> {
         let Solver {
             pattern,
@@ -310,14 +302,14 @@ impl<P: Precision> Factored<'_, P> {
             solution,
             residual,
         } = &mut *self.solver;
-        let matrix = Matrix::<P, L> {
+        let matrix = Matrix::<L> {
             fronts,
             pattern,
             values: self.values,
         };
         let mut report = Report::default();
         for column in 0..W {
-            let b = |node: usize| array::from_fn(|at| P::widen(right[node * L + at][column]));
+            let b = |node: usize| array::from_fn(|at| right[node * L + at][column]);
             let equations = Equations { matrix, b };
             let x = solution.as_chunks_mut::<L>().0;
             for (x, &node) in x.iter_mut().zip(&fronts.order) {
@@ -333,7 +325,7 @@ impl<P: Precision> Factored<'_, P> {
                     report.fallbacks += 1;
                 }
             }
-            store::<P, W, L>(x, &fronts.order, (right, column))?;
+            store::<W, L>(x, &fronts.order, (right, column))?;
         }
         Ok(report)
     }

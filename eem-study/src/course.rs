@@ -8,7 +8,6 @@ use crate::progress::Progress;
 use crate::quantity::{EndState, larger, share};
 use crate::row::StudyRow;
 use crate::setting::{Setting, StepChoice};
-use eem_material::number::scalar::Real;
 use eem_runtime::{Scene, SceneError, Scheme, Simulation, StepError, StepReport, Tolerance};
 
 /// The first step of a run with a tolerance, in units of the end time.
@@ -25,7 +24,7 @@ const MOST_STEPS: u32 = u32::MAX;
 const ROUNDINGS: f64 = 4.0;
 
 /// A scene that is built anew for every run.
-pub(crate) type Build<'a, const D: usize, S> = dyn Fn() -> Scene<D, S> + 'a;
+pub(crate) type Build<'a, const D: usize> = dyn Fn() -> Scene<D> + 'a;
 
 /// A setting with its steps up to a common end time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,25 +60,25 @@ impl Course {
     }
 
     /// A simulation at the start.
-    pub(crate) fn start<const D: usize, S: Real>(
+    pub(crate) fn start<const D: usize>(
         &self,
-        build: &Build<'_, D, S>,
-    ) -> Result<Simulation<D, S>, SceneError> {
+        build: &Build<'_, D>,
+    ) -> Result<Simulation<D>, SceneError> {
         let (scheme, step) = (self.setting.scheme, self.setting.step());
-        let first = S::from_f64(step.unwrap_or(FIRST * self.end));
+        let first = step.unwrap_or(FIRST * self.end);
         let mut run = Simulation::new(build(), scheme, first)?;
         match self.setting.tolerance() {
-            Some(relative) => run.control_steps(Tolerance::new(S::from_f64(relative)))?,
+            Some(relative) => run.control_steps(Tolerance::new(relative))?,
             None => run.fix_steps(),
         }
         Ok(run)
     }
 
     /// Makes all steps, up to the first that fails or after which `watch` breaks.
-    pub(crate) fn go<const D: usize, S: Real>(
+    pub(crate) fn go<const D: usize>(
         &self,
-        run: &mut Simulation<D, S>,
-        mut watch: impl FnMut(&Simulation<D, S>, &StepReport<S>) -> ControlFlow<()>,
+        run: &mut Simulation<D>,
+        mut watch: impl FnMut(&Simulation<D>, &StepReport) -> ControlFlow<()>,
     ) -> Result<(), StepError> {
         match self.setting.steps {
             StepChoice::Fixed(_) => {
@@ -91,7 +90,7 @@ impl Course {
                 }
             }
             StepChoice::Tolerance(_) => {
-                let end = run.time() + S::from_f64(self.end);
+                let end = run.time() + self.end;
                 run.run_until_with(end, watch)?;
             }
         }
@@ -168,8 +167,8 @@ pub(crate) enum Watched<'a> {
 }
 
 /// Runs a setting.
-pub(crate) fn run<const D: usize, S: Real>(
-    build: &Build<'_, D, S>,
+pub(crate) fn run<const D: usize>(
+    build: &Build<'_, D>,
     course: &Course,
     watched: Watched<'_>,
     progress: &mut Progress<'_>,
@@ -229,31 +228,31 @@ struct Laws<'a> {
 }
 
 impl<'a> Laws<'a> {
-    fn new<const D: usize, S: Real>(run: &Simulation<D, S>, row: &'a mut StudyRow) -> Self {
+    fn new<const D: usize>(run: &Simulation<D>, row: &'a mut StudyRow) -> Self {
         let ledger = run.ledger();
         Self {
             row,
-            balance: ledger.balance.to_f64(),
-            energy: ledger.energy.to_f64().abs(),
+            balance: ledger.balance,
+            energy: ledger.energy.abs(),
             defect: 0.0,
             bound: 0.0,
-            entropy: ledger.entropy.to_f64(),
+            entropy: ledger.entropy,
         }
     }
 
-    fn watch<const D: usize, S: Real>(&mut self, run: &Simulation<D, S>, report: &StepReport<S>) {
+    fn watch<const D: usize>(&mut self, run: &Simulation<D>, report: &StepReport) {
         let (ledger, row) = (run.ledger(), &mut *self.row);
         row.steps += 1;
         row.iterations += report.iterations;
-        let defect = (ledger.balance.to_f64() - self.balance).abs();
+        let defect = (ledger.balance - self.balance).abs();
         self.defect = larger(self.defect, defect);
-        self.bound = larger(self.bound, report.bound.to_f64());
+        self.bound = larger(self.bound, report.bound);
         for part in [ledger.kinetic_energy, ledger.work, ledger.heat] {
-            self.energy = larger(self.energy, part.to_f64().abs());
+            self.energy = larger(self.energy, part.abs());
         }
         row.energy_defect = share(self.defect, self.energy);
         row.step_bound = share(self.bound, self.energy);
-        let entropy = ledger.entropy.to_f64();
+        let entropy = ledger.entropy;
         // `0.0 −` makes 0 of −0, which a run without production would have.
         row.least_entropy_change = 0.0 - larger(-row.least_entropy_change, self.entropy - entropy);
         self.entropy = entropy;

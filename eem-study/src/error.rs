@@ -66,12 +66,6 @@ pub enum StudyError {
         /// The kinds of quantities.
         quantities: Vec<StateQuantity>,
     },
-    /// A setting is in single precision, but there is no scene with `f32`.
-    #[error("`{setting}` needs the scene with f32; give the closure that builds it to `single`")]
-    NoSingleScene {
-        /// The setting.
-        setting: Setting,
-    },
     /// A scene is rejected.
     #[error("`{setting}`: {source}")]
     Scene {

@@ -20,5 +20,5 @@ pub use quantity::{EndState, StateQuantity};
 pub use reference::{ReferenceEnd, StudyReference};
 pub use report::StudyReport;
 pub use row::{Statement, StudyRow};
-pub use setting::{Precision, Setting, StepChoice};
+pub use setting::{Setting, StepChoice};
 pub use study::Study;

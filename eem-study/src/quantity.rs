@@ -2,7 +2,6 @@
 
 use core::fmt;
 
-use eem_material::number::scalar::Real;
 use eem_runtime::Simulation;
 
 /// The largest difference of the references for which an error is stated, relative to it.
@@ -61,7 +60,7 @@ impl fmt::Display for StateQuantity {
 /// A number for each kind of quantity that the scene has.
 pub(crate) type PerQuantity = [Option<f64>; 4];
 
-/// A state in double precision, for comparison with others of the same scene.
+/// A state, for comparison with others of the same scene.
 ///
 /// ```
 /// use eem::{EndState, Scene, Scheme, Simulation, StateQuantity};
@@ -95,7 +94,7 @@ pub struct EndState {
 impl EndState {
     /// The present state of a simulation.
     #[must_use]
-    pub fn of<const D: usize, S: Real>(run: &Simulation<D, S>) -> Self {
+    pub fn of<const D: usize>(run: &Simulation<D>) -> Self {
         Self {
             values: run.values(),
             are_strains: run.viscous_strains(),

@@ -123,7 +123,7 @@ impl Search<'_> {
     /// Refines two runs until they agree, or cannot.
     pub(crate) fn run<const D: usize>(
         self,
-        build: &Build<'_, D, f64>,
+        build: &Build<'_, D>,
         progress: &mut Progress<'_>,
     ) -> Result<StudyReference, NoEnd> {
         let mut pair = FOURTH_ORDER;
@@ -201,7 +201,7 @@ impl Search<'_> {
 
 /// A pair of runs.
 fn solve<const D: usize>(
-    build: &Build<'_, D, f64>,
+    build: &Build<'_, D>,
     schemes: [Scheme; 2],
     (steps, end_time): (u32, f64),
     progress: &mut Progress<'_>,

@@ -3,7 +3,6 @@
 use crate::quantity::StateQuantity;
 use crate::reference::StudyReference;
 use crate::row::StudyRow;
-use crate::setting::Precision;
 use eem_runtime::Scheme;
 
 /// The result of [`Study::run`](crate::Study::run).
@@ -69,7 +68,7 @@ impl StudyReport {
         rows.into_iter().map(|(row, _)| row).collect()
     }
 
-    /// The observed order of a scheme in double precision for one kind of quantity: the slope between the two
+    /// The observed order of a scheme for one kind of quantity: the slope between the two
     /// smallest steps with stated errors.
     ///
     /// ```text
@@ -81,8 +80,7 @@ impl StudyReport {
     pub fn order(&self, scheme: Scheme, quantity: StateQuantity) -> Option<f64> {
         let point = |row: &StudyRow| {
             let own = row.setting;
-            let is_of_line = own.scheme == scheme && own.precision == Precision::Double;
-            let error = row.error(quantity).filter(|_| is_of_line)?;
+            let error = row.error(quantity).filter(|_| own.scheme == scheme)?;
             Some((own.step()?, error))
         };
         let mut points: Vec<_> = self.rows.iter().filter_map(point).collect();

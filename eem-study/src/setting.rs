@@ -1,4 +1,4 @@
-//! Settings of a study: scheme, steps and precision.
+//! Settings of a study: scheme and steps.
 
 use core::fmt;
 use core::iter;
@@ -16,26 +16,14 @@ pub enum StepChoice {
     Tolerance(f64),
 }
 
-/// The number type of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Precision {
-    /// `f64`.
-    #[default]
-    Double,
-    /// `f32`.
-    Single,
-}
-
 /// One run of a [`Study`](crate::Study).
 ///
 /// ```
-/// use eem::{Precision, Scheme, Setting};
+/// use eem::{Scheme, Setting};
 ///
 /// let setting = Setting::fixed(Scheme::EemEntropy, 0.1);
 /// assert_eq!(setting.step(), Some(0.1));
 /// assert_eq!(setting.to_string(), "eem-entropy with h = 0.1 s");
-/// let single = setting.in_single_precision();
-/// assert_eq!((single.precision, single.name()), (Precision::Single, "eem-entropy-f32".to_owned()));
 ///
 /// let setting = Setting::controlled(Scheme::EemTemperature, 1e-4);
 /// assert_eq!((setting.step(), setting.tolerance()), (None, Some(1e-4)));
@@ -49,20 +37,14 @@ pub struct Setting {
     pub scheme: Scheme,
     /// The sizes of its steps.
     pub steps: StepChoice,
-    /// The number type.
-    pub precision: Precision,
 }
 
 impl Setting {
     const fn new(scheme: Scheme, steps: StepChoice) -> Self {
-        Self {
-            scheme,
-            steps,
-            precision: Precision::Double,
-        }
+        Self { scheme, steps }
     }
 
-    /// A scheme with steps of the size `step`, s, in double precision.
+    /// A scheme with steps of the size `step`, s.
     #[must_use]
     pub const fn fixed(scheme: Scheme, step: f64) -> Self {
         Self::new(scheme, StepChoice::Fixed(step))
@@ -82,7 +64,7 @@ impl Setting {
         steps.map(move |(_, step)| Self::fixed(scheme, step))
     }
 
-    /// A scheme with step control for a relative tolerance, in double precision.
+    /// A scheme with step control for a relative tolerance.
     #[must_use]
     pub const fn controlled(scheme: Scheme, tolerance: f64) -> Self {
         Self::new(scheme, StepChoice::Tolerance(tolerance))
@@ -100,15 +82,6 @@ impl Setting {
     pub fn by_decades(scheme: Scheme, largest: f64, count: u32) -> impl Iterator<Item = Self> {
         let divisors = (0..count).map(|decade| 10.0_f64.powi(decade.cast_signed()));
         divisors.map(move |divisor| Self::controlled(scheme, largest / divisor))
-    }
-
-    /// The same setting in `f32`; the study then needs [`Study::single`](crate::Study::single).
-    #[must_use]
-    pub const fn in_single_precision(self) -> Self {
-        Self {
-            precision: Precision::Single,
-            ..self
-        }
     }
 
     /// The constant step, s; `None` with step control.
@@ -129,30 +102,20 @@ impl Setting {
         }
     }
 
-    /// The name of the scheme, with `-f32` in single precision.
-    #[must_use]
-    pub fn name(&self) -> String {
-        let suffix = match self.precision {
-            Precision::Double => "",
-            Precision::Single => "-f32",
-        };
-        format!("{}{suffix}", self.scheme)
-    }
-
-    /// The name of the curve in a picture: the name of the setting, and whether it uses step control.
+    /// The name of the curve in a picture: the name of the scheme, and whether it uses step control.
     #[must_use]
     pub fn line(&self) -> String {
         let suffix = match self.steps {
             StepChoice::Fixed(_) => "",
             StepChoice::Tolerance(_) => ", controlled",
         };
-        format!("{}{suffix}", self.name())
+        format!("{}{suffix}", self.scheme)
     }
 }
 
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = self.name();
+        let name = self.scheme;
         match self.steps {
             // `Auto` controls its steps by default.
             StepChoice::Fixed(step) if self.scheme == Scheme::Auto => {

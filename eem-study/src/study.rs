@@ -11,7 +11,7 @@ use crate::quantity::{EndState, StateQuantity};
 use crate::reference::{ReferenceEnd, Search, StudyReference};
 use crate::report::StudyReport;
 use crate::row::StudyRow;
-use crate::setting::{Precision, Setting};
+use crate::setting::Setting;
 use eem_runtime::Scene;
 
 /// The default of [`Study::repeats`].
@@ -63,8 +63,7 @@ const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// An error is stated only if the references differ by at most a hundredth of it, see
 /// [`Statement`](crate::Statement). Everything in the report except wall times has the same bits in every run.
 pub struct Study<'a, const D: usize> {
-    build: Box<Build<'a, D, f64>>,
-    single: Option<Box<Build<'a, D, f32>>>,
+    build: Box<Build<'a, D>>,
     settings: Vec<Setting>,
     end: f64,
     repeats: usize,
@@ -92,7 +91,6 @@ impl<'a, const D: usize> Study<'a, D> {
     pub fn new(build: impl Fn() -> Scene<D> + 'a, end: f64) -> Self {
         Self {
             build: Box::new(build),
-            single: None,
             settings: Vec::new(),
             end,
             repeats: REPEATS,
@@ -101,14 +99,6 @@ impl<'a, const D: usize> Study<'a, D> {
             reference: None,
             watch: None,
         }
-    }
-
-    /// The same scene with `f32`, for settings in single precision. Write one function that is generic in the
-    /// number type.
-    #[must_use]
-    pub fn single(mut self, build: impl Fn() -> Scene<D, f32> + 'a) -> Self {
-        self.single = Some(Box::new(build));
-        self
     }
 
     /// Adds a setting.
@@ -217,11 +207,6 @@ impl<'a, const D: usize> Study<'a, D> {
             .iter()
             .copied()
             .try_for_each(check_accuracy)?;
-        for &setting in &self.settings {
-            if setting.precision == Precision::Single && self.single.is_none() {
-                return Err(StudyError::NoSingleScene { setting });
-            }
-        }
         let settings = self.settings.iter();
         let courses = settings.map(|&setting| Course::of(setting, end));
         let courses = courses.collect::<Result<Vec<_>, _>>()?;
@@ -269,11 +254,7 @@ impl<'a, const D: usize> Study<'a, D> {
         progress: &mut Progress<'_>,
     ) -> Result<Finished, StudyError> {
         let setting = course.setting;
-        let finished = match (setting.precision, &self.single) {
-            (Precision::Double, _) => run(&*self.build, course, watched, progress),
-            (Precision::Single, Some(build)) => run(&**build, course, watched, progress),
-            (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
-        };
+        let finished = run(&*self.build, course, watched, progress);
         finished.map_err(|error| error.of(setting))
     }
 

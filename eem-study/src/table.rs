@@ -13,7 +13,7 @@ use eem_material::number::readable::Readable;
 type Column = (&'static str, fn(&StudyRow) -> String);
 
 const COLUMNS: [Column; 15] = [
-    ("scheme", |row| row.setting.name()),
+    ("scheme", |row| row.setting.scheme.to_string()),
     ("h (s)", step),
     ("error of q", |row| error(row, StateQuantity::Positions)),
     ("of p", |row| error(row, StateQuantity::Momenta)),
@@ -61,7 +61,7 @@ impl StudyReport {
             };
             let error = |quantity| number(row.error(quantity));
             [
-                row.setting.name(),
+                row.setting.scheme.to_string(),
                 number(row.setting.tolerance()),
                 number(row.setting.step()),
                 error(StateQuantity::Positions),

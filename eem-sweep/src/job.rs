@@ -15,7 +15,7 @@ use crate::record::{Batch, Failure, FailureKind, Record};
 pub(crate) struct Stepping {
     pub(crate) scheme: Scheme,
     pub(crate) step: f64,
-    pub(crate) newton: NewtonSettings<f64>,
+    pub(crate) newton: NewtonSettings,
 }
 
 /// Called with the number of members of the batch that are done.
@@ -23,8 +23,6 @@ pub(crate) type Tick<'t> = &'t mut (dyn FnMut(usize) + Send);
 
 /// What is done with the members of a batch.
 pub(crate) struct Job<'a> {
-    /// How many members take hardly longer than one: those that move together in SIMD lanes.
-    pub(crate) bundle: usize,
     /// Runs the members of a batch, which has their ids and inputs; the texts are the names of the input columns.
     pub(crate) run: Run<'a>,
     /// Whether an input can be made of a row.
@@ -51,14 +49,12 @@ pub(crate) type Results<T> = Vec<Result<T, MemberError>>;
 /// The job whose inputs `input` makes of rows, and which `run` gives to an ensemble.
 pub(crate) fn job<'a, I, T: Record>(
     stepping: Stepping,
-    bundle: usize,
     input: impl Fn(Row<'_>) -> Result<I, InputError> + Send + Sync + 'a,
     run: impl Fn(Ensemble<'_>, &[I]) -> Results<T> + Sync + 'a,
 ) -> Job<'a> {
     let input = Arc::new(input);
     let check = input.clone();
     Job {
-        bundle,
         run: Box::new(move |columns, batch, tick| {
             run_batch(columns, batch, &*input, tick, |inputs, tick| {
                 run(ensemble(stepping, tick), inputs)
@@ -72,7 +68,6 @@ pub(crate) fn job<'a, I, T: Record>(
 pub(crate) fn giving_up(outputs: usize) -> Job<'static> {
     let failure = Failure::new(FailureKind::GivenUp, None, "the caller has given it up");
     Job {
-        bundle: 1,
         run: Box::new(move |_, batch, tick| {
             let members = batch.ids.len();
             batch.outputs = vec![0.0; members * outputs];

@@ -146,7 +146,7 @@ impl Sweep<'_> {
             generation: GIVEN_UP,
         };
         let mut teller = Teller::new(directory, &name, missing.count(), false);
-        let (ran, failed) = team::run(task, &missing, 1, Sizes::adapted(1), &mut teller)?;
+        let (ran, failed) = team::run(task, &missing, 1, Sizes::adapted(), &mut teller)?;
         begun::forget(directory, &wanted);
         Ok(RunReport {
             members: wanted.count(),
@@ -181,7 +181,7 @@ impl Sweep<'_> {
         for class in begun::classes(directory, places) {
             let sizes = match class.batch.into_iter().chain(options.batch).min() {
                 Some(members) => Sizes::Fixed(members.max(1)),
-                None => Sizes::adapted(self.job.bundle),
+                None => Sizes::adapted(),
             };
             let threads = threads.checked_shr(class.halvings).unwrap_or(0);
             let (ran, failed) = team::run(task, &class.places, threads, sizes, &mut teller)?;

@@ -1,11 +1,11 @@
-//! A sweep: its inputs, scheme and settings, and the experiment that it runs.
+//! A sweep: its inputs, scheme and settings, and the closures that it runs.
 
 use std::collections::BTreeMap;
 use std::env;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use eem_runtime::{Experiment, MemberFailure, NewtonSettings, Scene, Scheme, Simulation};
+use eem_runtime::{MemberFailure, NewtonSettings, Scene, Scheme, Simulation};
 
 use crate::digest;
 use crate::error::SweepError;
@@ -17,10 +17,7 @@ use crate::manifest::{Identity, Manifest};
 use crate::part::{PARTS, Shelf};
 use crate::record::Record;
 
-/// Members of an experiment that move together with the feature `lanes`.
-const LANES: usize = 4;
-
-/// The data of a sweep: inputs, scheme, step and settings. Together with an experiment it is a [`Sweep`].
+/// The data of a sweep: inputs, scheme, step and settings. Together with closures it is a [`Sweep`].
 ///
 /// Pendulums on springs of different stiffness. The results have the same bits for any division among processes:
 ///
@@ -93,7 +90,7 @@ impl Plan {
 
     /// The settings of Newton's method for all members.
     #[must_use]
-    pub fn newton(mut self, settings: NewtonSettings<f64>) -> Self {
+    pub fn newton(mut self, settings: NewtonSettings) -> Self {
         self.stepping.newton = settings;
         self
     }
@@ -114,27 +111,6 @@ impl Plan {
         self
     }
 
-    /// A sweep that runs an experiment. `input` makes its inputs from rows. With the feature `lanes` four members
-    /// run together, see [`Ensemble::run_experiment`](eem_runtime::Ensemble::run_experiment).
-    pub fn experiment<'a, const D: usize, E>(
-        self,
-        experiment: E,
-        input: impl Fn(Row<'_>) -> Result<E::Input, InputError> + Send + Sync + 'a,
-    ) -> Sweep<'a>
-    where
-        E: Experiment<D> + 'a,
-        E::Output: Record,
-    {
-        let bundle = if cfg!(feature = "lanes") { LANES } else { 1 };
-        let job = job(
-            self.stepping,
-            bundle,
-            input,
-            move |ensemble, inputs: &[_]| ensemble.run_experiment(&experiment, inputs),
-        );
-        self.with(job, E::Output::COLUMNS)
-    }
-
     /// A sweep that runs two closures like [`Ensemble::run`](eem_runtime::Ensemble::run). `input` makes their
     /// inputs from rows.
     pub fn closures<'a, const D: usize, I, H, T>(
@@ -148,7 +124,7 @@ impl Plan {
         H: 'a,
         T: Record + Send + 'a,
     {
-        let job = job(self.stepping, 1, input, move |ensemble, inputs: &[_]| {
+        let job = job(self.stepping, input, move |ensemble, inputs: &[_]| {
             ensemble.run(inputs, &build, &observe)
         });
         self.with(job, T::COLUMNS)

@@ -31,14 +31,14 @@ const GROWTH: usize = 8;
 pub(crate) enum Sizes {
     /// Always this many.
     Fixed(usize),
-    /// As many as take about a second: `next` at present; after the first, whole bundles of members that move together.
-    Adapted { next: usize, bundle: usize },
+    /// As many as take about a second: `next` at present.
+    Adapted { next: usize },
 }
 
 impl Sizes {
     /// The first batch has one member, so that a process gets on however long members take.
-    pub(crate) fn adapted(bundle: usize) -> Self {
-        Self::Adapted { next: 1, bundle }
+    pub(crate) fn adapted() -> Self {
+        Self::Adapted { next: 1 }
     }
 
     /// Members of the next batch when `left` members remain for `threads` threads.
@@ -46,17 +46,17 @@ impl Sizes {
         match *self {
             Self::Fixed(size) => size,
             // Towards the end all threads get something.
-            Self::Adapted { next, bundle } => next.min(left.div_ceil(threads).max(bundle)),
+            Self::Adapted { next } => next.min(left.div_ceil(threads)),
         }
     }
 
     /// Adapts the size after a batch of `members` has taken this time.
     fn adapt(&mut self, members: usize, took: Duration) {
-        if let Self::Adapted { next, bundle } = self {
+        if let Self::Adapted { next } = self {
             let share = BATCH.as_secs_f64() / took.as_secs_f64().max(f64::MIN_POSITIVE);
             // At most GROWTH times MOST.
             let wanted = (members as f64 * share.min(GROWTH as f64)) as usize;
-            *next = (wanted / *bundle * *bundle).clamp(*bundle, MOST);
+            *next = wanted.clamp(1, MOST);
         }
     }
 }
@@ -227,29 +227,27 @@ mod tests {
     #[test]
     fn batches_are_about_a_second_and_never_so_long_that_a_process_gets_nowhere() {
         let second = Duration::from_secs(1);
-        for bundle in [1, 4] {
-            let mut sizes = Sizes::adapted(bundle);
+        let mut sizes = Sizes::adapted();
+        assert_eq!(sizes.next(1000, 4), 1);
+        // Members of ten minutes.
+        for _ in 0..3 {
+            sizes.adapt(1, 600 * second);
             assert_eq!(sizes.next(1000, 4), 1);
-            // Members of ten minutes.
-            for _ in 0..3 {
-                sizes.adapt(1, 600 * second);
-                assert_eq!(sizes.next(1000, 4), bundle);
-            }
-            // Members of 10 ms: a hundred a second, reached step by step.
-            let mut members = 1;
-            for expected in [8, 64, 100, 100] {
-                sizes.adapt(members, second * u32::try_from(members).unwrap() / 100);
-                members = sizes.next(1000, 4);
-                assert_eq!(members, expected);
-            }
-            // The last ones are divided.
-            assert_eq!(sizes.next(40, 4), 10);
-            assert_eq!(sizes.next(1, 4), bundle);
-            for _ in 0..9 {
-                sizes.adapt(sizes.next(1_000_000, 1), Duration::ZERO);
-            }
-            assert_eq!(sizes.next(1_000_000, 1), MOST);
         }
+        // Members of 10 ms: a hundred a second, reached step by step.
+        let mut members = 1;
+        for expected in [8, 64, 100, 100] {
+            sizes.adapt(members, second * u32::try_from(members).unwrap() / 100);
+            members = sizes.next(1000, 4);
+            assert_eq!(members, expected);
+        }
+        // The last ones are divided.
+        assert_eq!(sizes.next(40, 4), 10);
+        assert_eq!(sizes.next(1, 4), 1);
+        for _ in 0..9 {
+            sizes.adapt(sizes.next(1_000_000, 1), Duration::ZERO);
+        }
+        assert_eq!(sizes.next(1_000_000, 1), MOST);
         assert_eq!(Sizes::Fixed(7).next(1000, 4), 7);
     }
 }

@@ -22,7 +22,7 @@ const ELASTIC: SaintVenantKirchhoff = SaintVenantKirchhoff {
 pub fn plane(
     mut scene: Scene<2>,
     ends: [Node; 2],
-) -> Result<StepReport<f64>, Box<dyn std::error::Error>> {
+) -> Result<StepReport, Box<dyn std::error::Error>> {
     scene.spring(HENCKY, ends);
     scene.spring(LogarithmicStiffness::FIRST, ends);
     scene.spring(TwoDashpots::DATA, ends);
@@ -40,7 +40,7 @@ pub fn plane(
 pub fn space(
     mut scene: Scene<3>,
     ends: [Node; 2],
-) -> Result<StepReport<f64>, Box<dyn std::error::Error>> {
+) -> Result<StepReport, Box<dyn std::error::Error>> {
     scene.spring(HENCKY, ends);
     let linear = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
     scene.solid(ELASTIC, &linear, &Bulk::new(1.0));

@@ -43,15 +43,13 @@ pub enum LawError {
         /// The second value.
         second: f64,
     },
-    /// A value that is infinite or NaN, or becomes so in the numbers of the scene.
-    #[error("parameter `{name}` is {value:?}, which is not finite{in_scene}: give a number")]
+    /// A value that is infinite or NaN.
+    #[error("parameter `{name}` is {value:?}, which is not finite: give a number")]
     NotFinite {
         /// The parameter.
         name: String,
         /// Its value as it was given.
         value: f64,
-        /// Empty, or that the value is not finite in the numbers of the scene.
-        in_scene: &'static str,
     },
     /// A number in a derivative of ψ does not fit an `f64`.
     #[error("{0}")]

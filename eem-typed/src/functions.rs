@@ -7,7 +7,6 @@ use std::sync::{Arc, OnceLock};
 
 use eem_language::text::Compiled;
 use eem_material::Joint;
-use eem_material::number::scalar::Scalar;
 use eem_runtime::Strain;
 use eem_symbolic::{Program, Programs, Value};
 
@@ -20,45 +19,45 @@ use staged::{kept, of_state};
 
 /// The functions of [`FreeEnergy`](eem_material::FreeEnergy).
 #[derive(Debug)]
-pub(crate) struct Functions<S> {
+pub(crate) struct Functions {
     /// The name of the law, and the digest of its name and texts.
     pub(crate) name: &'static &'static str,
     pub(crate) kind: u64,
     /// Strains and joint invariants of a solid; empty for a spring.
     pub(crate) strains: Box<[Strain]>,
     pub(crate) joints: Box<[Joint]>,
-    pub(crate) parameters: Box<[S]>,
+    pub(crate) parameters: Box<[f64]>,
     pub(crate) has_constant_capacity: bool,
-    pub(crate) free_energy: Tape<S>,
-    pub(crate) energy_magnitude: Tape<S>,
-    pub(crate) internal_energy: Tape<S>,
-    pub(crate) gradient: Tape<S>,
-    pub(crate) hessian: Tape<S>,
-    pub(crate) rates: Tape<S>,
-    pub(crate) caloric: Option<Tape<S>>,
-    pub(crate) entropy_hessian: Option<Tape<S>>,
-    pub(crate) viscosity: Option<Tape<S>>,
-    pub(crate) drag: Option<Tape<S>>,
-    pub(crate) caloric_at: Option<Staged<S>>,
+    pub(crate) free_energy: Tape,
+    pub(crate) energy_magnitude: Tape,
+    pub(crate) internal_energy: Tape,
+    pub(crate) gradient: Tape,
+    pub(crate) hessian: Tape,
+    pub(crate) rates: Tape,
+    pub(crate) caloric: Option<Tape>,
+    pub(crate) entropy_hessian: Option<Tape>,
+    pub(crate) viscosity: Option<Tape>,
+    pub(crate) drag: Option<Tape>,
+    pub(crate) caloric_at: Option<Staged>,
     /// `None` without a temperature.
-    pub(crate) rates_at: Option<Staged<S>>,
+    pub(crate) rates_at: Option<Staged>,
     /// Forces and ψ; `None` with a temperature.
-    pub(crate) rates_of_state: Option<Tape<S>>,
-    pub(crate) entropy_form: Form<S>,
-    pub(crate) mixed_states: Option<Staged<S>>,
-    pub(crate) temperature_form: Option<Form<S>>,
+    pub(crate) rates_of_state: Option<Tape>,
+    pub(crate) entropy_form: Form,
+    pub(crate) mixed_states: Option<Staged>,
+    pub(crate) temperature_form: Option<Form>,
     compiled: Arc<Compiled>,
     /// Made at the first request; `None` if they cannot be made.
-    by_parameters: OnceLock<Option<ByParameters<S>>>,
+    by_parameters: OnceLock<Option<ByParameters>>,
 }
 
-impl<S: Scalar> Functions<S> {
+impl Functions {
     /// The tapes of the programs of these texts; `variables` and `responses` are numbers.
     pub(crate) fn new(
         (name, kind): (&'static &'static str, u64),
         (strains, joints): (Box<[Strain]>, Box<[Joint]>),
         (compiled, programs): (&Arc<Compiled>, &Programs),
-        parameters: Vec<S>,
+        parameters: Vec<f64>,
         [variables, responses]: [usize; 2],
     ) -> Result<Self, LawError> {
         let of_state = |program: &Program| of_state(program, &parameters);
@@ -118,7 +117,7 @@ impl<S: Scalar> Functions<S> {
     }
 
     /// Derivatives with respect to the parameters; `None` with too many parameters, too long formulas or too large factors.
-    pub(crate) fn by_parameters(&self) -> Option<&ByParameters<S>> {
+    pub(crate) fn by_parameters(&self) -> Option<&ByParameters> {
         let make = || {
             if self.parameters.len() > MOST_PARAMETERS {
                 return None;

@@ -1,13 +1,11 @@
 //! A law: compiled texts with values for their parameters.
 
-use core::any::Any;
 use core::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, OnceLock};
 
 use eem_language::text::{self, Compiled, Source};
 use eem_material::Joint;
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 use eem_runtime::Strain;
 use eem_symbolic::Model;
 
@@ -66,8 +64,8 @@ pub struct Law {
     /// In the order of the parameters of the model.
     values: Arc<[f64]>,
     name: &'static &'static str,
-    /// One `Arc<Functions<S>>` for every requested S.
-    made: Arc<Mutex<Vec<Box<dyn Any + Send + Sync>>>>,
+    /// Made at the first request.
+    made: Arc<OnceLock<Arc<Functions>>>,
 }
 
 impl Law {
@@ -211,7 +209,7 @@ impl Law {
         &self,
         states: &[f64],
         results: usize,
-        function: impl Fn(&Functions<f64>) -> &Tape<f64>,
+        function: impl Fn(&Functions) -> &Tape,
     ) -> Result<Vec<f64>, LawError> {
         let variables = self.shape().variables();
         if !states.len().is_multiple_of(variables) {
@@ -262,13 +260,12 @@ impl Law {
     /// and whatever else takes a [`FreeEnergy`](eem_material::FreeEnergy).
     ///
     /// The type says which variables the law has: [`ThermalSpring1`](crate::ThermalSpring1) and the like for springs,
-    /// [`solid!`](crate::solid) for solids. Its tapes are made once for every number type and shared. Clone it for another
+    /// [`solid!`](crate::solid) for solids. Its tapes are made once and shared. Clone it for another
     /// element.
     ///
     /// # Errors
     ///
-    /// [`LawError::Shape`] if the law is not one of that type, [`LawError::NotFinite`] if a value is not finite as `S`,
-    /// [`LawError::TooLarge`] if the formulas are too large.
+    /// [`LawError::Shape`] if the law is not one of that type, [`LawError::TooLarge`] if the formulas are too large.
     ///
     /// ```
     /// use eem::FreeEnergy;
@@ -279,16 +276,12 @@ impl Law {
     /// let spring: Spring0 = law.model()?;
     /// assert_eq!(spring.gradient(&[2.0]), [1e300]);
     ///
-    /// let spring: Result<Spring0<f32>, LawError> = law.model();
-    /// let text = "parameter `k` is 1e300, which is not finite in the numbers of the scene: give a number";
-    /// assert_eq!(spring.unwrap_err().to_string(), text);
     /// let spring: Result<Spring1, LawError> = law.model();
     /// let text = "the law has 1 stretch; the type of the material has 1 stretch, 1 dashpot in series";
     /// assert_eq!(spring.unwrap_err().to_string(), text);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn model<
-        S: Real,
         H: Measures,
         const N: usize,
         const K: usize,
@@ -298,8 +291,8 @@ impl Law {
         const R: usize,
     >(
         &self,
-    ) -> Result<Typed<S, H, N, K, V, D, C, R>, LawError> {
-        let [law, material] = [self.shape(), Typed::<S, H, N, K, V, D, C, R>::SHAPE];
+    ) -> Result<Typed<H, N, K, V, D, C, R>, LawError> {
+        let [law, material] = [self.shape(), Typed::<H, N, K, V, D, C, R>::SHAPE];
         if law != material {
             return Err(LawError::Shape {
                 law: law.to_string(),
@@ -313,24 +306,10 @@ impl Law {
         Shape::of(&self.compiled)
     }
 
-    /// The tapes for numbers of one type.
-    fn functions<S: Real>(&self) -> Result<Arc<Functions<S>>, LawError> {
-        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        let of_type = made.iter().find_map(|one| one.downcast_ref());
-        if let Some(functions) = of_type {
+    /// The tapes.
+    fn functions(&self) -> Result<Arc<Functions>, LawError> {
+        if let Some(functions) = self.made.get() {
             return Ok(Arc::clone(functions));
-        }
-        let mut parameters = Vec::with_capacity(self.values.len());
-        for (name, value) in self.parameters() {
-            let number = S::from_f64(value);
-            if !number.is_finite() {
-                return Err(LawError::NotFinite {
-                    name: name.to_owned(),
-                    value,
-                    in_scene: " in the numbers of the scene",
-                });
-            }
-            parameters.push(number);
         }
         let programs = self.compiled.programs().map_err(LawError::Programs)?;
         let shape = self.shape();
@@ -339,10 +318,8 @@ impl Law {
         let identity = (self.name, self.kind());
         let measures = (self.strains(), self.joints());
         let texts = (&self.compiled, programs);
-        let functions = Functions::new(identity, measures, texts, parameters, sizes)?;
-        let functions = Arc::new(functions);
-        made.push(Box::new(Arc::clone(&functions)));
-        Ok(functions)
+        let functions = Functions::new(identity, measures, texts, self.values.to_vec(), sizes)?;
+        Ok(Arc::clone(self.made.get_or_init(|| Arc::new(functions))))
     }
 
     /// The strains of a solid, as the runtime names them.
@@ -431,7 +408,6 @@ fn in_order(compiled: &Compiled, given: &[(&str, f64)]) -> Result<Vec<f64>, LawE
             return Err(LawError::NotFinite {
                 name: name.to_owned(),
                 value,
-                in_scene: "",
             });
         }
     }

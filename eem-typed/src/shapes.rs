@@ -1,6 +1,5 @@
 //! The shapes of springs, and the choice among them when a program runs.
 
-use eem_material::number::scalar::Real;
 use eem_runtime::{Element, Node, Scene};
 
 use crate::error::LawError;
@@ -44,20 +43,19 @@ macro_rules! shapes {
     ($($(#[$docs:meta])* $name:ident: $n:literal, $k:literal, $d:literal, $c:literal, $r:literal;)*) => {
         $(
             $(#[$docs])*
-            pub type $name<S = f64> = Typed<S, Stretch, $n, $k, $k, $d, $c, $r>;
+            pub type $name = Typed<Stretch, $n, $k, $k, $d, $c, $r>;
         )*
 
         impl Law {
             /// Puts a spring of this law between two nodes of a scene, whatever its shape is.
             ///
-            /// The solver is compiled for each of the 16 shapes, as for 16 derived materials, for every dimension and type of
-            /// numbers that a program calls this for. A program that knows the shapes of its laws calls
+            /// The solver is compiled for each of the 16 shapes, as for 16 derived materials, for every dimension that a
+            /// program calls this for. A program that knows the shapes of its laws calls
             /// [`model`](Self::model) instead.
             ///
             /// # Errors
             ///
-            /// [`LawError::Solid`], [`LawError::Dashpots`], [`LawError::TooLarge`], and [`LawError::NotFinite`] if a value is
-            /// not finite in the numbers of the scene, which is not changed then.
+            /// [`LawError::Solid`], [`LawError::Dashpots`], [`LawError::TooLarge`]; the scene is not changed then.
             ///
             /// ```
             /// use eem::prelude::*;
@@ -81,16 +79,16 @@ macro_rules! shapes {
             /// assert!((run.position(ends[1])?[0] - exact).abs() < 1e-3);
             /// # Ok::<(), Box<dyn std::error::Error>>(())
             /// ```
-            pub fn add_spring<S: Real, const D: usize>(
+            pub fn add_spring<const D: usize>(
                 &self,
-                scene: &mut Scene<D, S>,
+                scene: &mut Scene<D>,
                 nodes: [Node; 2],
             ) -> Result<Element, LawError> {
                 self.check_spring()?;
                 let shape = self.shape();
                 $(
-                    if shape == $name::<S>::SHAPE {
-                        let model: $name<S> = self.model()?;
+                    if shape == $name::SHAPE {
+                        let model: $name = self.model()?;
                         return Ok(scene.spring(model, nodes));
                     }
                 )*
@@ -139,11 +137,11 @@ shapes! {
 ///
 /// ```text
 /// solid!(strains: 2)
-/// solid!(strains: 3, invariants: 3, volume_flow: 1, dashpots: 1, temperature: 1, numbers: f32)
+/// solid!(strains: 3, invariants: 3, volume_flow: 1, dashpots: 1, temperature: 1)
 /// ```
 ///
 /// The arguments, in this order, are the numbers of strains and of invariants of a viscous strain in ψ, of dashpots in series
-/// and of temperatures (0 or 1), and the number type. All but the first may be left out; the default number type is `f64`.
+/// and of temperatures (0 or 1). All but the first may be left out.
 /// Write `volume_flow: 1` if one of the invariants is the trace.
 ///
 /// ```
@@ -176,26 +174,23 @@ shapes! {
 /// ```
 #[macro_export]
 macro_rules! solid {
-    (@number) => { f64 };
-    (@number $number:ty) => { $number };
-    (@of $measures:ty, $n:expr, $k:expr, $v:expr, $t:expr $(, $number:ty)?) => {
+    (@of $measures:ty, $n:expr, $k:expr, $v:expr, $t:expr) => {
         $crate::Typed<
-            $crate::solid!(@number $($number)?),
             $measures,
             { $n }, { $k }, { $v }, 0, { 2 * ($n - 1) * $t }, { $n + $t }
         >
     };
     (
-        strains: $m:literal $(, dashpots: $k:literal)? $(, temperature: $t:literal)? $(, numbers: $number:ty)?
+        strains: $m:literal $(, dashpots: $k:literal)? $(, temperature: $t:literal)?
     ) => {
         $crate::solid!(
             @of $crate::Strains<$m>,
-            $m $(+ $k)? $(+ $t)?, 0 $(+ $k)?, 0 $(+ $k)?, (0 $(+ $t)?) $(, $number)?
+            $m $(+ $k)? $(+ $t)?, 0 $(+ $k)?, 0 $(+ $k)?, (0 $(+ $t)?)
         )
     };
     (
         strains: $m:literal, invariants: $j:literal $(, volume_flow: $f:literal)?
-        $(, dashpots: $k:literal)? $(, temperature: $t:literal)? $(, numbers: $number:ty)?
+        $(, dashpots: $k:literal)? $(, temperature: $t:literal)?
     ) => {
         $crate::solid!(
             @of $crate::Flow<
@@ -204,7 +199,7 @@ macro_rules! solid {
                 { 5 $(+ $f)? $(+ $k)? },
                 { $m + 2 * (5 $(+ $f)?) $(+ $k)? $(+ 2 * $t)? }
             >,
-            $m + $j $(+ $k)? $(+ $t)?, 0 $(+ $k)?, 1 $(+ $f)? $(+ $k)?, (0 $(+ $t)?) $(, $number)?
+            $m + $j $(+ $k)? $(+ $t)?, 0 $(+ $k)?, 1 $(+ $f)? $(+ $k)?, (0 $(+ $t)?)
         )
     };
 }

@@ -9,8 +9,6 @@ mod fold;
 mod instruction;
 mod lower;
 
-use eem_material::number::scalar::Scalar;
-
 use crate::error::LawError;
 use allocate::{Allocated, allocate};
 pub(crate) use fold::fold;
@@ -36,17 +34,17 @@ const WORTH_A_ROW: usize = 6;
 ///
 /// Registers hold first the constants, then the inputs, then results.
 #[derive(Debug)]
-pub(crate) struct Tape<S> {
-    constants: Box<[S]>,
+pub(crate) struct Tape {
+    constants: Box<[f64]>,
     inputs: usize,
     instructions: Box<[Instruction]>,
     outputs: Box<[Register]>,
     registers: usize,
 }
 
-impl<S: Scalar> Tape<S> {
+impl Tape {
     /// The tape for these values.
-    pub(crate) fn new(wanted: &Wanted<'_, S>) -> Result<Self, LawError> {
+    pub(crate) fn new(wanted: &Wanted<'_>) -> Result<Self, LawError> {
         let lines = lower::lower(wanted);
         let Allocated {
             constants,
@@ -78,8 +76,8 @@ impl<S: Scalar> Tape<S> {
     #[inline]
     pub(crate) fn run<const I: usize, const O: usize>(
         &self,
-        inputs: [&[S]; I],
-        results: [&mut [S]; O],
+        inputs: [&[f64]; I],
+        results: [&mut [f64]; O],
     ) {
         let read = |_| inputs;
         let one = &mut [results];
@@ -97,11 +95,11 @@ impl<S: Scalar> Tape<S> {
     /// The same for several elements, given by their indices: each instruction for a row of them, with the same bits.
     pub(crate) fn run_rows<'a, R, const I: usize, const O: usize>(
         &self,
-        inputs: impl Fn(usize) -> [&'a [S]; I],
+        inputs: impl Fn(usize) -> [&'a [f64]; I],
         results: &mut [R],
-        parts: impl Fn(&mut R) -> [&mut [S]; O],
+        parts: impl Fn(&mut R) -> [&mut [f64]; O],
     ) where
-        S: 'a,
+        f64: 'a,
     {
         for (row, results) in results.chunks_mut(ROW).enumerate() {
             let inputs = |element: usize| inputs(row * ROW + element);
@@ -128,14 +126,14 @@ impl<S: Scalar> Tape<S> {
         const O: usize,
     >(
         &self,
-        inputs: impl Fn(usize) -> [&'a [S]; I],
+        inputs: impl Fn(usize) -> [&'a [f64]; I],
         results: &mut [R],
-        parts: impl Fn(&mut R) -> [&mut [S]; O],
+        parts: impl Fn(&mut R) -> [&mut [f64]; O],
     ) where
-        S: 'a,
+        f64: 'a,
     {
         const { assert!(P.is_power_of_two()) };
-        let mut file = [[[S::zero(); B]; Q]; P];
+        let mut file = [[[0.0; B]; Q]; P];
         for (register, &constant) in file.iter_mut().zip(&self.constants) {
             *register = [[constant; B]; Q];
         }
@@ -163,7 +161,7 @@ impl<S: Scalar> Tape<S> {
 
     /// Executes the instructions. Not inlined: it is large, and this way compiled once for each size of the file.
     #[inline(never)]
-    fn execute<const P: usize, const B: usize, const Q: usize>(&self, file: &mut File<S, B, Q, P>) {
+    fn execute<const P: usize, const B: usize, const Q: usize>(&self, file: &mut File<B, Q, P>) {
         for instruction in &self.instructions {
             instruction.execute(file);
         }
@@ -171,6 +169,6 @@ impl<S: Scalar> Tape<S> {
 }
 
 /// The results of one element.
-fn each_of<'a, S, const O: usize>(results: &'a mut [&mut [S]; O]) -> [&'a mut [S]; O] {
+fn each_of<'a, const O: usize>(results: &'a mut [&mut [f64]; O]) -> [&'a mut [f64]; O] {
     results.each_mut().map(|part| &mut **part)
 }

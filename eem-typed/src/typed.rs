@@ -9,7 +9,6 @@ use core::slice;
 use std::sync::Arc;
 
 use eem_material::free_energy::{Array, Caloric, FreeEnergy, Rates, Rows};
-use eem_material::number::scalar::Scalar;
 use eem_runtime::Strain;
 
 use crate::functions::{ByParameters, Functions, KEPT, MOST_PARAMETERS};
@@ -45,7 +44,6 @@ use crate::tape::Tape;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Typed<
-    S,
     H,
     const N: usize,
     const K: usize,
@@ -54,12 +52,11 @@ pub struct Typed<
     const C: usize,
     const R: usize,
 > {
-    functions: Arc<Functions<S>>,
+    functions: Arc<Functions>,
     measures: PhantomData<H>,
 }
 
 impl<
-    S: Scalar,
     H: Measures,
     const N: usize,
     const K: usize,
@@ -67,7 +64,7 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> Typed<S, H, N, K, V, D, C, R>
+> Typed<H, N, K, V, D, C, R>
 {
     /// The variables of a law of this type.
     pub(crate) const SHAPE: Shape = {
@@ -90,7 +87,7 @@ impl<
     };
 
     /// The material of functions that have this shape.
-    pub(crate) fn new(functions: Arc<Functions<S>>) -> Self {
+    pub(crate) fn new(functions: Arc<Functions>) -> Self {
         const {
             assert!(N == Self::SHAPE.variables(), "N = M + K + T");
             assert!(C == 2 * (N - 1) * (R - N), "C = 2 (N − 1) T");
@@ -117,23 +114,23 @@ impl<
         core::array::from_fn(|index| self.functions.strains[index])
     }
 
-    fn number(tape: &Tape<S>, x: &[S; N]) -> S {
-        let mut number = [S::zero()];
+    fn number(tape: &Tape, x: &[f64; N]) -> f64 {
+        let mut number = [0.0];
         tape.run([x], [&mut number]);
         number[0]
     }
 
     /// A derivative with respect to parameters, or along a direction of them: NaN if the law has no derivatives, zero if it
     /// lacks the function that is differentiated.
-    fn derivative<const I: usize, A: Array<S>>(
+    fn derivative<const I: usize, A: Array<f64>>(
         &self,
-        tape: impl Fn(&ByParameters<S>) -> Option<&Tape<S>>,
-        inputs: [&[S]; I],
+        tape: impl Fn(&ByParameters) -> Option<&Tape>,
+        inputs: [&[f64]; I],
     ) -> A {
         let Some(all) = self.functions.by_parameters() else {
-            return A::filled(S::from_f64(f64::NAN));
+            return A::filled(f64::NAN);
         };
-        let mut found = A::filled(S::zero());
+        let mut found = A::filled(0.0);
         if let Some(tape) = tape(all) {
             tape.run(inputs, [found.as_mut()]);
         }
@@ -141,12 +138,12 @@ impl<
     }
 
     /// The entries of a direction for the parameters of this law.
-    fn own<'a>(&self, direction: &'a [S; MOST_PARAMETERS]) -> &'a [S] {
+    fn own<'a>(&self, direction: &'a [f64; MOST_PARAMETERS]) -> &'a [f64] {
         &direction[..self.functions.parameters.len()]
     }
 
     /// The temperature as the input of viscosities; no input if the law has no temperature.
-    fn temperature_input(theta: &S) -> &[S] {
+    fn temperature_input(theta: &f64) -> &[f64] {
         if Self::THERMAL {
             slice::from_ref(theta)
         } else {
@@ -156,11 +153,11 @@ impl<
 
     /// Forces, heat capacity and slopes; further results of the tape go to `others`.
     fn rates_of<const I: usize>(
-        tape: &Tape<S>,
-        inputs: [&[S]; I],
-        others: &mut [S],
-    ) -> Rates<[S; N]> {
-        let (mut forces, mut slopes) = ([S::zero(); N], [S::zero(); N]);
+        tape: &Tape,
+        inputs: [&[f64]; I],
+        others: &mut [f64],
+    ) -> Rates<[f64; N]> {
+        let (mut forces, mut slopes) = ([0.0; N], [0.0; N]);
         let count = if Self::THERMAL { N - 1 } else { 0 };
         tape.run(inputs, [&mut forces, &mut slopes[..count], others]);
         Rates { forces, slopes }
@@ -168,7 +165,6 @@ impl<
 }
 
 impl<
-    S: Scalar,
     H: Measures,
     const N: usize,
     const K: usize,
@@ -176,28 +172,28 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> FreeEnergy<S> for Typed<S, H, N, K, V, D, C, R>
+> FreeEnergy<f64> for Typed<H, N, K, V, D, C, R>
 {
     const MEASURES: usize = N - K - (R - N);
     const DASHPOTS: usize = K;
     const THERMAL: bool = R > N;
     const PER_VOLUME: bool = H::AT_POINT[0] > 0;
-    const ROWS: Option<Rows<S, Self>> = Some(Self::rows());
+    const ROWS: Option<Rows<f64, Self>> = Some(Self::rows());
     const MODEL: &'static str = NAMELESS;
     const HAS_PARAMETER_DERIVATIVES: bool = true;
     /// Empty: the names are known at run time, see `parameter_names`.
     const PARAMETERS: &'static [&'static str] = &[];
 
-    type Parameters = [S; MOST_PARAMETERS];
-    type Variables = [S; N];
-    type Hessian = [[S; N]; N];
-    type Viscosities = [S; V];
-    type Drag = [S; D];
-    type Corners = [S; C];
-    type Response = [S; R];
-    type Tangent = [[S; N]; R];
-    type EntropyFormOld = [S; KEPT];
-    type TemperatureFormOld = [S; KEPT];
+    type Parameters = [f64; MOST_PARAMETERS];
+    type Variables = [f64; N];
+    type Hessian = [[f64; N]; N];
+    type Viscosities = [f64; V];
+    type Drag = [f64; D];
+    type Corners = [f64; C];
+    type Response = [f64; R];
+    type Tangent = [[f64; N]; R];
+    type EntropyFormOld = [f64; KEPT];
+    type TemperatureFormOld = [f64; KEPT];
 
     fn duplicate(&self) -> Self {
         self.clone()
@@ -223,53 +219,53 @@ impl<
         self.functions.has_constant_capacity
     }
 
-    fn parameter(&self, index: usize) -> S {
+    fn parameter(&self, index: usize) -> f64 {
         self.functions.parameters[index]
     }
 
-    fn free_energy(&self, x: &[S; N]) -> S {
+    fn free_energy(&self, x: &[f64; N]) -> f64 {
         Self::number(&self.functions.free_energy, x)
     }
 
-    fn energy_magnitude(&self, x: &[S; N]) -> S {
+    fn energy_magnitude(&self, x: &[f64; N]) -> f64 {
         Self::number(&self.functions.energy_magnitude, x)
     }
 
-    fn internal_energy(&self, x: &[S; N]) -> S {
+    fn internal_energy(&self, x: &[f64; N]) -> f64 {
         Self::number(&self.functions.internal_energy, x)
     }
 
-    fn gradient(&self, x: &[S; N]) -> [S; N] {
-        let mut gradient = [S::zero(); N];
+    fn gradient(&self, x: &[f64; N]) -> [f64; N] {
+        let mut gradient = [0.0; N];
         self.functions.gradient.run([x], [&mut gradient]);
         gradient
     }
 
-    fn hessian(&self, x: &[S; N]) -> ([S; N], [[S; N]; N]) {
-        let (mut gradient, mut hessian) = ([S::zero(); N], [[S::zero(); N]; N]);
+    fn hessian(&self, x: &[f64; N]) -> ([f64; N], [[f64; N]; N]) {
+        let (mut gradient, mut hessian) = ([0.0; N], [[0.0; N]; N]);
         let results = [&mut gradient[..], hessian.as_flattened_mut()];
         self.functions.hessian.run([x], results);
         (gradient, hessian)
     }
 
-    fn caloric(&self, x: &[S; N]) -> Caloric<S> {
-        let mut found = [S::zero(); 3];
+    fn caloric(&self, x: &[f64; N]) -> Caloric<f64> {
+        let mut found = [0.0; 3];
         if let Some(tape) = &self.functions.caloric {
             tape.run([x], [&mut found]);
         }
         caloric(found)
     }
 
-    fn caloric_at(&self, x: [S; N]) -> impl Fn(S) -> (Caloric<S>, S) {
+    fn caloric_at(&self, x: [f64; N]) -> impl Fn(f64) -> (Caloric<f64>, f64) {
         let staged = self.functions.caloric_at.as_ref();
         // Computed at the first call: a caller who knows the value at its first temperature often needs no other.
         let kept = OnceCell::new();
         move |theta| {
-            let (mut found, mut free_energy) = ([S::zero(); 3], [S::zero()]);
+            let (mut found, mut free_energy) = ([0.0; 3], [0.0]);
             match staged {
                 Some(staged) => {
-                    let kept: &[S; KEPT] = kept.get_or_init(|| {
-                        let mut kept = [S::zero(); KEPT];
+                    let kept: &[f64; KEPT] = kept.get_or_init(|| {
+                        let mut kept = [0.0; KEPT];
                         staged.keep(&x[..N - 1], &mut kept);
                         kept
                     });
@@ -283,12 +279,12 @@ impl<
         }
     }
 
-    fn rates(&self, x: &[S; N]) -> Rates<[S; N]> {
+    fn rates(&self, x: &[f64; N]) -> Rates<[f64; N]> {
         Self::rates_of(&self.functions.rates, [x], &mut [])
     }
 
-    fn rates_at(&self, x: [S; N]) -> impl Fn(S) -> (Rates<[S; N]>, [S; 2]) {
-        let mut kept = [S::zero(); KEPT];
+    fn rates_at(&self, x: [f64; N]) -> impl Fn(f64) -> (Rates<[f64; N]>, [f64; 2]) {
+        let mut kept = [0.0; KEPT];
         let staged = self.functions.rates_at.as_ref();
         let mut count = 0;
         if let Some(staged) = staged {
@@ -296,7 +292,7 @@ impl<
             count = staged.old.results();
         }
         move |theta| {
-            let mut others = [S::zero(); 2];
+            let mut others = [0.0; 2];
             let rates = match (staged, &self.functions.rates_of_state) {
                 (Some(staged), _) => {
                     let inputs = [&kept[..count], &[theta][..]];
@@ -309,16 +305,16 @@ impl<
         }
     }
 
-    fn entropy_hessian(&self, x: &[S; N]) -> [[S; N]; N] {
-        let mut hessian = [[S::zero(); N]; N];
+    fn entropy_hessian(&self, x: &[f64; N]) -> [[f64; N]; N] {
+        let mut hessian = [[0.0; N]; N];
         if let Some(tape) = &self.functions.entropy_hessian {
             tape.run([x], [hessian.as_flattened_mut()]);
         }
         hessian
     }
 
-    fn viscosity(&self, theta: S) -> ([S; V], [S; V]) {
-        let (mut eta, mut slope) = ([S::zero(); V], [S::zero(); V]);
+    fn viscosity(&self, theta: f64) -> ([f64; V], [f64; V]) {
+        let (mut eta, mut slope) = ([0.0; V], [0.0; V]);
         if let Some(tape) = &self.functions.viscosity {
             let theta = Self::temperature_input(&theta);
             tape.run([theta], [&mut eta, &mut slope]);
@@ -326,8 +322,8 @@ impl<
         (eta, slope)
     }
 
-    fn drag(&self, theta: S) -> ([S; D], [S; D]) {
-        let (mut eta, mut slope) = ([S::zero(); D], [S::zero(); D]);
+    fn drag(&self, theta: f64) -> ([f64; D], [f64; D]) {
+        let (mut eta, mut slope) = ([0.0; D], [0.0; D]);
         if let Some(tape) = &self.functions.drag {
             let theta = Self::temperature_input(&theta);
             tape.run([theta], [&mut eta, &mut slope]);
@@ -335,8 +331,8 @@ impl<
         (eta, slope)
     }
 
-    fn entropy_form_old(&self, x0: &[S; N]) -> [S; KEPT] {
-        let mut kept = [S::zero(); KEPT];
+    fn entropy_form_old(&self, x0: &[f64; N]) -> [f64; KEPT] {
+        let mut kept = [0.0; KEPT];
         let form = &self.functions.entropy_form.staged;
         form.keep(x0, &mut kept);
         if let Some(mixed) = &self.functions.mixed_states {
@@ -347,11 +343,11 @@ impl<
 
     fn entropy_form(
         &self,
-        old: &[S; KEPT],
-        x1: &[S; N],
-        corners: &[S; C],
-    ) -> ([S; R], [[S; N]; R]) {
-        let (mut response, mut tangent) = ([S::zero(); R], [[S::zero(); N]; R]);
+        old: &[f64; KEPT],
+        x1: &[f64; N],
+        corners: &[f64; C],
+    ) -> ([f64; R], [[f64; N]; R]) {
+        let (mut response, mut tangent) = ([0.0; R], [[0.0; N]; R]);
         let form = &self.functions.entropy_form.staged;
         let results = [&mut response[..], tangent.as_flattened_mut()];
         let old = &old[..form.old.results()];
@@ -359,8 +355,13 @@ impl<
         (response, tangent)
     }
 
-    fn entropy_form_response(&self, old: &[S; KEPT], x1: &[S; N], corners: &[S; C]) -> [S; R] {
-        let mut response = [S::zero(); R];
+    fn entropy_form_response(
+        &self,
+        old: &[f64; KEPT],
+        x1: &[f64; N],
+        corners: &[f64; C],
+    ) -> [f64; R] {
+        let mut response = [0.0; R];
         let form = &self.functions.entropy_form;
         let old = &old[..form.staged.old.results()];
         form.response.run([old, x1, corners], [&mut response]);
@@ -369,12 +370,12 @@ impl<
 
     fn mixed_states(
         &self,
-        _: &[S; N],
-        old: &[S; KEPT],
-        x1: &[S; N],
-        corners: &[S; C],
-    ) -> [[S; C]; 2] {
-        let mut found = [[S::zero(); C]; 2];
+        _: &[f64; N],
+        old: &[f64; KEPT],
+        x1: &[f64; N],
+        corners: &[f64; C],
+    ) -> [[f64; C]; 2] {
+        let mut found = [[0.0; C]; 2];
         if let Some(mixed) = &self.functions.mixed_states {
             let first = self.functions.entropy_form.staged.old.results();
             let old = &old[first..first + mixed.old.results()];
@@ -385,31 +386,31 @@ impl<
         found
     }
 
-    fn temperature_form_old(&self, x0: &[S; N]) -> [S; KEPT] {
+    fn temperature_form_old(&self, x0: &[f64; N]) -> [f64; KEPT] {
         let Some(form) = &self.functions.temperature_form else {
             return self.entropy_form_old(x0);
         };
-        let mut kept = [S::zero(); KEPT];
+        let mut kept = [0.0; KEPT];
         form.staged.keep(x0, &mut kept);
         kept
     }
 
-    fn temperature_form(&self, old: &[S; KEPT], x1: &[S; N]) -> ([S; R], [[S; N]; R]) {
+    fn temperature_form(&self, old: &[f64; KEPT], x1: &[f64; N]) -> ([f64; R], [[f64; N]; R]) {
         let Some(form) = &self.functions.temperature_form else {
-            return self.entropy_form(old, x1, &[S::zero(); C]);
+            return self.entropy_form(old, x1, &[0.0; C]);
         };
-        let (mut response, mut tangent) = ([S::zero(); R], [[S::zero(); N]; R]);
+        let (mut response, mut tangent) = ([0.0; R], [[0.0; N]; R]);
         let results = [&mut response[..], tangent.as_flattened_mut()];
         let old = &old[..form.staged.old.results()];
         form.staged.new.run([old, x1], results);
         (response, tangent)
     }
 
-    fn temperature_form_response(&self, old: &[S; KEPT], x1: &[S; N]) -> [S; R] {
+    fn temperature_form_response(&self, old: &[f64; KEPT], x1: &[f64; N]) -> [f64; R] {
         let Some(form) = &self.functions.temperature_form else {
-            return self.entropy_form_response(old, x1, &[S::zero(); C]);
+            return self.entropy_form_response(old, x1, &[0.0; C]);
         };
-        let mut response = [S::zero(); R];
+        let mut response = [0.0; R];
         let old = &old[..form.staged.old.results()];
         form.response.run([old, x1], [&mut response]);
         response
@@ -417,12 +418,12 @@ impl<
 
     fn temperature_form_adjoint(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
-        weights: &[S; R],
-    ) -> [S; MOST_PARAMETERS] {
+        x0: &[f64; N],
+        x1: &[f64; N],
+        weights: &[f64; R],
+    ) -> [f64; MOST_PARAMETERS] {
         if !Self::THERMAL {
-            return self.entropy_form_adjoint(x0, x1, &[S::zero(); C], weights);
+            return self.entropy_form_adjoint(x0, x1, &[0.0; C], weights);
         }
         self.derivative(
             |all| all.temperature_form_adjoint.as_ref(),
@@ -432,12 +433,12 @@ impl<
 
     fn temperature_form_tangent(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
-        direction: &[S; MOST_PARAMETERS],
-    ) -> [S; R] {
+        x0: &[f64; N],
+        x1: &[f64; N],
+        direction: &[f64; MOST_PARAMETERS],
+    ) -> [f64; R] {
         if !Self::THERMAL {
-            return self.entropy_form_tangent(x0, x1, &[S::zero(); C], direction);
+            return self.entropy_form_tangent(x0, x1, &[0.0; C], direction);
         }
         self.derivative(
             |all| all.temperature_form_tangent.as_ref(),
@@ -447,11 +448,11 @@ impl<
 
     fn entropy_form_adjoint(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
-        corners: &[S; C],
-        weights: &[S; R],
-    ) -> [S; MOST_PARAMETERS] {
+        x0: &[f64; N],
+        x1: &[f64; N],
+        corners: &[f64; C],
+        weights: &[f64; R],
+    ) -> [f64; MOST_PARAMETERS] {
         self.derivative(
             |all| Some(&all.entropy_form_adjoint),
             [x0, x1, corners, weights],
@@ -460,37 +461,37 @@ impl<
 
     fn entropy_form_tangent(
         &self,
-        x0: &[S; N],
-        x1: &[S; N],
-        corners: &[S; C],
-        direction: &[S; MOST_PARAMETERS],
-    ) -> [S; R] {
+        x0: &[f64; N],
+        x1: &[f64; N],
+        corners: &[f64; C],
+        direction: &[f64; MOST_PARAMETERS],
+    ) -> [f64; R] {
         self.derivative(
             |all| Some(&all.entropy_form_tangent),
             [x0, x1, corners, self.own(direction)],
         )
     }
 
-    fn gradient_adjoint(&self, x: &[S; N], weights: &[S; N]) -> [S; MOST_PARAMETERS] {
+    fn gradient_adjoint(&self, x: &[f64; N], weights: &[f64; N]) -> [f64; MOST_PARAMETERS] {
         self.derivative(|all| Some(&all.gradient_adjoint), [x, weights])
     }
 
-    fn energy_by_parameters(&self, x: &[S; N]) -> [S; MOST_PARAMETERS] {
+    fn energy_by_parameters(&self, x: &[f64; N]) -> [f64; MOST_PARAMETERS] {
         self.derivative(|all| Some(&all.energy), [x])
     }
 
-    fn viscosity_adjoint(&self, theta: S, weights: &[S; V]) -> [S; MOST_PARAMETERS] {
+    fn viscosity_adjoint(&self, theta: f64, weights: &[f64; V]) -> [f64; MOST_PARAMETERS] {
         let inputs = [Self::temperature_input(&theta), weights];
         self.derivative(|all| all.viscosity_adjoint.as_ref(), inputs)
     }
 
-    fn drag_adjoint(&self, theta: S, weights: &[S; D]) -> [S; MOST_PARAMETERS] {
+    fn drag_adjoint(&self, theta: f64, weights: &[f64; D]) -> [f64; MOST_PARAMETERS] {
         let inputs = [Self::temperature_input(&theta), weights];
         self.derivative(|all| all.drag_adjoint.as_ref(), inputs)
     }
 }
 
-fn caloric<S>([entropy, heat_capacity, magnitude]: [S; 3]) -> Caloric<S> {
+fn caloric([entropy, heat_capacity, magnitude]: [f64; 3]) -> Caloric<f64> {
     Caloric {
         entropy,
         heat_capacity,

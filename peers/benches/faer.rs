@@ -78,9 +78,9 @@ mod ours {
         let values = matrix.values();
         let mut solver = Solver::new(&matrix.pattern).unwrap();
         // The first factorisation touches the memory for the first time.
-        solver.factor::<f64>(&values).unwrap();
+        solver.factor(&values).unwrap();
         bencher.bench_local(|| {
-            solver.factor::<f64>(&values).unwrap();
+            solver.factor(&values).unwrap();
         });
     }
 
@@ -89,7 +89,7 @@ mod ours {
         let matrix = case.matrix();
         let values = matrix.values();
         let mut solver = Solver::new(&matrix.pattern).unwrap();
-        let mut factored = solver.factor::<f64>(&values).unwrap();
+        let mut factored = solver.factor(&values).unwrap();
         let mut right = vec![[1.0]; matrix.pattern.unknowns()];
         bencher.bench_local(|| factored.solve(&mut right).unwrap());
     }

@@ -37,7 +37,7 @@ struct Plan<'a> {
     times: &'a [f64],
     scheme: Scheme,
     step: f64,
-    tolerance: Option<Tolerance<f64>>,
+    tolerance: Option<Tolerance>,
     threads: usize,
     stop: &'a AtomicBool,
 }
@@ -171,7 +171,7 @@ impl<'a> Request<'a> {
         self,
         py: Python<'_>,
         (scheme, step): (Scheme, f64),
-        tolerance: Option<Tolerance<f64>>,
+        tolerance: Option<Tolerance>,
         threads: usize,
     ) -> PyResult<Py<PyAny>> {
         let stop = AtomicBool::new(false);

@@ -61,7 +61,7 @@ pub(crate) struct Rows {
     pub(crate) ledger: Vec<f64>,
     stretches: Vec<f64>,
     forces: Vec<f64>,
-    reports: Vec<StepReport<f64>>,
+    reports: Vec<StepReport>,
 }
 
 impl Rows {
@@ -103,7 +103,7 @@ impl Rows {
     }
 
     /// Adds the certificate of a step.
-    pub(crate) fn add_report(&mut self, report: &StepReport<f64>) {
+    pub(crate) fn add_report(&mut self, report: &StepReport) {
         self.reports.push(*report);
     }
 
@@ -144,10 +144,10 @@ impl Rows {
 }
 
 /// An entry of a report.
-type Entry = fn(&StepReport<f64>) -> f64;
+type Entry = fn(&StepReport) -> f64;
 
 /// Its columns, each an array.
-fn certificate<'py>(py: Python<'py>, reports: &[StepReport<f64>]) -> PyResult<Bound<'py, PyDict>> {
+fn certificate<'py>(py: Python<'py>, reports: &[StepReport]) -> PyResult<Bound<'py, PyDict>> {
     let columns = PyDict::new(py);
     let numbers: [(&str, Entry); 10] = [
         ("time", |report| report.time),

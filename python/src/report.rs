@@ -20,8 +20,8 @@ pub(crate) struct Report {
     correction: f64,
 }
 
-impl From<&StepReport<f64>> for Report {
-    fn from(report: &StepReport<f64>) -> Self {
+impl From<&StepReport> for Report {
+    fn from(report: &StepReport) -> Self {
         Self {
             time: report.time,
             step: report.step,

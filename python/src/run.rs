@@ -19,7 +19,7 @@ use crate::watch::Watch;
 
 /// Sees a run after each step.
 pub(crate) type Observer<'a> =
-    &'a mut dyn FnMut(&dyn AnyRun, &StepReport<f64>) -> Result<ControlFlow<()>, SceneError>;
+    &'a mut dyn FnMut(&dyn AnyRun, &StepReport) -> Result<ControlFlow<()>, SceneError>;
 
 /// Why a run has ended early.
 pub(crate) enum Stop {
@@ -38,7 +38,7 @@ pub(crate) trait AnyRun: Send {
     fn scheme_in_use(&self) -> Scheme;
     fn step_size(&self) -> f64;
     fn set_step_size(&mut self, step: f64) -> Result<(), SceneError>;
-    fn step(&mut self) -> Result<StepReport<f64>, StepError>;
+    fn step(&mut self) -> Result<StepReport, StepError>;
     fn run_until(&mut self, end: f64, observer: Observer<'_>) -> Result<RunEnd, Stop>;
     fn add_position(&self, node: Node, to: &mut Vec<f64>) -> Result<(), SceneError>;
     fn add_momentum(&self, node: Node, to: &mut Vec<f64>) -> Result<(), SceneError>;
@@ -53,13 +53,13 @@ pub(crate) trait AnyRun: Send {
     fn strain(&self, point: Element) -> Result<[f64; 9], SceneError>;
     /// The entries of the ledger in the order of [`LEDGER`](crate::record::LEDGER), and both momenta.
     fn add_ledger(&self, to: &mut Vec<f64>);
-    fn worst_step(&self) -> Option<&StepReport<f64>>;
+    fn worst_step(&self) -> Option<&StepReport>;
     /// Why the result may mislead, if anything speaks for it.
     fn warning(&self) -> Option<String>;
     fn set_force(&mut self, node: Node, force: &[f64]) -> Result<(), SceneError>;
     fn set_motion(&mut self, anchor: Node, velocity: &[f64]) -> Result<(), SceneError>;
     fn set_temperature(&mut self, element: Element, temperature: f64) -> Result<(), SceneError>;
-    fn control_steps(&mut self, tolerance: Tolerance<f64>) -> Result<(), SceneError>;
+    fn control_steps(&mut self, tolerance: Tolerance) -> Result<(), SceneError>;
     fn fix_steps(&mut self);
     fn limit_steps(&mut self, limits: [f64; 2]) -> Result<(), SceneError>;
     fn step_statistics(&self) -> Option<StepStatistics>;
@@ -100,7 +100,7 @@ impl<const D: usize> AnyRun for Simulation<D> {
         self.set_step_size(step)
     }
 
-    fn step(&mut self) -> Result<StepReport<f64>, StepError> {
+    fn step(&mut self) -> Result<StepReport, StepError> {
         self.step()
     }
 
@@ -167,7 +167,7 @@ impl<const D: usize> AnyRun for Simulation<D> {
         to.extend_from_slice(ledger.angular_momentum.as_slice());
     }
 
-    fn worst_step(&self) -> Option<&StepReport<f64>> {
+    fn worst_step(&self) -> Option<&StepReport> {
         self.worst_step()
     }
 
@@ -187,7 +187,7 @@ impl<const D: usize> AnyRun for Simulation<D> {
         self.set_temperature_of(element, temperature)
     }
 
-    fn control_steps(&mut self, tolerance: Tolerance<f64>) -> Result<(), SceneError> {
+    fn control_steps(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
         self.control_steps(tolerance)
     }
 

@@ -23,9 +23,9 @@ pub(crate) fn scheme(name: &str) -> PyResult<Scheme> {
 pub(crate) enum Pace {
     Constant(f64),
     /// As long as the tolerance asks; the first one that is tried is given.
-    Controlled(f64, Tolerance<f64>),
+    Controlled(f64, Tolerance),
     /// As long as the tolerance asks, from the first one on.
-    Free(Tolerance<f64>),
+    Free(Tolerance),
 }
 
 impl Pace {
@@ -52,7 +52,7 @@ pub(crate) fn tolerance(
     relative: f64,
     [position, momentum, temperature]: [f64; 3],
     over: Option<f64>,
-) -> Tolerance<f64> {
+) -> Tolerance {
     let tolerance = Tolerance::new(relative)
         .with_position(position)
         .with_momentum(momentum)

@@ -96,7 +96,7 @@ fn refusal(error: StudyError) -> PyErr {
 /// The fields of an `eem.StudyRow`.
 fn fields<'py>(py: Python<'py>, row: &StudyRow) -> PyResult<Bound<'py, PyDict>> {
     let (fields, refused) = (PyDict::new(py), PyDict::new(py));
-    fields.set_item("scheme", row.setting.name())?;
+    fields.set_item("scheme", row.setting.scheme.name())?;
     fields.set_item("step", row.setting.step())?;
     fields.set_item("tolerance", row.setting.tolerance())?;
     for (name, quantity) in KINDS.into_iter().zip(StateQuantity::ALL) {

@@ -54,7 +54,7 @@ fn plain() {
         })
         .collect();
     let ensemble = Ensemble::new(Scheme::EemTemperature, STEP).threads(1);
-    let ends = ensemble.run_experiment(&Pendulum { steps: STEPS }, &springs);
+    let ends = Pendulum { steps: STEPS }.run(ensemble, &springs);
     assert!(ends.iter().all(Result::is_ok));
 }
 

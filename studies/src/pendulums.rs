@@ -1,7 +1,5 @@
 //! The published pendulums. Equations and sources are in the examples `single_pendulum` and `double_pendulum`.
 
-use eem::Real;
-
 use crate::build::Build;
 use crate::models::{Creeping, Thermoelastic};
 
@@ -21,8 +19,8 @@ pub const SPRING: Creeping = Creeping {
 };
 
 /// García Orden & Romero (2012), §4.1.
-pub fn single<S: Real>(factor: S) -> Build<2, S> {
-    let mut build = Build::new(factor);
+pub fn single() -> Build<2> {
+    let mut build = Build::new();
     let pivot = build.anchor([0.0, 0.0]);
     let bob = build.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
     let spring = build.warm(SPRING, [pivot, bob], 380.0);
@@ -118,8 +116,8 @@ impl Double {
     };
 
     /// Its scene.
-    pub fn build<S: Real>(&self, factor: S) -> Build<3, S> {
-        let mut build = Build::new(factor);
+    pub fn build(&self) -> Build<3> {
+        let mut build = Build::new();
         let pivot = build.anchor([0.0; 3]);
         let masses =
             [0, 1].map(|i| build.mass(self.masses[i], self.positions[i], self.velocities[i]));

@@ -86,7 +86,7 @@ impl Complaints {
         facts: &Facts<D>,
         states: [&Stored; 2],
         elements: &[Ends<'_>],
-        (report, bound): (&StepReport<f64>, f64),
+        (report, bound): (&StepReport, f64),
     ) -> f64 {
         let (entropy, magnitude) = entropy_change(states);
         // The heat of a thermostat is what the balance of energy leaves, with its rounding.
@@ -123,7 +123,7 @@ pub(crate) fn check_step<const D: usize>(
     facts: &Facts<D>,
     before: &Stored,
     after: &Stored,
-    report: &StepReport<f64>,
+    report: &StepReport,
 ) -> Verdict {
     let elements = element::ends(facts, [before, after]);
     let mut complaints = Complaints {

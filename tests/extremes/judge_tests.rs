@@ -10,7 +10,7 @@ use super::super::world::World;
 use super::*;
 
 /// A step of the single pendulum before and after, with its report.
-fn step() -> (Facts<2>, Stored, Stored, StepReport<f64>) {
+fn step() -> (Facts<2>, Stored, Stored, StepReport) {
     let world = single_pendulum([1.0, 1.0]);
     let mut watched = world.start(FORMS[0], 0.2).expect("a sound scene");
     let before = watched.stored().clone();

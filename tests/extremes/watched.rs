@@ -71,7 +71,7 @@ impl<const D: usize> Watched<D> {
     }
 
     /// One step, judged if the scheme is exact. A step that fails must leave everything as it was.
-    pub(crate) fn step(&mut self) -> Result<StepReport<f64>, StepError> {
+    pub(crate) fn step(&mut self) -> Result<StepReport, StepError> {
         let saved = self.run.checkpoint();
         let scheme = self.run.scheme_in_use();
         match self.run.step() {
@@ -105,7 +105,7 @@ impl<const D: usize> Watched<D> {
         &self.record
     }
 
-    fn judge(&mut self, report: &StepReport<f64>) {
+    fn judge(&mut self, report: &StepReport) {
         let record = &mut self.record;
         record.steps += 1;
         record.iterations += report.iterations;

@@ -9,7 +9,7 @@ use crate::support::numbers::Numbers;
 use crate::support::solids::{SaintVenant, ThermoelasticSolid};
 
 /// A point of a cell with all measures.
-type CellPoint<H, const D: usize> = SolidPoint<H, f64, COUNT, D>;
+type CellPoint<H, const D: usize> = SolidPoint<H, COUNT, D>;
 
 const COUNT: usize = 7;
 
@@ -56,7 +56,7 @@ fn shifted<const D: usize>(places: &[[f64; D]], numbers: &mut Numbers, size: f64
 fn ends<H: Shape<D>, const D: usize>(
     point: &CellPoint<H, D>,
     [r0, r1]: [Arms<H, D>; 2],
-) -> Ends<CellPoint<H, D>, f64, D> {
+) -> Ends<CellPoint<H, D>, D> {
     let measures = [point.measure(&r0), point.measure(&r1)];
     Ends::new(point, [r0, r1], measures)
 }

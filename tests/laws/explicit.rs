@@ -677,24 +677,3 @@ fn solids_are_refused_with_the_reason() {
     println!("{error}");
     assert!(matches!(error, SceneError::NotForSolids { .. }));
 }
-
-#[test]
-fn single_precision_keeps_its_laws_to_its_own_rounding() {
-    let mut scene = Scene::<2, f32>::default();
-    let pivot = scene.anchor([0.0; 2]);
-    let bob = scene.mass(1.0, [2.0, 0.1], [0.0, 1.0]);
-    let spring = scene.spring(LogarithmicStiffness::FIRST, [pivot, bob]);
-    scene.set_temperature(spring, 310.0);
-    let mut run = Simulation::new(scene, SCHEME, 0.005).unwrap();
-    let first = run.ledger();
-    for _ in 0..500 {
-        run.step().unwrap();
-    }
-    let last = run.ledger();
-    assert!((last.energy - first.energy).abs() <= 1e-6 * 5e4);
-    let change = (last.angular_momentum[2] - first.angular_momentum[2]).abs();
-    assert!(
-        change <= 1e-6 * first.angular_momentum[2].abs(),
-        "{change:e}"
-    );
-}

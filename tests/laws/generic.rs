@@ -56,7 +56,7 @@ fn assert_vanishes(matrix: &DMatrix<f64>, vector: &DVector<f64>) {
     }
 }
 
-fn assert_structure(generic: &Generic<f64>) {
+fn assert_structure(generic: &Generic) {
     let (l, m) = (&generic.reversible, &generic.irreversible);
     assert_eq!(l.transpose(), -l);
     assert_eq!(&m.transpose(), m);
@@ -68,7 +68,7 @@ fn assert_structure(generic: &Generic<f64>) {
 }
 
 /// L ∇E + M ∇S.
-fn rate(generic: &Generic<f64>) -> DVector<f64> {
+fn rate(generic: &Generic) -> DVector<f64> {
     &generic.reversible * &generic.energy_gradient
         + &generic.irreversible * &generic.entropy_gradient
 }
@@ -196,7 +196,7 @@ fn the_double_pendulum_has_the_published_form_in_temperatures() {
             let form = double.run.generic_in_temperature();
             assert_structure(&form);
             // What moves is the same: ż of q, p and γ does not depend on the other variables.
-            let rates = |form: &Generic<f64>| {
+            let rates = |form: &Generic| {
                 &form.reversible * &form.energy_gradient
                     + &form.irreversible * &form.entropy_gradient
             };

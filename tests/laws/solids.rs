@@ -8,10 +8,10 @@ use eem_testkit::length::at_length;
 use crate::support::numbers::Numbers;
 use crate::support::solids::{Relaxing, SECTION, SaintVenant, ThermoelasticSolid, Viscous};
 
-const MEASURES: [Measure<f64, 2>; 3] = [Measure::Trace, Measure::Square, Measure::Dilatation];
+const MEASURES: [Measure<2>; 3] = [Measure::Trace, Measure::Square, Measure::Dilatation];
 
 /// A point of a quadrilateral.
-type QuadPoint = SolidPoint<Quad4, f64, 3, 2>;
+type QuadPoint = SolidPoint<Quad4, 3, 2>;
 
 /// A bar of two squares that tumbles in free space, warm at one end and in contact with air, and what its
 /// heat capacity is, J/K.
@@ -235,7 +235,7 @@ fn crushed_and_sheared_bodies_have_their_volume() {
 }
 
 /// Old and new arms of a deformed quadrilateral at one of its points.
-fn ends(numbers: &mut Numbers, step: f64) -> (QuadPoint, Ends<QuadPoint, f64, 2>) {
+fn ends(numbers: &mut Numbers, step: f64) -> (QuadPoint, Ends<QuadPoint, 2>) {
     let reference = SQUARE.map(|[x, y]| [x + 0.1 * numbers.next(), y + 0.1 * numbers.next()]);
     let points = QuadPoint::points(&reference, 1.0, MEASURES).unwrap();
     let point = points[numbers.0 as usize % 4];
@@ -277,11 +277,7 @@ fn mean_value_gradients_of_strains_are_exact() {
 }
 
 /// The same with other new arms.
-fn moved_to(
-    point: &QuadPoint,
-    ends: &Ends<QuadPoint, f64, 2>,
-    r1: [[f64; 2]; 3],
-) -> Ends<QuadPoint, f64, 2> {
+fn moved_to(point: &QuadPoint, ends: &Ends<QuadPoint, 2>, r1: [[f64; 2]; 3]) -> Ends<QuadPoint, 2> {
     Ends::new(point, [ends.r0, r1], [ends.measures0, point.measure(&r1)])
 }
 

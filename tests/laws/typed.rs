@@ -192,7 +192,7 @@ fn assert_same_bits<const D: usize>(
 }
 
 /// The single pendulum, with a spring of any material.
-fn single<M: eem::Material<f64>>(model: M) -> Built<2> {
+fn single<M: eem::Material>(model: M) -> Built<2> {
     let mut scene = Scene::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
@@ -230,10 +230,7 @@ fn double_pendulums_of_texts_have_the_bits_of_derived_ones() {
 }
 
 /// Springs of materials A, B, A at one mass, whose sums depend on the order of the groups.
-fn three<A: eem::Material<f64>, B: eem::Material<f64>>(
-    a: impl Fn() -> A,
-    b: impl Fn() -> B,
-) -> Built<2> {
+fn three<A: eem::Material, B: eem::Material>(a: impl Fn() -> A, b: impl Fn() -> B) -> Built<2> {
     let mut scene = Scene::new();
     let bob = scene.mass(1.0, [0.3, 0.2], [0.4, 1.0]);
     let anchors = [[1.1, 0.0], [-0.7, 0.4], [0.1, -1.3]];
@@ -260,7 +257,7 @@ fn two_laws_of_one_shape_are_two_materials() {
 
 /// A chain of more springs than are evaluated at a time: of one law, of the same texts with other values, and in turn. Some
 /// conduct heat to each other, one to the air, and one has a thermostat.
-fn chain<M: eem::Material<f64>>(model: impl Fn(&ThermoViscoElastic) -> M) -> Built<2> {
+fn chain<M: eem::Material>(model: impl Fn(&ThermoViscoElastic) -> M) -> Built<2> {
     let soft = ThermoViscoElastic::PENDULUM;
     let stiff = ThermoViscoElastic {
         k0: 2.0 * soft.k0,

@@ -250,12 +250,8 @@ fn of_a_volume_are_those_of_the_density_times_the_volume() {
 
 #[test]
 fn of_components_are_those_of_the_invariants() {
-    check(
-        |p| Flowing::new(p).at_point::<f64>(),
-        &FLOWING,
-        &flowing_states(),
-    );
-    let point = |p: &[f64]| PointEnergy::new(Flowing::new(p).at_point::<f64>(), 0.37);
+    check(|p| Flowing::new(p).at_point(), &FLOWING, &flowing_states());
+    let point = |p: &[f64]| PointEnergy::new(Flowing::new(p).at_point(), 0.37);
     check(point, &FLOWING, &flowing_states());
 }
 

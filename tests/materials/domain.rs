@@ -73,7 +73,7 @@ struct Fene {
     extent: f64,
 }
 
-/// With another scalar.
+/// Its parameters are of a smaller type.
 #[derive(FreeEnergy)]
 #[free_energy(|lambda: Stretch, gamma: Viscous| stiffness * (lambda - gamma).powi(2))]
 #[viscosity(gamma = eta)]
@@ -195,12 +195,12 @@ fn what_is_not_finite_is_found() {
 }
 
 #[test]
-fn other_scalars_and_isothermal_dashpots_are_checked() {
+fn isothermal_dashpots_are_checked() {
     let model = Single {
         stiffness: 2.0,
         eta: -1.0,
     };
-    let domain = Domain::<f32>::of_stretch([0.5, 2.0]).with_viscous([0.0, 0.0]);
+    let domain = Domain::of_stretch([0.5, 2.0]).with_viscous([0.0, 0.0]);
     let error = check_domain(&model, &domain, 10).expect_err("a negative viscosity");
     assert!(
         matches!(error, DomainError::Viscosity { dashpot: 0, .. }),
@@ -326,7 +326,7 @@ fn a_solid_is_no_spring() {
         error.to_string(),
         "the model has 1 of role `Stretch`, the domain 0"
     );
-    let bond = Domain::<f64>::of_strains([[0.2, 0.1]]);
+    let bond = Domain::of_strains([[0.2, 0.1]]);
     assert_eq!(bond.ranges().count(), 1);
 }
 

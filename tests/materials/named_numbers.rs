@@ -1,10 +1,8 @@
 //! Constants of the program and arrays of parameters: the same material as one with a field for every
-//! number, bit for bit and in every scalar.
-
-use core::fmt::Debug;
+//! number, bit for bit.
 
 use eem::prelude::*;
-use eem::{Array, Scalar, SceneError};
+use eem::{Array, SceneError};
 
 const R: f64 = 8.25;
 /// Smaller types that are an `f64` without loss.
@@ -108,15 +106,11 @@ fn fields() -> Fields {
 }
 
 /// All that a model computes, as text with all digits.
-fn everything<S, M>(model: &M) -> String
-where
-    S: Scalar + Debug,
-    M: FreeEnergy<S>,
-{
-    fn array<S: Scalar, A: Array<S>>(numbers: &[f64]) -> A {
-        let mut array = A::filled(S::zero());
+fn everything<M: FreeEnergy<f64>>(model: &M) -> String {
+    fn array<A: Array<f64>>(numbers: &[f64]) -> A {
+        let mut array = A::filled(0.0);
         for (entry, &number) in array.as_mut().iter_mut().zip(numbers) {
-            *entry = S::from_f64(number);
+            *entry = number;
         }
         array
     }
@@ -135,29 +129,25 @@ where
         model.hessian(&x0),
         model.caloric(&x0),
         model.entropy_hessian(&x0),
-        model.viscosity(S::from_f64(310.0)),
+        model.viscosity(310.0),
     )
 }
 
 #[test]
 fn names_stand_for_their_numbers() {
     let (named, fields) = (named(), fields());
-    assert_eq!(everything::<f64, _>(&named), everything::<f64, _>(&fields));
-    assert_eq!(everything::<f32, _>(&named), everything::<f32, _>(&fields));
-    assert!(!everything::<f64, _>(&named).contains("NaN"));
+    assert_eq!(everything(&named), everything(&fields));
+    assert!(!everything(&named).contains("NaN"));
 }
 
 #[test]
 fn a_number_that_differs_by_a_millionth_is_noticed() {
     let mut other = fields();
     other.r *= 1.0 + 1e-6;
-    assert_ne!(everything::<f64, _>(&named()), everything::<f64, _>(&other));
+    assert_ne!(everything(&named()), everything(&other));
     let mut other = named();
     other.stiffness[2] *= 1.0 + 1e-6;
-    assert_ne!(
-        everything::<f64, _>(&other),
-        everything::<f64, _>(&fields())
-    );
+    assert_ne!(everything(&other), everything(&fields()));
 }
 
 /// A scalar of its own in an array, and a constant of the same name as a field.
@@ -172,10 +162,10 @@ struct Generic<T> {
 #[test]
 fn arrays_can_have_the_scalar() {
     let model = Generic {
-        k: [2.0_f32, 3.0],
+        k: [2.0, 3.0],
         R: 16.5,
     };
-    assert_eq!(model.free_energy(&[2.0]).to_bits(), 28.0_f32.to_bits());
+    assert_eq!(model.free_energy(&[2.0]).to_bits(), 28.0_f64.to_bits());
     let names = <Generic<f64> as FreeEnergy<f64>>::PARAMETERS;
     assert_eq!(names, ["k[0]", "k[1]", "R", "self::R"]);
 }

@@ -21,7 +21,7 @@ fn calls<T>(run: impl FnOnce() -> T) -> usize {
 }
 
 /// A number that counts.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 struct Counted(f64);
 
 impl Neg for Counted {
@@ -71,22 +71,8 @@ macro_rules! forward {
 }
 
 impl Scalar for Counted {
-    type Mask = bool;
-
     fn from_f64(value: f64) -> Self {
         Self(value)
-    }
-
-    fn equal(self, other: Self) -> bool {
-        self.0.equal(other.0)
-    }
-
-    fn less(self, other: Self) -> bool {
-        self.0.less(other.0)
-    }
-
-    fn branch(mask: bool, then: impl FnOnce() -> Self, otherwise: impl FnOnce() -> Self) -> Self {
-        if mask { then() } else { otherwise() }
     }
 
     forward!(0: abs(), minimum(other), maximum(other), sqrt(), cbrt(), hypot(other));

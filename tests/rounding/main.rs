@@ -1,4 +1,4 @@
-//! What depends on rounding alone: these tests of `cases` and `running` are run with other sets of features and with
+//! What depends on rounding alone: these tests of `cases` are run with other sets of features and with
 //! optimisation.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -12,14 +12,4 @@ mod cases {
     mod plate;
     mod reference_trajectory;
     mod same_bits;
-}
-
-/// Lanes against plain runs.
-#[cfg(feature = "lanes")]
-#[path = "../running/lanes"]
-mod lanes {
-    mod bits;
-    #[allow(dead_code, reason = "scenes of other tests")]
-    mod scenes;
-    mod watched;
 }

@@ -117,24 +117,6 @@ fn no_input_is_no_work() {
     }
 }
 
-#[test]
-fn single_precision_and_space_are_possible() {
-    let results = Ensemble::new(Scheme::EemEntropy, 0.5_f32).run(
-        &[1.0_f32, 2.0],
-        |&speed| {
-            let mut scene = Scene::<3, f32>::default();
-            let stone = scene.mass(1.0, [0.0; 3], [0.0, 0.0, speed]);
-            (scene, stone)
-        },
-        |run, stone, _| {
-            run.step()?;
-            Ok(run.position(stone)?.z)
-        },
-    );
-    let heights: Result<Vec<_>, _> = results.into_iter().collect();
-    assert_eq!(heights.unwrap(), [0.5, 1.0]);
-}
-
 // Failures.
 
 #[test]

@@ -8,7 +8,7 @@ use crate::support::single_pendulum;
 const STEP: f64 = 0.05;
 
 /// An observer that only watches.
-fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport<f64>) -> ControlFlow<()> {
+fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
@@ -49,7 +49,7 @@ fn events_are_located_to_the_tolerance() {
                 calls.set(calls.get() + 1);
                 event(run)
             };
-            let watch = |_: &Simulation<2>, _: &StepReport<f64>| {
+            let watch = |_: &Simulation<2>, _: &StepReport| {
                 steps += 1;
                 ControlFlow::Continue(())
             };
@@ -76,7 +76,7 @@ fn the_laws_hold_at_events_and_no_event_is_found_twice() {
     let event = below(pendulum.bob);
     let mut laws = crate::support::Laws::new(&pendulum.run);
     let (mut times, mut signs) = (vec![0.0], vec![event(&pendulum.run).signum()]);
-    let watch = |run: &Simulation<2>, _: &StepReport<f64>| {
+    let watch = |run: &Simulation<2>, _: &StepReport| {
         laws.watch(run);
         ControlFlow::Continue(())
     };

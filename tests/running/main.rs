@@ -1,4 +1,4 @@
-//! How scenes are run: to an end, recorded, resumed, many at once, in lanes and on threads.
+//! How scenes are run: to an end, recorded, resumed, many at once and on threads.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -15,7 +15,6 @@ mod events;
 mod files;
 #[cfg(feature = "gradients")]
 mod gradients;
-mod lanes;
 #[cfg(feature = "vtk")]
 mod paraview;
 mod recording;

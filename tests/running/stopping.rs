@@ -32,7 +32,7 @@ fn steps_end_at_stop_times_to_the_last_bit() {
             }
             let (mut run, mass) = pushed(scheme, 0.3, is_controlled);
             let mut times = Vec::new();
-            let keep = |_: &Simulation<1>, report: &StepReport<f64>| {
+            let keep = |_: &Simulation<1>, report: &StepReport| {
                 times.push((report.time, report.step));
                 ControlFlow::Continue(())
             };
@@ -72,7 +72,7 @@ fn a_run_that_is_resumed_between_stop_times_has_the_same_bits() {
     ] {
         let (mut whole, _) = pushed(scheme, 0.3, is_controlled);
         let mut saved = Vec::new();
-        let keep = |run: &Simulation<1>, _: &StepReport<f64>| {
+        let keep = |run: &Simulation<1>, _: &StepReport| {
             saved.push(run.checkpoint());
             ControlFlow::Continue(())
         };

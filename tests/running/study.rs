@@ -256,27 +256,6 @@ fn nothing_on_the_front_is_beaten() {
     }
 }
 
-#[test]
-fn single_precision_ends_at_its_rounding() {
-    let setting = Setting::fixed(Scheme::EemEntropy, STEP / 16.0);
-    let report = Study::new(pendulum, END)
-        .single(|| single_pendulum_scene().0)
-        .settings([setting, setting.in_single_precision()])
-        .repeats(1)
-        .run()
-        .unwrap();
-    let [double, single] = [0, 1].map(|row| &report.rows[row]);
-    assert!(double.energy_defect < 1e-14);
-    assert!((1e-9..1e-5).contains(&single.energy_defect), "{report}");
-    let error = |quantity| single.error(quantity).unwrap();
-    assert!(
-        StateQuantity::ALL
-            .into_iter()
-            .all(|quantity| error(quantity) < 1e-2)
-    );
-    assert_eq!(single.setting.line(), "eem-entropy-f32");
-}
-
 // The table of the README: the trapezoidal rule fails at 15.6 s.
 #[test]
 fn a_run_that_fails_is_a_row_without_errors() {
@@ -437,9 +416,6 @@ fn more_is_refused_than_can_be_counted_judged_or_built() {
         let refused = study(STEP).accuracies([accuracy]).run();
         assert!(matches!(refused, Err(StudyError::Accuracy { .. })));
     }
-    let single = Setting::fixed(Scheme::EemEntropy, STEP).in_single_precision();
-    let text = "`eem-entropy-f32 with h = 0.05 s` needs the scene with f32; give the closure that builds it to `single`";
-    assert_eq!(refusal(Study::new(pendulum, END).setting(single)), text);
     let broken = || {
         let mut scene = pendulum();
         scene.mass(-1.0, [0.0; 2], [0.0; 2]);

@@ -41,16 +41,6 @@ const WARM: Warm<f64> = Warm {
     eta: 5.0,
 };
 
-const WARM_SINGLE: Warm<f32> = Warm {
-    stiffness: 50.0,
-    branch: 20.0,
-    length: 1.0,
-    coupling: 0.1,
-    capacity: 2.0,
-    theta_ref: 300.0,
-    eta: 5.0,
-};
-
 /// An elastic spring in any scalar.
 #[derive(Clone, Debug, FreeEnergy)]
 #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]

@@ -54,7 +54,7 @@ impl<'a> Header<'a> {
 }
 
 /// `__S`, with `_` appended until no parameter of the struct has that name.
-pub(super) fn unused(generics: &Generics) -> Ident {
+fn unused(generics: &Generics) -> Ident {
     let mut scalar = Ident::new("__S", Span::call_site());
     while generics.params.iter().any(|parameter| match parameter {
         GenericParam::Type(parameter) => parameter.ident == scalar,

@@ -7,7 +7,6 @@ use quote::quote;
 use syn::DeriveInput;
 
 use super::forms::{kept, kept_in_entropy_form};
-use super::header;
 use super::inputs::Inputs;
 use crate::ast::{Joint, Strain};
 use crate::checked::Checked;
@@ -55,9 +54,9 @@ fn variant(strain: Strain) -> TokenStream {
 //
 //     impl StrainEnergy<2> for Rubber {
 //         const STRAINS: [Strain; 2] = [Strain::Trace, Strain::Square];
-//         type AtPoint<__S: Real> = Self where Self: Material<__S>;
-//         fn at_point<__S: Real>(&self) -> Self::AtPoint<__S> where Self: Material<__S> {
-//             FreeEnergy::<__S>::duplicate(self)
+//         type AtPoint = Self where Self: Material;
+//         fn at_point(&self) -> Self::AtPoint where Self: Material {
+//             FreeEnergy::<f64>::duplicate(self)
 //         }
 //     }
 //
@@ -72,9 +71,10 @@ fn implementation(
     }
     let count = Literal::usize_unsuffixed(strains.len());
     let ident = &input.ident;
-    let scalar = header::unused(&input.generics);
     let (impl_generics, ty_generics, where_clause) = input.generics.split_for_impl();
-    let copy = quote!(__eem::FreeEnergy::<#scalar>::duplicate(self));
+    let copy = quote!(__eem::FreeEnergy::<__eem::core::primitive::f64>::duplicate(
+        self
+    ));
     let (energy, copy) = match energy {
         Some(energy) => (quote!(#energy), quote!(__eem::ComponentEnergy::new(#copy))),
         None => (quote!(Self), copy),
@@ -83,10 +83,10 @@ fn implementation(
         #[automatically_derived]
         impl #impl_generics __eem::StrainEnergy<#count> for #ident #ty_generics #where_clause {
             const STRAINS: [__eem::Strain; #count] = [#(__eem::Strain::#strains),*];
-            type AtPoint<#scalar: __eem::Real> = #energy where Self: __eem::Material<#scalar>;
-            fn at_point<#scalar: __eem::Real>(&self) -> Self::AtPoint<#scalar>
+            type AtPoint = #energy where Self: __eem::Material;
+            fn at_point(&self) -> Self::AtPoint
             where
-                Self: __eem::Material<#scalar>,
+                Self: __eem::Material,
             {
                 #copy
             }

@@ -4,13 +4,12 @@ use core::array;
 
 use crate::free_energy::{Array, FreeEnergy};
 use crate::joint::{DEVIATORIC, Joint, JointEnergy, Tensors};
-use crate::number::scalar::Real;
 
 /// Derivatives with respect to the variables: a row per quantity.
-type Rows<S, const N: usize, const R: usize> = [[S; N]; R];
+type Rows<const N: usize, const R: usize> = [[f64; N]; R];
 
 /// A material with joint invariants, as a function of components.
-pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
+pub(super) trait Chain: FreeEnergy<f64> + JointEnergy {
     /// Number of strains of the material.
     const STRAINS: usize = Self::MEASURES - Self::JOINT.len();
 
@@ -49,15 +48,15 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     }
 
     /// E and Γ.
-    fn tensors<const N: usize>(x: &[S; N]) -> Tensors<S> {
+    fn tensors<const N: usize>(x: &[f64; N]) -> Tensors {
         let [strain, viscous] = Self::FIRST.map(|first| &x[first..first + Self::COMPONENTS]);
         Tensors::new(strain, viscous)
     }
 
     /// The variables of the material.
-    fn variables<const N: usize>(&self, x: &[S; N]) -> Self::Variables {
+    fn variables<const N: usize>(&self, x: &[f64; N]) -> Self::Variables {
         let tensors = Self::tensors(x);
-        let mut variables = Self::Variables::filled(S::zero());
+        let mut variables = Self::Variables::filled(0.0);
         for (index, variable) in variables.as_mut().iter_mut().enumerate() {
             *variable = match self.joint(index) {
                 Some(joint) => tensors.value(joint),
@@ -69,9 +68,14 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
 
     /// Conjugates of the components from those of the material, along gradients `P` of the invariants; those of Γ with
     /// the given sign.
-    fn conjugates<const W: usize>(&self, along: &Tensors<S>, of_material: &[S], sign: S) -> [S; W] {
+    fn conjugates<const W: usize>(
+        &self,
+        along: &Tensors,
+        of_material: &[f64],
+        sign: f64,
+    ) -> [f64; W] {
         let [strain, viscous] = Self::FIRST;
-        let mut conjugates = [S::zero(); W];
+        let mut conjugates = [0.0; W];
         for (index, &value) in of_material.iter().enumerate() {
             let Some(joint) = self.joint(index) else {
                 conjugates[Self::index(index)] = value;
@@ -87,9 +91,9 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
 
     /// Weights of conjugates of the material from those of the components: the transpose of
     /// [`conjugates`](Self::conjugates).
-    fn weights<A: Array<S>>(&self, along: &Tensors<S>, of_components: &[S], sign: S) -> A {
+    fn weights<A: Array<f64>>(&self, along: &Tensors, of_components: &[f64], sign: f64) -> A {
         let [strain, viscous] = Self::FIRST;
-        let mut weights = A::filled(S::zero());
+        let mut weights = A::filled(0.0);
         for (index, weight) in weights.as_mut().iter_mut().enumerate() {
             let Some(joint) = self.joint(index) else {
                 *weight = of_components[Self::index(index)];
@@ -106,25 +110,25 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     /// Weights of the response of the material from those of the response by components.
     fn response_weights<const N: usize>(
         &self,
-        ends: [&[S; N]; 2],
-        of_components: &[S],
+        ends: [&[f64; N]; 2],
+        of_components: &[f64],
     ) -> Self::Response {
         let [old, new] = ends.map(Self::tensors);
-        self.weights(&old.mean(&new), of_components, -S::one())
+        self.weights(&old.mean(&new), of_components, -1.0)
     }
 
     /// The derivatives of conjugates with respect to the new components, from those of the material. `fraction` is the
     /// weight of the new state in the gradients `along`: ½ for the mean of two states, 1 for a single state.
     fn slopes<const N: usize, const W: usize>(
         &self,
-        [along, new]: [&Tensors<S>; 2],
-        (response, tangent): (&[S], &[Self::Variables]),
-        [sign, fraction]: [S; 2],
-    ) -> Rows<S, N, W> {
+        [along, new]: [&Tensors; 2],
+        (response, tangent): (&[f64], &[Self::Variables]),
+        [sign, fraction]: [f64; 2],
+    ) -> Rows<N, W> {
         let [strain, viscous] = Self::FIRST;
-        let mut slopes = [[S::zero(); N]; W];
+        let mut slopes = [[0.0; N]; W];
         for (index, row) in tangent.iter().enumerate() {
-            let row: [S; N] = self.conjugates(new, row.as_ref(), S::one());
+            let row: [f64; N] = self.conjugates(new, row.as_ref(), 1.0);
             let Some(joint) = self.joint(index) else {
                 slopes[Self::index(index)] = row;
                 continue;
@@ -150,8 +154,8 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     }
 
     /// Splits the values of the old state for a form: those of the material, E and Γ.
-    fn split<T: Array<S>>(old: &[S]) -> (T, Tensors<S>) {
-        let mut own = T::filled(S::zero());
+    fn split<T: Array<f64>>(old: &[f64]) -> (T, Tensors) {
+        let mut own = T::filled(0.0);
         let (of_material, components) = old.split_at(T::LEN);
         own.as_mut().copy_from_slice(of_material);
         let (strain, rest) = components.split_at(Self::COMPONENTS);
@@ -159,8 +163,8 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     }
 
     /// Joins what [`split`](Self::split) splits.
-    fn joined<const N: usize, const W: usize>(own: &[S], x0: &[S; N]) -> [S; W] {
-        let mut all = [S::zero(); W];
+    fn joined<const N: usize, const W: usize>(own: &[f64], x0: &[f64; N]) -> [f64; W] {
+        let mut all = [0.0; W];
         let (of_material, rest) = all.split_at_mut(own.len());
         of_material.copy_from_slice(own);
         for (part, first) in rest.chunks_exact_mut(Self::COMPONENTS).zip(Self::FIRST) {
@@ -172,32 +176,32 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     /// The response of a form by components, from that of the material.
     fn response<const N: usize, const R: usize>(
         &self,
-        old: &Tensors<S>,
-        x1: &[S; N],
+        old: &Tensors,
+        x1: &[f64; N],
         of_material: &Self::Response,
-    ) -> [S; R] {
+    ) -> [f64; R] {
         let mean = old.mean(&Self::tensors(x1));
-        self.conjugates(&mean, of_material.as_ref(), -S::one())
+        self.conjugates(&mean, of_material.as_ref(), -1.0)
     }
 
     /// The response of a form by components with its tangent, from those of the material.
     fn form<const N: usize, const R: usize>(
         &self,
-        old: &Tensors<S>,
-        x1: &[S; N],
+        old: &Tensors,
+        x1: &[f64; N],
         (response, tangent): (Self::Response, Self::Tangent),
-    ) -> ([S; R], Rows<S, N, R>) {
+    ) -> ([f64; R], Rows<N, R>) {
         let new = Self::tensors(x1);
         let both = [&old.mean(&new), &new];
         let of_material = (response.as_ref(), tangent.as_ref());
         (
             self.response(old, x1, &response),
-            self.slopes(both, of_material, [-S::one(), S::from_f64(0.5)]),
+            self.slopes(both, of_material, [-1.0, 0.5]),
         )
     }
 
     /// Viscosities of the components from those of the material.
-    fn spread<const K: usize>(own: &[S]) -> [S; K] {
+    fn spread<const K: usize>(own: &[f64]) -> [f64; K] {
         let dashpots = Self::DASHPOTS;
         array::from_fn(|k| match k.checked_sub(dashpots) {
             None => own[k],
@@ -208,9 +212,9 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
 
     /// Weights of the viscosities of the material from those of the components: the transpose of
     /// [`spread`](Self::spread).
-    fn gathered(of_components: &[S]) -> Self::Viscosities {
+    fn gathered(of_components: &[f64]) -> Self::Viscosities {
         let dashpots = Self::DASHPOTS;
-        let mut own = Self::Viscosities::filled(S::zero());
+        let mut own = Self::Viscosities::filled(0.0);
         for (k, &weight) in of_components.iter().enumerate() {
             let place = match k.checked_sub(dashpots) {
                 None => k,
@@ -223,7 +227,7 @@ pub(super) trait Chain<S: Real>: FreeEnergy<S> + JointEnergy {
     }
 }
 
-impl<S: Real, M: FreeEnergy<S> + JointEnergy> Chain<S> for M {}
+impl<M: FreeEnergy<f64> + JointEnergy> Chain for M {}
 
 const fn has_trace(invariants: &[Joint]) -> bool {
     let mut index = 0;

@@ -27,7 +27,7 @@ pub enum InversionError {
         heat_capacity: f64,
     },
     /// The stable branch through the start ends, at a spinodal or at the limits
-    /// of the number type, before the entropy is reached.
+    /// of the numbers, before the entropy is reached.
     #[error("no temperature of the stable branch has the entropy {entropy}; it comes as near as {residual} at the temperature {temperature}", entropy = Readable(*entropy), residual = Readable(*residual), temperature = Readable(*temperature))]
     NoSuchTemperature {
         /// The wanted entropy.

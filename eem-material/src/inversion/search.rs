@@ -1,11 +1,10 @@
 //! The search for the temperature of an entropy from a start that is not known to be close.
 //!
-//! Every step either reduces the residual as fast as Newton's method should, or halves an interval. Written for scalar
-//! numbers: masks are one `bool`.
+//! Every step either reduces the residual as fast as Newton's method should, or halves an interval.
 
 use super::error::InversionError;
 use crate::free_energy::Caloric;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::Scalar;
 
 /// The limit of evaluations in [`invert`](crate::invert): twice what bisection of the whole range of `ln θ` to the last
 /// bit would take.
@@ -26,106 +25,104 @@ const LARGE_FACTOR: f64 = 8.0;
 
 /// The entropy at one temperature.
 #[derive(Clone, Copy)]
-struct Point<S> {
+struct Point {
     /// `ln θ`.
-    x: S,
-    theta: S,
+    x: f64,
+    theta: f64,
     /// `C = dS/dx`.
-    heat_capacity: S,
+    heat_capacity: f64,
     /// `S − s`.
-    residual: S,
-    entropy: S,
+    residual: f64,
+    entropy: f64,
     /// The part of the residual that may be rounding.
-    noise: S,
+    noise: f64,
 }
 
-impl<S: Real> Point<S> {
+impl Point {
     /// The point at `θ = eˣ` of a search for the entropy `target`.
-    fn new(x: S, theta: S, caloric: Caloric<S>, target: S) -> Self {
+    fn new(x: f64, theta: f64, caloric: Caloric<f64>, target: f64) -> Self {
         Self {
             x,
             theta,
             entropy: caloric.entropy,
             heat_capacity: caloric.heat_capacity,
             residual: caloric.entropy - target,
-            noise: S::from_f64(NOISE) * S::EPSILON * caloric.magnitude,
+            noise: NOISE * f64::EPSILON * caloric.magnitude,
         }
     }
 
     /// On a stable branch: `0 < C < ∞` and `S` finite.
     fn is_stable(&self) -> bool {
-        S::zero().less(self.heat_capacity).all()
-            && self.heat_capacity.is_finite()
-            && self.residual.is_finite()
+        self.heat_capacity > 0.0 && self.heat_capacity.is_finite() && self.residual.is_finite()
     }
 
     /// The entropy has increased with the temperature since `other`, as on one stable branch.
     fn follows(&self, other: &Self) -> bool {
         let increase = self.residual - other.residual;
         let noise = other.noise + self.noise;
-        if self.x.less(other.x).all() {
-            increase.at_most(noise).all()
+        if self.x < other.x {
+            increase <= noise
         } else {
-            (-noise).at_most(increase).all()
+            -noise <= increase
         }
     }
 
     /// Newton's correction of `x`.
-    fn newton(&self) -> S {
+    fn newton(&self) -> f64 {
         -self.residual / self.heat_capacity
     }
 
     /// Newton's correction of a converged point; zero where it would itself be noise: next to a spinodal, where it could
     /// lead beyond, or with nearly no capacity.
-    fn last_correction(&self) -> S {
+    fn last_correction(&self) -> f64 {
         let correction = self.newton();
-        let magnitude = self.noise / (S::from_f64(NOISE) * S::EPSILON);
-        let trusted = S::from_f64(TRUST) * self.heat_capacity / magnitude;
-        let is_sound = correction.abs().at_most(trusted.maximum(self.resolution()));
-        S::select(is_sound, correction, S::zero())
+        let magnitude = self.noise / (NOISE * f64::EPSILON);
+        let trusted = TRUST * self.heat_capacity / magnitude;
+        let is_sound = correction.abs() <= Scalar::maximum(trusted, self.resolution());
+        if is_sound { correction } else { 0.0 }
     }
 
     /// Newton's correction for `ln S`, exact for `S ∝ θⁿ`; unless both entropies are positive, that for `S`.
-    fn logarithmic_newton(&self, target: S) -> S {
-        let are_positive = S::zero().less(self.entropy) & S::zero().less(target);
-        if are_positive.all() {
-            -(self.entropy / self.heat_capacity) * (self.entropy / target).ln()
+    fn logarithmic_newton(&self, target: f64) -> f64 {
+        let are_positive = self.entropy > 0.0 && target > 0.0;
+        if are_positive {
+            -(self.entropy / self.heat_capacity) * Scalar::ln(self.entropy / target)
         } else {
             self.newton()
         }
     }
 
     /// Whether the logarithmic model is nearer than the linear one to the entropy found after a step from here.
-    fn is_logarithmic(&self, step: S, entropy: S) -> bool {
+    fn is_logarithmic(&self, step: f64, entropy: f64) -> bool {
         let growth = self.heat_capacity * step;
         let linear = self.entropy + growth - entropy;
-        let logarithmic = self.entropy * (growth / self.entropy).exp() - entropy;
-        logarithmic.abs().less(linear.abs()).all()
+        let logarithmic = self.entropy * Scalar::exp(growth / self.entropy) - entropy;
+        logarithmic.abs() < linear.abs()
     }
 
     /// The distance in `x` that two temperatures must have to be different.
-    fn resolution(&self) -> S {
-        S::from_f64(RESOLUTION) * S::EPSILON * self.x.abs().maximum(S::one())
+    fn resolution(&self) -> f64 {
+        RESOLUTION * f64::EPSILON * Scalar::maximum(self.x.abs(), 1.0)
     }
 }
 
 /// The state of the search.
-struct Search<S> {
-    target: S,
+struct Search {
+    target: f64,
     /// The current point.
-    point: Point<S>,
+    point: Point,
     /// The point of smallest |residual|.
-    best: Point<S>,
+    best: Point,
     /// Largest `x` with a negative and smallest with a positive residual.
-    below: Option<S>,
-    above: Option<S>,
+    below: Option<f64>,
+    above: Option<f64>,
     /// The ends of the range that may be stable.
-    edges: [S; 2],
+    edges: [f64; 2],
     /// The largest step while the solution is not bracketed.
-    reach: S,
+    reach: f64,
     /// The last two steps, infinite at first.
-    last: S,
-    last_but_one: S,
+    last: f64,
+    last_but_one: f64,
     /// Whether `ln S` (a power of the temperature) predicted the current point better than `S` (constant heat capacity)
     /// as a linear function of `ln θ`.
     is_logarithmic: bool,
@@ -140,21 +137,19 @@ struct Search<S> {
 
 /// The temperature of an entropy, for a scalar number.
 #[cold]
-pub(super) fn search_from<S: Real>(
-    mut evaluate: impl FnMut(S) -> Caloric<S>,
-    entropy: S,
-    start: S,
-) -> Result<S, InversionError> {
+pub(super) fn search_from(
+    mut evaluate: impl FnMut(f64) -> Caloric<f64>,
+    entropy: f64,
+    start: f64,
+) -> Result<f64, InversionError> {
     if !entropy.is_finite() {
-        return Err(InversionError::EntropyNotFinite {
-            entropy: entropy.to_f64(),
-        });
+        return Err(InversionError::EntropyNotFinite { entropy });
     }
-    let first = Point::new(start.ln(), start, evaluate(start), entropy);
+    let first = Point::new(Scalar::ln(start), start, evaluate(start), entropy);
     if !first.is_stable() {
         return Err(InversionError::UnstableStart {
-            start: start.to_f64(),
-            heat_capacity: first.heat_capacity.to_f64(),
+            start,
+            heat_capacity: first.heat_capacity,
         });
     }
     let mut search = Search::new(entropy, first);
@@ -165,7 +160,7 @@ pub(super) fn search_from<S: Real>(
                 return search.conclude();
             }
             let x = search.point.x + step;
-            let theta = x.exp();
+            let theta = Scalar::exp(x);
             let trial = Point::new(x, theta, evaluate(theta), entropy);
             search.evaluations += 1;
             if trial.is_stable() && trial.follows(&search.point) {
@@ -173,24 +168,20 @@ pub(super) fn search_from<S: Real>(
                 break;
             }
             search.exclude(x);
-            step *= S::from_f64(0.5);
+            step *= 0.5;
         }
     }
     // One more correction, which needs no evaluation.
-    Ok(search.point.theta * search.point.last_correction().exp())
+    Ok(search.point.theta * Scalar::exp(search.point.last_correction()))
 }
 
-impl<S: Real> Search<S> {
+impl Search {
     /// Starts from a stable point.
-    fn new(target: S, first: Point<S>) -> Self {
-        let infinity = S::one() / S::zero();
+    fn new(target: f64, first: Point) -> Self {
         // ln of the largest number, less 2, so that θ and 1/θ are normal numbers.
-        let widest = S::MAX.ln() - S::from_f64(2.0);
-        let large = S::from_f64(LARGE_FACTOR);
-        let [is_above, is_below] = [
-            (large * target).less(first.entropy),
-            (large * first.entropy).less(target),
-        ];
+        let widest = Scalar::ln(f64::MAX) - 2.0;
+        let is_above = LARGE_FACTOR * target < first.entropy;
+        let is_below = LARGE_FACTOR * first.entropy < target;
         let mut search = Self {
             target,
             point: first,
@@ -198,13 +189,13 @@ impl<S: Real> Search<S> {
             below: None,
             above: None,
             edges: [
-                (-widest).minimum(first.x - S::one()),
-                widest.maximum(first.x + S::one()),
+                Scalar::minimum(-widest, first.x - 1.0),
+                Scalar::maximum(widest, first.x + 1.0),
             ],
-            reach: S::one(),
-            last: infinity,
-            last_but_one: infinity,
-            is_logarithmic: (is_above | is_below).all(),
+            reach: 1.0,
+            last: f64::INFINITY,
+            last_but_one: f64::INFINITY,
+            is_logarithmic: is_above || is_below,
             modelled: false,
             failures: 0,
             bisections_due: 0,
@@ -216,22 +207,22 @@ impl<S: Real> Search<S> {
 
     /// Moves the end of the bracket on the side of the current point.
     fn narrow(&mut self) {
-        if self.point.residual.less(S::zero()).all() {
+        if self.point.residual < 0.0 {
             self.below = Some(self.point.x);
         } else {
             self.above = Some(self.point.x);
         }
         let own = self.point.residual.abs();
-        if own.less(self.best.residual.abs()).all() {
+        if own < self.best.residual.abs() {
             self.best = self.point;
         }
     }
 
     /// Makes a stable trial the current point.
-    fn accept(&mut self, trial: Point<S>, step: S) {
+    fn accept(&mut self, trial: Point, step: f64) {
         self.is_logarithmic = self.point.is_logarithmic(step, trial.entropy);
         let own = self.point.residual.abs();
-        if self.modelled && own.less(trial.residual.abs()).all() {
+        if self.modelled && own < trial.residual.abs() {
             self.failures += 1;
             self.bisections_due = self.failures;
         }
@@ -242,16 +233,16 @@ impl<S: Real> Search<S> {
     }
 
     /// Notes that `x` is beyond a spinodal, and drops points farther off, which belong to another branch.
-    fn exclude(&mut self, x: S) {
-        if x.less(self.point.x).all() {
+    fn exclude(&mut self, x: f64) {
+        if x < self.point.x {
             self.edges[0] = x;
-            self.below = self.below.filter(|&below| x.less(below).all());
+            self.below = self.below.filter(|&below| x < below);
         } else {
             self.edges[1] = x;
-            self.above = self.above.filter(|&above| above.less(x).all());
+            self.above = self.above.filter(|&above| above < x);
         }
         let best = self.best.x;
-        if (best.less(self.edges[0]) | self.edges[1].less(best)).all() {
+        if best < self.edges[0] || self.edges[1] < best {
             self.best = self.point;
         }
     }
@@ -262,19 +253,19 @@ impl<S: Real> Search<S> {
             residual, noise, ..
         } = self.point;
         let size = self.point.newton().abs();
-        residual.abs().at_most(noise).all() || size.at_most(self.point.resolution()).all()
+        residual.abs() <= noise || size <= self.point.resolution()
     }
 
     /// There is no number left between the bounds.
     fn is_exhausted(&self) -> bool {
         let [low, high] = self.edges;
-        let low = self.below.map_or(low, |x| x.maximum(low));
-        let high = self.above.map_or(high, |x| x.minimum(high));
-        (high - low).at_most(self.point.resolution()).all()
+        let low = self.below.map_or(low, |x| Scalar::maximum(x, low));
+        let high = self.above.map_or(high, |x| Scalar::minimum(x, high));
+        high - low <= self.point.resolution()
     }
 
     /// The next step from the current point. One that would leave the stable range goes half way to its end instead.
-    fn step(&mut self) -> S {
+    fn step(&mut self) -> f64 {
         let linear = self.point.newton();
         let logarithmic = self.point.logarithmic_newton(self.target);
         let [first, second] = if self.is_logarithmic {
@@ -287,26 +278,26 @@ impl<S: Real> Search<S> {
         } else {
             self.unbracketed(first, second)
         };
-        let (x, half) = (self.point.x, S::from_f64(0.5));
+        let x = self.point.x;
         let [low, high] = self.edges;
-        if high.at_most(x + step).all() {
-            half * (high - x)
-        } else if (x + step).at_most(low).all() {
-            half * (low - x)
+        if high <= x + step {
+            0.5 * (high - x)
+        } else if x + step <= low {
+            0.5 * (low - x)
         } else {
             step
         }
     }
 
     /// A step with the solution between two known points.
-    fn bracketed(&mut self, proposals: [S; 2], [below, above]: [S; 2]) -> S {
-        let (x, half) = (self.point.x, S::from_f64(0.5));
-        let limit = half * self.last_but_one;
+    fn bracketed(&mut self, proposals: [f64; 2], [below, above]: [f64; 2]) -> f64 {
+        let x = self.point.x;
+        let limit = 0.5 * self.last_but_one;
         if self.bisections_due == 0 {
             self.modelled = true;
             let usable = proposals.into_iter().find(|&step| {
-                let is_inside = below.less(x + step) & (x + step).less(above);
-                (is_inside & step.abs().at_most(limit)).all()
+                let is_inside = below < x + step && x + step < above;
+                is_inside && step.abs() <= limit
             });
             if let Some(step) = usable {
                 return step;
@@ -314,42 +305,42 @@ impl<S: Real> Search<S> {
         }
         self.modelled = false;
         self.bisections_due = self.bisections_due.saturating_sub(1);
-        half * (below + above) - x
+        0.5 * (below + above) - x
     }
 
     /// A step that looks for the other end of the bracket.
-    fn unbracketed(&mut self, first: S, second: S) -> S {
-        let (size, half) = (first.abs(), S::from_f64(0.5));
+    fn unbracketed(&mut self, first: f64, second: f64) -> f64 {
+        let size = first.abs();
         // Newton's method should halve its steps within two.
-        let is_slow = (half * self.last_but_one).less(size).all();
-        let is_long = (half * self.last).less(size).all();
-        let length = if self.reach.less(size).all() {
+        let is_slow = 0.5 * self.last_but_one < size;
+        let is_long = 0.5 * self.last < size;
+        let length = if self.reach < size {
             self.reach
         } else if is_slow || is_long {
-            let longer = size.maximum(second.abs().minimum(self.reach));
+            let longer = Scalar::maximum(size, Scalar::minimum(second.abs(), self.reach));
             if is_slow {
-                longer.maximum(self.reach)
+                Scalar::maximum(longer, self.reach)
             } else {
                 longer
             }
         } else {
             return first;
         };
-        if self.reach.at_most(length).all() {
-            self.reach *= S::from_f64(2.0);
+        if self.reach <= length {
+            self.reach *= 2.0;
         }
-        S::select(first.less(S::zero()), -length, length)
+        if first < 0.0 { -length } else { length }
     }
 
     /// The result when the bounds have met: the best point, or that there is no solution.
-    fn conclude(&self) -> Result<S, InversionError> {
+    fn conclude(&self) -> Result<f64, InversionError> {
         let is_exhausted = self.is_exhausted();
         if is_exhausted && self.below.is_some() && self.above.is_some() {
             return Ok(self.best.theta);
         }
-        let entropy = self.target.to_f64();
-        let temperature = self.best.theta.to_f64();
-        let residual = self.best.residual.to_f64();
+        let entropy = self.target;
+        let temperature = self.best.theta;
+        let residual = self.best.residual;
         let evaluations = self.evaluations;
         Err(if is_exhausted {
             InversionError::NoSuchTemperature {

@@ -1,20 +1,19 @@
 //! Compensated sums, which store the rounding errors of their additions.
 
 use crate::number::kernel::two_sum;
-use crate::number::scalar::{Real, Scalar};
 
 /// Accumulated quantities, each with the rounding error of all its additions so far.
 ///
 /// The value plus the carry is the sum to twice the precision, so that the state after a million
 /// steps carries the rounding of one (Kahan 1965; `TwoSum`, Knuth 1969).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Compensated<S> {
-    values: Vec<S>,
-    carries: Vec<S>,
+pub struct Compensated {
+    values: Vec<f64>,
+    carries: Vec<f64>,
 }
 
 /// No sums.
-impl<S> Default for Compensated<S> {
+impl Default for Compensated {
     fn default() -> Self {
         Self {
             values: Vec::new(),
@@ -23,29 +22,29 @@ impl<S> Default for Compensated<S> {
     }
 }
 
-impl<S: Scalar> Compensated<S> {
+impl Compensated {
     /// Sums that start at `values`, exactly.
     #[must_use]
-    pub fn new(values: Vec<S>) -> Self {
-        let carries = vec![S::zero(); values.len()];
+    pub fn new(values: Vec<f64>) -> Self {
+        let carries = vec![0.0; values.len()];
         Self { values, carries }
     }
 
     /// Sums as they were stored; `None` unless there are as many carries as values.
     #[must_use]
-    pub fn of(values: Vec<S>, carries: Vec<S>) -> Option<Self> {
+    pub fn of(values: Vec<f64>, carries: Vec<f64>) -> Option<Self> {
         (values.len() == carries.len()).then_some(Self { values, carries })
     }
 
     /// The sums, rounded.
     #[inline]
     #[must_use]
-    pub fn values(&self) -> &[S] {
+    pub fn values(&self) -> &[f64] {
         &self.values
     }
 
     /// Every sum with its carry.
-    pub fn sums(&self) -> impl Iterator<Item = (S, S)> + Clone + '_ {
+    pub fn sums(&self) -> impl Iterator<Item = (f64, f64)> + Clone + '_ {
         let carries = self.carries.iter().copied();
         self.values.iter().copied().zip(carries)
     }
@@ -53,7 +52,7 @@ impl<S: Scalar> Compensated<S> {
     /// One sum.
     #[inline]
     #[must_use]
-    pub fn sum(&self, index: usize) -> Sum<S> {
+    pub fn sum(&self, index: usize) -> Sum {
         Sum {
             value: self.values[index],
             carry: self.carries[index],
@@ -62,27 +61,27 @@ impl<S: Scalar> Compensated<S> {
 
     /// Restarts one sum at `value`.
     #[inline]
-    pub fn set(&mut self, index: usize, value: S) {
+    pub fn set(&mut self, index: usize, value: f64) {
         self.values[index] = value;
-        self.carries[index] = S::zero();
+        self.carries[index] = 0.0;
     }
 
     /// Restarts the sums of one point of `D` coordinates.
     #[inline]
-    pub fn set_point<const D: usize>(&mut self, point: usize, values: &[S; D]) {
+    pub fn set_point<const D: usize>(&mut self, point: usize, values: &[f64; D]) {
         self.values.as_chunks_mut().0[point] = *values;
-        self.carries.as_chunks_mut().0[point] = [S::zero(); D];
+        self.carries.as_chunks_mut().0[point] = [0.0; D];
     }
 
     /// Replaces all sums, exactly.
-    pub fn write(&mut self, values: impl FnOnce(&mut [S])) {
+    pub fn write(&mut self, values: impl FnOnce(&mut [f64])) {
         values(&mut self.values);
-        self.carries.fill(S::zero());
+        self.carries.fill(0.0);
     }
 
     /// Sets one sum to that of `old` plus an increment.
     #[inline]
-    pub fn advance(&mut self, index: usize, old: &Self, increment: S) {
+    pub fn advance(&mut self, index: usize, old: &Self, increment: f64) {
         let sum = old.sum(index).plus(increment);
         (self.values[index], self.carries[index]) = (sum.value, sum.carry);
     }
@@ -95,13 +94,13 @@ impl<S: Scalar> Compensated<S> {
         &mut self,
         point: usize,
         old: &Self,
-        [increments, rests]: [&[S; D]; 2],
-    ) -> S {
+        [increments, rests]: [&[f64; D]; 2],
+    ) -> f64 {
         let from = old.point::<D>(point);
         let values = &mut self.values.as_chunks_mut::<D>().0[point];
         let carries = &mut self.carries.as_chunks_mut::<D>().0[point];
         // Each array is stored at once: a load soon after stores of single coordinates would stall.
-        let (mut sums, mut missing) = ([S::zero(); D], [S::zero(); D]);
+        let (mut sums, mut missing) = ([0.0; D], [0.0; D]);
         for axis in 0..D {
             let from = Sum {
                 value: from[0][axis],
@@ -111,13 +110,13 @@ impl<S: Scalar> Compensated<S> {
             (sums[axis], missing[axis]) = (sum.value, sum.carry);
         }
         (*values, *carries) = (sums, missing);
-        missing.into_iter().fold(S::zero(), |sum, rest| sum + rest)
+        missing.into_iter().fold(0.0, |sum, rest| sum + rest)
     }
 
     /// The values and the carries of one point of `D` coordinates.
     #[inline]
     #[must_use]
-    pub fn point<const D: usize>(&self, point: usize) -> [&[S; D]; 2] {
+    pub fn point<const D: usize>(&self, point: usize) -> [&[f64; D]; 2] {
         [
             &self.values.as_chunks::<D>().0[point],
             &self.carries.as_chunks::<D>().0[point],
@@ -126,7 +125,7 @@ impl<S: Scalar> Compensated<S> {
 
     /// Adds to one sum.
     #[inline]
-    pub fn add(&mut self, index: usize, increment: S) {
+    pub fn add(&mut self, index: usize, increment: f64) {
         let sum = self.sum(index).plus(increment);
         (self.values[index], self.carries[index]) = (sum.value, sum.carry);
     }
@@ -134,7 +133,7 @@ impl<S: Scalar> Compensated<S> {
     /// `self − old` of one sum, to rounding of the difference.
     #[inline]
     #[must_use]
-    pub fn change(&self, index: usize, old: &Self) -> S {
+    pub fn change(&self, index: usize, old: &Self) -> f64 {
         self.sum(index).change(old.sum(index))
     }
 
@@ -150,23 +149,24 @@ impl<S: Scalar> Compensated<S> {
 
 /// One accumulated quantity with the rounding error of all its additions so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sum<S> {
+pub struct Sum {
     /// The sum, rounded.
-    pub value: S,
+    pub value: f64,
     /// The rounding error of the value.
-    pub carry: S,
+    pub carry: f64,
 }
 
-impl<S: Scalar> Sum<S> {
+impl Sum {
     /// A sum that starts at `value`, exactly.
-    pub fn new(value: S) -> Self {
-        let carry = S::zero();
+    #[must_use]
+    pub fn new(value: f64) -> Self {
+        let carry = 0.0;
         Self { value, carry }
     }
 
     /// Adds to the sum.
     #[inline]
-    pub fn add(&mut self, increment: S) {
+    pub fn add(&mut self, increment: f64) {
         *self = self.plus(increment);
     }
 
@@ -175,7 +175,7 @@ impl<S: Scalar> Sum<S> {
     /// The carry is added to the rounding error of `value + increment`, and not to the increment, where its last digits
     /// would be lost (`Sum2`, Ogita, Rump & Oishi 2005).
     #[inline]
-    fn plus(self, increment: S) -> Self {
+    fn plus(self, increment: f64) -> Self {
         let (high, error) = two_sum(self.value, increment);
         // Where additions cancel, the high part may be the smaller one.
         let (value, carry) = two_sum(high, error + self.carry);
@@ -184,13 +184,15 @@ impl<S: Scalar> Sum<S> {
 
     /// `self − value`.
     #[inline]
-    pub fn beyond(self, value: S) -> S {
+    #[must_use]
+    pub fn beyond(self, value: f64) -> f64 {
         (self.value - value) + self.carry
     }
 
     /// `self − old`, to rounding of the difference.
     #[inline]
-    pub fn change(self, old: Self) -> S {
+    #[must_use]
+    pub fn change(self, old: Self) -> f64 {
         (self.value - old.value) + (self.carry - old.carry)
     }
 }
@@ -198,28 +200,28 @@ impl<S: Scalar> Sum<S> {
 /// Adds to a value and its carry a change that is large compared with the carry: a correction of Newton's method. Takes
 /// one addition less than [`Sum::add`], but may lose the last digits of the carry.
 #[inline]
-pub fn correct<S: Scalar>(value: &mut S, carry: &mut S, change: S) {
+pub fn correct(value: &mut f64, carry: &mut f64, change: f64) {
     (*value, *carry) = two_sum(*value, *carry + change);
 }
 
 /// A sum to twice the precision, so that the sum over a large scene loses no digits.
 #[derive(Clone, Copy, Debug)]
-pub struct Total<S> {
-    value: S,
-    rest: S,
+pub struct Total {
+    value: f64,
+    rest: f64,
 }
 
-impl<S: Scalar> Default for Total<S> {
+impl Default for Total {
     fn default() -> Self {
-        let [value, rest] = [S::zero(); 2];
+        let [value, rest] = [0.0; 2];
         Self { value, rest }
     }
 }
 
-impl<S: Scalar> Total<S> {
+impl Total {
     /// Adds a term.
     #[inline]
-    pub fn add(&mut self, term: S) {
+    pub fn add(&mut self, term: f64) {
         let (value, rest) = two_sum(self.value, term);
         self.value = value;
         self.rest += rest;
@@ -227,7 +229,7 @@ impl<S: Scalar> Total<S> {
 
     /// Adds a sum with its carry.
     #[inline]
-    pub fn add_sum(&mut self, sum: Sum<S>) {
+    pub fn add_sum(&mut self, sum: Sum) {
         self.add(sum.value);
         self.add(sum.carry);
     }
@@ -239,23 +241,13 @@ impl<S: Scalar> Total<S> {
     }
 
     /// The sum, rounded once.
-    pub fn value(self) -> S {
+    #[must_use]
+    pub fn value(self) -> f64 {
         self.value + self.rest
     }
 
-    /// `then` where the mask holds and `otherwise` elsewhere.
-    pub fn select(mask: S::Mask, then: Self, otherwise: Self) -> Self
-    where
-        S: Real,
-    {
-        Self {
-            value: S::select(mask, then.value, otherwise.value),
-            rest: S::select(mask, then.rest, otherwise.rest),
-        }
-    }
-
     /// The sum of some terms.
-    pub fn of(terms: impl IntoIterator<Item = S>) -> S {
+    pub fn of(terms: impl IntoIterator<Item = f64>) -> f64 {
         let mut sum = Self::default();
         for term in terms {
             sum.add(term);
@@ -266,14 +258,14 @@ impl<S: Scalar> Total<S> {
 
 /// In a file, a pair: sum and carry.
 #[cfg(feature = "serde")]
-impl<S: serde::Serialize> serde::Serialize for Sum<S> {
+impl serde::Serialize for Sum {
     fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
         (&self.value, &self.carry).serialize(serializer)
     }
 }
 
 #[cfg(feature = "serde")]
-impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Sum<S> {
+impl<'de> serde::Deserialize<'de> for Sum {
     fn deserialize<T: serde::Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
         let (value, carry) = serde::Deserialize::deserialize(deserializer)?;
         Ok(Self { value, carry })
@@ -282,16 +274,16 @@ impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Sum<S> {
 
 /// In a file, pairs: each sum with its carry.
 #[cfg(feature = "serde")]
-impl<S: serde::Serialize> serde::Serialize for Compensated<S> {
+impl serde::Serialize for Compensated {
     fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
         serializer.collect_seq(self.values.iter().zip(&self.carries))
     }
 }
 
 #[cfg(feature = "serde")]
-impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Compensated<S> {
+impl<'de> serde::Deserialize<'de> for Compensated {
     fn deserialize<T: serde::Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
-        let pairs = Vec::<(S, S)>::deserialize(deserializer)?;
+        let pairs = Vec::<(f64, f64)>::deserialize(deserializer)?;
         let (values, carries) = pairs.into_iter().unzip();
         Ok(Self { values, carries })
     }

@@ -39,11 +39,11 @@ pub fn shares() -> [f64; SPANS] {
     shares
 }
 
-/// The derivative, from the value at the beginning and those after the spans; `epsilon` is that of their number type. NaN if
-/// values after the shortest spans are not finite.
+/// The derivative, from the value at the beginning and those after the spans. NaN if values after the shortest spans are not
+/// finite.
 #[must_use]
-pub fn derivative(first: f64, (spans, values): ([f64; SPANS], [f64; SPANS]), epsilon: f64) -> f64 {
-    let limits = limits(first, (&spans, &values), epsilon);
+pub fn derivative(first: f64, (spans, values): ([f64; SPANS], [f64; SPANS])) -> f64 {
+    let limits = limits(first, (&spans, &values));
     let agree = |a: &Limit, b: &Limit| (a.value - b.value).abs() <= AGREEMENT * (a.error + b.error);
     let sound = limits.iter().enumerate().filter(|&(place, limit)| {
         let mut shorter = limits[place + 1..].iter();
@@ -54,10 +54,10 @@ pub fn derivative(first: f64, (spans, values): ([f64; SPANS], [f64; SPANS]), eps
 }
 
 /// For each span, the best limit from it and longer ones.
-fn limits(first: f64, (spans, values): (&[f64; SPANS], &[f64; SPANS]), epsilon: f64) -> Vec<Limit> {
+fn limits(first: f64, (spans, values): (&[f64; SPANS], &[f64; SPANS])) -> Vec<Limit> {
     let mut before = [f64::NAN; DEGREE + 1];
     let of_span = |(place, (&value, &span)): (usize, (&f64, &f64))| {
-        let rounding = ROUNDINGS * epsilon * first.abs().max(value.abs()) / span;
+        let rounding = ROUNDINGS * f64::EPSILON * first.abs().max(value.abs()) / span;
         let mut best = Limit {
             value: f64::NAN,
             error: f64::INFINITY,
@@ -89,7 +89,7 @@ mod tests {
 
     fn of(function: impl Fn(f64) -> f64, interval: f64) -> f64 {
         let spans = shares().map(|share| share * interval);
-        derivative(function(0.0), (spans, spans.map(&function)), f64::EPSILON)
+        derivative(function(0.0), (spans, spans.map(&function)))
     }
 
     #[test]

@@ -4,8 +4,6 @@ use core::fmt;
 use core::num::ParseIntError;
 use core::str::FromStr;
 
-use crate::number::scalar::Real;
-
 /// A 64-bit digest (FNV-1a; Fowler, Noll & Vo 1991), against mistakes, not against attacks.
 ///
 /// Two numbers that differ in one bit have different digests; those of two scenes with different numbers agree by chance in
@@ -33,10 +31,8 @@ impl Digest {
     }
 
     /// Adds the bits of a number.
-    pub fn number<S: Real>(&mut self, number: S) {
-        for lane in 0..S::LANES {
-            self.bytes(&number.lane(lane).to_bits().to_le_bytes());
-        }
+    pub fn number(&mut self, number: f64) {
+        self.bytes(&number.to_bits().to_le_bytes());
     }
 
     /// The digest as a number.

@@ -348,23 +348,3 @@ fn an_entropy_that_contradicts_its_capacity_ends() {
     assert!(result.is_err(), "{result:?}");
     assert!(calls <= 128);
 }
-
-#[test]
-fn single_precision_inverts_to_its_own_accuracy() {
-    let metal = |theta: f32| {
-        let (electrons, lattice) = (0.7 * theta, 1e-4 * theta * theta * theta);
-        Caloric {
-            entropy: electrons + lattice,
-            heat_capacity: electrons + 3.0 * lattice,
-            magnitude: electrons + lattice,
-        }
-    };
-    let mut random = Random(17);
-    for _ in 0..CASES {
-        #[expect(clippy::cast_possible_truncation, reason = "any f32 will do")]
-        let theta = random.within(-20.0, 20.0).exp() as f32;
-        let found = invert(metal, metal(theta).entropy, 300.0).unwrap();
-        assert!((found.temperature / theta - 1.0).abs() < 8.0 * f32::EPSILON);
-        assert!(found.evaluations <= MOST_EVALUATIONS);
-    }
-}

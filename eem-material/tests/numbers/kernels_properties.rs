@@ -1,18 +1,16 @@
 //! What the kernels do at the edges: equal ends, the smallest increments, the ends of
-//! the range of the number type, zero, NaN; and that single precision works.
+//! the range of the number type, zero, NaN.
 
 use eem_material::number::kernel::*;
 use eem_material::number::scalar::Scalar;
 
-type Kernel<S> = fn(S, S) -> S;
+type Kernel = fn(f64, f64) -> f64;
 
 /// Every kernel of two arguments, `f_dd` and `f_dd2`, and `f′` and `½f″` as written in a textbook.
 struct Row {
     name: &'static str,
-    first: Kernel<f64>,
-    second: Kernel<f64>,
-    first_f32: Kernel<f32>,
-    second_f32: Kernel<f32>,
+    first: Kernel,
+    second: Kernel,
     slope: fn(f64) -> f64,
     half_curvature: fn(f64) -> f64,
 }
@@ -23,8 +21,6 @@ macro_rules! row {
             name: $name,
             first: $first::<f64>,
             second: $second::<f64>,
-            first_f32: $first::<f32>,
-            second_f32: $second::<f32>,
             slope: $slope,
             half_curvature: $half_curvature,
         }
@@ -244,26 +240,6 @@ fn not_a_number_stays_visible() {
         for (a, b) in [(f64::NAN, 0.5), (0.5, f64::NAN), (f64::NAN, f64::NAN)] {
             assert!((row.first)(a, b).is_nan(), "{}", row.name);
             assert!((row.second)(a, b).is_nan(), "{}", row.name);
-        }
-    }
-}
-
-#[test]
-#[expect(clippy::cast_possible_truncation, reason = "rounding is the point")]
-fn single_precision_is_as_accurate_as_it_can_be() {
-    // Limits in units of 2⁻²³: the same formulas, other libm functions.
-    let (first_limit, second_limit) = (8.0, 48.0);
-    let epsilon = f64::from(f32::EPSILON);
-    for row in rows() {
-        for a in ENDS {
-            for relative in [0.0, 1e-7, 1e-5, 1e-3, 0.02, -1e-6, -1e-2] {
-                let (a, b) = (a as f32, (a * (1.0 + relative)) as f32);
-                let (x, y) = (f64::from(a), f64::from(b));
-                let first = f64::from((row.first_f32)(a, b));
-                assert_close(first, (row.first)(x, y), first_limit * epsilon, row.name);
-                let second = f64::from((row.second_f32)(a, b));
-                assert_close(second, (row.second)(x, y), second_limit * epsilon, row.name);
-            }
         }
     }
 }

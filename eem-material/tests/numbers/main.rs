@@ -3,5 +3,4 @@
 mod elementary;
 mod inversion;
 mod kernels_accuracy;
-mod kernels_lanes;
 mod kernels_properties;

@@ -140,7 +140,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
             for (mut place, weight) in integrals::rule::<H, D>() {
                 place[axis] = end;
                 let (jacobian, functions) = self.jacobian(cell, place);
-                let cofactor = H::Tensor::<f64>::cofactor(&jacobian);
+                let cofactor = H::Tensor::cofactor(&jacobian);
                 let size = cofactor
                     .iter()
                     .fold(0.0, |size: f64, row| Scalar::hypot(size, row[axis]));
@@ -161,7 +161,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         for cell in 0..self.cells.len() {
             for (place, weight) in integrals::rule::<H, D>() {
                 let (jacobian, functions) = self.jacobian(cell, place);
-                let size = weight * H::Tensor::<f64>::determinant(&jacobian);
+                let size = weight * H::Tensor::determinant(&jacobian);
                 for (&node, (share, _)) in self.cells[cell].as_ref().iter().zip(&functions) {
                     volumes[node] += share * size;
                 }
@@ -171,14 +171,10 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     }
 
     /// `∂X/∂ξ` at a point of the parent cell, with the shape functions.
-    fn jacobian(
-        &self,
-        cell: usize,
-        place: [f64; D],
-    ) -> ([[f64; D]; D], integrals::Functions<f64, D>) {
+    fn jacobian(&self, cell: usize, place: [f64; D]) -> ([[f64; D]; D], integrals::Functions<D>) {
         let nodes = self.cells[cell].as_ref().iter();
         let reference: Vec<_> = nodes.map(|&node| self.nodes[node]).collect();
-        let functions = integrals::functions::<H, f64, D>(place);
+        let functions = integrals::functions::<H, D>(place);
         (integrals::jacobian(&reference, &functions), functions)
     }
 }

@@ -31,19 +31,19 @@ fn check_sizes<H: Shape<D>, const D: usize>(
     let unit = if D == 2 { "m^2" } else { "m^3" };
     let points = integrals::rule::<H, D>().into_iter();
     let points: Vec<_> = points
-        .map(|(place, _)| integrals::functions::<H, f64, D>(place))
+        .map(|(place, _)| integrals::functions::<H, D>(place))
         .collect();
     let at_nodes = H::NODES.iter().map(|node| node.map(f64::from));
-    let at_nodes: Vec<_> = at_nodes.map(integrals::functions::<H, f64, D>).collect();
+    let at_nodes: Vec<_> = at_nodes.map(integrals::functions::<H, D>).collect();
     let mut reference = H::PerNode::filled([0.0; D]);
     let is_size = |value: f64| value > 0.0 && value.is_finite();
     for (cell, its_nodes) in cells.iter().enumerate() {
         for (place, &node) in reference.as_mut().iter_mut().zip(its_nodes.as_ref()) {
             *place = nodes[node];
         }
-        let size = |functions: &integrals::Functions<f64, D>| {
+        let size = |functions: &integrals::Functions<D>| {
             let jacobian = integrals::jacobian(reference.as_ref(), functions);
-            H::Tensor::<f64>::determinant(&jacobian)
+            H::Tensor::determinant(&jacobian)
         };
         let scale = |functions, value| {
             let is_there = is_size(scaled_size::<H, D>(reference.as_ref(), functions));
@@ -77,7 +77,7 @@ fn check_sizes<H: Shape<D>, const D: usize>(
 /// `det ∂X/∂ξ` of a cell scaled to about the size one by powers of two.
 fn scaled_size<H: Shape<D>, const D: usize>(
     reference: &[[f64; D]],
-    functions: &integrals::Functions<f64, D>,
+    functions: &integrals::Functions<D>,
 ) -> f64 {
     let power = power_of_two(reference.as_flattened().iter());
     let first = reference[0];
@@ -89,7 +89,7 @@ fn scaled_size<H: Shape<D>, const D: usize>(
     for coordinate in arms.as_flattened_mut() {
         *coordinate *= power;
     }
-    H::Tensor::<f64>::determinant(&integrals::jacobian(&arms, functions))
+    H::Tensor::determinant(&integrals::jacobian(&arms, functions))
 }
 
 /// An error unless at most two faces of cells have the same nodes, and face each other.

@@ -20,7 +20,7 @@ pub(super) fn area_vector<H: Shape<D>, const D: usize>(corners: &[[f64; D]]) -> 
         [a, b] => rows[0] = difference(a, b),
         _ => {}
     }
-    let cofactor = H::Tensor::<f64>::cofactor(&rows);
+    let cofactor = H::Tensor::cofactor(&rows);
     cofactor[D - 1].map(|component| share * component)
 }
 

@@ -4,7 +4,7 @@
 //! the plane, three in space (the components x, y and z of `r × p` are those of (1, 2), (2, 0) and (0, 1)), six in
 //! four dimensions.
 
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// A bivector. Only the entries above the diagonal are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,21 +63,21 @@ pub(crate) fn planes<const D: usize>() -> impl Iterator<Item = [usize; 2]> {
     (0..D).flat_map(|i| (i + 1..D).map(move |j| [i, j]))
 }
 
-impl<S: Real, const D: usize> Bivector<S, D> {
+impl<const D: usize> Bivector<f64, D> {
     #[inline]
     pub(crate) fn zero() -> Self {
-        Self::filled(S::zero())
+        Self::filled(0.0)
     }
 
     /// `r ∧ p`.
     #[inline]
-    pub(crate) fn wedge(r: &[S; D], p: &[S; D]) -> Self {
-        Self::of(S::zero(), |i, j| r[i] * p[j] - r[j] * p[i])
+    pub(crate) fn wedge(r: &[f64; D], p: &[f64; D]) -> Self {
+        Self::of(0.0, |i, j| r[i] * p[j] - r[j] * p[i])
     }
 
     /// `self += factor · other`.
     #[inline]
-    pub(crate) fn add(&mut self, factor: S, other: &Self) {
+    pub(crate) fn add(&mut self, factor: f64, other: &Self) {
         for i in 0..D {
             for j in i + 1..D {
                 self.0[i][j] += factor * other.0[i][j];
@@ -88,8 +88,8 @@ impl<S: Real, const D: usize> Bivector<S, D> {
     /// The velocity of a point `r` that turns with this angular velocity, `v_j = Σ_i Ω_ij r_i` with `Ω_ji = −Ω_ij`;
     /// in space `ω × r`.
     #[inline]
-    pub(crate) fn turn(&self, r: &[S; D]) -> [S; D] {
-        let mut velocity = [S::zero(); D];
+    pub(crate) fn turn(&self, r: &[f64; D]) -> [f64; D] {
+        let mut velocity = [0.0; D];
         for i in 0..D {
             for j in i + 1..D {
                 velocity[j] += self.0[i][j] * r[i];
@@ -101,29 +101,27 @@ impl<S: Real, const D: usize> Bivector<S, D> {
 
     /// `Σ J_ij²` over all planes.
     #[inline]
-    pub(crate) fn square(&self) -> S {
-        planes::<D>().fold(S::zero(), |sum, plane| {
-            sum + self.at(plane) * self.at(plane)
-        })
+    pub(crate) fn square(&self) -> f64 {
+        planes::<D>().fold(0.0, |sum, plane| sum + self.at(plane) * self.at(plane))
     }
 
     /// The largest `|J_ij|`.
     #[inline]
-    pub(crate) fn largest(&self) -> S {
-        let mut most = S::zero();
+    pub(crate) fn largest(&self) -> f64 {
+        let mut most = 0.0;
         for i in 0..D {
             for j in i + 1..D {
-                most = most.maximum(self.0[i][j].abs());
+                most = Scalar::maximum(most, self.0[i][j].abs());
             }
         }
         most
     }
 
     /// `Σ_ij a_i J_ij b_j` over all i and j: the component of the plane of two unit vectors.
-    pub(crate) fn between(&self, a: &[S; D], b: &[S; D]) -> S {
+    pub(crate) fn between(&self, a: &[f64; D], b: &[f64; D]) -> f64 {
         let turned = self.turn(a);
         let terms = turned.iter().zip(b);
-        terms.fold(S::zero(), |sum, (&turned, &b)| sum + turned * b)
+        terms.fold(0.0, |sum, (&turned, &b)| sum + turned * b)
     }
 }
 

@@ -1,34 +1,26 @@
 //! Dense LU factorisation with partial pivoting, in place.
 //!
-//! For the few unknowns of a small scene or of one element. It works on any [`Real`] and on borrowed memory, so that a step
+//! For the few unknowns of a small scene or of one element. It works on borrowed memory, so that a step
 //! allocates nothing. Numbers of unknowns known at compile time use [`solve_fixed`], [`solve_one`] and [`solve_two`].
 
 mod fixed;
 
-use eem_material::number::scalar::{Discord, Mask, Real};
 pub(crate) use fixed::{Singular, solve_fixed, solve_one, solve_two};
 
-/// Lanes that need different pivots have none in common.
-impl From<Discord> for Singular {
-    fn from(Discord: Discord) -> Self {
-        Self
-    }
-}
-
 /// Factors the row-major `n × n` matrix, `n` the length of `pivots`: `P A = L U`.
-pub(crate) fn factor<S: Real>(matrix: &mut [S], pivots: &mut [usize]) -> Result<(), Singular> {
+pub(crate) fn factor(matrix: &mut [f64], pivots: &mut [usize]) -> Result<(), Singular> {
     let n = pivots.len();
     for column in 0..n {
         let mut pivot = column;
         for row in column + 1..n {
             let size = |row: usize| matrix[row * n + column].abs();
-            if size(pivot).less(size(row)).decide()? {
+            if size(pivot) < size(row) {
                 pivot = row;
             }
         }
         pivots[column] = pivot;
         let value = matrix[pivot * n + column];
-        if !value.is_finite() || value.equal(S::zero()).any() {
+        if !value.is_finite() || value == 0.0 {
             return Err(Singular);
         }
         if pivot != column {
@@ -42,7 +34,7 @@ pub(crate) fn factor<S: Real>(matrix: &mut [S], pivots: &mut [usize]) -> Result<
 }
 
 /// Subtracts the pivot row from the rows below it.
-fn eliminate<S: Real>(matrix: &mut [S], n: usize, column: usize) {
+fn eliminate(matrix: &mut [f64], n: usize, column: usize) {
     let (above, below) = matrix.split_at_mut((column + 1) * n);
     let pivot_row = &above[column * n..];
     for row in below.chunks_exact_mut(n) {
@@ -56,7 +48,7 @@ fn eliminate<S: Real>(matrix: &mut [S], n: usize, column: usize) {
 
 /// Whether a symmetric row-major `n × n` matrix is positive definite: whether Cholesky's method goes through, which uses
 /// and overwrites the lower half.
-pub(crate) fn is_positive_definite<S: Real>(matrix: &mut [S], n: usize) -> bool {
+pub(crate) fn is_positive_definite(matrix: &mut [f64], n: usize) -> bool {
     for row in 0..n {
         for column in 0..=row {
             let mut left = matrix[row * n + column];
@@ -65,7 +57,7 @@ pub(crate) fn is_positive_definite<S: Real>(matrix: &mut [S], n: usize) -> bool 
             }
             if column < row {
                 matrix[row * n + column] = left / matrix[column * n + column];
-            } else if S::zero().less(left).all() {
+            } else if left > 0.0 {
                 matrix[row * n + column] = left.sqrt();
             } else {
                 return false;
@@ -76,7 +68,7 @@ pub(crate) fn is_positive_definite<S: Real>(matrix: &mut [S], n: usize) -> bool 
 }
 
 /// Overwrites the columns of `b` with the solutions of `A x = b`, given the factors of A.
-pub(crate) fn solve<S: Real, const W: usize>(factors: &[S], pivots: &[usize], b: &mut [[S; W]]) {
+pub(crate) fn solve<const W: usize>(factors: &[f64], pivots: &[usize], b: &mut [[f64; W]]) {
     let n = pivots.len();
     for (row, &pivot) in pivots.iter().enumerate() {
         b.swap(row, pivot);
@@ -100,7 +92,7 @@ pub(crate) fn solve<S: Real, const W: usize>(factors: &[S], pivots: &[usize], b:
 
 /// `x −= factor y`.
 #[inline]
-fn subtract<S: Real, const W: usize>(x: &mut [S; W], factor: S, y: &[S; W]) {
+fn subtract<const W: usize>(x: &mut [f64; W], factor: f64, y: &[f64; W]) {
     for (x, &y) in x.iter_mut().zip(y) {
         *x -= factor * y;
     }

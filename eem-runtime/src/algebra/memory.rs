@@ -60,9 +60,9 @@ impl MemoryLimit {
 }
 
 /// The size of rows times columns of numbers, bytes.
-pub(crate) fn bytes<S>([rows, columns]: [usize; 2]) -> u64 {
+pub(crate) fn bytes([rows, columns]: [usize; 2]) -> u64 {
     let numbers = rows.saturating_mul(columns);
-    u64::try_from(numbers.saturating_mul(size_of::<S>())).unwrap_or(u64::MAX)
+    u64::try_from(numbers.saturating_mul(size_of::<f64>())).unwrap_or(u64::MAX)
 }
 
 #[cfg(test)]
@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn a_limit_is_the_most_that_is_taken() {
         let limit = MemoryLimit::new(Some(800));
-        assert_eq!(bytes::<f64>([10, 10]), 800);
+        assert_eq!(bytes([10, 10]), 800);
         assert_eq!(limit.check(10, 800), Ok(()));
         let refused = TooLarge {
             unknowns: 10,

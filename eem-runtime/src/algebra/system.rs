@@ -14,17 +14,14 @@
 #[cfg(feature = "gradients")]
 mod columns;
 
-#[cfg(feature = "sparse")]
-use core::marker::PhantomData;
 use core::mem;
 
 #[cfg(feature = "sparse")]
-use eem_sparse::{Analysis, Precision, Solver};
+use eem_sparse::{Analysis, Solver};
 
 use crate::algebra::lu::{self, Singular};
 use crate::algebra::memory::{MemoryLimit, TooLarge, bytes};
 use crate::algebra::pattern::Pattern;
-use eem_material::number::scalar::Real;
 
 /// The most unknowns for which the elimination is compiled with their number.
 pub(crate) const MOST_FIXED: usize = 12;
@@ -44,20 +41,20 @@ const WORTHWHILE_FILL: usize = 3;
 
 /// `A X = B` with `W` right-hand sides, in memory that is reused.
 #[derive(Debug)]
-pub(crate) struct LinearSystem<S, const W: usize> {
+pub(crate) struct LinearSystem<const W: usize> {
     unknowns: usize,
     storage: Storage,
     is_clear: bool,
     /// The entries of A, then a scratch entry for anchors, written but never read.
-    values: Vec<S>,
+    values: Vec<f64>,
     /// The rows of B, then a scratch row for anchors, written but never read.
-    right: Vec<[S; W]>,
+    right: Vec<[f64; W]>,
     /// Rows of X, then a scratch row for anchors.
-    solution: Vec<[S; W]>,
+    solution: Vec<[f64; W]>,
 }
 
 /// The entries of A and the rows of B.
-pub(crate) type Parts<'a, S, const W: usize> = (&'a mut [S], &'a mut [[S; W]]);
+pub(crate) type Parts<'a, const W: usize> = (&'a mut [f64], &'a mut [[f64; W]]);
 
 /// How the entries of A are stored and the system is solved.
 #[derive(Debug)]
@@ -73,7 +70,7 @@ enum Storage {
 
 impl Storage {
     /// The storage for a pattern, unless it is too large.
-    fn new<S>(pattern: &Pattern, limit: MemoryLimit) -> Result<Self, TooLarge> {
+    fn new(pattern: &Pattern, limit: MemoryLimit) -> Result<Self, TooLarge> {
         let unknowns = pattern.unknowns();
         if unknowns <= MOST_FIXED {
             return Ok(Self::Fixed { unknowns });
@@ -83,7 +80,7 @@ impl Storage {
             && pattern.entries() < unknowns * unknowns / SPARSITY
             && let Ok(analysis) = Analysis::new(pattern)
         {
-            let entries = bytes::<S>([pattern.entries(), 1]);
+            let entries = bytes([pattern.entries(), 1]);
             let needed = analysis.bytes().saturating_add(entries);
             limit.check(unknowns, needed)?;
             let sparse = Solver::reserve(analysis);
@@ -96,7 +93,7 @@ impl Storage {
                 }),
             };
         }
-        limit.check(unknowns, bytes::<S>([unknowns, unknowns]))?;
+        limit.check(unknowns, bytes([unknowns, unknowns]))?;
         let pivots = vec![0; unknowns];
         Ok(Self::Dense { pivots })
     }
@@ -131,10 +128,10 @@ impl Storage {
     /// Overwrites the right-hand sides with the solutions, and the values with zeros; the scratch entry behind them is not
     /// read.
     #[inline(never)]
-    fn solve<S: Real, const W: usize>(
+    fn solve<const W: usize>(
         &mut self,
-        values: &mut [S],
-        right: &mut [[S; W]],
+        values: &mut [f64],
+        right: &mut [[f64; W]],
     ) -> Result<(), Singular> {
         match self {
             Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
@@ -147,72 +144,52 @@ impl Storage {
 
 /// The elimination of a full matrix, in a separate function, so that small systems do not spill registers for it.
 #[inline(never)]
-fn solve_dense<S: Real, const W: usize>(
-    values: &mut [S],
+fn solve_dense<const W: usize>(
+    values: &mut [f64],
     pivots: &mut [usize],
-    right: &mut [[S; W]],
+    right: &mut [[f64; W]],
 ) -> Result<(), Singular> {
     let values = &mut values[..pivots.len() * pivots.len()];
     lu::factor(values, pivots)?;
     lu::solve(values, pivots, right);
-    values.fill(S::zero());
+    values.fill(0.0);
     Ok(())
 }
 
 /// The elimination by the pattern, in a separate function for the same reason.
 #[cfg(feature = "sparse")]
 #[inline(never)]
-fn solve_sparse<S: Real, const W: usize>(
-    values: &mut [S],
+fn solve_sparse<const W: usize>(
+    values: &mut [f64],
     sparse: &mut Solver,
-    right: &mut [[S; W]],
+    right: &mut [[f64; W]],
 ) -> Result<(), Singular> {
     let values = &mut values[..sparse.pattern().entries()];
-    let factored = sparse.factor::<Stored<S>>(values);
+    let factored = sparse.factor(values);
     let solved = factored.and_then(|mut factored| factored.solve(right));
     solved.map_err(|_| Singular)?;
-    values.fill(S::zero());
+    values.fill(0.0);
     Ok(())
-}
-
-/// Numbers of a scene, as stored for the sparse elimination, which computes in double precision.
-#[cfg(feature = "sparse")]
-#[derive(Clone, Copy)]
-struct Stored<S>(PhantomData<S>);
-
-#[cfg(feature = "sparse")]
-impl<S: Real> Precision for Stored<S> {
-    type Number = S;
-
-    #[inline]
-    fn widen(number: S) -> f64 {
-        number.to_f64()
-    }
-
-    #[inline]
-    fn narrow(value: f64) -> S {
-        S::from_f64(value)
-    }
 }
 
 /// The elimination that is compiled for this number of unknowns, more than two.
 #[inline]
-fn solve_fixed<S: Real, const W: usize>(
+fn solve_fixed<const W: usize>(
     unknowns: usize,
-    values: &mut [S],
-    right: &mut [[S; W]],
+    values: &mut [f64],
+    right: &mut [[f64; W]],
 ) -> Result<(), Singular> {
     match unknowns {
-        3 => lu::solve_fixed::<S, 3, W>(values, right),
-        4 => lu::solve_fixed::<S, 4, W>(values, right),
-        5 => lu::solve_fixed::<S, 5, W>(values, right),
-        6 => lu::solve_fixed::<S, 6, W>(values, right),
-        7 => lu::solve_fixed::<S, 7, W>(values, right),
-        8 => lu::solve_fixed::<S, 8, W>(values, right),
-        9 => lu::solve_fixed::<S, 9, W>(values, right),
-        10 => lu::solve_fixed::<S, 10, W>(values, right),
-        11 => lu::solve_fixed::<S, 11, W>(values, right),
-        MOST_FIXED => lu::solve_fixed::<S, MOST_FIXED, W>(values, right),
+        3 => lu::solve_fixed::<3, W>(values, right),
+        4 => lu::solve_fixed::<4, W>(values, right),
+        5 => lu::solve_fixed::<5, W>(values, right),
+        6 => lu::solve_fixed::<6, W>(values, right),
+        7 => lu::solve_fixed::<7, W>(values, right),
+        8 => lu::solve_fixed::<8, W>(values, right),
+        9 => lu::solve_fixed::<9, W>(values, right),
+        10 => lu::solve_fixed::<10, W>(values, right),
+        11 => lu::solve_fixed::<11, W>(values, right),
+        MOST_FIXED => lu::solve_fixed::<MOST_FIXED, W>(values, right),
         0 => Ok(()),
         _ => {
             unreachable!("{unknowns} unknowns are solved in line, or not by a compiled elimination")
@@ -220,16 +197,16 @@ fn solve_fixed<S: Real, const W: usize>(
     }
 }
 
-impl<S: Real, const W: usize> LinearSystem<S, W> {
+impl<const W: usize> LinearSystem<W> {
     /// A system with `run` scratch rows for anchors, unless it exceeds the memory limit.
     pub(crate) fn new(pattern: &Pattern, run: usize, limit: MemoryLimit) -> Result<Self, TooLarge> {
-        let storage = Storage::new::<S>(pattern, limit)?;
+        let storage = Storage::new(pattern, limit)?;
         Ok(Self {
             unknowns: pattern.unknowns(),
             is_clear: true,
-            values: vec![S::zero(); storage.entries() + run],
-            right: vec![[S::zero(); W]; pattern.unknowns() + run],
-            solution: vec![[S::zero(); W]; pattern.unknowns() + run],
+            values: vec![0.0; storage.entries() + run],
+            right: vec![[0.0; W]; pattern.unknowns() + run],
+            solution: vec![[0.0; W]; pattern.unknowns() + run],
             storage,
         })
     }
@@ -252,55 +229,55 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     /// Sets A and B to zero.
     pub(crate) fn clear(&mut self) {
         self.clear_matrix();
-        self.right.fill([S::zero(); W]);
+        self.right.fill([0.0; W]);
     }
 
     /// Sets A to zero.
     #[inline]
     pub(crate) fn clear_matrix(&mut self) {
         if !self.is_clear {
-            self.values.fill(S::zero());
+            self.values.fill(0.0);
             self.is_clear = true;
         }
     }
 
     /// The entries of A and the rows of B.
     #[inline]
-    pub(crate) fn parts(&mut self) -> Parts<'_, S, W> {
+    pub(crate) fn parts(&mut self) -> Parts<'_, W> {
         self.is_clear = false;
         (&mut self.values, &mut self.right)
     }
 
     /// The entries of A, set to zero, the rows of B and those of X.
     #[inline]
-    pub(crate) fn renew(&mut self) -> (&mut [S], &mut [[S; W]], &mut [[S; W]]) {
+    pub(crate) fn renew(&mut self) -> (&mut [f64], &mut [[f64; W]], &mut [[f64; W]]) {
         self.clear_matrix();
         self.is_clear = false;
         (&mut self.values, &mut self.right, &mut self.solution)
     }
 
     /// The rows of B.
-    pub(crate) fn right(&self) -> &[[S; W]] {
+    pub(crate) fn right(&self) -> &[[f64; W]] {
         &self.right
     }
 
     /// The rows of X, once [`solve`](Self::solve) has succeeded.
-    pub(crate) fn solution(&self) -> &[[S; W]] {
+    pub(crate) fn solution(&self) -> &[[f64; W]] {
         &self.solution
     }
 
     /// The rows of X, mutable.
-    pub(crate) fn solution_mut(&mut self) -> &mut [[S; W]] {
+    pub(crate) fn solution_mut(&mut self) -> &mut [[f64; W]] {
         &mut self.solution
     }
 
     /// All entries of A, row-major.
-    pub(crate) fn dense(&self) -> Vec<S> {
+    pub(crate) fn dense(&self) -> Vec<f64> {
         let rows = 0..self.unknowns;
         rows.flat_map(|row| {
             (0..self.unknowns).map(move |column| {
                 let position = self.storage.position(row, column);
-                position.map_or(S::zero(), |position| self.values[position])
+                position.map_or(0.0, |position| self.values[position])
             })
         })
         .collect()
@@ -324,7 +301,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
             #[cfg(feature = "sparse")]
             Storage::Sparse(sparse) => {
                 let right = &mut self.right[..self.unknowns];
-                if sparse.solve_again::<Stored<S>, W>(right).is_err() {
+                if sparse.solve_again(right).is_err() {
                     return false;
                 }
                 mem::swap(&mut self.right, &mut self.solution);
@@ -337,13 +314,12 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
 
     /// Replaces A by `½(A + Aᵀ)`.
     pub(crate) fn symmetrize(&mut self) {
-        let half = S::from_f64(0.5);
         for row in 0..self.unknowns {
             for column in 0..row {
                 let places = [[row, column], [column, row]];
                 let places = places.map(|[row, column]| self.storage.position(row, column));
                 if let [Some(one), Some(other)] = places {
-                    let mean = half * (self.values[one] + self.values[other]);
+                    let mean = 0.5 * (self.values[one] + self.values[other]);
                     (self.values[one], self.values[other]) = (mean, mean);
                 }
             }
@@ -397,7 +373,7 @@ mod tests {
                     .for_each(|column| pair(row, column));
             }
         });
-        let mut system = LinearSystem::<f64, 2>::new(&pattern, 1, MemoryLimit::NONE).unwrap();
+        let mut system = LinearSystem::<2>::new(&pattern, 1, MemoryLimit::NONE).unwrap();
         let entry = |row: usize, column: usize| {
             let off = f64::from(u8::try_from((3 * row + 5 * column) % 7).unwrap()) - 3.0;
             if row == column { 50.0 } else { off }
@@ -438,7 +414,7 @@ mod tests {
     #[test]
     fn entries_of_anchors_are_not_read() {
         let mut system =
-            LinearSystem::<f64, 1>::new(&Pattern::new(1, |_| {}), 1, MemoryLimit::NONE).unwrap();
+            LinearSystem::<1>::new(&Pattern::new(1, |_| {}), 1, MemoryLimit::NONE).unwrap();
         let (own, scratch) = (system.place(Some(0), Some(0)), system.place(Some(0), None));
         let (values, right) = system.parts();
         (values[own], values[scratch]) = (2.0, 9.0);

@@ -6,54 +6,53 @@
 use super::conduction::{Conduction, Exchange, HeatFlow, Partner};
 use super::state::State;
 use super::tally::Tally;
-use eem_material::number::scalar::Real;
 
 /// The sums to which the flows of a step are added.
-pub(crate) struct Balances<'a, S: Real> {
-    pub(crate) next: &'a mut State<S>,
-    pub(crate) tally: &'a mut Tally<S>,
+pub(crate) struct Balances<'a> {
+    pub(crate) next: &'a mut State,
+    pub(crate) tally: &'a mut Tally,
 }
 
 /// Heat and entropy that an element has received during a step or a stage.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Received<S> {
+pub(crate) struct Received {
     /// Entropy, J/K.
-    pub(crate) entropy: S,
+    pub(crate) entropy: f64,
     /// The magnitude of its terms, J/K: exchange and production of a path cancel where the element is much warmer than
     /// its partner.
-    pub(crate) terms: S,
+    pub(crate) terms: f64,
     /// Heat of its dashpots and of paths to other elements, J.
-    pub(crate) heat: S,
+    pub(crate) heat: f64,
 }
 
-impl<S: Real> Received<S> {
+impl Received {
     /// Nothing yet.
     #[inline]
     pub(crate) fn none() -> Self {
         Self {
-            entropy: S::zero(),
-            terms: S::zero(),
-            heat: S::zero(),
+            entropy: 0.0,
+            terms: 0.0,
+            heat: 0.0,
         }
     }
 
     /// Adds a term of the entropy, J/K.
     #[inline]
-    pub(crate) fn add(&mut self, entropy: S) {
+    pub(crate) fn add(&mut self, entropy: f64) {
         self.entropy += entropy;
         self.terms += entropy.abs();
     }
 }
 
-impl<S: Real> Balances<'_, S> {
+impl Balances<'_> {
     /// Books a path between two elements at the end with the first of these slots, where it has this link. Both ends book
     /// the same exchange; only the end with the larger slot books the production, after the exchange.
     #[inline]
     pub(crate) fn conduct(
         &mut self,
         [slot, other]: [usize; 2],
-        (link, path): (u32, &Exchange<S>),
-        received: &mut Received<S>,
+        (link, path): (u32, &Exchange),
+        received: &mut Received,
     ) {
         self.next.entropies.add(slot, path.entropy);
         received.add(path.entropy);
@@ -72,10 +71,10 @@ impl<S: Real> Balances<'_, S> {
     #[inline]
     pub(crate) fn exchange_with_reservoirs(
         &mut self,
-        conduction: &Conduction<S>,
+        conduction: &Conduction,
         slot: usize,
-        (share, [theta, correction]): (S, [S; 2]),
-        received: &mut Received<S>,
+        (share, [theta, correction]): (f64, [f64; 2]),
+        received: &mut Received,
     ) {
         for (place, link) in conduction.links(slot).iter().enumerate() {
             let Partner::Reservoir(index) = link.partner else {
@@ -97,7 +96,7 @@ impl<S: Real> Balances<'_, S> {
 
     /// Books the production of a path at this end.
     #[inline]
-    fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) {
+    fn produce(&mut self, slot: usize, path: &Exchange, received: &mut Received) {
         let production = path.production();
         self.next.entropies.add(slot, production);
         received.add(production);
@@ -106,10 +105,10 @@ impl<S: Real> Balances<'_, S> {
     }
 }
 
-impl<S: Real> State<S> {
+impl State {
     /// Books heat and entropy that a thermostat gives, J and J/K.
     #[inline]
-    pub(crate) fn book_thermostat(&mut self, heat: S, entropy: S) {
+    pub(crate) fn book_thermostat(&mut self, heat: f64, entropy: f64) {
         self.heat.add(heat);
         self.thermostat_entropy.add(-entropy);
     }
@@ -129,13 +128,13 @@ impl<S: Real> State<S> {
 /// The entropy `u + P` that the element books is `Q/(θ* − correction)`, so that a correction changes the
 /// energy by `Q correction/θ*`. Where a correction is made, it is a few roundings of θ*, and the change of the energy a few
 /// roundings of Q.
-pub(crate) fn reservoir_correction<S: Real>(
-    flow: &HeatFlow<S>,
-    [h, theta]: [S; 2],
-    [taken, stored, heat]: [S; 3],
-) -> S {
+pub(crate) fn reservoir_correction(
+    flow: &HeatFlow,
+    [h, theta]: [f64; 2],
+    [taken, stored, heat]: [f64; 3],
+) -> f64 {
     let conducted = h * flow.conductance;
-    let is_stiff = (stored + taken.abs() + heat.abs()).less(conducted * theta);
+    let is_stiff = stored + taken.abs() + heat.abs() < conducted * theta;
     let correction = ((taken - heat) - h * flow.heat) / conducted;
-    S::select(is_stiff, correction, S::zero())
+    if is_stiff { correction } else { 0.0 }
 }

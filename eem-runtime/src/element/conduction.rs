@@ -4,7 +4,6 @@ use crate::element::handle::{Element, HeatPartner};
 use crate::element::layout::Layout;
 use eem_material::number::compact::compact;
 use eem_material::number::compensated::Compensated;
-use eem_material::number::scalar::Real;
 
 /// The far end of a path of heat.
 #[derive(Clone, Copy, Debug)]
@@ -17,24 +16,24 @@ pub(crate) enum Partner {
 
 /// A path of heat, as stored at one of its elements.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Link<S> {
+pub(crate) struct Link {
     pub(crate) partner: Partner,
     /// κ, W/K.
-    pub(crate) conductance: S,
+    pub(crate) conductance: f64,
 }
 
 /// A path of heat.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Conductor<S> {
+pub(crate) struct Conductor {
     pub(crate) element: Element,
     pub(crate) partner: HeatPartner,
-    pub(crate) conductance: S,
+    pub(crate) conductance: f64,
 }
 
 /// All paths of heat of a scene, sorted by thermal slot.
 #[derive(Clone, Debug)]
-pub(crate) struct Conduction<S> {
-    links: Vec<Link<S>>,
+pub(crate) struct Conduction {
+    links: Vec<Link>,
     /// Where the links of each slot begin and end; empty for a scene without paths.
     ranges: Vec<[u32; 2]>,
     /// Of each path in the order of creation: its first link, which is that of the lower of two slots, and whether this link
@@ -43,14 +42,14 @@ pub(crate) struct Conduction<S> {
     /// The element of each thermal slot, and its Σ κ to elements and half that to reservoirs, W/K; empty for a scene without
     /// paths.
     owners: Vec<u32>,
-    settling: Vec<S>,
+    settling: Vec<f64>,
     /// `θ_r`, K.
-    pub(crate) reservoirs: Vec<S>,
+    pub(crate) reservoirs: Vec<f64>,
 }
 
-impl<S: Real> Conduction<S> {
+impl Conduction {
     /// The paths of a scene.
-    pub(crate) fn new(conductors: &[Conductor<S>], reservoirs: &[S], layout: &Layout) -> Self {
+    pub(crate) fn new(conductors: &[Conductor], reservoirs: &[f64], layout: &Layout) -> Self {
         let slots = if conductors.is_empty() {
             0
         } else {
@@ -91,12 +90,12 @@ impl<S: Real> Conduction<S> {
                 *owner = compact(element);
             }
         }
-        let settling = by_slot.iter().map(|links: &Vec<Link<S>>| {
-            let mut sum = S::zero();
+        let settling = by_slot.iter().map(|links: &Vec<Link>| {
+            let mut sum = 0.0;
             for link in links {
                 sum += match link.partner {
                     Partner::Slot(_) => link.conductance,
-                    Partner::Reservoir(_) => S::from_f64(0.5) * link.conductance,
+                    Partner::Reservoir(_) => 0.5 * link.conductance,
                 };
             }
             sum
@@ -158,7 +157,7 @@ impl<S: Real> Conduction<S> {
 
     /// The paths that end at a slot.
     #[inline]
-    pub(crate) fn links(&self, slot: usize) -> &[Link<S>] {
+    pub(crate) fn links(&self, slot: usize) -> &[Link] {
         let Some(&[start, end]) = self.ranges.get(slot) else {
             return &[];
         };
@@ -176,8 +175,8 @@ impl<S: Real> Conduction<S> {
     /// Σ κ of a slot to elements and half that to reservoirs, W/K. If it is at most `c/h` at every slot, the rates of the network are
     /// at most `2/h`, and a step by the mean temperature does not alternate.
     #[inline]
-    pub(crate) fn settling(&self, slot: usize) -> S {
-        self.settling.get(slot).copied().unwrap_or(S::zero())
+    pub(crate) fn settling(&self, slot: usize) -> f64 {
+        self.settling.get(slot).copied().unwrap_or(0.0)
     }
 
     /// Whether a slot exchanges heat with reservoirs.
@@ -194,7 +193,7 @@ impl<S: Real> Conduction<S> {
 
     /// The heat flow from reservoirs into a slot with the temperature θ, `Σ κ (θ_r − θ)`.
     #[inline]
-    pub(crate) fn reservoir_flow(&self, slot: usize, theta: S) -> HeatFlow<S> {
+    pub(crate) fn reservoir_flow(&self, slot: usize, theta: f64) -> HeatFlow {
         let mut flow = HeatFlow::none();
         for link in self.links(slot) {
             if let Partner::Reservoir(index) = link.partner {
@@ -210,7 +209,7 @@ impl<S: Real> Conduction<S> {
     /// Flows between elements are computed from interface temperatures Θ at both ends, so that one end
     /// receives exactly what the other gives, whatever rounding does to a large κ; flows
     /// from reservoirs from the temperature θ of the slot.
-    pub(crate) fn heat_flow(&self, slot: usize, theta: S, interface: &[S]) -> HeatFlow<S> {
+    pub(crate) fn heat_flow(&self, slot: usize, theta: f64, interface: &[f64]) -> HeatFlow {
         let mut flow = self.reservoir_flow(slot, theta);
         for link in self.links(slot) {
             if let Partner::Slot(partner) = link.partner {
@@ -233,20 +232,20 @@ impl<S: Real> Conduction<S> {
 /// sign of D² to the last bit, so that the total entropy does not decrease even where D is far below the
 /// rounding of the temperatures.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Exchange<S> {
+pub(crate) struct Exchange {
     /// Heat that this end receives, J.
-    pub(crate) heat: S,
+    pub(crate) heat: f64,
     /// Entropy that this end receives, without what is produced, J/K.
-    pub(crate) entropy: S,
+    pub(crate) entropy: f64,
     /// D and θ, K.
-    drop: S,
-    theta: S,
+    drop: f64,
+    theta: f64,
 }
 
-impl<S: Real> Exchange<S> {
+impl Exchange {
     /// The end at the temperature θ of a path to one that is warmer by `drop`, K, with `hκ` in J/K.
     #[inline]
-    fn at_cool_end(conducted: S, drop: S, theta: S) -> Self {
+    fn at_cool_end(conducted: f64, drop: f64, theta: f64) -> Self {
         let heat = conducted * drop;
         Self {
             heat,
@@ -258,14 +257,14 @@ impl<S: Real> Exchange<S> {
 
     /// P, J/K.
     #[inline]
-    pub(crate) fn production(&self) -> S {
+    pub(crate) fn production(&self) -> f64 {
         // The heat at this end may have either sign.
         self.entropy.abs() * (self.drop.abs() / (self.theta + self.drop))
     }
 
     /// An element that is cooler by `drop` than a reservoir.
     #[inline]
-    pub(crate) fn from_reservoir(conducted: S, drop: S, theta_r: S) -> Self {
+    pub(crate) fn from_reservoir(conducted: f64, drop: f64, theta_r: f64) -> Self {
         Self::at_cool_end(conducted, -drop, theta_r).reversed()
     }
 
@@ -285,42 +284,42 @@ impl<S: Real> Exchange<S> {
 /// Each is a compensated sum: where conduction is stiff, the heat `hκ(Θ_b − Θ_a)` needs more digits of
 /// the difference than the temperatures have.
 #[derive(Clone, Debug)]
-pub(crate) struct InterfaceTemperatures<S>(Compensated<S>);
+pub(crate) struct InterfaceTemperatures(Compensated);
 
-impl<S: Real> InterfaceTemperatures<S> {
+impl InterfaceTemperatures {
     /// Zeros, for this number of slots.
     pub(crate) fn new(slots: usize) -> Self {
-        Self(Compensated::new(vec![S::zero(); slots]))
+        Self(Compensated::new(vec![0.0; slots]))
     }
 
     /// Their values, without compensations.
     #[inline]
-    pub(crate) fn values(&self) -> &[S] {
+    pub(crate) fn values(&self) -> &[f64] {
         self.0.values()
     }
 
     /// Sets one, without compensation.
     #[inline]
-    pub(crate) fn set(&mut self, slot: usize, theta: S) {
+    pub(crate) fn set(&mut self, slot: usize, theta: f64) {
         self.0.set(slot, theta);
     }
 
     /// Adds to one.
     #[inline]
-    pub(crate) fn add(&mut self, slot: usize, change: S) {
+    pub(crate) fn add(&mut self, slot: usize, change: f64) {
         self.0.add(slot, change);
     }
 
     /// `Θ_far − Θ_near`, K.
     #[inline]
-    pub(crate) fn drop(&self, near: usize, far: usize) -> S {
+    pub(crate) fn drop(&self, near: usize, far: usize) -> f64 {
         self.0.sum(far).change(self.0.sum(near))
     }
 
     /// The exchange at a slot with another one in a step, given `hκ`, J/K. At both ends it is computed from the lower
     /// slot, so that u is the same.
     #[inline]
-    pub(crate) fn exchange(&self, conducted: S, slot: usize, other: usize) -> Exchange<S> {
+    pub(crate) fn exchange(&self, conducted: f64, slot: usize, other: usize) -> Exchange {
         let first = slot.min(other);
         let drop = self.drop(first, slot.max(other));
         let path = Exchange::at_cool_end(conducted, drop, self.values()[first]);
@@ -330,20 +329,20 @@ impl<S: Real> InterfaceTemperatures<S> {
 
 /// The heat flow into a slot.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct HeatFlow<S> {
+pub(crate) struct HeatFlow {
     /// Q, W.
-    pub(crate) heat: S,
+    pub(crate) heat: f64,
     /// `−∂Q/∂θ = Σ κ` to reservoirs, W/K.
-    pub(crate) conductance: S,
+    pub(crate) conductance: f64,
 }
 
-impl<S: Real> HeatFlow<S> {
+impl HeatFlow {
     /// Nothing flows.
     #[inline]
     pub(crate) fn none() -> Self {
         Self {
-            heat: S::zero(),
-            conductance: S::zero(),
+            heat: 0.0,
+            conductance: 0.0,
         }
     }
 }

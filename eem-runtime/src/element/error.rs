@@ -21,7 +21,7 @@ pub enum StateError {
         element: Element,
         /// The stretch, m.
         value: f64,
-        /// The smallest stretch in the number type of the scene, m.
+        /// The smallest stretch, m.
         least: f64,
         /// The largest stretch, m.
         most: f64,

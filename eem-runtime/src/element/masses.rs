@@ -1,41 +1,40 @@
 //! The mass matrix: masses of the nodes, none for anchors, and masses of solids, which couple nodes.
 
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::{Mask, Real};
 
 /// The mass matrix, a number for every pair of nodes, kg.
 #[derive(Clone, Debug)]
-pub(crate) struct Masses<S> {
+pub(crate) struct Masses {
     /// Its diagonal. That of an anchor is stored as zero, which no other node has.
-    own: Vec<S>,
+    own: Vec<f64>,
     /// Off-diagonal entries, once for each pair of nodes that move.
-    pairs: Vec<MassPair<S>>,
+    pairs: Vec<MassPair>,
     /// Entries of solids at anchors: once for each pair with an anchor, and each anchor with itself.
-    held: Vec<MassPair<S>>,
+    held: Vec<MassPair>,
 }
 
 /// An entry of the mass matrix.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct MassPair<S> {
+pub(crate) struct MassPair {
     nodes: [u32; 2],
     /// kg.
-    pub(crate) mass: S,
+    pub(crate) mass: f64,
 }
 
-impl<S> MassPair<S> {
+impl MassPair {
     pub(crate) fn nodes(&self) -> [usize; 2] {
         self.nodes.map(|node| node as usize)
     }
 }
 
-impl<S: Real> Masses<S> {
+impl Masses {
     /// From the masses of the nodes, `None` for anchors, and pairs, among them the masses of solids at anchors. Entries of
     /// the same pair add up.
     pub(crate) fn new(
-        masses: impl Iterator<Item = Option<S>>,
-        mut pairs: Vec<([usize; 2], S)>,
+        masses: impl Iterator<Item = Option<f64>>,
+        mut pairs: Vec<([usize; 2], f64)>,
     ) -> Self {
-        let mut own: Vec<_> = masses.map(|mass| mass.unwrap_or(S::zero())).collect();
+        let mut own: Vec<_> = masses.map(|mass| mass.unwrap_or(0.0)).collect();
         own.shrink_to_fit();
         let mut masses = Self {
             own,
@@ -67,12 +66,12 @@ impl<S: Real> Masses<S> {
 
     /// The mass of a node, its diagonal entry; `None` for an anchor.
     #[inline]
-    pub(crate) fn get(&self, node: usize) -> Option<S> {
+    pub(crate) fn get(&self, node: usize) -> Option<f64> {
         let mass = self.own[node];
-        (!mass.equal(S::zero()).all()).then_some(mass)
+        (mass != 0.0).then_some(mass)
     }
 
-    pub(crate) fn iter(&self) -> impl Iterator<Item = Option<S>> + Clone + '_ {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Option<f64>> + Clone + '_ {
         (0..self.len()).map(|node| self.get(node))
     }
 
@@ -81,12 +80,12 @@ impl<S: Real> Masses<S> {
     }
 
     /// Off-diagonal entries of nodes that move.
-    pub(crate) fn pairs(&self) -> &[MassPair<S>] {
+    pub(crate) fn pairs(&self) -> &[MassPair] {
         &self.pairs
     }
 
     /// Entries of solids at anchors: pairs with an anchor, and anchors with themselves.
-    pub(crate) fn held(&self) -> &[MassPair<S>] {
+    pub(crate) fn held(&self) -> &[MassPair] {
         &self.held
     }
 
@@ -96,7 +95,7 @@ impl<S: Real> Masses<S> {
     }
 
     /// The entries of the matrix except the diagonal of the nodes that move, with row and column.
-    pub(crate) fn coupled(&self) -> impl Iterator<Item = ([usize; 2], S)> + '_ {
+    pub(crate) fn coupled(&self) -> impl Iterator<Item = ([usize; 2], f64)> + '_ {
         let pairs = self.pairs.iter().chain(&self.held);
         pairs.flat_map(|pair| {
             let [i, j] = pair.nodes();
@@ -106,7 +105,7 @@ impl<S: Real> Masses<S> {
     }
 
     /// The mass on which gravity acts at each node, the sum of a row, kg; at anchors that of solids.
-    pub(crate) fn weights(&self) -> Vec<S> {
+    pub(crate) fn weights(&self) -> Vec<f64> {
         let mut weights = self.own.clone();
         for ([row, _], mass) in self.coupled() {
             weights[row] += mass;
@@ -115,7 +114,7 @@ impl<S: Real> Masses<S> {
     }
 
     /// `p = M v` of coordinates stored node after node; `momenta` is written.
-    pub(crate) fn find_momenta(&self, dimension: usize, velocities: &[S], momenta: &mut [S]) {
+    pub(crate) fn find_momenta(&self, dimension: usize, velocities: &[f64], momenta: &mut [f64]) {
         for (at, momentum) in momenta.iter_mut().enumerate() {
             *momentum = self.own[at / dimension] * velocities[at];
         }

@@ -3,7 +3,6 @@
 
 use crate::element::conduction::Exchange;
 use eem_material::number::compensated::{Compensated, Sum};
-use eem_material::number::scalar::Real;
 
 /// Sums since the meters were switched on; empty before.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,32 +11,22 @@ use eem_material::number::scalar::Real;
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct Meters<S> {
+#[derive(Default)]
+pub(crate) struct Meters {
     pub(crate) are_on: bool,
     /// The heat of each dashpot in series, then per element that of the dashpots in parallel, J.
-    pub(crate) dissipated: Compensated<S>,
+    pub(crate) dissipated: Compensated,
     /// The entropy that dashpots and paths of heat have produced, per thermal slot, J/K.
-    pub(crate) produced: Compensated<S>,
+    pub(crate) produced: Compensated,
     /// The heat that each path has brought to its first thermal slot, by the index of its link there, J.
-    pub(crate) conducted: Compensated<S>,
+    pub(crate) conducted: Compensated,
 }
 
-impl<S> Default for Meters<S> {
-    fn default() -> Self {
-        Self {
-            are_on: false,
-            dissipated: Compensated::default(),
-            produced: Compensated::default(),
-            conducted: Compensated::default(),
-        }
-    }
-}
-
-impl<S: Real> Meters<S> {
+impl Meters {
     /// Sums of zero, for these numbers of entries.
     pub(crate) fn new(counts: [usize; 3]) -> Self {
         let [dissipated, produced, conducted] =
-            counts.map(|count| Compensated::new(vec![S::zero(); count]));
+            counts.map(|count| Compensated::new(vec![0.0; count]));
         Self {
             are_on: true,
             dissipated,
@@ -53,7 +42,7 @@ impl<S: Real> Meters<S> {
 
     /// Adds heat of a dashpot, J.
     #[inline]
-    pub(crate) fn dissipate(&mut self, dashpot: usize, heat: S) {
+    pub(crate) fn dissipate(&mut self, dashpot: usize, heat: f64) {
         if self.are_on {
             self.dissipated.add(dashpot, heat);
         }
@@ -61,7 +50,7 @@ impl<S: Real> Meters<S> {
 
     /// Adds entropy that is produced at a thermal slot, J/K.
     #[inline]
-    pub(crate) fn produce(&mut self, slot: usize, entropy: S) {
+    pub(crate) fn produce(&mut self, slot: usize, entropy: f64) {
         if self.are_on {
             self.produced.add(slot, entropy);
         }
@@ -69,17 +58,17 @@ impl<S: Real> Meters<S> {
 
     /// Adds entropy that a path of heat between two thermal slots produces, J/K: half at each.
     #[inline]
-    pub(crate) fn produce_between(&mut self, slots: [usize; 2], entropy: S) {
+    pub(crate) fn produce_between(&mut self, slots: [usize; 2], entropy: f64) {
         if self.are_on {
             for slot in slots {
-                self.produced.add(slot, S::from_f64(0.5) * entropy);
+                self.produced.add(slot, 0.5 * entropy);
             }
         }
     }
 
     /// Adds a path between two slots, as booked at the first of them, where it has this link.
     #[cold]
-    pub(crate) fn see_path(&mut self, [slot, other]: [usize; 2], link: usize, path: &Exchange<S>) {
+    pub(crate) fn see_path(&mut self, [slot, other]: [usize; 2], link: usize, path: &Exchange) {
         if slot > other {
             self.produce_between([slot, other], path.production());
         } else {
@@ -89,14 +78,14 @@ impl<S: Real> Meters<S> {
 
     /// Adds a path from a slot to a reservoir.
     #[cold]
-    pub(crate) fn see_path_outside(&mut self, slot: usize, link: usize, path: &Exchange<S>) {
+    pub(crate) fn see_path_outside(&mut self, slot: usize, link: usize, path: &Exchange) {
         self.produce(slot, path.production());
         self.conduct(link, path.heat);
     }
 
     /// Adds heat that a path brings to its first slot, J.
     #[inline]
-    pub(crate) fn conduct(&mut self, path: usize, heat: S) {
+    pub(crate) fn conduct(&mut self, path: usize, heat: f64) {
         if self.are_on {
             self.conducted.add(path, heat);
         }
@@ -105,7 +94,7 @@ impl<S: Real> Meters<S> {
     /// Copies the meters of a state of the same scene.
     #[inline]
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        if self.are_on | other.are_on {
+        if self.are_on || other.are_on {
             self.copy_kept(other);
         }
     }
@@ -123,8 +112,8 @@ impl<S: Real> Meters<S> {
 }
 
 /// Adds sums to a sum.
-pub(crate) fn total<S: Real>(sums: impl Iterator<Item = Sum<S>>) -> Sum<S> {
-    sums.fold(Sum::new(S::zero()), |mut total, sum| {
+pub(crate) fn total(sums: impl Iterator<Item = Sum>) -> Sum {
+    sums.fold(Sum::new(0.0), |mut total, sum| {
         total.add(sum.value);
         total.add(sum.carry);
         total

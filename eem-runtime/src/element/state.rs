@@ -5,7 +5,7 @@ use crate::element::meters::Meters;
 use eem_material::free_energy::Caloric;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// Positions, momenta, viscous stretches, entropies and the accumulated balances.
 ///
@@ -17,37 +17,37 @@ use eem_material::number::scalar::Real;
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct State<S> {
+pub(crate) struct State {
     /// t, s.
-    pub(crate) time: Sum<S>,
+    pub(crate) time: Sum,
     /// q, m.
-    pub(crate) positions: Compensated<S>,
+    pub(crate) positions: Compensated,
     /// p, kg m/s; at anchors, that of the mass of solids there.
-    pub(crate) momenta: Compensated<S>,
+    pub(crate) momenta: Compensated,
     /// v, m/s, if masses couple nodes: then `p = M v` follows from them. Empty otherwise.
     #[cfg_attr(feature = "serde", serde(default = "Compensated::default"))]
-    pub(crate) velocities: Compensated<S>,
+    pub(crate) velocities: Compensated,
     /// γ, m.
-    pub(crate) viscous: Compensated<S>,
+    pub(crate) viscous: Compensated,
     /// s, J/K.
-    pub(crate) entropies: Compensated<S>,
+    pub(crate) entropies: Compensated,
     /// θ with S(λ, γ, θ) = s, K.
-    pub(crate) temperatures: Vec<S>,
+    pub(crate) temperatures: Vec<f64>,
     /// Per element of the scene; a checkpoint stores them separately.
     #[cfg_attr(feature = "serde", serde(skip, default = "Vec::new"))]
-    pub(crate) energies: Vec<Energy<S>>,
+    pub(crate) energies: Vec<Energy>,
     /// `σ_r`, the entropy that each reservoir has received since the start, J/K.
-    pub(crate) reservoir_entropies: Compensated<S>,
+    pub(crate) reservoir_entropies: Compensated,
     /// Work that loads and moved anchors have done, J.
-    pub(crate) work: Sum<S>,
+    pub(crate) work: Sum,
     /// Heat that thermostats have given, J.
-    pub(crate) heat: Sum<S>,
+    pub(crate) heat: Sum,
     /// Entropy that thermostats have received, J/K.
-    pub(crate) thermostat_entropy: Sum<S>,
+    pub(crate) thermostat_entropy: Sum,
     /// Heat of dashpots in elements without temperature: it leaves the scene, J.
-    pub(crate) dissipated: Sum<S>,
+    pub(crate) dissipated: Sum,
     #[cfg_attr(feature = "serde", serde(default = "Meters::default"))]
-    pub(crate) meters: Meters<S>,
+    pub(crate) meters: Meters,
 }
 
 /// The internal energy of an element in a state, J.
@@ -57,19 +57,19 @@ pub(crate) struct State<S> {
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct Energy<S> {
+pub(crate) struct Energy {
     /// `ψ + θ s`.
-    pub(crate) value: S,
+    pub(crate) value: f64,
     /// `|ψ| + θ|s| + cθ` or, if the terms of s cancel, an eighth of `θ Σ |terms of s|`: times 64 ε, the bound for the
     /// rounding of `value` and of the temperature that is found from s.
-    pub(crate) magnitude: S,
+    pub(crate) magnitude: f64,
     /// c, J/K: times ε, the error of an entropy by rounding of the temperature from which it is found.
-    pub(crate) heat_capacity: S,
+    pub(crate) heat_capacity: f64,
     /// `|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|` of this state, or a part of it.
-    pub(crate) terms: S,
+    pub(crate) terms: f64,
     /// What the bound of the energy counts in addition to `magnitude`, J: `Σ|f||π| + Σ|g||γ|` for the rounding of the
     /// arguments of ψ; for schemes without discrete derivatives also a part for the rounding of ψ itself.
-    pub(crate) excess: S,
+    pub(crate) excess: f64,
 }
 
 /// The fraction of the terms of an entropy that counts in the magnitude of an energy: their sum has an error of 8 ε of
@@ -83,37 +83,37 @@ const SHARE_OF_VALUES: f64 = 0.25;
 /// times too large in a million random steps, near the core of a Lennard-Jones spring.
 const SHARE_OF_SECANTS: f64 = 0.0625;
 
-impl<S: Real> Energy<S> {
+impl Energy {
     /// The energy of an element with the free energy ψ, the temperature θ and the stored entropy s, given the caloric
     /// quantities of the model at θ.
     #[inline]
-    pub(crate) fn new(psi: S, [theta, entropy]: [S; 2], caloric: &Caloric<S>) -> Self {
-        let terms = S::from_f64(SHARE_OF_TERMS) * theta * caloric.magnitude;
+    pub(crate) fn new(psi: f64, [theta, entropy]: [f64; 2], caloric: &Caloric<f64>) -> Self {
+        let terms = SHARE_OF_TERMS * theta * caloric.magnitude;
         let sizes = psi.abs() + theta * (entropy.abs() + caloric.heat_capacity);
         Self {
             value: psi + theta * entropy,
-            magnitude: sizes.maximum(terms),
+            magnitude: Scalar::maximum(sizes, terms),
             heat_capacity: caloric.heat_capacity,
             terms: sizes,
-            excess: S::zero(),
+            excess: 0.0,
         }
     }
 
     /// The energy of an element without temperature.
     #[inline]
-    pub(crate) fn without_temperature(psi: S) -> Self {
+    pub(crate) fn without_temperature(psi: f64) -> Self {
         Self {
             value: psi,
             magnitude: psi.abs(),
-            heat_capacity: S::zero(),
+            heat_capacity: 0.0,
             terms: psi.abs(),
-            excess: S::zero(),
+            excess: 0.0,
         }
     }
 
     /// Adds `Σ|f||π| + Σ|g||γ|` of this state, J.
     #[inline]
-    pub(crate) fn add_forces(&mut self, forces: S) {
+    pub(crate) fn add_forces(&mut self, forces: f64) {
         self.terms += forces;
         self.excess += forces;
     }
@@ -121,21 +121,21 @@ impl<S: Real> Energy<S> {
     /// Adds `Σ|f||π| + Σ|g||γ|` with secant forces, J, to `excess`; to `terms` only the fraction that is certain, zero if
     /// forces depend on the temperature.
     #[inline]
-    pub(crate) fn add_secants(&mut self, forces: S, is_thermal: bool) {
+    pub(crate) fn add_secants(&mut self, forces: f64, is_thermal: bool) {
         self.excess += forces;
         if !is_thermal {
-            self.terms += S::from_f64(SHARE_OF_SECANTS) * forces;
+            self.terms += SHARE_OF_SECANTS * forces;
         }
     }
 
     /// Adds what rounding does to values of ψ with terms of this magnitude, J.
     #[inline]
-    pub(crate) fn add_values(&mut self, magnitude: S) {
-        self.excess += S::from_f64(SHARE_OF_VALUES) * magnitude;
+    pub(crate) fn add_values(&mut self, magnitude: f64) {
+        self.excess += SHARE_OF_VALUES * magnitude;
     }
 
     /// The fields in their order.
-    pub(crate) fn numbers(&self) -> [S; 5] {
+    pub(crate) fn numbers(&self) -> [f64; 5] {
         let Self {
             value,
             magnitude,
@@ -147,7 +147,7 @@ impl<S: Real> Energy<S> {
     }
 
     /// From the fields in their order.
-    pub(crate) const fn of([value, magnitude, heat_capacity, terms, excess]: [S; 5]) -> Self {
+    pub(crate) const fn of([value, magnitude, heat_capacity, terms, excess]: [f64; 5]) -> Self {
         Self {
             value,
             magnitude,
@@ -159,13 +159,13 @@ impl<S: Real> Energy<S> {
 
     /// No energy.
     pub(crate) fn zero() -> Self {
-        Self::of([S::zero(); 5])
+        Self::of([0.0; 5])
     }
 }
 
-impl<S: Real> State<S> {
+impl State {
     /// Finds the momenta `p = M v` from the velocities, if masses couple nodes.
-    pub(crate) fn follow_velocities(&mut self, dimension: usize, masses: &Masses<S>) {
+    pub(crate) fn follow_velocities(&mut self, dimension: usize, masses: &Masses) {
         if !masses.are_coupled() {
             return;
         }
@@ -195,7 +195,7 @@ impl<S: Real> State<S> {
 
     /// The velocity of a node of this mass, m/s.
     #[inline]
-    pub(crate) fn velocity<const D: usize>(&self, node: usize, mass: S) -> [S; D] {
+    pub(crate) fn velocity<const D: usize>(&self, node: usize, mass: f64) -> [f64; D] {
         let velocities = self.velocities.values().as_chunks::<D>().0;
         match velocities.get(node) {
             Some(velocity) => *velocity,

@@ -1,7 +1,7 @@
 //! The contributions of elements and paths of heat to the certificate of a step.
 
 use crate::element::handle::Element;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// The bound of the defect of a law, in roundings of its amplitude.
 pub(crate) const ROUNDINGS: f64 = 64.0;
@@ -22,71 +22,71 @@ pub(crate) enum Care {
 
 /// The contributions of elements and paths of heat to a certificate.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Tally<S: Real> {
+pub(crate) struct Tally {
     pub(crate) care: Care,
     /// `Σ |Q|` of dashpots and paths of heat, J.
-    pub(crate) heat: S,
+    pub(crate) heat: f64,
     /// `Σ h |f*|`, N s.
-    pub(crate) impulse: S,
+    pub(crate) impulse: f64,
     /// `Σ h k λ` of the forces at all nodes, whose rounding their balances leave, if bounds are thorough, N s.
-    pub(crate) residues: S,
+    pub(crate) residues: f64,
     /// The contribution of the forces to A* and A⁺ of `step/certificate.rs`, J.
-    pub(crate) forces: S,
+    pub(crate) forces: f64,
     /// The entropy production, J/K.
-    pub(crate) production: S,
-    /// The smallest production of a dashpot or a path of heat, J/K; `S::MAX` if there is none.
-    pub(crate) least: S,
+    pub(crate) production: f64,
+    /// The smallest production of a dashpot or a path of heat, J/K; `f64::MAX` if there is none.
+    pub(crate) least: f64,
     /// Conductions and dashpots that relax faster than the step resolves.
     pub(crate) unresolved: usize,
     /// Every balance of a node or an internal variable holds to rounding.
-    pub(crate) is_balanced: S::Mask,
+    pub(crate) is_balanced: bool,
 }
 
-impl<S: Real> Tally<S> {
+impl Tally {
     /// Without contributions.
     pub(crate) fn new(care: Care) -> Self {
         Self {
             care,
-            heat: S::zero(),
-            impulse: S::zero(),
-            residues: S::zero(),
-            forces: S::zero(),
-            production: S::zero(),
-            least: S::MAX,
+            heat: 0.0,
+            impulse: 0.0,
+            residues: 0.0,
+            forces: 0.0,
+            production: 0.0,
+            least: f64::MAX,
             unresolved: 0,
-            is_balanced: !S::Mask::none(),
+            is_balanced: true,
         }
     }
 
     /// Adds heat of a dashpot or a path, J.
     #[inline]
-    pub(crate) fn turn_over(&mut self, heat: S) {
+    pub(crate) fn turn_over(&mut self, heat: f64) {
         self.heat += heat.abs();
     }
 
     /// Adds the impulse between the nodes of an element, N s.
     #[inline]
-    pub(crate) fn exchange(&mut self, impulse: S) {
+    pub(crate) fn exchange(&mut self, impulse: f64) {
         self.impulse += impulse.abs();
     }
 
     /// Adds the contribution of the forces of an element and of the rounding of their arguments, J.
     #[inline]
-    pub(crate) fn force(&mut self, energy: S) {
+    pub(crate) fn force(&mut self, energy: f64) {
         self.forces += energy;
     }
 
     /// Adds the entropy that a dashpot or a path of heat has produced, J/K.
     #[inline]
-    pub(crate) fn produce(&mut self, entropy: S) {
+    pub(crate) fn produce(&mut self, entropy: f64) {
         self.production += entropy;
-        self.least = self.least.minimum(entropy);
+        self.least = Scalar::minimum(self.least, entropy);
     }
 
     /// Counts a conduction or a dashpot unless `step` resolves it: at most `resistance` times the other number.
     #[inline]
-    pub(crate) fn see_relaxation(&mut self, step: S, driving: S, resistance: S) {
-        self.unresolved += usize::from(resistance.less(step * driving).any());
+    pub(crate) fn see_relaxation(&mut self, step: f64, driving: f64, resistance: f64) {
+        self.unresolved += usize::from(resistance < step * driving);
     }
 
     /// Checks the defect of the balance of a node, N s, given its impulse, the terms of each direction, and the magnitude of
@@ -94,9 +94,9 @@ impl<S: Real> Tally<S> {
     #[inline]
     pub(crate) fn balance_node<const D: usize>(
         &mut self,
-        residual: &[S; D],
-        [impulse, terms]: [&[S; D]; 2],
-        magnitude: S,
+        residual: &[f64; D],
+        [impulse, terms]: [&[f64; D]; 2],
+        magnitude: f64,
     ) {
         let mut flowing = magnitude;
         for impulse in impulse {
@@ -110,13 +110,13 @@ impl<S: Real> Tally<S> {
     /// Checks the defect of a balance, given the magnitude of its terms. Below the smallest normal number, rounding is that of this
     /// number.
     #[inline]
-    pub(crate) fn balance(&mut self, residual: S, magnitude: S) {
+    pub(crate) fn balance(&mut self, residual: f64, magnitude: f64) {
         let roundings = match self.care {
             Care::Quick => BALANCE_ROUNDINGS,
             Care::Thorough => ROUNDINGS,
         };
-        let bound = S::from_f64(roundings) * S::EPSILON * (magnitude + S::MIN_POSITIVE);
-        self.is_balanced = self.is_balanced & residual.abs().at_most(bound);
+        let bound = roundings * f64::EPSILON * (magnitude + f64::MIN_POSITIVE);
+        self.is_balanced &= residual.abs() <= bound;
     }
 }
 
@@ -125,21 +125,21 @@ impl<S: Real> Tally<S> {
 /// If the terms of a free energy cancel, its values have more rounding than its differences. Then `Δe` by discrete
 /// derivatives between the stored states, evaluated again, decides.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Reevaluation<S> {
+pub(crate) struct Reevaluation {
     /// `Σ (Δe by differences − Δe by values)`, J.
-    pub(crate) correction: S,
+    pub(crate) correction: f64,
     /// The magnitude of the terms of all free energies at both ends, J.
-    pub(crate) magnitude: S,
+    pub(crate) magnitude: f64,
     /// The element with the largest defect of its own balance, and this defect, J.
-    worst: Option<(Element, S)>,
+    worst: Option<(Element, f64)>,
 }
 
-impl<S: Real> Reevaluation<S> {
+impl Reevaluation {
     /// Without elements.
     pub(crate) fn new() -> Self {
         Self {
-            correction: S::zero(),
-            magnitude: S::zero(),
+            correction: 0.0,
+            magnitude: 0.0,
             worst: None,
         }
     }
@@ -149,16 +149,14 @@ impl<S: Real> Reevaluation<S> {
     pub(crate) fn element(
         &mut self,
         element: Element,
-        [by_values, magnitude]: [S; 2],
-        by_differences: S,
-        found: S,
+        [by_values, magnitude]: [f64; 2],
+        by_differences: f64,
+        found: f64,
     ) {
         self.correction += by_differences - by_values;
         self.magnitude += magnitude;
         let defect = (by_differences - found).abs();
-        let is_worse = self
-            .worst
-            .is_none_or(|(_, worst)| !defect.at_most(worst).all());
+        let is_worse = self.worst.is_none_or(|(_, worst)| !(defect <= worst));
         if is_worse {
             self.worst = Some((element, defect));
         }

@@ -17,7 +17,6 @@ use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 
 pub use error::{FormatError, LoadError, RestoreError};
 pub(crate) use fingerprint::{Numbers, Outline};
@@ -64,33 +63,33 @@ pub(crate) use fingerprint::{Numbers, Outline};
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub struct Checkpoint<S = f64> {
+pub struct Checkpoint {
     #[cfg_attr(feature = "serde", serde(with = "scheme_name"))]
     pub(crate) scheme: Scheme,
     pub(crate) outline: Outline,
     pub(crate) numbers: Numbers,
-    pub(crate) step: S,
-    pub(crate) newton: NewtonSettings<S>,
+    pub(crate) step: f64,
+    pub(crate) newton: NewtonSettings,
     /// `None` without step control.
     #[cfg_attr(feature = "serde", serde(default = "Option::default"))]
-    pub(crate) control: Option<SavedControl<S>>,
+    pub(crate) control: Option<SavedControl>,
     /// For `Scheme::Auto`.
     #[cfg_attr(
         feature = "serde",
         serde(default = "Option::default", skip_serializing_if = "Option::is_none")
     )]
     pub(crate) choice: Option<SavedChoice>,
-    pub(crate) state: State<S>,
-    pub(crate) energies: SavedEnergies<S>,
+    pub(crate) state: State,
+    pub(crate) energies: SavedEnergies,
     #[cfg_attr(feature = "serde", serde(default = "SavedLoads::none"))]
-    pub(crate) loads: SavedLoads<S>,
-    pub(crate) past: SavedPast<S>,
+    pub(crate) loads: SavedLoads,
+    pub(crate) past: SavedPast,
     /// For explicit schemes, which otherwise start again from the state.
     #[cfg_attr(
         feature = "serde",
         serde(default = "Option::default", skip_serializing_if = "Option::is_none")
     )]
-    pub(crate) explicit: Option<SavedExplicit<S>>,
+    pub(crate) explicit: Option<SavedExplicit>,
     /// Digests of the entries that follow from the steps.
     pub(crate) seals: Vec<Digest>,
 }
@@ -102,16 +101,16 @@ pub struct Checkpoint<S = f64> {
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct SavedLoads<S> {
+pub(crate) struct SavedLoads {
     pub(crate) forced: Vec<usize>,
-    pub(crate) forces: Vec<S>,
+    pub(crate) forces: Vec<f64>,
     pub(crate) moved: Vec<usize>,
-    pub(crate) velocities: Vec<S>,
+    pub(crate) velocities: Vec<f64>,
     pub(crate) held: Vec<usize>,
-    pub(crate) temperatures: Vec<S>,
+    pub(crate) temperatures: Vec<f64>,
 }
 
-impl<S> SavedLoads<S> {
+impl SavedLoads {
     /// No values.
     pub(crate) const fn none() -> Self {
         Self {
@@ -133,10 +132,10 @@ impl<S> SavedLoads<S> {
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct SavedEnergies<S> {
+pub(crate) struct SavedEnergies {
     /// The digest of the state to which they belong.
     pub(crate) of: Digest,
-    pub(crate) list: Vec<Energy<S>>,
+    pub(crate) list: Vec<Energy>,
 }
 
 /// The history of step control.
@@ -146,15 +145,15 @@ pub(crate) struct SavedEnergies<S> {
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct SavedControl<S> {
-    pub(crate) tolerance: Tolerance<S>,
-    pub(crate) controller: Controller<S>,
+pub(crate) struct SavedControl {
+    pub(crate) tolerance: Tolerance,
+    pub(crate) controller: Controller,
     pub(crate) statistics: StepStatistics,
     /// The largest `|p|₂` so far, kg m/s.
-    pub(crate) largest_momentum: S,
+    pub(crate) largest_momentum: f64,
     /// The limits of the step size, s; zero if the smallest is not set.
-    pub(crate) smallest: S,
-    pub(crate) largest: S,
+    pub(crate) smallest: f64,
+    pub(crate) largest: f64,
 }
 
 /// The scheme in use by `Scheme::Auto`, and the history of its selection.
@@ -173,7 +172,7 @@ pub(crate) struct SavedChoice {
     pub(crate) selection: SchemeSelection,
 }
 
-impl<S: Copy> Checkpoint<S> {
+impl Checkpoint {
     /// The scheme of the saved simulation.
     #[must_use]
     pub const fn scheme(&self) -> Scheme {
@@ -182,12 +181,12 @@ impl<S: Copy> Checkpoint<S> {
 
     /// The step size of the saved simulation, s.
     #[must_use]
-    pub const fn step_size(&self) -> S {
+    pub const fn step_size(&self) -> f64 {
         self.step
     }
 }
 
-impl<S: Real> Checkpoint<S> {
+impl Checkpoint {
     /// An error unless it can be a checkpoint of the simulation whose present checkpoint is `simulation`. Elements and anchors
     /// are still to be compared with the scene.
     pub(crate) fn check(&self, simulation: &Self) -> Result<(), RestoreError> {

@@ -1,26 +1,20 @@
 //! Ensembles: many independent runs in one call, on all cores.
 
-mod bundle;
 mod error;
-mod experiment;
 mod progress;
 mod threads;
 
 use core::fmt;
 use core::ops::ControlFlow;
-use core::sync::atomic::AtomicBool;
 
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
 
 pub use error::{MemberError, MemberFailure};
-pub use experiment::{Experiment, Members, Outputs};
 
-use bundle::Bundles;
 use progress::{Progress, Watch};
 
 /// Many independent runs: parameter sweeps, random initial states.
@@ -58,15 +52,15 @@ use progress::{Progress, Watch};
 /// assert_eq!(refused.member, 2);
 /// assert!(matches!(refused.failure, MemberFailure::Scene(_)));
 /// ```
-pub struct Ensemble<'w, S: Real = f64> {
+pub struct Ensemble<'w> {
     scheme: Scheme,
-    step: S,
-    newton: NewtonSettings<S>,
+    step: f64,
+    newton: NewtonSettings,
     threads: usize,
     watch: Option<Watch<'w>>,
 }
 
-impl<S: Real> fmt::Debug for Ensemble<'_, S> {
+impl fmt::Debug for Ensemble<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Ensemble")
             .field("scheme", &self.scheme)
@@ -77,10 +71,10 @@ impl<S: Real> fmt::Debug for Ensemble<'_, S> {
     }
 }
 
-impl<S: Real> Ensemble<'_, S> {
+impl Ensemble<'_> {
     /// An ensemble with this scheme and step, s.
     #[must_use]
-    pub fn new(scheme: Scheme, step: S) -> Self {
+    pub fn new(scheme: Scheme, step: f64) -> Self {
         Self {
             scheme,
             step,
@@ -104,7 +98,7 @@ impl<S: Real> Ensemble<'_, S> {
 
     /// The settings of Newton's method for all members. Invalid settings make every member fail.
     #[must_use]
-    pub fn newton(mut self, settings: NewtonSettings<S>) -> Self {
+    pub fn newton(mut self, settings: NewtonSettings) -> Self {
         self.newton = settings;
         self
     }
@@ -118,7 +112,7 @@ impl<S: Real> Ensemble<'_, S> {
     pub fn watch<'v>(
         self,
         watch: impl FnMut(usize, usize) -> ControlFlow<()> + Send + 'v,
-    ) -> Ensemble<'v, S> {
+    ) -> Ensemble<'v> {
         Ensemble {
             scheme: self.scheme,
             step: self.step,
@@ -146,8 +140,8 @@ impl<S: Real> Ensemble<'_, S> {
     pub fn run<const D: usize, I, H, T>(
         self,
         inputs: &[I],
-        build: impl Fn(&I) -> (Scene<D, S>, H) + Sync,
-        observe: impl Fn(&mut Simulation<D, S>, H, &I) -> Result<T, MemberFailure> + Sync,
+        build: impl Fn(&I) -> (Scene<D>, H) + Sync,
+        observe: impl Fn(&mut Simulation<D>, H, &I) -> Result<T, MemberFailure> + Sync,
     ) -> Vec<Result<T, MemberError>>
     where
         I: Sync,
@@ -167,104 +161,5 @@ impl<S: Real> Ensemble<'_, S> {
             let member = index;
             result.map_err(|failure| MemberError { member, failure })
         })
-    }
-}
-
-impl Ensemble<'_> {
-    /// Runs an experiment once per input and returns the outputs in the order of the inputs.
-    ///
-    /// Results and errors are the same as those of [`run`](Self::run), to the last bit. With the feature `lanes`
-    /// four members run together in SIMD lanes, in half the time with default compiler settings, and less with `-C
-    /// target-cpu=native`.
-    ///
-    /// Members in lanes may need different numbers of Newton iterations. If one of them fails, needs another order
-    /// of elimination, leaves the admissible states in a correction, or takes another branch ([`Mask::decide`]),
-    /// all four are run again one by one, which costs only time. Scenes with more than twelve unknowns,
-    /// [`Scheme::Variational4`], recorders and events always run one by one.
-    ///
-    /// [`Mask::decide`]: crate::Mask::decide
-    ///
-    /// Pendulums on springs whose stiffness, a field of the material, differs:
-    ///
-    /// ```
-    /// use eem::prelude::*;
-    /// use eem::{Experiment, MemberFailure, Members, Outputs, Real};
-    ///
-    /// #[derive(FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
-    /// struct Spring<S> { stiffness: S, length: S }
-    ///
-    /// /// Hangs a mass on a spring and looks how far it falls within a tenth of a second.
-    /// struct Fall;
-    ///
-    /// impl Experiment<1> for Fall {
-    ///     type Input = f64;
-    ///     type Handles = Node;
-    ///     type Output = f64;
-    ///
-    ///     fn build<S: Real>(&self, members: Members<'_, f64, S>) -> (Scene<1, S>, Node) {
-    ///         let mut scene = Scene::default();
-    ///         let hook = scene.anchor([S::zero()]);
-    ///         let mass = scene.mass(S::one(), [-S::one()], [S::zero()]);
-    ///         let stiffness = members.number(|&stiffness| stiffness);
-    ///         scene.spring(Spring { stiffness, length: S::one() }, [hook, mass]);
-    ///         scene.set_gravity([S::from_f64(-10.0)]);
-    ///         (scene, mass)
-    ///     }
-    ///
-    ///     fn observe<S: Real>(
-    ///         &self,
-    ///         run: &mut Simulation<1, S>,
-    ///         mass: Node,
-    ///         members: Members<'_, f64, S>,
-    ///     ) -> Result<Outputs<f64>, MemberFailure> {
-    ///         for _ in 0..100 {
-    ///             run.step()?;
-    ///         }
-    ///         let depth = -run.position(mass)?.x - S::one();
-    ///         Ok(members.outputs(|_, of| of(depth)))
-    ///     }
-    /// }
-    ///
-    /// let stiffnesses = [100.0, 400.0, 900.0];
-    /// let depths = Ensemble::new(Scheme::EemEntropy, 1e-3).run_experiment(&Fall, &stiffnesses);
-    ///
-    /// // u = (g/ω²)(1 − cos ωt) with ω² = k/m; the scheme has an error of (ωh)²ωt/12 in ωt.
-    /// for (stiffness, depth) in stiffnesses.iter().zip(&depths) {
-    ///     let omega = stiffness.sqrt();
-    ///     let exact = 10.0 / stiffness * (1.0 - (0.1 * omega).cos());
-    ///     assert!((depth.as_ref().unwrap() / exact - 1.0).abs() < 1e-3);
-    /// }
-    /// ```
-    ///
-    /// # Errors
-    ///
-    /// As for [`run`](Self::run).
-    ///
-    /// # Panics
-    ///
-    /// When the experiment does, as for [`run`](Self::run).
-    pub fn run_experiment<const D: usize, E: Experiment<D>>(
-        self,
-        experiment: &E,
-        inputs: &[E::Input],
-    ) -> Vec<Result<E::Output, MemberError>> {
-        let bundles = Bundles {
-            scheme: self.scheme,
-            step: self.step,
-            newton: self.newton,
-            is_unsuited: AtomicBool::new(false),
-        };
-        let progress = Progress::new(self.watch, inputs.len());
-        let chunks: Vec<_> = inputs.chunks(bundle::SIZE).collect();
-        let results = threads::map(self.threads, &chunks, |_, chunk| {
-            let results = progress.follow(chunk.len(), || bundles.run(experiment, chunk));
-            let stopped = || chunk.iter().map(|_| Err(MemberFailure::Stopped)).collect();
-            results.unwrap_or_else(stopped)
-        });
-        let numbered = results.into_iter().flatten().enumerate();
-        numbered
-            .map(|(member, result)| result.map_err(|failure| MemberError { member, failure }))
-            .collect()
     }
 }

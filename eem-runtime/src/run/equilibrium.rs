@@ -62,7 +62,7 @@ pub struct Equilibrium {
     phase: Phase,
     balances_heat: bool,
     load_steps: u32,
-    newton: NewtonSettings<f64>,
+    newton: NewtonSettings,
 }
 
 impl Default for Equilibrium {
@@ -117,7 +117,7 @@ impl Equilibrium {
     /// Settings of Newton's method: the largest update that can be the last one, relative to the lengths of elements, and the
     /// maximum number of iterations of a load step. A motion against friction has at most ten times as many steps.
     #[must_use]
-    pub fn newton(self, newton: NewtonSettings<f64>) -> Self {
+    pub fn newton(self, newton: NewtonSettings) -> Self {
         Self { newton, ..self }
     }
 
@@ -188,7 +188,7 @@ impl<const D: usize> Functions<D> {
 
 /// # Equilibrium
 impl<const D: usize> Scene<D> {
-    /// Moves the scene into a stable state at rest under its loads at the start, to start a run from. Only in double precision.
+    /// Moves the scene into a stable state at rest under its loads at the start, to start a run from.
     ///
     /// ```text
     /// Σ ∂ψ/∂q = m g + F(t₀) + thrust(t₀) n(q),   v = 0
@@ -269,8 +269,8 @@ impl<const D: usize> Scene<D> {
         &self,
         settings: Equilibrium,
         layout: &Layout,
-        state: &mut State<f64>,
-    ) -> Result<(State<f64>, EquilibriumReport), EquilibriumError> {
+        state: &mut State,
+    ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let refuse = |errors: Vec<SceneError>| EquilibriumError::Scene { errors };
         let masses = self.masses();
         let conduction = Conduction::new(&[], &[], layout);
@@ -294,7 +294,7 @@ impl<const D: usize> Scene<D> {
             let by = Conjugates::Point(PointRule::Rest);
             group.duplicate().build(by, placed)
         });
-        let mut groups: Vec<Box<dyn Group<f64, D>>> = groups.collect();
+        let mut groups: Vec<Box<dyn Group<D>>> = groups.collect();
         let mut errors = Vec::new();
         for group in &mut groups {
             let elements = group.elements_mut();
@@ -337,8 +337,8 @@ impl<const D: usize> Scene<D> {
         &self,
         rest: &mut AtRest<'_, D>,
         load_steps: u32,
-        state: &State<f64>,
-    ) -> Result<(State<f64>, EquilibriumReport), EquilibriumError> {
+        state: &State,
+    ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let (followed, found) = rest.follow(load_steps);
         let residual = rest.residual();
         if !rest.is_stable()
@@ -393,7 +393,7 @@ impl<const D: usize> Scene<D> {
     }
 
     /// Takes over positions, temperatures and viscous stretches, at rest.
-    fn take_state(&mut self, layout: &Layout, state: &State<f64>) {
+    fn take_state(&mut self, layout: &Layout, state: &State) {
         let positions = state.positions.values().as_chunks::<D>().0;
         for (node, &position) in self.nodes.iter_mut().zip(positions) {
             if node.mass.is_some() {

@@ -12,7 +12,6 @@ use crate::element::group::{ElementTotals, Elements};
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use eem_material::number::compensated::Total;
-use eem_material::number::scalar::Real;
 
 /// The balance sheet of a scene.
 ///
@@ -42,53 +41,53 @@ use eem_material::number::scalar::Real;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ledger<const D: usize, S: Real = f64> {
+pub struct Ledger<const D: usize> {
     /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
-    pub kinetic_energy: S,
+    pub kinetic_energy: f64,
     /// `−Σ m g·q`, J.
-    pub potential_energy: S,
+    pub potential_energy: f64,
     /// `Σ (ψ + θ s)` of the elements, with ψ and θ of the state and the stored entropy s, J.
-    pub internal_energy: S,
+    pub internal_energy: f64,
     /// Heat received by the reservoirs since the start, `Σ θ_r σ_r`, with the stored `σ_r`, J.
-    pub reservoir_heat: S,
+    pub reservoir_heat: f64,
     /// Heat given away by dashpots of elements without temperature since the start, J.
-    pub lost_heat: S,
+    pub lost_heat: f64,
     /// The sum of all energies, E, J. Constant unless loads do work or thermostats supply heat.
-    pub energy: S,
+    pub energy: f64,
     /// Work of loads and moved anchors since the start, J.
-    pub work: S,
+    pub work: f64,
     /// Heat supplied by thermostats since the start, J.
-    pub heat: S,
+    pub heat: f64,
     /// `E − work − heat`, J. Constant by the first law.
-    pub balance: S,
+    pub balance: f64,
     /// `Σ s` of the elements as stored, J/K.
-    pub element_entropy: S,
+    pub element_entropy: f64,
     /// `Σ s(λ, γ, θ)` of the elements, evaluated at the present state, J/K.
-    pub element_entropy_of_state: S,
+    pub element_entropy_of_state: f64,
     /// `Σ σ_r`, the stored entropy received by the reservoirs since the start, J/K.
-    pub reservoir_entropy: S,
+    pub reservoir_entropy: f64,
     /// Entropy received by the thermostats since the start, J/K.
-    pub thermostat_entropy: S,
+    pub thermostat_entropy: f64,
     /// The sum of all stored entropies, S, J/K, with compensated rounding. It never falls, except for two roundings
     /// of this sum and of the exchange in a step.
-    pub entropy: S,
+    pub entropy: f64,
     /// `Σ p`, kg m/s.
-    pub linear_momentum: SVector<S, D>,
+    pub linear_momentum: SVector<f64, D>,
     /// `Σ (q − o) × p`, kg m²/s, always with three components; `o` is the anchor if the scene has
     /// exactly one, otherwise the origin. In the plane only the third is not zero.
-    pub angular_momentum: SVector<S, 3>,
+    pub angular_momentum: SVector<f64, 3>,
 }
 
-impl<const D: usize, S: Real> Ledger<D, S> {
+impl<const D: usize> Ledger<D> {
     /// The balance sheet of a state.
     pub(crate) fn of<'a>(
-        state: &State<S>,
-        masses: &Masses<S>,
-        groups: impl Iterator<Item = &'a dyn Elements<S, D>>,
-        reservoirs: &[S],
-        gravity: &SVector<S, D>,
+        state: &State,
+        masses: &Masses,
+        groups: impl Iterator<Item = &'a dyn Elements<D>>,
+        reservoirs: &[f64],
+        gravity: &SVector<f64, D>,
     ) -> Self {
-        let kinetic_energy = kinetic_energy::<S, D>(state, masses);
+        let kinetic_energy = kinetic_energy::<D>(state, masses);
         let potential_energy = potential_energy(state, masses, gravity);
         let mut totals = ElementTotals::new();
         for group in groups {
@@ -133,7 +132,7 @@ impl<const D: usize, S: Real> Ledger<D, S> {
             linear_momentum: SVector::from_fn(|axis, _| {
                 Total::of(momenta.clone().map(|p| p[axis]))
             }),
-            angular_momentum: angular_momentum::<S, D>(state, masses),
+            angular_momentum: angular_momentum::<D>(state, masses),
         }
     }
 
@@ -152,17 +151,16 @@ impl<const D: usize, S: Real> Ledger<D, S> {
         let angular = angular.map(|&component| ("angular momentum", component, "kg m²/s"));
         let mut all = energies.into_iter().chain(linear).chain(angular);
         let (name, value, unit) = all.find(|(_, value, _)| !value.is_finite())?;
-        Some((name, value.to_f64(), unit))
+        Some((name, value, unit))
     }
 }
 
 /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
-fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>) -> S {
+fn kinetic_energy<const D: usize>(state: &State, masses: &Masses) -> f64 {
     let momenta = state.momenta.values();
     if masses.are_coupled() {
-        let half = S::from_f64(0.5);
         let both = momenta.iter().zip(state.velocities.values());
-        return Total::of(both.map(|(&p, &v)| half * p * v));
+        return Total::of(both.map(|(&p, &v)| 0.5 * p * v));
     }
     let nodes = momenta.chunks_exact(D).zip(masses.iter());
     let nodes = nodes.filter_map(|(p, mass)| Some((p, mass?)));
@@ -170,11 +168,11 @@ fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>)
 }
 
 /// `−Σ m g·q`, J.
-fn potential_energy<S: Real, const D: usize>(
-    state: &State<S>,
-    masses: &Masses<S>,
-    gravity: &SVector<S, D>,
-) -> S {
+fn potential_energy<const D: usize>(
+    state: &State,
+    masses: &Masses,
+    gravity: &SVector<f64, D>,
+) -> f64 {
     let nodes = state
         .positions
         .values()
@@ -183,10 +181,7 @@ fn potential_energy<S: Real, const D: usize>(
     Total::of(nodes.flat_map(|(q, mass)| q.iter().zip(gravity).map(move |(&q, &g)| -mass * g * q)))
 }
 
-fn angular_momentum<S: Real, const D: usize>(
-    state: &State<S>,
-    masses: &Masses<S>,
-) -> SVector<S, 3> {
+fn angular_momentum<const D: usize>(state: &State, masses: &Masses) -> SVector<f64, 3> {
     let positions = state.positions.values();
     let mut anchors = masses.iter().enumerate().filter(|(_, mass)| mass.is_none());
     let anchor = match (anchors.next(), anchors.next()) {
@@ -197,11 +192,11 @@ fn angular_momentum<S: Real, const D: usize>(
     let momenta = state.momenta.values().chunks_exact(D);
     for (q, p) in positions.chunks_exact(D).zip(momenta) {
         let arm = |axis: usize| match (axis < D, anchor) {
-            (false, _) => S::zero(),
+            (false, _) => 0.0,
             (true, None) => q[axis],
             (true, Some(o)) => q[axis] - o[axis],
         };
-        let momentum = |axis: usize| if axis < D { p[axis] } else { S::zero() };
+        let momentum = |axis: usize| if axis < D { p[axis] } else { 0.0 };
         for (axis, sum) in sums.iter_mut().enumerate() {
             let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
             sum.add(arm(i) * momentum(j));
@@ -211,7 +206,7 @@ fn angular_momentum<S: Real, const D: usize>(
     SVector::from_fn(|axis, _| sums[axis].value())
 }
 
-impl<const D: usize, S: Real> fmt::Display for Ledger<D, S> {
+impl<const D: usize> fmt::Display for Ledger<D> {
     /// A balance sheet, a line per quantity.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let scalars = [
@@ -246,7 +241,7 @@ impl<const D: usize, S: Real> fmt::Display for Ledger<D, S> {
     }
 }
 
-fn line<S: Real>(f: &mut fmt::Formatter<'_>, name: &str, value: S, unit: &str) -> fmt::Result {
-    let value = format!("{:.15e}", value.to_f64());
+fn line(f: &mut fmt::Formatter<'_>, name: &str, value: f64, unit: &str) -> fmt::Result {
+    let value = format!("{value:.15e}");
     writeln!(f, "| {name:<19} | {value:<20} | {unit:<5} |")
 }

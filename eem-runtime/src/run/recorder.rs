@@ -14,7 +14,6 @@ use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
 use crate::step::newton::StepReport;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Real;
 
 #[cfg(feature = "gradients")]
 pub(crate) use quantity::axis_name;
@@ -25,9 +24,8 @@ const TIME: &str = "time";
 
 /// Records quantities while a simulation runs.
 ///
-/// The first column is the time, s; the first row is the state when the recorder was made. Values are in double
-/// precision for every number type. Memory grows with the number of rows; [`reserve`](Self::reserve) reserves it in
-/// advance.
+/// The first column is the time, s; the first row is the state when the recorder was made. Memory grows
+/// with the number of rows; [`reserve`](Self::reserve) reserves it in advance.
 ///
 /// ```
 /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
@@ -55,9 +53,9 @@ const TIME: &str = "time";
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct Recorder<const D: usize, S: Real = f64> {
+pub struct Recorder<const D: usize> {
     scene: SceneId,
-    quantities: Vec<Quantity<D, S>>,
+    quantities: Vec<Quantity<D>>,
     columns: Vec<Column>,
     stride: usize,
     /// Steps, and their Newton iterations, since the last row.
@@ -66,7 +64,7 @@ pub struct Recorder<const D: usize, S: Real = f64> {
     /// The next row.
     row: Vec<f64>,
     /// For quantities of which rows have the changes: their sums at the last row, and at the row before it.
-    sums: [Vec<Sum<S>>; 2],
+    sums: [Vec<Sum>; 2],
 }
 
 /// One component of a quantity in all rows.
@@ -157,15 +155,15 @@ pub enum RecordError {
     },
 }
 
-impl<const D: usize, S: Real> Recorder<D, S> {
+impl<const D: usize> Recorder<D> {
     /// A recorder of named quantities of `run`. It records the present state, and then every step.
     ///
     /// # Errors
     ///
     /// [`RecordError`] if `run` has no such quantity, or two columns have the same name.
     pub fn new<N: Into<String>>(
-        run: &Simulation<D, S>,
-        quantities: impl IntoIterator<Item = (N, Quantity<D, S>)>,
+        run: &Simulation<D>,
+        quantities: impl IntoIterator<Item = (N, Quantity<D>)>,
     ) -> Result<Self, RecordError> {
         let mut recorder = Self {
             scene: run.scene(),
@@ -218,7 +216,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     ///
     /// If `run` belongs to another scene or to a copy, nothing is recorded and the run stops;
     /// [`record`](Self::record) returns the reason.
-    pub fn observe(&mut self, run: &Simulation<D, S>, report: &StepReport<S>) -> ControlFlow<()> {
+    pub fn observe(&mut self, run: &Simulation<D>, report: &StepReport) -> ControlFlow<()> {
         self.steps += 1;
         self.iterations = self.iterations.saturating_add(report.iterations);
         if self.steps < self.stride {
@@ -237,15 +235,13 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     /// # Errors
     ///
     /// [`SceneError::ForeignHandle`] if `run` belongs to another scene than the recorder. Nothing is recorded then.
-    pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
-        // A row has one value per column, not one per lane.
-        run.diverge();
+    pub fn record(&mut self, run: &Simulation<D>) -> Result<(), SceneError> {
         if run.scene() != self.scene {
             let handle = "the recorder".to_owned();
             return Err(SceneError::ForeignHandle { handle });
         }
         let mut ledger = None;
-        let time = run.time().to_f64();
+        let time = run.time();
         let last = self.column(TIME).and_then(<[f64]>::last);
         let is_again = self.steps == 0 && last.is_some_and(|last| last.to_bits() == time.to_bits());
         // The row that is replaced began where the row before it ended.

@@ -42,10 +42,9 @@ mod worst;
 
 use core::fmt;
 use core::mem;
-use core::sync::atomic::{AtomicBool, Ordering};
+use core::sync::atomic::AtomicBool;
 use std::collections::BTreeMap;
 
-use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
 use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
@@ -68,7 +67,6 @@ use crate::step::solver::Effort;
 use crate::step::timed::TimedLoad;
 use check::{Needs, check_all, check_tolerance};
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::{Mask, Real};
 use memory::{Automatic, Control, Unresolved};
 use start::{Begin, find_entropies, initial_state};
 use stepper::{Parts, Stepper};
@@ -84,68 +82,65 @@ use stepper::{Parts, Stepper};
 /// | save | [`checkpoint`](Self::checkpoint), [`restore`](Self::restore) |
 ///
 /// A step either succeeds, or returns an error and leaves everything unchanged.
-pub struct Simulation<const D: usize, S: Real = f64> {
+pub struct Simulation<const D: usize> {
     scene: Lineage,
     scheme: Scheme,
     /// The scheme of the present steps; it differs from `scheme` for `Scheme::Auto`.
     in_use: Scheme,
     automatic: Automatic,
-    step: S,
-    masses: Masses<S>,
+    step: f64,
+    masses: Masses,
     /// The group of each element, and its index there.
     places: Vec<[u32; 2]>,
     /// Capabilities of the elements of each group.
     shapes: Vec<Shape>,
     layout: Layout,
-    conduction: Conduction<S>,
-    loads: Loads<S, D>,
+    conduction: Conduction,
+    loads: Loads<D>,
     /// Whether there are loads, thermostats or ovens.
     has_loads: bool,
-    stepper: Stepper<S, D>,
+    stepper: Stepper<D>,
     /// The least scales of errors, from the initial state.
-    least: LeastScales<S>,
-    effort: Effort<S>,
+    least: LeastScales,
+    effort: Effort,
     /// `None` without step control.
-    control: Option<Box<Control<S>>>,
-    state: Box<State<S>>,
+    control: Option<Box<Control>>,
+    state: Box<State>,
     /// Memory for the new state; after a step the old one.
-    next: Box<State<S>>,
+    next: Box<State>,
     /// Whether the last step succeeded, and the elements still have the values at its ends.
     has_stepped: bool,
     /// The time at which the run began, s.
-    start: S,
+    start: f64,
     /// The positions of anchors before a controller moved them for the first time, m, by node.
-    homes: BTreeMap<usize, [S; D]>,
+    homes: BTreeMap<usize, [f64; D]>,
     /// The states since the call of `keep_history`; `None` without it.
     #[cfg(feature = "gradients")]
-    history: Option<Box<Record<S>>>,
+    history: Option<Box<Record>>,
     #[cfg(feature = "gradients")]
     watch: Option<Box<Watch>>,
     /// Whether `meter_heat` or a recorder needs the sums of dissipation and heat.
     wants_meters: AtomicBool,
     /// The report with the largest `|defect|/bound` so far.
-    worst: Option<StepReport<S>>,
-    corrections: Corrections<S>,
-    unresolved: Unresolved<S>,
-    /// Whether something failed in lanes, so that no further result counts: some lanes might have succeeded alone.
-    /// Never set for a single number.
-    has_diverged: AtomicBool,
+    worst: Option<StepReport>,
+    corrections: Corrections,
+    unresolved: Unresolved,
 }
 
 /// The report of a step, or why it failed.
-type StepResult<S> = Result<StepReport<S>, StepError>;
+type StepResult = Result<StepReport, StepError>;
 
 /// A step that was tried.
-enum Tried<S> {
+enum Tried {
     /// It succeeded.
-    Made(StepReport<S>),
+    Made(StepReport),
     /// Its error, in units of the tolerance, is too large; nothing has changed.
-    Rejected(S),
+    Rejected(f64),
     /// It was not made, because it would pass over this load.
     Unseen(TimedLoad),
 }
 
-impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
+impl<const D: usize> fmt::Debug for Simulation<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Simulation")
             .field("scheme", &self.scheme)
@@ -155,12 +150,8 @@ impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
     }
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
-    fn begin(
-        mut scene: Scene<D, S>,
-        scheme: Scheme,
-        begin: Begin<S>,
-    ) -> Result<Self, RefusedScene<D, S>> {
+impl<const D: usize> Simulation<D> {
+    fn begin(mut scene: Scene<D>, scheme: Scheme, begin: Begin) -> Result<Self, RefusedScene<D>> {
         let needs = Needs::of(&scene);
         let in_use = needs.first(scheme);
         let mut errors = check_all(&scene, (in_use, needs), begin.step());
@@ -176,9 +167,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// A simulation with the contents of a scene, unless its initial state is invalid.
     fn take(
-        scene: &mut Scene<D, S>,
+        scene: &mut Scene<D>,
         (scheme, in_use, needs): (Scheme, Scheme, Needs),
-        begin: Begin<S>,
+        begin: Begin,
     ) -> Result<Self, Vec<SceneError>> {
         let step = begin.step();
         let ((mut layout, conduction), ends) = (scene.numbering(), scene.ends());
@@ -244,7 +235,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             worst: None,
             corrections: Corrections::none(),
             unresolved: Unresolved::none(),
-            has_diverged: AtomicBool::new(false),
         };
         match begin {
             Begin::WithTolerance(tolerance) => {
@@ -259,26 +249,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(run)
     }
 
-    /// Whether the lanes have to be run one by one.
-    #[inline]
-    pub(crate) fn has_diverged(&self) -> bool {
-        S::LANES > 1 && self.has_diverged.load(Ordering::Relaxed)
-    }
-
-    /// Records that something is impossible in lanes; no effect on a single number.
-    pub(crate) fn diverge(&self) {
-        if S::LANES > 1 {
-            self.has_diverged.store(true, Ordering::Relaxed);
-        }
-    }
-
     /// The error of a step of this size, with the iterations so far.
     #[cold]
-    fn failed(&self, size: S, failure: StepFailure) -> StepError {
-        let iterations = self.effort.history.iter();
+    fn failed(&self, size: f64, failure: StepFailure) -> StepError {
         StepError {
-            step: size.to_f64(),
-            history: iterations.map(|iteration| iteration.to_f64()).collect(),
+            step: size,
+            history: self.effort.history.as_slice().into(),
             ..self.refused(failure)
         }
     }
@@ -286,23 +262,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The error of a run that ends before its first step.
     #[cold]
     fn refused(&self, failure: StepFailure) -> StepError {
-        self.diverge();
         StepError {
-            time: self.time().to_f64(),
-            step: self.step.to_f64(),
+            time: self.time(),
+            step: self.step,
             failure,
             shorter: None,
             history: Box::default(),
         }
-    }
-
-    /// Whether lanes can take steps together: by dense elimination of a few unknowns with pivots on the diagonal in a
-    /// scheme with one set of forces, or by the explicit scheme; and with weight in all lanes or in none.
-    pub(crate) fn suits_lanes(&self) -> bool {
-        let suits = match &self.stepper {
-            Stepper::Newton(newton) => newton.stages.is_empty() && self.unknowns() <= MOST_FIXED,
-            Stepper::Explicit(_) => true,
-        };
-        suits && self.control.is_none() && self.loads.has_weight().decide().is_ok()
     }
 }

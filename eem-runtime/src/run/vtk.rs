@@ -15,7 +15,6 @@ use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use cell::{Cell, DATA, cells};
-use eem_material::number::scalar::Real;
 use file::Grid;
 
 /// Writes states of a run for ParaView: one `.vtu` file per time, and a `.pvd` file that lists them. Open the
@@ -60,11 +59,7 @@ pub struct VtkSeries<const D: usize> {
 impl<const D: usize> VtkSeries<D> {
     /// Files `NAME.pvd` and `NAME_00000.vtu`, … in a folder, which is created if necessary. Files of an earlier run
     /// of the program are replaced. Make the series when the scene is complete.
-    pub fn new<S: Real>(
-        scene: &Scene<D, S>,
-        folder: impl Into<PathBuf>,
-        name: impl Into<String>,
-    ) -> Self {
+    pub fn new(scene: &Scene<D>, folder: impl Into<PathBuf>, name: impl Into<String>) -> Self {
         const {
             assert!(D <= 3, "ParaView shows at most three dimensions");
         }
@@ -106,14 +101,14 @@ impl<const D: usize> VtkSeries<D> {
     /// File errors, with paths. [`io::ErrorKind::InvalidInput`] if `run` belongs to another scene, or to one that
     /// had fewer nodes or elements when the series was made; if the name is empty or contains `/` or `\`; if
     /// another series of this program has written files with this name to the folder.
-    pub fn write<S: Real>(&mut self, run: &Simulation<D, S>) -> io::Result<()> {
+    pub fn write(&mut self, run: &Simulation<D>) -> io::Result<()> {
         self.check(run)?;
         let grid = self.grid(run).map_err(invalid)?;
         fs::create_dir_all(&self.folder).map_err(at(&self.folder))?;
         self.claim()?;
         let file = self.folder.join(self.file_of(self.times.len()));
         fs::write(&file, grid.to_xml()).map_err(at(&file))?;
-        self.times.push(run.time().to_f64());
+        self.times.push(run.time());
         let steps = self.times.iter().enumerate();
         let list = file::list(steps.map(|(index, &time)| (time, self.file_of(index))));
         let file = self.list_file();
@@ -121,7 +116,7 @@ impl<const D: usize> VtkSeries<D> {
     }
 
     /// An error unless the name is valid, and the simulation has as many nodes and elements as the scene.
-    fn check<S: Real>(&self, run: &Simulation<D, S>) -> io::Result<()> {
+    fn check(&self, run: &Simulation<D>) -> io::Result<()> {
         if self.name.is_empty() || self.name.contains(['/', '\\']) {
             return Err(invalid(format!(
                 "`{}` is no name of a series: it begins the names of files, so that it must not be empty and has neither `/` nor `\\`; the folder is given apart from it",
@@ -167,7 +162,7 @@ impl<const D: usize> VtkSeries<D> {
     }
 
     /// The grid with all values of a state.
-    fn grid<S: Real>(&self, run: &Simulation<D, S>) -> Result<Grid, SceneError> {
+    fn grid(&self, run: &Simulation<D>) -> Result<Grid, SceneError> {
         let mut grid = Grid::new(self.cells.iter().map(|cell| (cell.kind, &cell.nodes[..])));
         let mut moved = Vec::with_capacity(self.nodes.len());
         let mut velocities = Vec::with_capacity(self.nodes.len());
@@ -193,8 +188,8 @@ impl<const D: usize> VtkSeries<D> {
 }
 
 /// A vector in three dimensions.
-fn in_space<S: Real>(vector: &[S]) -> [f64; 3] {
-    core::array::from_fn(|axis| vector.get(axis).map_or(0.0, |value| value.to_f64()))
+fn in_space(vector: &[f64]) -> [f64; 3] {
+    core::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }
 
 /// An error that is not one of a file.

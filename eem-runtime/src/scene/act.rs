@@ -13,19 +13,19 @@ use crate::scene::body::Body;
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::{Course, Rocket};
 use crate::scene::solid_error::SolidError;
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::is_positive;
 use eem_mesh::Face;
 
 /// # Loads, supports and thermostats
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// Gravity: the acceleration of all masses, m/s²; zero by default. Its potential energy `−Σ m g·q` is part of
     /// the ledger.
-    pub fn set_gravity(&mut self, gravity: [S; D]) {
+    pub fn set_gravity(&mut self, gravity: [f64; D]) {
         self.loads.gravity = gravity.into();
     }
 
     /// A constant force on a mass, N. The ledger counts its work.
-    pub fn dead_load(&mut self, node: Node, force: [S; D]) {
+    pub fn dead_load(&mut self, node: Node, force: [f64; D]) {
         match infinite(&force).next() {
             Some((axis, value)) => self.refuse(SceneError::DeadLoad { node, axis, value }),
             None if self.expect_kind(node, true, "a force") => {
@@ -40,7 +40,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// Several forces on one mass add up. A step uses the force at its middle. Schemes with stages also use it at
     /// the times of the stages.
-    pub fn force(&mut self, node: Node, force: impl Fn(S) -> [S; D] + Send + Sync + 'static) {
+    pub fn force(&mut self, node: Node, force: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) {
         if self.expect_kind(node, true, "a force") {
             let force = move |time| SVector::from(force(time));
             self.loads
@@ -82,7 +82,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         &mut self,
         node: Node,
         [tail, head]: [Node; 2],
-        thrust: impl Fn(S) -> S + Send + Sync + 'static,
+        thrust: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) {
         let own = self.expect_kind(node, true, "a rocket")
             & self.expect_own(&tail)
@@ -110,7 +110,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     pub fn move_anchor(
         &mut self,
         anchor: Node,
-        position: impl Fn(S) -> [S; D] + Send + Sync + 'static,
+        position: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) {
         if self.expect_kind(anchor, false, "a prescribed motion") {
             let position = move |time| SVector::from(position(time));
@@ -140,18 +140,17 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert!((run.momentum(mass)?[0] - 10.0).abs() < 1e-14);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn stop_at(&mut self, times: impl IntoIterator<Item = S>) {
+    pub fn stop_at(&mut self, times: impl IntoIterator<Item = f64>) {
         for time in times {
             if !time.is_finite() {
-                let time = time.to_f64();
                 self.refuse(SceneError::StopTime { time });
                 return;
             }
             self.loads.stops.push(time);
         }
         let stops = &mut self.loads.stops;
-        stops.sort_by(|a, b| a.to_f64().total_cmp(&b.to_f64()));
-        stops.dedup_by(|a, b| a.equal(*b).all());
+        stops.sort_by(f64::total_cmp);
+        stops.dedup();
     }
 
     /// Says that nothing which a load does lasts less than this, s, so that a step under control does not pass over it.
@@ -176,11 +175,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert!((run.momentum(mass)?[0] / (1e-3 / 6.0) - 1.0).abs() < 1e-3);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn shortest_load(&mut self, duration: S) {
+    pub fn shortest_load(&mut self, duration: f64) {
         if is_positive(duration) {
             self.loads.shortest = Some(duration);
         } else {
-            let duration = duration.to_f64();
             self.refuse(SceneError::ShortestLoad { duration });
         }
     }
@@ -199,14 +197,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert_eq!(run.temperature(plate.points()[7])?, 310.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn set_temperatures<H: Shape<D>>(&mut self, body: &Body<H, D>, temperature: S) {
+    pub fn set_temperatures<H: Shape<D>>(&mut self, body: &Body<H, D>, temperature: f64) {
         for &point in body.points() {
             self.set_temperature(point, temperature);
         }
     }
 
     /// Sets the initial momentum of a mass, kg m/s, instead of its velocity.
-    pub fn set_momentum(&mut self, node: Node, momentum: [S; D]) {
+    pub fn set_momentum(&mut self, node: Node, momentum: [f64; D]) {
         if self.expect_kind(node, true, "a momentum") {
             self.nodes[node.index].momentum = Some(momentum.into());
         }
@@ -220,7 +218,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     pub fn prescribe_temperature(
         &mut self,
         element: Element,
-        temperature: impl Fn(S) -> S + Send + Sync + 'static,
+        temperature: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) {
         if self.expect_own(&element) {
             let temperature = Course::Function(Arc::new(temperature) as _);
@@ -251,7 +249,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert!((run.temperature(wire)? - 310.0).abs() < 1e-9);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn hold_temperature(&mut self, element: Element, temperature: S) {
+    pub fn hold_temperature(&mut self, element: Element, temperature: f64) {
         self.set_temperature(element, temperature);
         if self.expect_own(&element) {
             let temperature = Course::Set(temperature);
@@ -277,10 +275,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
 }
 
 /// A force per area or volume as a function of time.
-type Density<S, const D: usize> = Arc<dyn Fn(S) -> [S; D] + Send + Sync>;
+type Density<const D: usize> = Arc<dyn Fn(f64) -> [f64; D] + Send + Sync>;
 
 /// # Loads of solids
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// A traction on some faces of a solid, N/m² of the reference configuration, as a function of time. Its
     /// direction does not follow the body. The ledger counts its work. It has no effect on fixed nodes.
     ///
@@ -306,7 +304,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         &mut self,
         body: &Body<H, D>,
         face: &Face,
-        traction: impl Fn(S) -> [S; D] + Send + Sync + 'static,
+        traction: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) {
         if !body.mesh().has(face) {
             let element = body.first();
@@ -341,7 +339,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     pub fn body_force<H: Shape<D>>(
         &mut self,
         body: &Body<H, D>,
-        force: impl Fn(S) -> [S; D] + Send + Sync + 'static,
+        force: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) {
         let shares = body.nodes().iter().zip(body.mesh().volumes());
         let shares = shares.map(|(&node, volume)| (node, body.thickness * volume));
@@ -349,11 +347,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// Loads the nodes, except anchors, with their shares of the area or volume.
-    fn distribute(&mut self, shares: Vec<(Node, f64)>, density: &Density<S, D>) {
+    fn distribute(&mut self, shares: Vec<(Node, f64)>, density: &Density<D>) {
         for (node, share) in shares {
             let own = self.expect_own(&node);
             if own && self.nodes[node.index].mass.is_some() {
-                let (density, share) = (Arc::clone(density), S::from_f64(share));
+                let density = Arc::clone(density);
                 self.force(node, move |time| density(time).map(|force| share * force));
             }
         }

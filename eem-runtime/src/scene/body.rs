@@ -3,7 +3,6 @@
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::Shape;
 #[cfg(feature = "gradients")]
-use eem_material::number::scalar::Real;
 #[cfg(feature = "gradients")]
 use eem_mesh::integrals;
 #[cfg(feature = "gradients")]
@@ -63,13 +62,13 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
 
     /// The masses of pairs of nodes at unit density, of one cell after the other, m³; the lower index comes first.
     #[cfg(feature = "gradients")]
-    pub(crate) fn pair_masses<S: Real>(&self) -> impl Iterator<Item = ([usize; 2], S)> {
+    pub(crate) fn pair_masses(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
         self.mesh.cells().iter().flat_map(|cell| {
             let places = self.mesh.nodes();
-            let reference = per_node::<H, _, D>(|at| places[cell[at]].map(S::from_f64));
-            let mut masses = integrals::masses::<H, S, D>(&reference, S::from_f64(self.thickness));
+            let reference = per_node::<H, _, D>(|at| places[cell[at]]);
+            let mut masses = integrals::masses::<H, D>(&reference, self.thickness);
             if self.is_lumped {
-                integrals::lump::<H, S, D>(&mut masses);
+                integrals::lump::<H, D>(&mut masses);
             }
             let nodes = per_node::<H, _, D>(|at| self.nodes[cell[at]].index);
             let count = nodes.as_ref().len();

@@ -8,11 +8,11 @@ use crate::element::kinematics::Shape;
 use crate::scene::body::Body;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 use eem_mesh::{Face, facing};
 
 /// # Heat of solids
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// Conducts heat between two solids across the cell faces they share, that is, faces with all nodes in common,
     /// as made by [`Bulk::joined_to`](crate::Bulk::joined_to). There is no contact resistance.
     ///
@@ -82,7 +82,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 let t_a = one * first.thickness * a.shape_factor;
                 let t_b = other * second.thickness * b.shape_factor;
                 let [a, b] = [first.points()[a.point], second.points()[b.point]];
-                self.conduct(a, b, S::from_f64(t_a * t_b / (t_a + t_b)));
+                self.conduct(a, b, t_a * t_b / (t_a + t_b));
             }
         }
     }
@@ -128,7 +128,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         body: &Body<H, D>,
         face: &Face,
         reservoir: Reservoir,
-        film: S,
+        film: f64,
     ) {
         if !is_positive(film) {
             let error = SolidError::section(body.first(), "film coefficient", film, "W/(m^2 K)");
@@ -162,7 +162,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         body: &Body<H, D>,
         face: &Face,
         reservoir: Reservoir,
-        conductance: impl Fn(S, S) -> S,
+        conductance: impl Fn(f64, f64) -> f64,
     ) {
         let element = body.first();
         let Some(conductivity) = body.conductivity else {
@@ -172,8 +172,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
             return self.refuse(SolidError::ForeignFace { element });
         }
         for face in body.mesh().outside(face) {
-            let area = S::from_f64(body.thickness * face.area);
-            let t = S::from_f64(conductivity * (body.thickness * face.shape_factor));
+            let area = body.thickness * face.area;
+            let t = conductivity * (body.thickness * face.shape_factor);
             let conductance = conductance(area, t);
             self.conduct(body.points()[face.point], reservoir, conductance);
         }
@@ -201,7 +201,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
         for (pair, shape_factor) in links {
             let [first, second] = pair.map(|point| body.points()[point]);
-            let conductance = S::from_f64(conductivity * body.thickness * shape_factor);
+            let conductance = conductivity * body.thickness * shape_factor;
             self.conduct(first, second, conductance);
         }
     }

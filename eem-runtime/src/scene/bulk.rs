@@ -3,7 +3,6 @@
 use crate::element::kinematics::Shape;
 use crate::scene::body::Body;
 use crate::scene::joints::Joint;
-use eem_material::number::scalar::Real;
 
 /// The properties of a solid besides its material and mesh: density, thickness, fibres, conduction, joints.
 ///
@@ -14,22 +13,22 @@ use eem_material::number::scalar::Real;
 /// let tin = Bulk::<2>::new(7300.0).thickness(1e-3).lumped();
 /// ```
 #[derive(Clone, Debug)]
-pub struct Bulk<const D: usize, S = f64> {
-    pub(super) density: S,
+pub struct Bulk<const D: usize> {
+    pub(super) density: f64,
     /// Thickness, m; one in space.
     pub(super) thickness: f64,
     /// Conductivity, W/(m K).
     pub(super) conductivity: Option<f64>,
     pub(super) allow_skew_cells: bool,
-    pub(super) fibres: Vec<[S; D]>,
+    pub(super) fibres: Vec<[f64; D]>,
     pub(super) lumped: bool,
     pub(super) joints: Vec<Joint<D>>,
 }
 
-impl<const D: usize, S: Real> Bulk<D, S> {
+impl<const D: usize> Bulk<D> {
     /// A solid with a density, kg/m³; in the plane 1 m thick.
     #[must_use]
-    pub fn new(density: S) -> Self {
+    pub fn new(density: f64) -> Self {
         Self {
             density,
             thickness: 1.0,
@@ -87,7 +86,7 @@ impl<const D: usize, S: Real> Bulk<D, S> {
 
     /// The direction of the next fibre, for the next argument with the role `FibreStrain`. Its length is ignored.
     #[must_use]
-    pub fn fibre(mut self, direction: [S; D]) -> Self {
+    pub fn fibre(mut self, direction: [f64; D]) -> Self {
         self.fibres.push(direction);
         self
     }
@@ -134,7 +133,7 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     }
 }
 
-impl<S: Real> Bulk<2, S> {
+impl Bulk<2> {
     /// The thickness out of the plane, m.
     #[must_use]
     pub fn thickness(mut self, thickness: f64) -> Self {

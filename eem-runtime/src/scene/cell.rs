@@ -9,36 +9,36 @@ use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
 use eem_material::free_energy::FreeEnergy;
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::is_positive;
 use eem_material::point_energy::PointEnergy;
 use eem_mesh::{integrals, per_node};
 
 /// The properties of a cell besides its material and nodes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CellProperties<'a, S, const D: usize> {
+pub(super) struct CellProperties<'a, const D: usize> {
     /// ρ, kg/m³.
-    pub(super) density: S,
+    pub(super) density: f64,
     /// Thickness in the plane, m; one in space.
-    pub(super) thickness: S,
+    pub(super) thickness: f64,
     /// The directions of the fibres.
-    pub(super) fibres: &'a [[S; D]],
+    pub(super) fibres: &'a [[f64; D]],
     /// Whether the mass is lumped, so that it does not couple nodes.
     pub(super) lumped: bool,
     /// Whether the solid is invalid; an error is then already recorded.
     pub(super) is_invalid: bool,
 }
 
-impl<S: Real, const D: usize> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// Adds a cell in the present positions of its nodes; returns its points. Errors are recorded for `Simulation::new`.
     pub(super) fn push_cell<H, M, const N: usize>(
         &mut self,
         model: &M,
         nodes: &H::PerNode<Node>,
-        properties: CellProperties<'_, S, D>,
+        properties: CellProperties<'_, D>,
     ) -> H::PerPoint<Element>
     where
         H: Shape<D>,
-        M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
+        M: FreeEnergy<f64> + StrainEnergy<N> + Send + Sync + 'static,
     {
         let first = self.next_element(model);
         let points = H::PerPoint::from_fn(|point| first.after(point));
@@ -47,10 +47,10 @@ impl<S: Real, const D: usize> Scene<D, S> {
                 Ok(cell) => {
                     let parts = H::PerPoint::from_fn(|at| {
                         let point = cell.as_ref()[at];
-                        let energy = PointEnergy::new(model.at_point::<S>(), point.volume());
+                        let energy = PointEnergy::new(model.at_point(), point.volume());
                         (energy, point)
                     });
-                    let new = LooseElements::<S, _, SolidPoint<H, S, N, D>, D>::new;
+                    let new = LooseElements::<_, SolidPoint<H, N, D>, D>::new;
                     let (group, set) = self.set_of(model.kind(), new);
                     let place = set.points();
                     set.elements.push((first, parts));
@@ -72,9 +72,9 @@ impl<S: Real, const D: usize> Scene<D, S> {
     fn expect_cell<H: Shape<D>, const N: usize>(
         &mut self,
         nodes: &H::PerNode<Node>,
-        (strains, properties): ([Strain; N], CellProperties<'_, S, D>),
+        (strains, properties): ([Strain; N], CellProperties<'_, D>),
         points: &[Element],
-    ) -> Result<H::PerPoint<SolidPoint<H, S, N, D>>, Option<SceneError>> {
+    ) -> Result<H::PerPoint<SolidPoint<H, N, D>>, Option<SceneError>> {
         for node in nodes.as_ref() {
             if !self.expect_own(node) {
                 return Err(None);
@@ -89,11 +89,11 @@ impl<S: Real, const D: usize> Scene<D, S> {
             .map_err(SceneError::from)?;
         let position = |at: usize| self.nodes[nodes[at].index].position.into();
         let reference = per_node::<H, _, D>(position);
-        let cell = SolidPoint::<H, S, N, D>::points(&reference, properties.thickness, measures);
+        let cell = SolidPoint::<H, N, D>::points(&reference, properties.thickness, measures);
         let cell = cell.map_err(|(point, size)| {
             SceneError::Solid(SolidError::InsideOut {
                 element: points[point],
-                value: size.to_f64(),
+                value: size,
                 unit: if D == 2 { "m^2" } else { "m^3" },
                 order: if H::NODES.len() == 4 {
                     "corners against the clock"
@@ -110,20 +110,20 @@ impl<S: Real, const D: usize> Scene<D, S> {
     fn add_masses<H: Shape<D>>(
         &mut self,
         nodes: &[Node],
-        reference: &H::PerNode<[S; D]>,
-        properties: CellProperties<'_, S, D>,
+        reference: &H::PerNode<[f64; D]>,
+        properties: CellProperties<'_, D>,
     ) {
         let mut masses =
-            integrals::masses::<H, S, D>(reference, properties.density * properties.thickness);
+            integrals::masses::<H, D>(reference, properties.density * properties.thickness);
         if properties.lumped {
-            integrals::lump::<H, S, D>(&mut masses);
+            integrals::lump::<H, D>(&mut masses);
         }
         for (a, row) in masses.as_ref().iter().enumerate() {
             let entry = &mut self.nodes[nodes[a].index];
             let mass = entry.mass.as_mut().unwrap_or(&mut entry.held);
             // A negative mass is that of the node itself, as masses of solids are positive.
-            if mass.less(S::zero()).any() {
-                let (node, value) = (nodes[a], mass.to_f64());
+            if *mass < 0.0 {
+                let (node, value) = (nodes[a], *mass);
                 self.errors.push(SceneError::Mass { node, value });
             }
             *mass += row[a];
@@ -135,13 +135,13 @@ impl<S: Real, const D: usize> Scene<D, S> {
     }
 }
 
-impl<S: Real, const D: usize> CellProperties<'_, S, D> {
+impl<const D: usize> CellProperties<'_, D> {
     /// The measures of a material along the fibres; an error if the solid with this first point is invalid.
     pub(super) fn measures<const N: usize>(
         &self,
         strains: [Strain; N],
         element: Element,
-    ) -> Result<[Measure<S, D>; N], SolidError> {
+    ) -> Result<[Measure<D>; N], SolidError> {
         let numbers = [
             ("density", self.density, "kg/m^3"),
             ("thickness", self.thickness, "m"),

@@ -11,9 +11,9 @@ use crate::element::loads::PushLine;
 use crate::scene::entry::{ElementEntry, INVALID, NodeEntry, infinite};
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::{MOTION_ROUNDINGS, extent};
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::{Scalar, is_positive};
 
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// All errors; those of the initial state only if all numbers are valid by themselves.
     pub(crate) fn check(&self) -> Vec<SceneError> {
         let mut errors = self.errors.clone();
@@ -40,7 +40,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             if !is_positive(temperature) {
                 errors.push(SceneError::ReservoirTemperature {
                     reservoir: self.reservoir_at(index),
-                    value: temperature.to_f64(),
+                    value: temperature,
                 });
             }
         }
@@ -53,7 +53,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 errors.push(SceneError::Parameter {
                     element,
                     parameter,
-                    value: value.to_f64(),
+                    value,
                 });
             }
             check_element(element, entry, group.shape(), &mut errors);
@@ -62,7 +62,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.check_rockets(&mut errors);
         self.check_conductors(&mut errors);
         if !self.start.is_finite() {
-            let value = self.start.to_f64();
+            let value = self.start;
             errors.push(SceneError::StartTime { value });
         }
         if errors.is_empty() {
@@ -123,11 +123,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 }
             }
             let value = conductor.conductance;
-            if !value.is_finite() || value.less(S::zero()).any() {
+            if !value.is_finite() || value < 0.0 {
                 errors.push(SceneError::Conductance {
                     element,
                     partner,
-                    value: value.to_f64(),
+                    value,
                 });
             }
         }
@@ -142,26 +142,22 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 }
 
-fn check_node<S: Real, const D: usize>(
-    node: Node,
-    entry: &NodeEntry<S, D>,
-    errors: &mut Vec<SceneError>,
-) {
+fn check_node<const D: usize>(node: Node, entry: &NodeEntry<D>, errors: &mut Vec<SceneError>) {
     errors.extend(check_position(node, entry).err());
     if entry.momentum.is_none() {
         let velocity = infinite(entry.velocity.as_slice());
         errors.extend(velocity.map(|(axis, value)| SceneError::Velocity { node, axis, value }));
     }
     if let Some(mass) = entry.mass.filter(|&mass| !is_positive(mass)) {
-        let value = mass.to_f64();
+        let value = mass;
         errors.push(SceneError::Mass { node, value });
     }
 }
 
 /// An error unless the position of a node is finite.
-pub(super) fn check_position<S: Real, const D: usize>(
+pub(super) fn check_position<const D: usize>(
     node: Node,
-    entry: &NodeEntry<S, D>,
+    entry: &NodeEntry<D>,
 ) -> Result<(), SceneError> {
     match infinite(entry.position.as_slice()).next() {
         Some((axis, value)) => Err(SceneError::Position { node, axis, value }),
@@ -169,9 +165,9 @@ pub(super) fn check_position<S: Real, const D: usize>(
     }
 }
 
-fn check_element<S: Real>(
+fn check_element(
     element: Element,
-    entry: &ElementEntry<S>,
+    entry: &ElementEntry,
     shape: Shape,
     errors: &mut Vec<SceneError>,
 ) {
@@ -186,7 +182,7 @@ fn check_element<S: Real>(
             let error = StateError::ViscousStretch {
                 element,
                 dashpot,
-                value: stretch.to_f64(),
+                value: stretch,
                 unit: shape.viscous_unit,
             };
             errors.push(error.into());
@@ -196,7 +192,7 @@ fn check_element<S: Real>(
         (None, true) => errors.push(SceneError::MissingTemperature { element }),
         (Some(_), false) => errors.push(SceneError::NotThermal { element }),
         (Some(temperature), true) if !is_positive(temperature) => {
-            let value = temperature.to_f64();
+            let value = temperature;
             errors.push(StateError::Temperature { element, value }.into());
         }
         (None, false) | (Some(_), true) => {}
@@ -209,9 +205,9 @@ impl From<StateError> for SceneError {
     }
 }
 
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// An error unless momentum, kinetic energy and weight of a mass are finite.
-    fn check_products(&self, node: Node, entry: &NodeEntry<S, D>) -> Result<(), SceneError> {
+    fn check_products(&self, node: Node, entry: &NodeEntry<D>) -> Result<(), SceneError> {
         let Some(mass) = entry.mass else {
             return Ok(());
         };
@@ -220,15 +216,15 @@ impl<const D: usize, S: Real> Scene<D, S> {
             return Err(SceneError::Momentum { node, axis, value });
         }
         let components = momentum.iter();
-        let energy = components.fold(S::zero(), |sum, &p| sum + p * p / (mass + mass));
+        let energy = components.fold(0.0, |sum, &p| sum + p * p / (mass + mass));
         if !energy.is_finite() {
             let components = momentum.iter();
-            let momentum = components.fold(S::zero(), |length, &p| length.hypot(p));
+            let momentum = components.fold(0.0, |length, &p| Scalar::hypot(length, p));
             return Err(SceneError::KineticEnergy {
                 node,
-                value: energy.to_f64(),
-                momentum: momentum.to_f64(),
-                mass: mass.to_f64(),
+                value: energy,
+                momentum,
+                mass,
             });
         }
         let weight = self.loads.gravity.map(|component| mass * component);
@@ -241,7 +237,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// An error unless the initial heat flow of each conductance, and the sum of the flows of each element, are finite.
     fn check_heat_flows(&self) -> Result<(), SceneError> {
         let temperature = |element: Element| self.elements[element.index()].temperature;
-        let mut received = vec![S::zero(); self.elements.len()];
+        let mut received = vec![0.0; self.elements.len()];
         let reservoirs = self.reservoir_temperatures();
         for conductor in &self.conductors {
             let (element, partner) = (conductor.element, conductor.partner);
@@ -256,10 +252,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let mut largest = flow.abs();
             for end in [Some(element), other].into_iter().flatten() {
                 received[end.index()] += flow.abs();
-                largest = largest.maximum(received[end.index()]);
+                largest = Scalar::maximum(largest, received[end.index()]);
             }
             // The flow of entropy at the colder end, which is the larger one.
-            let entropy = flow / here.minimum(there);
+            let entropy = flow / Scalar::minimum(here, there);
             let flows = [
                 ("heat flow", flow, largest, "W"),
                 ("flow of entropy", entropy, entropy, "W/K"),
@@ -270,7 +266,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                     element,
                     partner,
                     quantity,
-                    value: value.to_f64(),
+                    value,
                     unit,
                 });
             }
@@ -284,14 +280,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let scale = extent(positions.flat_map(|position| position.iter()));
         for (anchor, motion) in &self.loads.motions {
             let created = self.nodes[anchor.index].position;
-            let prescribed = motion.position(self.start, &created.into(), S::zero());
+            let prescribed = motion.position(self.start, &created.into(), 0.0);
             for axis in 0..D {
                 if !is_rounding(prescribed[axis] - created[axis], scale) {
                     errors.push(SceneError::AnchorJump {
                         node: *anchor,
                         axis,
-                        created: created[axis].to_f64(),
-                        prescribed: prescribed[axis].to_f64(),
+                        created: created[axis],
+                        prescribed: prescribed[axis],
                     });
                 }
             }
@@ -304,12 +300,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let Some(initial) = self.elements[element.index()].temperature else {
                 continue;
             };
-            let prescribed = temperature.at(self.start, initial, S::zero());
+            let prescribed = temperature.at(self.start, initial, 0.0);
             if !is_rounding(prescribed - initial, initial) {
                 errors.push(SceneError::TemperatureJump {
                     element: *element,
-                    initial: initial.to_f64(),
-                    prescribed: prescribed.to_f64(),
+                    initial,
+                    prescribed,
                 });
             }
         }
@@ -317,7 +313,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
 }
 
 /// Whether rounding explains a difference of values of this size. False for NaN.
-fn is_rounding<S: Real>(difference: S, size: S) -> bool {
-    let bound = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON * size;
-    difference.abs().at_most(bound).all()
+fn is_rounding(difference: f64, size: f64) -> bool {
+    let bound = MOTION_ROUNDINGS * f64::EPSILON * size;
+    difference.abs() <= bound
 }

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use crate::element::handle::{Element, Node};
 use crate::element::loads::PushLine;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// The largest difference, in ε of its size, between a prescribed function and a state that follows it: a formula
 /// `c + a f(t)` rounds function, product and sum, each by at most ε of the size of the result or of the scene; a fourth ε
@@ -24,15 +24,17 @@ const INSIDE_ROUNDINGS: f64 = 4.0;
 ///
 /// Errors of motions are measured in this unit, not in that of their own coordinates: elements depend on differences of
 /// positions, which have the rounding of the largest ones.
-pub(crate) fn extent<'a, S: Real>(coordinates: impl Iterator<Item = &'a S>) -> S {
-    coordinates.fold(S::zero(), |most, coordinate| most.maximum(coordinate.abs()))
+pub(crate) fn extent<'a>(coordinates: impl Iterator<Item = &'a f64>) -> f64 {
+    coordinates.fold(0.0, |most, coordinate| {
+        Scalar::maximum(most, coordinate.abs())
+    })
 }
 
 /// A vector (force in N, position in m) as a function of time in s.
-pub(crate) type OfTime<S, const D: usize> = Arc<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
+pub(crate) type OfTime<const D: usize> = Arc<dyn Fn(f64) -> SVector<f64, D> + Send + Sync>;
 
 /// A scalar (temperature in K, thrust in N) as a function of time in s.
-pub(crate) type ScalarOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
+pub(crate) type ScalarOfTime = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// The values of a load in the course of time; `F` is the type of a function of time in s.
 #[derive(Clone)]
@@ -47,8 +49,13 @@ pub(crate) enum Course<F, T> {
 }
 
 /// The value between one at the beginning and one at the end of a step, at a share of it.
-fn between<S: Real>(from: S, to: S, share: S) -> S {
-    S::branch(share.equal(S::one()), || to, || from + share * (to - from))
+fn between(from: f64, to: f64, share: f64) -> f64 {
+    #[expect(clippy::float_cmp, reason = "the end itself")]
+    if share == 1.0 {
+        to
+    } else {
+        from + share * (to - from)
+    }
 }
 
 impl<F, T> Course<F, T> {
@@ -61,9 +68,9 @@ impl<F, T> Course<F, T> {
     }
 }
 
-impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
+impl<const D: usize> Course<OfTime<D>, SVector<f64, D>> {
     /// The position of an anchor at a time, m, `elapsed` seconds after it was at `from`.
-    pub(crate) fn position(&self, time: S, from: &[S; D], elapsed: S) -> SVector<S, D> {
+    pub(crate) fn position(&self, time: f64, from: &[f64; D], elapsed: f64) -> SVector<f64, D> {
         match self {
             Self::Function(of) => of(time),
             Self::Constant(position) => *position,
@@ -74,9 +81,9 @@ impl<S: Real, const D: usize> Course<OfTime<S, D>, SVector<S, D>> {
     }
 }
 
-impl<S: Real> Course<ScalarOfTime<S>, S> {
+impl Course<ScalarOfTime, f64> {
     /// The value at a time, at this share of a step that begins with the value `from`.
-    pub(crate) fn at(&self, time: S, from: S, share: S) -> S {
+    pub(crate) fn at(&self, time: f64, from: f64, share: f64) -> f64 {
         match self {
             Self::Function(of) => of(time),
             Self::Constant(value) => *value,
@@ -86,40 +93,40 @@ impl<S: Real> Course<ScalarOfTime<S>, S> {
 }
 
 /// The course of a force or of an anchor.
-pub(crate) type VectorCourse<S, const D: usize> = Course<OfTime<S, D>, SVector<S, D>>;
+pub(crate) type VectorCourse<const D: usize> = Course<OfTime<D>, SVector<f64, D>>;
 
 /// The course of a temperature.
-pub(crate) type TemperatureCourse<S> = Course<ScalarOfTime<S>, S>;
+pub(crate) type TemperatureCourse = Course<ScalarOfTime, f64>;
 
 /// A force of a given size in N as a function of time in s, along a line that turns with two nodes.
 #[derive(Clone)]
-pub(crate) struct Rocket<S> {
+pub(crate) struct Rocket {
     pub(crate) line: PushLine,
-    pub(crate) thrust: Arc<dyn Fn(S) -> S + Send + Sync>,
+    pub(crate) thrust: Arc<dyn Fn(f64) -> f64 + Send + Sync>,
 }
 
 /// All loads of a scene, as given.
 #[derive(Clone)]
-pub(crate) struct Loads<S: Real, const D: usize> {
+pub(crate) struct Loads<const D: usize> {
     /// Acceleration of free fall, m/s².
-    pub(crate) gravity: SVector<S, D>,
-    pub(crate) forces: Vec<(Node, VectorCourse<S, D>)>,
-    pub(crate) rockets: Vec<Rocket<S>>,
-    pub(crate) motions: Vec<(Node, VectorCourse<S, D>)>,
-    pub(crate) temperatures: Vec<(Element, TemperatureCourse<S>)>,
+    pub(crate) gravity: SVector<f64, D>,
+    pub(crate) forces: Vec<(Node, VectorCourse<D>)>,
+    pub(crate) rockets: Vec<Rocket>,
+    pub(crate) motions: Vec<(Node, VectorCourse<D>)>,
+    pub(crate) temperatures: Vec<(Element, TemperatureCourse)>,
     /// Indices of reservoirs whose temperature is a function of time.
-    pub(crate) ovens: Vec<(usize, ScalarOfTime<S>)>,
+    pub(crate) ovens: Vec<(usize, ScalarOfTime)>,
     /// Times at which steps end, s, in ascending order.
-    pub(crate) stops: Vec<S>,
+    pub(crate) stops: Vec<f64>,
     /// No load lasts less than this, s.
-    pub(crate) shortest: Option<S>,
+    pub(crate) shortest: Option<f64>,
 }
 
-impl<S: Real, const D: usize> Loads<S, D> {
+impl<const D: usize> Loads<D> {
     /// No loads.
     pub(crate) fn none() -> Self {
         Self {
-            gravity: SVector::from_element(S::zero()),
+            gravity: SVector::from_element(0.0),
             forces: Vec::new(),
             rockets: Vec::new(),
             motions: Vec::new(),
@@ -139,13 +146,13 @@ impl<S: Real, const D: usize> Loads<S, D> {
     /// A time in a step at which a force is evaluated: some roundings inside the step if there are times at which steps end. The
     /// function may jump at such a time; one step sees it before, and the next one behind.
     #[inline]
-    pub(crate) fn inside(&self, [start, step]: [S; 2], time: S) -> S {
+    pub(crate) fn inside(&self, [start, step]: [f64; 2], time: f64) -> f64 {
         if self.stops.is_empty() {
             return time;
         }
-        let inside = S::from_f64(INSIDE_ROUNDINGS) * S::EPSILON * (start.abs() + step);
+        let inside = INSIDE_ROUNDINGS * f64::EPSILON * (start.abs() + step);
         let (first, last) = (start + inside, (start + step) - inside);
-        time.maximum(first).minimum(last)
+        Scalar::minimum(Scalar::maximum(time, first), last)
     }
 
     /// The lines of all rockets.
@@ -153,19 +160,13 @@ impl<S: Real, const D: usize> Loads<S, D> {
         self.rockets.iter().map(|rocket| rocket.line).collect()
     }
 
+    /// Whether gravity is not zero.
     pub(crate) fn have_weight(&self) -> bool {
-        self.has_weight().any()
-    }
-
-    /// Whether gravity is not zero, per lane.
-    pub(crate) fn has_weight(&self) -> S::Mask {
-        let none = S::Mask::none();
-        let components = self.gravity.iter();
-        components.fold(none, |any, &component| any | !component.equal(S::zero()))
+        self.gravity.iter().any(|&component| component != 0.0)
     }
 }
 
-impl<S: Real, const D: usize> core::fmt::Debug for Loads<S, D> {
+impl<const D: usize> core::fmt::Debug for Loads<D> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Loads")
             .field("gravity", &self.gravity)

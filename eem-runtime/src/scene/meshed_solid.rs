@@ -13,11 +13,10 @@ use crate::scene::error::SceneError;
 use crate::scene::joints::{Shared, joined};
 use crate::scene::solid_error::SolidError;
 use eem_material::free_energy::FreeEnergy;
-use eem_material::number::scalar::Real;
 use eem_mesh::{Mesh, per_node};
 
 /// # Solids from meshes
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// A solid with this mesh, strain-free and at rest; in the plane in plane strain.
     ///
     /// Each integration point has its own temperature and viscous strains; its handle is for
@@ -56,17 +55,17 @@ impl<const D: usize, S: Real> Scene<D, S> {
         &mut self,
         model: M,
         mesh: &Mesh<H, D>,
-        bulk: &Bulk<D, S>,
+        bulk: &Bulk<D>,
     ) -> Body<H, D>
     where
         H: Shape<D>,
-        M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
+        M: FreeEnergy<f64> + StrainEnergy<N> + Send + Sync + 'static,
     {
         let first = self.next_element(&model);
         let nodes = self.nodes_of_mesh(mesh, bulk, first);
         let mut properties = CellProperties {
             density: bulk.density,
-            thickness: S::from_f64(bulk.thickness),
+            thickness: bulk.thickness,
             fibres: &bulk.fibres,
             lumped: bulk.lumped,
             is_invalid: false,
@@ -103,7 +102,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     fn nodes_of_mesh<H: Shape<D>>(
         &mut self,
         mesh: &Mesh<H, D>,
-        bulk: &Bulk<D, S>,
+        bulk: &Bulk<D>,
         element: Element,
     ) -> Vec<Node> {
         let shared = joined(&bulk.joints, mesh, element);
@@ -118,7 +117,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let places = mesh.nodes().iter().zip(shared);
         let nodes = places.map(|(place, shared)| match shared {
             Some(shared) => shared.node,
-            None => self.node(place.map(S::from_f64), [S::zero(); D]),
+            None => self.node(*place, [0.0; D]),
         });
         nodes.collect()
     }
@@ -165,7 +164,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert_eq!(run.momentum(mass)?[0], 6.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn set_velocity(&mut self, node: Node, velocity: [S; D]) {
+    pub fn set_velocity(&mut self, node: Node, velocity: [f64; D]) {
         if self.expect_kind(node, true, "a velocity") {
             let entry = &mut self.nodes[node.index];
             entry.velocity = velocity.into();
@@ -209,9 +208,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 });
             }
             let entry = &mut self.nodes[node.index];
-            entry.held += entry.mass.take().unwrap_or(S::zero());
+            entry.held += entry.mass.take().unwrap_or(0.0);
             entry.momentum = None;
-            entry.velocity = [S::zero(); D].into();
+            entry.velocity = [0.0; D].into();
         }
     }
 }

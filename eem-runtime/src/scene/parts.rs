@@ -10,10 +10,9 @@ use crate::element::handle::{Element, HeatPartner, HeatPath, Kind, Node, Reservo
 use crate::element::kinematics::Stretch;
 use crate::scene::error::SceneError;
 use eem_material::free_energy::Material;
-use eem_material::number::scalar::Real;
 
 impl<const D: usize> Scene<D> {
-    /// An empty scene in double precision. Use [`Scene::default`] for other number types.
+    /// An empty scene.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -21,14 +20,14 @@ impl<const D: usize> Scene<D> {
 }
 
 /// # Nodes, springs and heat
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// A node that does not move; position in m.
-    pub fn anchor(&mut self, position: [S; D]) -> Node {
-        self.push_node(None, position, [S::zero(); D])
+    pub fn anchor(&mut self, position: [f64; D]) -> Node {
+        self.push_node(None, position, [0.0; D])
     }
 
     /// A point mass (kg) with its initial position (m) and velocity (m/s).
-    pub fn mass(&mut self, mass: S, position: [S; D], velocity: [S; D]) -> Node {
+    pub fn mass(&mut self, mass: f64, position: [f64; D], velocity: [f64; D]) -> Node {
         self.push_node(Some(mass), position, velocity)
     }
 
@@ -38,7 +37,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// [`set_temperature`](Self::set_temperature). Viscous stretches are zero at first.
     pub fn spring<M>(&mut self, model: M, nodes: [Node; 2]) -> Element
     where
-        M: Material<S>,
+        M: Material,
     {
         const {
             assert!(
@@ -54,7 +53,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let node = nodes[0];
             self.refuse(SceneError::SelfSpring { element, node });
         }
-        let (group, set) = self.set_of(model.kind(), LooseElements::<S, M, Stretch<D>, D>::new);
+        let (group, set) = self.set_of(model.kind(), LooseElements::<M, Stretch<D>, D>::new);
         let place = set.points();
         set.elements.push((element, [(model, Stretch)]));
         self.push_element(&nodes, [group, place]);
@@ -63,7 +62,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// The initial temperature of an element, K. Every element with a temperature needs one, also if a thermostat
     /// [prescribes it](Self::prescribe_temperature). The last call counts.
-    pub fn set_temperature(&mut self, element: Element, temperature: S) {
+    pub fn set_temperature(&mut self, element: Element, temperature: f64) {
         if self.expect_own(&element) {
             self.elements[element.index()].temperature = Some(temperature);
         }
@@ -71,7 +70,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero by default. For a viscous strain
     /// tensor use [`set_viscous_strain`](Self::set_viscous_strain).
-    pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: S) {
+    pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: f64) {
         if self.expect_own(&element) {
             let entry = &mut self.elements[element.index()];
             let shape = self.groups.get(entry.group).map(|group| group.shape());
@@ -89,7 +88,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// A heat reservoir at a constant temperature, K.
-    pub fn reservoir(&mut self, temperature: S) -> Reservoir {
+    pub fn reservoir(&mut self, temperature: f64) -> Reservoir {
         self.reservoirs.push(temperature);
         self.reservoir_at(self.reservoirs.len() - 1)
     }
@@ -122,8 +121,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert!((ledger.heat - 2.0 * (run.temperature(wire)? - 300.0)).abs() < 1e-11);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn oven(&mut self, temperature: impl Fn(S) -> S + Send + Sync + 'static) -> Reservoir {
-        let oven = self.reservoir(S::one());
+    pub fn oven(&mut self, temperature: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Reservoir {
+        let oven = self.reservoir(1.0);
         self.loads.ovens.push((oven.index, Arc::new(temperature)));
         oven
     }
@@ -162,7 +161,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         &mut self,
         element: Element,
         partner: impl Into<HeatPartner>,
-        conductance: S,
+        conductance: f64,
     ) -> HeatPath {
         let partner = partner.into();
         let is_own = self.expect_own(&element);
@@ -200,7 +199,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert_eq!(run.momentum(mass)?[0], 0.5);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn start_at(&mut self, time: S) {
+    pub fn start_at(&mut self, time: f64) {
         self.start = time;
     }
 

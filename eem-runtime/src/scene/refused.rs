@@ -5,7 +5,6 @@ use core::fmt;
 
 use super::Scene;
 use crate::scene::error::SceneError;
-use eem_material::number::scalar::Real;
 
 /// The largest number of errors in a message.
 const MOST_NAMED: usize = 20;
@@ -33,14 +32,14 @@ const MOST_NAMED: usize = 20;
 /// let mut scene = refused.into_scene();
 /// scene.mass(3.0, [0.0], [0.0]);
 /// ```
-pub struct RefusedScene<const D: usize, S: Real = f64> {
-    scene: Box<Scene<D, S>>,
+pub struct RefusedScene<const D: usize> {
+    scene: Box<Scene<D>>,
     /// At least one.
     errors: Vec<SceneError>,
 }
 
-impl<const D: usize, S: Real> RefusedScene<D, S> {
-    pub(crate) fn new(scene: Scene<D, S>, errors: Vec<SceneError>) -> Self {
+impl<const D: usize> RefusedScene<D> {
+    pub(crate) fn new(scene: Scene<D>, errors: Vec<SceneError>) -> Self {
         let scene = Box::new(scene);
         Self { scene, errors }
     }
@@ -53,12 +52,12 @@ impl<const D: usize, S: Real> RefusedScene<D, S> {
 
     /// The scene as it was given.
     #[must_use]
-    pub fn into_scene(self) -> Scene<D, S> {
+    pub fn into_scene(self) -> Scene<D> {
         *self.scene
     }
 }
 
-impl<const D: usize, S: Real> fmt::Display for RefusedScene<D, S> {
+impl<const D: usize> fmt::Display for RefusedScene<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let count = self.errors.len();
         if let [only] = &self.errors[..] {
@@ -75,17 +74,17 @@ impl<const D: usize, S: Real> fmt::Display for RefusedScene<D, S> {
     }
 }
 
-impl<const D: usize, S: Real> fmt::Debug for RefusedScene<D, S> {
+impl<const D: usize> fmt::Debug for RefusedScene<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut all = f.debug_struct("RefusedScene");
         all.field("errors", &self.errors).finish_non_exhaustive()
     }
 }
 
-impl<const D: usize, S: Real> Error for RefusedScene<D, S> {}
+impl<const D: usize> Error for RefusedScene<D> {}
 
-impl<const D: usize, S: Real> From<RefusedScene<D, S>> for SceneError {
-    fn from(mut refused: RefusedScene<D, S>) -> Self {
+impl<const D: usize> From<RefusedScene<D>> for SceneError {
+    fn from(mut refused: RefusedScene<D>) -> Self {
         refused.errors.swap_remove(0)
     }
 }

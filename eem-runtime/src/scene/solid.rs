@@ -7,26 +7,25 @@ use crate::scene::cell::CellProperties;
 use crate::scene::solid_error::SolidError;
 use eem_material::free_energy::FreeEnergy;
 use eem_material::joint::components;
-use eem_material::number::scalar::{Mask, Real};
 
 /// The properties of a quadrilateral besides its material and corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section<S = f64> {
+pub struct Section {
     /// ρ, kg/m³.
-    pub density: S,
+    pub density: f64,
     /// Thickness out of the plane, m.
-    pub thickness: S,
+    pub thickness: f64,
 }
 
 /// # Nodes of solids
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// A node that moves and gets its mass from solids. Position in m, velocity in m/s.
-    pub fn node(&mut self, position: [S; D], velocity: [S; D]) -> Node {
-        self.push_node(Some(S::zero()), position, velocity)
+    pub fn node(&mut self, position: [f64; D], velocity: [f64; D]) -> Node {
+        self.push_node(Some(0.0), position, velocity)
     }
 
     /// Sets the initial position of a node, m. Solids keep their reference shape, so they start deformed.
-    pub fn set_position(&mut self, node: Node, position: [S; D]) {
+    pub fn set_position(&mut self, node: Node, position: [f64; D]) {
         if self.expect_own(&node) {
             self.nodes[node.index].position = position.into();
         }
@@ -34,7 +33,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
 }
 
 /// # Solids in the plane
-impl<S: Real> Scene<2, S> {
+impl Scene<2> {
     /// A quadrilateral of a solid in plane strain with four nodes as corners, counterclockwise. Returns its
     /// integration points; the first coordinate varies fastest.
     ///
@@ -71,10 +70,10 @@ impl<S: Real> Scene<2, S> {
         &mut self,
         model: M,
         nodes: [Node; 4],
-        section: Section<S>,
+        section: Section,
     ) -> [Element; 4]
     where
-        M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
+        M: FreeEnergy<f64> + StrainEnergy<N> + Send + Sync + 'static,
     {
         let Section { density, thickness } = section;
         let properties = CellProperties {
@@ -89,7 +88,7 @@ impl<S: Real> Scene<2, S> {
 }
 
 /// # Viscous strains of solids
-impl<const D: usize, S: Real> Scene<D, S> {
+impl<const D: usize> Scene<D> {
     /// The initial viscous strain Γ at a point of a solid; zero by default. Only its symmetric part counts and,
     /// without a volumetric viscosity, only its deviator.
     ///
@@ -116,7 +115,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// assert!((strain[(1, 0)] - 0.1).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn set_viscous_strain(&mut self, point: Element, strain: [[S; 3]; 3]) {
+    pub fn set_viscous_strain(&mut self, point: Element, strain: [[f64; 3]; 3]) {
         if !self.expect_own(&point) {
             return;
         }
@@ -141,19 +140,16 @@ impl<const D: usize, S: Real> Scene<D, S> {
 }
 
 /// The error of a tensor that is not symmetric or, in plane strain, has shear out of the plane.
-fn invalid_shear<S: Real>(
-    element: Element,
-    strain: &[[S; 3]; 3],
-    is_plane: bool,
-) -> Option<SolidError> {
+fn invalid_shear(element: Element, strain: &[[f64; 3]; 3], is_plane: bool) -> Option<SolidError> {
     [[0, 1], [0, 2], [1, 2]].into_iter().find_map(|[i, j]| {
         let values = [strain[i][j], strain[j][i]];
-        let is_symmetric = values[0].equal(values[1]).all();
-        let is_out_of_plane = is_plane && j == 2 && !values[0].equal(S::zero()).all();
-        (!is_symmetric || is_out_of_plane).then(|| SolidError::ViscousShear {
+        #[expect(clippy::float_cmp, reason = "a tensor is symmetric to the last bit")]
+        let is_symmetric = values[0] == values[1];
+        let is_out_of_plane = is_plane && j == 2 && values[0] != 0.0;
+        (!is_symmetric || is_out_of_plane).then_some(SolidError::ViscousShear {
             element,
             place: [i, j],
-            values: values.map(Real::to_f64),
+            values,
             is_plane,
         })
     })

@@ -4,7 +4,6 @@ use thiserror::Error;
 
 use crate::element::handle::{Element, Node};
 use eem_material::number::readable::Readable;
-use eem_material::number::scalar::Real;
 use eem_mesh::MeshError;
 
 /// Why a solid is rejected.
@@ -195,16 +194,16 @@ pub enum SolidError {
 
 impl SolidError {
     /// The error of a quantity that is not positive and finite.
-    pub(super) fn section<S: Real>(
+    pub(super) fn section(
         element: Element,
         quantity: &'static str,
-        value: S,
+        value: f64,
         unit: &'static str,
     ) -> Self {
         Self::Section {
             element,
             quantity,
-            value: value.to_f64(),
+            value,
             unit,
         }
     }

@@ -33,7 +33,6 @@ use crate::element::conduction::InterfaceTemperatures;
 use crate::element::group::{Group, SeeParameters, StepBack, StepView};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
-use eem_material::number::scalar::Real;
 
 pub(crate) use crate::element::group::{Direction, PastStep, PerVariable, StepWeights, Terms};
 pub(crate) use error::NoAdjoint;
@@ -43,46 +42,46 @@ pub(crate) use tangents::{HeatChange, Tangents};
 
 /// The adjoint of one step after the other, with a workspace for all of them.
 #[derive(Debug)]
-pub(crate) struct Adjoint<S, const D: usize> {
-    inertia: Inertia<S, D>,
+pub(crate) struct Adjoint<const D: usize> {
+    inertia: Inertia<D>,
     /// The interface temperatures of a step, and whether there are any.
-    interface: InterfaceTemperatures<S>,
+    interface: InterfaceTemperatures,
     is_coupled: bool,
     /// `w_v` of the last step for each unknown; 0 unless the unknown is a position.
-    last: Vec<[S; 1]>,
+    last: Vec<[f64; 1]>,
     /// The change of `M w_v` by the last step, and `λ_v − M w_v` with the present λ.
-    changes: Vec<S>,
-    rests: Vec<S>,
+    changes: Vec<f64>,
+    rests: Vec<f64>,
     /// The derivatives by the present state, and those by the one after it.
-    pub(crate) costate: PerVariable<S>,
-    pub(crate) after: PerVariable<S>,
+    pub(crate) costate: PerVariable,
+    pub(crate) after: PerVariable,
     /// The weights of the last step.
-    pub(crate) weights: StepWeights<S>,
+    pub(crate) weights: StepWeights,
 }
 
-impl<S: Real, const D: usize> Adjoint<S, D> {
+impl<const D: usize> Adjoint<D> {
     /// Begins with the derivatives by the last state.
     pub(crate) fn new(
         layout: &Layout,
-        masses: &Masses<S>,
-        system: &LinearSystem<S, 1>,
-        costate: PerVariable<S>,
+        masses: &Masses,
+        system: &LinearSystem<1>,
+        costate: PerVariable,
     ) -> Self {
-        let zeros = |count| vec![S::zero(); count];
+        let zeros = |count| vec![0.0; count];
         let coordinates = costate.positions.len();
         let is_coupled = layout.coupled.iter().any(Option::is_some);
         Self {
             inertia: Inertia::new(layout, masses, system),
             interface: InterfaceTemperatures::new(layout.thermal),
             is_coupled,
-            last: vec![[S::zero()]; system.right().len()],
+            last: vec![[0.0]; system.right().len()],
             changes: zeros(coordinates),
             rests: costate.velocities.clone(),
             weights: StepWeights {
                 motion: zeros(coordinates),
                 entropies: zeros(layout.thermal),
                 held: zeros(layout.thermal),
-                temperatures: vec![S::one(); layout.thermal],
+                temperatures: vec![1.0; layout.thermal],
                 anchors: [zeros(coordinates), zeros(coordinates)],
                 by_size: Terms::none(),
             },
@@ -95,11 +94,11 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
     /// each element in the step to `see`.
     pub(crate) fn step_back(
         &mut self,
-        past: &PastStep<'_, S>,
-        (layout, rockets): (&Layout, &[RocketStep<S, D>]),
-        groups: &mut [Box<dyn Group<S, D>>],
-        system: &mut LinearSystem<S, 1>,
-        see: &mut SeeParameters<'_, S>,
+        past: &PastStep<'_>,
+        (layout, rockets): (&Layout, &[RocketStep<D>]),
+        groups: &mut [Box<dyn Group<D>>],
+        system: &mut LinearSystem<1>,
+        see: &mut SeeParameters<'_>,
     ) -> Result<(), NoAdjoint> {
         mem::swap(&mut self.costate, &mut self.after);
         let view = &past.view;
@@ -125,7 +124,7 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
         self.find_weights(view, system)?;
         let solution = system.solution();
         for anchors in &mut self.weights.anchors {
-            anchors.fill(S::zero());
+            anchors.fill(0.0);
         }
         self.weights.by_size = Terms::none();
         let by_new = &self.after;
@@ -144,7 +143,7 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
     }
 
     /// Adds a derivative of the objective by a velocity in the present state.
-    pub(crate) fn add_by_velocity(&mut self, at: usize, by: S) {
+    pub(crate) fn add_by_velocity(&mut self, at: usize, by: f64) {
         self.costate.velocities[at] += by;
         self.rests[at] += by;
     }
@@ -153,11 +152,11 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
     /// `λ_q` stays, and `λ_v⁰ = M w_v` comes from the masses of solids.
     fn find_weights(
         &mut self,
-        view: &StepView<'_, S>,
-        system: &mut LinearSystem<S, 1>,
+        view: &StepView<'_>,
+        system: &mut LinearSystem<1>,
     ) -> Result<(), NoAdjoint> {
         let Inertia { nodes, .. } = &self.inertia;
-        let per = S::from_f64(2.0) / view.step;
+        let per = 2.0 / view.step;
         let (_, right) = system.parts();
         let (after, rests) = (&self.after, &mut self.rests);
         for node in nodes {
@@ -167,7 +166,7 @@ impl<S: Real, const D: usize> Adjoint<S, D> {
         }
         system.solve().map_err(|_| NoAdjoint::Singular)?;
         let motion = &mut self.weights.motion;
-        motion.fill(S::zero());
+        motion.fill(0.0);
         let solution = system.solution_mut();
         for node in nodes {
             for (at, unknown) in (node.coordinate..).zip(node.unknown..).take(D) {

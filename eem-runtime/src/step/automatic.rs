@@ -19,7 +19,6 @@ use crate::algebra::system::MOST_FIXED;
 use crate::element::tableau::Tableau;
 use crate::step::control::Tolerance;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
 
 /// The relative tolerance from which on order 2 is tried first where stability limits the steps.
 const ROUGH: f64 = 1e-4;
@@ -76,13 +75,13 @@ pub(crate) const CANDIDATES: [Scheme; 5] = [
 
 /// The implicit candidates to be tried instead of the present scheme, in this order. Where stability limits the explicit scheme,
 /// only the first one and those that are likely to be cheaper: longer steps may fail slowly.
-pub(crate) fn implicit<S: Real>(
+pub(crate) fn implicit(
     present: Scheme,
-    tolerance: &Tolerance<S>,
+    tolerance: &Tolerance,
     unknowns: usize,
 ) -> impl Iterator<Item = Scheme> + Clone {
     use Scheme::{EemEntropy, EemEntropy4, EemEntropy6, EemExplicit, EemTemperature};
-    let relative = tolerance.relative.to_f64();
+    let relative = tolerance.relative;
     let all = if relative >= ROUGH {
         [EemTemperature, EemEntropy6, EemEntropy4, EemEntropy]
     } else {

@@ -75,7 +75,7 @@ use crate::element::state::State;
 use crate::element::tally::{ROUNDINGS, Reevaluation, Tally};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 pub(crate) use motion::{Kept, Motion, NodeStep, Speeds};
 
@@ -101,49 +101,49 @@ const WIDE: f64 = 100.0;
 
 /// The proof of a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Certificate<S: Real> {
+pub(crate) struct Certificate {
     /// R, J.
-    pub(crate) defect: S,
+    pub(crate) defect: f64,
     /// B, J.
-    pub(crate) bound: S,
+    pub(crate) bound: f64,
     /// T of both ends, and the magnitude of the energies at each end or their known part, J.
-    motion: S,
-    terms: [S; 2],
+    motion: f64,
+    terms: [f64; 2],
     /// The defect that decides, R or its replacement by discrete derivatives, and B*, J.
-    judged: [S; 2],
+    judged: [f64; 2],
     /// `W_r`, J.
-    residual_work: S,
+    residual_work: f64,
     /// The entropy production of all dashpots and paths of heat, J/K.
-    pub(crate) production: S,
+    pub(crate) production: f64,
     /// The smallest production of one of them; zero without any, J/K.
-    pub(crate) least_production: S,
+    pub(crate) least_production: f64,
     /// Conductions and dashpots that relax faster than the step resolves.
     pub(crate) unresolved: usize,
     /// The largest component of the defect of each momentum, and the magnitude of its terms, kg m/s and kg m²/s.
-    linear: [S; 2],
-    angular: [S; 2],
+    linear: [f64; 2],
+    angular: [f64; 2],
     /// The terms of the forces at the nodes in the linear and the angular momentum, if bounds are thorough.
-    residues: [S; 2],
-    is_balanced: S::Mask,
+    residues: [f64; 2],
+    is_balanced: bool,
 }
 
 /// The change of the internal energy in a step, from values at both ends.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Internal<S> {
+pub(crate) struct Internal {
     /// `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, J.
-    change: S,
+    change: f64,
     /// The magnitude of its terms at both ends, J.
-    magnitude: S,
+    magnitude: f64,
     /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of each end, or the known part of it, J.
-    terms: [S; 2],
+    terms: [f64; 2],
     /// The part of `terms` that is neither in `magnitude` nor in the amplitude of forces, J.
-    excess: S,
+    excess: f64,
 }
 
-impl<S: Real> Internal<S> {
-    pub(crate) fn new(reservoirs: &[S], [old, next]: [&State<S>; 2]) -> Self {
-        let [mut change, mut magnitude, mut excess] = [S::zero(); 3];
-        let mut terms = [S::zero(); 2];
+impl Internal {
+    pub(crate) fn new(reservoirs: &[f64], [old, next]: [&State; 2]) -> Self {
+        let [mut change, mut magnitude, mut excess] = [0.0; 3];
+        let mut terms = [0.0; 2];
         for (old, new) in old.energies.iter().zip(&next.energies) {
             change += new.value - old.value;
             magnitude += old.magnitude + new.magnitude;
@@ -166,22 +166,25 @@ impl<S: Real> Internal<S> {
     }
 }
 
-impl<S: Real> Certificate<S> {
+impl Certificate {
     /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states.
     pub(crate) fn new<const D: usize>(
-        motion: &Motion<S, D>,
-        tally: &Tally<S>,
-        internal: &Internal<S>,
+        motion: &Motion<D>,
+        tally: &Tally,
+        internal: &Internal,
     ) -> Self {
         let mut energy = motion.energy;
         energy.add(internal.change);
         // Below the smallest normal number, rounding is that of this number.
-        let least = S::MIN_POSITIVE;
+        let least = f64::MIN_POSITIVE;
         let terms = motion.kinetic + motion.works + tally.heat + internal.magnitude + least;
-        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let rounding = ROUNDINGS * f64::EPSILON;
         let defect = energy.value();
-        let has_produced = tally.least.less(S::MAX);
-        let largest = |of: &[S]| of.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
+        let has_produced = tally.least < f64::MAX;
+        let largest = |of: &[f64]| {
+            of.iter()
+                .fold(0.0, |most, x| Scalar::maximum(most, x.abs()))
+        };
         Self {
             defect,
             bound: rounding * (terms + tally.forces + internal.excess) + motion.residual_work.abs(),
@@ -190,14 +193,14 @@ impl<S: Real> Certificate<S> {
             judged: [defect, rounding * (terms + tally.forces)],
             residual_work: motion.residual_work,
             production: tally.production,
-            least_production: S::select(has_produced, tally.least, S::zero()),
+            least_production: if has_produced { tally.least } else { 0.0 },
             unresolved: tally.unresolved,
             linear: match motion.kept {
                 Kept::Both => [
                     largest(&motion.linear),
                     motion.momenta + tally.impulse + least,
                 ],
-                Kept::None | Kept::Angular(_) => [S::zero(); 2],
+                Kept::None | Kept::Angular(_) => [0.0; 2],
             },
             angular: [
                 motion.angular.largest(),
@@ -210,14 +213,14 @@ impl<S: Real> Certificate<S> {
 
     /// Takes energy changes that were evaluated again. They decide where the rounding of values exceeds the bound and
     /// explains the defect.
-    pub(crate) fn reevaluated(mut self, reevaluation: &Reevaluation<S>) -> Self {
+    pub(crate) fn reevaluated(mut self, reevaluation: &Reevaluation) -> Self {
         let [defect, bound] = self.judged;
-        let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
+        let rounding = VALUE_ROUNDINGS * f64::EPSILON * reevaluation.magnitude;
         let own = (defect - self.residual_work).abs();
-        let is_explained = bound.less(rounding) & own.at_most(bound + rounding);
+        let is_explained = bound < rounding && own <= bound + rounding;
         let reevaluated = defect + reevaluation.correction;
-        self.judged[0] = S::select(is_explained, reevaluated, defect);
-        self.bound += S::from_f64(REPORTED_VALUE_ROUNDINGS) * S::EPSILON * reevaluation.magnitude;
+        self.judged[0] = if is_explained { reevaluated } else { defect };
+        self.bound += REPORTED_VALUE_ROUNDINGS * f64::EPSILON * reevaluation.magnitude;
         self
     }
 
@@ -230,13 +233,13 @@ impl<S: Real> Certificate<S> {
     /// With the terms of the energies in both states, which are evaluated if the known part of them makes the bound wide.
     pub(crate) fn with_terms_of<const D: usize>(
         mut self,
-        groups: &[Box<dyn Group<S, D>>],
-        ends: [&State<S>; 2],
+        groups: &[Box<dyn Group<D>>],
+        ends: [&State; 2],
     ) -> Self {
         if self.is_bound_wide() {
             self.terms = ends.map(|state| {
                 let groups = groups.iter().map(|group| group.elements());
-                groups.fold(S::zero(), |sum, group| sum + group.energy_terms(state))
+                groups.fold(0.0, |sum, group| sum + group.energy_terms(state))
             });
         }
         self
@@ -250,27 +253,27 @@ impl<S: Real> Certificate<S> {
             motion: self.motion + later.motion,
             terms: [self.terms[0], later.terms[1]],
             production: self.production + later.production,
-            least_production: self.least_production.minimum(later.least_production),
+            least_production: Scalar::minimum(self.least_production, later.least_production),
             unresolved: self.unresolved.max(later.unresolved),
             ..later
         }
     }
 
     /// An error unless the energy is a number after a step to `time`.
-    pub(crate) fn unless_infinite(&self, time: S) -> Result<(), StepFailure> {
+    pub(crate) fn unless_infinite(&self, time: f64) -> Result<(), StepFailure> {
         if self.defect.is_finite() {
             return Ok(());
         }
         Err(StepFailure::Energy {
-            value: self.defect.to_f64(),
-            time: time.to_f64(),
+            value: self.defect,
+            time,
         })
     }
 
     /// Whether the balances of all nodes, dashpots and temperatures hold to rounding.
     #[inline]
     pub(crate) fn is_balanced(&self) -> bool {
-        self.is_balanced.all()
+        self.is_balanced
     }
 
     /// Whether the balances and all laws hold to what rounding explains.
@@ -279,59 +282,51 @@ impl<S: Real> Certificate<S> {
         self.is_balanced() && self.broken_law().is_none()
     }
 
-    /// The lanes in which all equations hold as accurately as after another iteration.
+    /// Whether all equations hold as accurately as after another iteration.
     #[inline]
-    pub(crate) fn is_enough(&self) -> S::Mask {
-        let rounding = S::from_f64(ENOUGH_MOMENTUM) * S::EPSILON;
+    pub(crate) fn is_enough(&self) -> bool {
+        let rounding = ENOUGH_MOMENTUM * f64::EPSILON;
         let [linear, momenta] = self.linear;
         let [angular, moments] = self.angular;
         self.is_balanced
-            & self.has_enough_energy()
-            & linear.at_most(rounding * momenta)
-            & angular.at_most(rounding * moments)
-            & S::zero().at_most(self.least_production)
+            && self.has_enough_energy()
+            && linear <= rounding * momenta
+            && angular <= rounding * moments
+            && self.least_production >= 0.0
     }
 
-    /// The lanes in which the energy is as accurate as after another iteration.
+    /// Whether the energy is as accurate as after another iteration.
     #[inline]
-    pub(crate) fn has_enough_energy(&self) -> S::Mask {
+    pub(crate) fn has_enough_energy(&self) -> bool {
         let [defect, bound] = self.judged;
-        defect.abs().at_most(S::from_f64(ENOUGH) * bound)
+        defect.abs() <= ENOUGH * bound
     }
 
-    /// This certificate in the lanes of the mask, `other` elsewhere; both are of the same step.
-    pub(crate) fn or(mut self, is_own: S::Mask, other: &Self) -> Self {
-        self.defect = S::select(is_own, self.defect, other.defect);
-        self.bound = S::select(is_own, self.bound, other.bound);
-        self.motion = S::select(is_own, self.motion, other.motion);
-        for (own, other) in self.terms.iter_mut().zip(other.terms) {
-            *own = S::select(is_own, *own, other);
+    /// The certificate of a more thorough closing of the same step, with the momenta of this one.
+    pub(crate) fn sharpened_by(self, thorough: Self) -> Self {
+        Self {
+            production: self.production,
+            least_production: self.least_production,
+            linear: self.linear,
+            angular: self.angular,
+            ..thorough
         }
-        for (own, other) in self.judged.iter_mut().zip(other.judged) {
-            *own = S::select(is_own, *own, other);
-        }
-        for (own, other) in self.residues.iter_mut().zip(other.residues) {
-            *own = S::select(is_own, *own, other);
-        }
-        self.residual_work = S::select(is_own, self.residual_work, other.residual_work);
-        self.is_balanced = (self.is_balanced & is_own) | (other.is_balanced & !is_own);
-        self
     }
 
     /// The first violated law, with its defect and the bound for rounding.
-    pub(crate) fn broken_law(&self) -> Option<(Law, [S; 2])> {
-        self.broken_beyond([S::zero(); 2])
+    pub(crate) fn broken_law(&self) -> Option<(Law, [f64; 2])> {
+        self.broken_beyond([0.0; 2])
     }
 
     /// The first law that stays violated where no iteration helps any more.
     #[cold]
-    pub(crate) fn unexplained_law(&self) -> Option<(Law, [S; 2])> {
+    pub(crate) fn unexplained_law(&self) -> Option<(Law, [f64; 2])> {
         self.broken_beyond(self.residues)
     }
 
     /// The first violated law, with these terms of the momenta beside their own.
-    fn broken_beyond(&self, residues: [S; 2]) -> Option<(Law, [S; 2])> {
-        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+    fn broken_beyond(&self, residues: [f64; 2]) -> Option<(Law, [f64; 2])> {
+        let rounding = ROUNDINGS * f64::EPSILON;
         let [energy, bound] = self.judged;
         let [linear, momenta] = self.linear;
         let [angular, moments] = self.angular;
@@ -339,7 +334,7 @@ impl<S: Real> Certificate<S> {
             (
                 Law::Energy,
                 energy - self.residual_work,
-                S::from_f64(1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound,
+                (1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound,
             ),
             (
                 Law::LinearMomentum,
@@ -353,38 +348,38 @@ impl<S: Real> Certificate<S> {
             ),
             (
                 Law::Production,
-                self.least_production.minimum(S::zero()),
-                S::zero(),
+                Scalar::minimum(self.least_production, 0.0),
+                0.0,
             ),
         ];
         // A NaN violates a law.
         let broken = laws
             .into_iter()
-            .find(|(_, defect, bound)| !defect.abs().at_most(*bound).all());
+            .find(|(_, defect, bound)| !(defect.abs() <= *bound));
         broken.map(|(law, defect, bound)| (law, [defect, bound]))
     }
 }
 
 /// Whether a bound is far above the rounding of these terms of energies, J, or not a number.
-pub(crate) fn is_wide<S: Real>(bound: S, terms: S) -> bool {
-    let most = S::from_f64(WIDE * ROUNDINGS) * S::EPSILON * terms;
-    !bound.at_most(most).all()
+pub(crate) fn is_wide(bound: f64, terms: f64) -> bool {
+    let most = WIDE * ROUNDINGS * f64::EPSILON * terms;
+    !(bound <= most)
 }
 
 impl Law {
     /// The error of a step to `time` that violates the law, most of all in one element.
-    pub(crate) fn not_kept<S: Real>(
+    pub(crate) fn not_kept(
         self,
-        [defect, bound]: [S; 2],
+        [defect, bound]: [f64; 2],
         element: Option<Element>,
-        time: S,
+        time: f64,
     ) -> StepFailure {
         StepFailure::LawNotKept {
             law: self,
-            defect: defect.to_f64(),
-            bound: bound.to_f64(),
+            defect,
+            bound,
             element,
-            time: time.to_f64(),
+            time,
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Why a step failed.
 //!
-//! Every error names the thing, the value and, once time runs, the time. Values are given in `f64`
-//! whatever the scalar of the scene.
+//! Every error names the thing, the value and, once time runs, the time.
 
 use thiserror::Error;
 
@@ -12,7 +11,6 @@ use crate::step::law::Law;
 use crate::step::newton::NewtonIteration;
 use crate::step::timed::TimedLoad;
 use eem_material::number::readable::Readable;
-use eem_material::number::scalar::Discord;
 
 /// Why a step failed.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -250,10 +248,6 @@ pub enum StepFailure {
         /// How many there are.
         expected: usize,
     },
-    /// Members in SIMD lanes take different branches, or one of them has failed before; the ensemble runs them one
-    /// by one.
-    #[error(transparent)]
-    Discord(#[from] Discord),
     /// Newton's method leads to an inadmissible state of an element.
     #[error(transparent)]
     State(#[from] StateError),
@@ -303,10 +297,7 @@ impl StepFailure {
 
     /// Whether a step of another size from the same state may succeed.
     pub(crate) const fn depends_on_step(&self) -> bool {
-        let is_final = matches!(
-            self,
-            Self::Time { .. } | Self::TooSmall { .. } | Self::Discord(_)
-        );
+        let is_final = matches!(self, Self::Time { .. } | Self::TooSmall { .. });
         self.is_of_a_step() && !is_final
     }
 }

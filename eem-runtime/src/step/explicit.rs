@@ -45,7 +45,6 @@ use crate::element::state::State;
 use crate::scene::loads::Loads;
 use crate::step::control::LeastScales;
 use components::Components;
-use eem_material::number::scalar::Real;
 use memory::{Books, LoadSums};
 use prescribed::Prescribed;
 use scratch::Scratch;
@@ -59,29 +58,29 @@ pub(crate) use tableau::load_rule;
     clippy::struct_excessive_bools,
     reason = "each says something of its own"
 )]
-pub(crate) struct Explicit<S: Real, const D: usize> {
-    groups: Vec<Box<dyn ExplicitGroup<S, D>>>,
-    components: Components<S>,
+pub(crate) struct Explicit<const D: usize> {
+    groups: Vec<Box<dyn ExplicitGroup<D>>>,
+    components: Components,
     /// Whether each thermal slot has a path of heat or a dashpot.
     produces: Vec<bool>,
-    prescribed: Prescribed<S, D>,
+    prescribed: Prescribed<D>,
     /// The acceleration of free fall, m/s², if there is any.
-    gravity: Option<[S; D]>,
+    gravity: Option<[f64; D]>,
     /// The loads at the present stage, and at the start of the step.
-    loads: StepLoads<S>,
-    start_loads: StepLoads<S>,
+    loads: StepLoads,
+    start_loads: StepLoads,
     /// Whether loads, moved anchors, thermostats or dashpots that lose heat act, so that integrals of the step change targets.
     is_driven: bool,
     /// The number of places, entries of the stage vector, whose rates are kept: masses, and anchors where some are moved.
     kept_places: usize,
     /// The present stage; between steps, the end of the last one, with its rates.
-    stage: Stage<S, D>,
+    stage: Stage<D>,
     /// Work and impulses of the loads on each component since the start of the step; empty without loads.
-    load_sums: Vec<LoadSums<S, D>>,
+    load_sums: Vec<LoadSums<D>>,
     /// Targets and sums, now and before the step.
-    books: Books<S, D>,
-    old_books: Books<S, D>,
-    scratch: Scratch<S, D>,
+    books: Books<D>,
+    old_books: Books<D>,
+    scratch: Scratch<D>,
     /// Whether energy defects are closed by motion before heat.
     is_motion_first: bool,
     /// Whether rates and targets belong to the state, now and before the last attempt.
@@ -95,30 +94,30 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
 
 /// The input of a step.
 #[derive(Clone, Copy)]
-pub(crate) struct ExplicitView<'a, S: Real, const D: usize> {
+pub(crate) struct ExplicitView<'a, const D: usize> {
     /// h, s.
-    pub(crate) step: S,
+    pub(crate) step: f64,
     /// The old state.
-    pub(crate) state: &'a State<S>,
-    pub(crate) conduction: &'a Conduction<S>,
-    pub(crate) loads: &'a Loads<S, D>,
-    pub(crate) masses: &'a Masses<S>,
-    pub(crate) least: &'a LeastScales<S>,
+    pub(crate) state: &'a State,
+    pub(crate) conduction: &'a Conduction,
+    pub(crate) loads: &'a Loads<D>,
+    pub(crate) masses: &'a Masses,
+    pub(crate) least: &'a LeastScales,
 }
 
 /// The scene for which an explicit scheme is built.
 #[derive(Clone, Copy)]
-pub(crate) struct Site<'a, S: Real, const D: usize> {
-    pub(crate) masses: &'a Masses<S>,
+pub(crate) struct Site<'a, const D: usize> {
+    pub(crate) masses: &'a Masses,
     pub(crate) elements: &'a Ends,
     pub(crate) layout: &'a Layout,
-    pub(crate) conduction: &'a Conduction<S>,
-    pub(crate) loads: &'a Loads<S, D>,
+    pub(crate) conduction: &'a Conduction,
+    pub(crate) loads: &'a Loads<D>,
 }
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// For these groups, which know their entropies already.
-    pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<S, D>>>, site: Site<'_, S, D>) -> Self {
+    pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<D>>>, site: Site<'_, D>) -> Self {
         let components = Components::new(site.masses, site.elements, site.layout, site.conduction);
         let place_of = components.place_of();
         for group in &mut groups {
@@ -165,7 +164,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// A group of elements.
-    pub(crate) fn elements(&self, group: usize) -> &dyn Elements<S, D> {
+    pub(crate) fn elements(&self, group: usize) -> &dyn Elements<D> {
         self.groups[group].elements()
     }
 
@@ -175,14 +174,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Calls a function for each group of elements.
-    pub(crate) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
+    pub(crate) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<D>)) {
         for group in &mut self.groups {
             visit(group.elements_mut());
         }
     }
 
     /// Takes the elements out; the scheme cannot step afterwards.
-    pub(crate) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
+    pub(crate) fn take_elements(&mut self) -> Vec<Box<dyn Loose<D>>> {
         let groups = mem::take(&mut self.groups).into_iter();
         groups.map(ExplicitGroup::into_loose).collect()
     }
@@ -204,7 +203,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 }
 
 /// Whether each thermal slot has a path of heat or a dashpot.
-fn produces<S>(components: &Components<S>, layout: &Layout) -> Vec<bool> {
+fn produces(components: &Components, layout: &Layout) -> Vec<bool> {
     let mut produces = vec![false; layout.thermal];
     let ends = components.paths.iter().flat_map(|path| path.ends);
     let dashpots = components.dashpots.iter();

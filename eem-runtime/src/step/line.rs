@@ -2,21 +2,19 @@
 
 use core::array;
 
-use eem_material::number::scalar::Real;
-
 /// A line between two nodes at a time of a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line<S, const D: usize> {
+pub(super) struct Line<const D: usize> {
     /// n.
-    pub(super) direction: [S; D],
+    pub(super) direction: [f64; D],
     /// `|r|`, m; not positive if r has no direction.
-    pub(super) length: S,
+    pub(super) length: f64,
 }
 
-impl<S: Real, const D: usize> Line<S, D> {
+impl<const D: usize> Line<D> {
     /// Along an arm r.
-    pub(super) fn along(arm: &[S; D]) -> Self {
-        let square = arm.iter().fold(S::zero(), |sum, &r| sum + r * r);
+    pub(super) fn along(arm: &[f64; D]) -> Self {
+        let square = arm.iter().fold(0.0, |sum, &r| sum + r * r);
         let length = square.sqrt();
         Self {
             direction: arm.map(|r| r / length),
@@ -25,12 +23,12 @@ impl<S: Real, const D: usize> Line<S, D> {
     }
 
     /// `(1 − n nᵀ)/|r|`, times a number.
-    pub(super) fn turning(&self, factor: S) -> [[S; D]; D] {
+    pub(super) fn turning(&self, factor: f64) -> [[f64; D]; D] {
         let size = factor / self.length;
         let n = &self.direction;
         array::from_fn(|row| {
             array::from_fn(|column| {
-                let own = if row == column { S::one() } else { S::zero() };
+                let own = if row == column { 1.0 } else { 0.0 };
                 size * (own - n[row] * n[column])
             })
         })

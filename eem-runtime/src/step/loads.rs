@@ -11,17 +11,17 @@ use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::scene::loads::{Course, Loads};
 use crate::step::error::StepFailure;
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
-impl<S: Real> StepLoads<S> {
+impl StepLoads {
     /// Memory for a scene; `is_coupled` says whether masses couple nodes.
     pub(crate) fn new<const D: usize>(
         coordinates: usize,
         layout: &Layout,
-        loads: &Loads<S, D>,
+        loads: &Loads<D>,
         is_coupled: bool,
     ) -> Self {
-        let zeros = |needed: bool| vec![S::zero(); if needed { coordinates } else { 0 }];
+        let zeros = |needed: bool| vec![0.0; if needed { coordinates } else { 0 }];
         let slots = if loads.temperatures.is_empty() {
             0
         } else {
@@ -32,7 +32,7 @@ impl<S: Real> StepLoads<S> {
         let moved = loads.motions.iter().map(|(node, _)| node.index);
         let moved: BTreeSet<_> = moved.collect();
         let lines = loads.rockets.iter().map(|rocket| rocket.line);
-        let thrust = S::zero();
+        let thrust = 0.0;
         Self {
             moved: moved.into_iter().collect(),
             force: zeros(!loads.forces.is_empty()),
@@ -51,22 +51,22 @@ impl<S: Real> StepLoads<S> {
     /// both ends would halve the impulse of a load that is switched on between two steps.
     pub(crate) fn evaluate<const D: usize>(
         &mut self,
-        loads: &Loads<S, D>,
-        masses: &Masses<S>,
-        [time, step]: [S; 2],
-        old: &State<S>,
+        loads: &Loads<D>,
+        masses: &Masses,
+        [time, step]: [f64; 2],
+        old: &State,
     ) -> Result<(), StepFailure> {
-        self.evaluate_forces_at(loads, masses, time + S::from_f64(0.5) * step)?;
-        self.evaluate_supports_by(&CUBIC, loads, ([time, step], S::one()), old)
+        self.evaluate_forces_at(loads, masses, time + 0.5 * step)?;
+        self.evaluate_supports_by(&CUBIC, loads, ([time, step], 1.0), old)
     }
 
     /// Evaluates prescribed motions and temperatures at the end of a span of time that is a given fraction of the step;
     /// forces are evaluated at the stages instead.
     pub(crate) fn evaluate_supports<const D: usize>(
         &mut self,
-        loads: &Loads<S, D>,
-        span: ([S; 2], S),
-        old: &State<S>,
+        loads: &Loads<D>,
+        span: ([f64; 2], f64),
+        old: &State,
     ) -> Result<(), StepFailure> {
         self.evaluate_supports_by(&SEXTIC, loads, span, old)
     }
@@ -74,9 +74,9 @@ impl<S: Real> StepLoads<S> {
     fn evaluate_supports_by<const D: usize>(
         &mut self,
         polynomial: &Polynomial,
-        loads: &Loads<S, D>,
-        ([time, span], share): ([S; 2], S),
-        old: &State<S>,
+        loads: &Loads<D>,
+        ([time, span], share): ([f64; 2], f64),
+        old: &State,
     ) -> Result<(), StepFailure> {
         let q0 = old.positions.values();
         self.evaluate_motions(loads, [time, span], q0)?;
@@ -87,11 +87,11 @@ impl<S: Real> StepLoads<S> {
     /// Evaluates forces, rockets and weights at a time.
     pub(crate) fn evaluate_forces_at<const D: usize>(
         &mut self,
-        loads: &Loads<S, D>,
-        masses: &Masses<S>,
-        time: S,
+        loads: &Loads<D>,
+        masses: &Masses,
+        time: f64,
     ) -> Result<(), StepFailure> {
-        self.force.fill(S::zero());
+        self.force.fill(0.0);
         for (node, force) in &loads.forces {
             let value = match force {
                 Course::Function(of) => of(time),
@@ -105,8 +105,8 @@ impl<S: Real> StepLoads<S> {
                     return Err(StepFailure::Load {
                         node: *node,
                         axis,
-                        value: sum.to_f64(),
-                        time: time.to_f64(),
+                        value: *sum,
+                        time,
                     });
                 }
             }
@@ -116,15 +116,15 @@ impl<S: Real> StepLoads<S> {
             if !push.thrust.is_finite() {
                 return Err(StepFailure::Thrust {
                     node: push.line.node,
-                    value: push.thrust.to_f64(),
-                    time: time.to_f64(),
+                    value: push.thrust,
+                    time,
                 });
             }
         }
         let total = self.total_force.as_chunks_mut::<D>().0;
         for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
             *total = point(&self.force, node);
-            weigh(total, mass.unwrap_or(S::zero()), loads);
+            weigh(total, mass.unwrap_or(0.0), loads);
         }
         for ([row, _], mass) in masses.coupled() {
             if let Some(total) = total.get_mut(row) {
@@ -136,9 +136,9 @@ impl<S: Real> StepLoads<S> {
 
     fn evaluate_motions<const D: usize>(
         &mut self,
-        loads: &Loads<S, D>,
-        [time, span]: [S; 2],
-        q0: &[S],
+        loads: &Loads<D>,
+        [time, span]: [f64; 2],
+        q0: &[f64],
     ) -> Result<(), StepFailure> {
         for (node, motion) in &loads.motions {
             let end = time + span;
@@ -150,8 +150,8 @@ impl<S: Real> StepLoads<S> {
                     return Err(StepFailure::Motion {
                         node: *node,
                         axis,
-                        value: position[axis].to_f64(),
-                        time: end.to_f64(),
+                        value: position[axis],
+                        time: end,
                     });
                 }
             }
@@ -163,38 +163,38 @@ impl<S: Real> StepLoads<S> {
     /// than the step, and without oscillations from step to step.
     fn evaluate_speeds<const D: usize>(
         &mut self,
-        loads: &Loads<S, D>,
-        [time, span]: [S; 2],
-        q0: &[S],
+        loads: &Loads<D>,
+        [time, span]: [f64; 2],
+        q0: &[f64],
         polynomial: &Polynomial,
     ) -> Result<(), StepFailure> {
         if self.speeds.is_empty() {
             return Ok(());
         }
-        let part = span / S::from_f64(polynomial.degree);
-        let span_of_sum = S::from_f64(polynomial.divisor) * span;
+        let part = span / polynomial.degree;
+        let span_of_sum = polynomial.divisor * span;
         for (node, motion) in &loads.motions {
-            let mut sums = [S::zero(); D];
+            let mut sums = [0.0; D];
             let mut before = polynomial.degree;
             for &weight in polynomial.weights {
                 before -= 1.0;
-                let at = time + S::from_f64(before) * part;
+                let at = time + before * part;
                 let from = point(q0, node.index);
-                let elapsed = S::from_f64(before) * part;
+                let elapsed = before * part;
                 let position = (before > 0.0).then(|| motion.position(at, &from, elapsed));
                 for (axis, sum) in sums.iter_mut().enumerate() {
                     let coordinate = node.index * D + axis;
                     // No displacement at the start.
-                    let place = position.map_or(S::zero(), |q| q[axis] - q0[coordinate]);
+                    let place = position.map_or(0.0, |q| q[axis] - q0[coordinate]);
                     if !place.is_finite() {
                         return Err(StepFailure::Motion {
                             node: *node,
                             axis,
-                            value: (place + q0[coordinate]).to_f64(),
-                            time: at.to_f64(),
+                            value: place + q0[coordinate],
+                            time: at,
                         });
                     }
-                    *sum += S::from_f64(weight) * (self.motion[coordinate] - place);
+                    *sum += weight * (self.motion[coordinate] - place);
                 }
             }
             for (axis, sum) in sums.into_iter().enumerate() {
@@ -203,8 +203,8 @@ impl<S: Real> StepLoads<S> {
                     return Err(StepFailure::MotionSpeed {
                         node: *node,
                         axis,
-                        value: speed.to_f64(),
-                        time: (time + span).to_f64(),
+                        value: speed,
+                        time: time + span,
                     });
                 }
                 self.speeds[node.index * D + axis] = speed;
@@ -215,25 +215,24 @@ impl<S: Real> StepLoads<S> {
 
     fn evaluate_temperatures<const D: usize>(
         &mut self,
-        loads: &Loads<S, D>,
-        ([time, span], share): ([S; 2], S),
-        old: &[S],
+        loads: &Loads<D>,
+        ([time, span], share): ([f64; 2], f64),
+        old: &[f64],
     ) -> Result<(), StepFailure> {
-        let half = S::from_f64(0.5);
         for ((element, temperature), slot) in loads.temperatures.iter().zip(&self.slots) {
             let Some(slot) = *slot else {
                 continue;
             };
-            let at = |time: S, share: S| match temperature.at(time, old[slot], share) {
+            let at = |time: f64, share: f64| match temperature.at(time, old[slot], share) {
                 value if is_positive(value) => Ok(value),
                 value => Err(StepFailure::PrescribedTemperature {
                     element: *element,
-                    value: value.to_f64(),
-                    time: time.to_f64(),
+                    value,
+                    time,
                 }),
             };
             self.prescribed[slot] = Some(Prescribed {
-                middle: at(time + half * span, half * share)?,
+                middle: at(time + 0.5 * span, 0.5 * share)?,
                 end: at(time + span, share)?,
             });
         }
@@ -269,7 +268,7 @@ const SEXTIC: Polynomial = Polynomial {
 };
 
 /// Adds the weight of a mass.
-fn weigh<S: Real, const D: usize>(total: &mut [S; D], mass: S, loads: &Loads<S, D>) {
+fn weigh<const D: usize>(total: &mut [f64; D], mass: f64, loads: &Loads<D>) {
     for (total, &acceleration) in total.iter_mut().zip(loads.gravity.iter()) {
         *total += mass * acceleration;
     }

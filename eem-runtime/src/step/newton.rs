@@ -1,6 +1,6 @@
 //! Convergence of Newton's method, its settings and its report.
 
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// Settings of Newton's method.
 ///
@@ -20,43 +20,43 @@ use eem_material::number::scalar::{Mask, Real};
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub struct NewtonSettings<S> {
+pub struct NewtonSettings {
     /// The maximum number of iterations of an attempt, 50 by default. More helps only steps that are far too large.
     /// If the first attempt fails, an exact scheme makes several, from other initial guesses and in parts of the
     /// step; reports and errors count all iterations.
     pub max_iterations: usize,
     /// The largest update that can be the last one, relative to the shortest stretch at each node and to the
-    /// temperatures. The default is √ε, 1.5·10⁻⁸ in double precision; the error after the update is its square. A
+    /// temperatures. The default is √ε, 1.5·10⁻⁸; the error after the update is its square. A
     /// smaller tolerance costs iterations and gains nothing.
-    pub tolerance: S,
+    pub tolerance: f64,
 }
 
-impl<S: Real> Default for NewtonSettings<S> {
+impl Default for NewtonSettings {
     fn default() -> Self {
         Self {
             max_iterations: 50,
-            tolerance: S::EPSILON.sqrt(),
+            tolerance: f64::EPSILON.sqrt(),
         }
     }
 }
 
 /// The result of a step: what Newton's method needed, and what the step proves.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepReport<S> {
+pub struct StepReport {
     /// The time at the end of the step, s.
-    pub time: S,
+    pub time: f64,
     /// The size of the step, s.
-    pub step: S,
+    pub step: f64,
     /// Newton iterations.
     pub iterations: usize,
     /// The last scaled update; for a staggered step the larger of its two parts.
-    pub update: S,
+    pub update: f64,
     /// The largest residual of the momentum balances at the new state, N s.
-    pub residual: S,
+    pub residual: f64,
     /// `ΔE − work − heat` of the step, J, from values of ψ at the stored states, never from forces; see
     /// [`bound`](Self::bound). Its last digits may differ in the first step after a restored checkpoint, which evaluates the
     /// energies of the old state again.
-    pub defect: S,
+    pub defect: f64,
     /// The bound for the effect of rounding on the energy of the step, J. The true `ΔE − work − heat` of the stored
     /// states, of which [`defect`](Self::defect) is the rounded value, is within this bound in every step of an
     /// exact scheme. Beyond it the step is the error [`StepFailure::LawNotKept`](crate::StepFailure::LawNotKept).
@@ -66,7 +66,7 @@ pub struct StepReport<S> {
     /// leaves of the momentum balances, where nodes move far in a step. If terms of ψ cancel, the
     /// rounding of ψ is added. A length has an error of `ε λ`; so a very stiff body, or one near a singular force, has an
     /// energy error of `ε k λ²` with its stiffness k.
-    pub bound: S,
+    pub bound: f64,
     /// Whether [`bound`](Self::bound) exceeds 100 times `64 ε` of `T + |ψ| + θ|s| + cθ + |f|λ + |g||γ|` at both
     /// ends; in implicit schemes, which have the forces at the end by secants only, a sixteenth of that. The step then
     /// satisfies its laws to rounding, but less precisely than the energies are stored. This happens if internal variables
@@ -77,10 +77,10 @@ pub struct StepReport<S> {
     /// singularity of the force.
     pub is_bound_wide: bool,
     /// Entropy produced by dashpots and conduction, J/K.
-    pub production: S,
+    pub production: f64,
     /// The smallest production of a single dashpot or conductance, J/K; never negative in an exact scheme. Zero if
     /// there is none.
-    pub least_production: S,
+    pub least_production: f64,
     /// The number of points whose conduction, and of dashpots that, relax faster than the step resolves: `h > 2τ`, with the
     /// relaxation time `τ = c/(2 Σ κ to elements + Σ κ to reservoirs)` of a heat capacity c, or `τ = η/k` of a dashpot with the
     /// stiffness `k = ∂²ψ/∂γ²`. There all schemes but [`EemDamped`](crate::Scheme::EemDamped) decay too slowly or
@@ -90,29 +90,29 @@ pub struct StepReport<S> {
     pub unresolved: usize,
     /// The estimated error of the step relative to its tolerance, below 1.2; zero without [step
     /// control](crate::Simulation::control_steps).
-    pub error: S,
+    pub error: f64,
     /// The energy error of an explicit step before its correction, relative to the magnitude of the energy terms;
     /// zero for other schemes. See [`Simulation::corrections`](crate::Simulation::corrections).
-    pub correction: S,
+    pub correction: f64,
 }
 
-impl<S: Real> StepReport<S> {
+impl StepReport {
     /// The report of two consecutive steps as one.
     pub(crate) fn and(self, later: Self) -> Self {
         Self {
             time: later.time,
             step: self.step + later.step,
             iterations: self.iterations + later.iterations,
-            update: self.update.maximum(later.update),
-            residual: self.residual.maximum(later.residual),
+            update: Scalar::maximum(self.update, later.update),
+            residual: Scalar::maximum(self.residual, later.residual),
             defect: self.defect + later.defect,
             bound: self.bound + later.bound,
-            is_bound_wide: self.is_bound_wide | later.is_bound_wide,
+            is_bound_wide: self.is_bound_wide || later.is_bound_wide,
             production: self.production + later.production,
-            least_production: self.least_production.minimum(later.least_production),
+            least_production: Scalar::minimum(self.least_production, later.least_production),
             unresolved: self.unresolved.max(later.unresolved),
-            error: self.error.maximum(later.error),
-            correction: self.correction.maximum(later.correction),
+            error: Scalar::maximum(self.error, later.error),
+            correction: Scalar::maximum(self.correction, later.correction),
         }
     }
 }
@@ -127,51 +127,47 @@ pub(crate) const STAGNATION: f64 = 0.25;
 
 /// Whether an update is the last one, given the one before.
 #[inline]
-pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> S::Mask {
-    let is_small = update.at_most(tolerance);
-    if !is_small.any() {
-        return S::Mask::none();
+pub(crate) fn is_last(update: f64, before: Option<f64>, tolerance: f64) -> bool {
+    if !(update <= tolerance) {
+        return false;
     }
     let Some(before) = before else {
-        return is_small;
+        return true;
     };
-    let contracts = is_small & update.at_most(S::from_f64(CONTRACTION) * before);
-    if !(is_small & !contracts).any() {
-        return contracts;
-    }
-    let is_on_floor = update.at_most(S::from_f64(CONTRACTION) * tolerance);
-    let stagnates = (S::from_f64(STAGNATION) * before).at_most(update);
-    contracts | (is_small & is_on_floor & stagnates)
+    let is_on_floor = update <= CONTRACTION * tolerance;
+    update <= CONTRACTION * before || (is_on_floor && STAGNATION * before <= update)
 }
 
 /// The largest magnitude of many numbers, NaN unless all of them are finite.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Largest<S> {
-    largest: S,
+pub(crate) struct Largest {
+    largest: f64,
     /// Of all magnitudes: it propagates a NaN, which a comparison loses.
-    sum: S,
+    sum: f64,
 }
 
-impl<S: Real> Largest<S> {
+impl Largest {
     #[inline]
     pub(crate) fn none() -> Self {
         Self {
-            largest: S::zero(),
-            sum: S::zero(),
+            largest: 0.0,
+            sum: 0.0,
         }
     }
 
     #[inline]
-    pub(crate) fn see(&mut self, value: S) {
+    pub(crate) fn see(&mut self, value: f64) {
         let size = value.abs();
         self.sum += size;
-        self.largest = S::select(self.largest.less(size), size, self.largest);
+        if self.largest < size {
+            self.largest = size;
+        }
     }
 
     #[inline]
-    pub(crate) fn found(self) -> S {
+    pub(crate) fn found(self) -> f64 {
         // The product is zero, or NaN.
-        self.largest + S::zero() * self.sum
+        self.largest + 0.0 * self.sum
     }
 }
 
@@ -196,15 +192,15 @@ mod tests {
 
     #[test]
     fn a_small_update_must_contract() {
-        assert!(is_last::<f64>(1e-9, None, 1e-8));
-        assert!(is_last::<f64>(1e-9, Some(1e-4), 1e-8));
-        assert!(!is_last::<f64>(5e-9, Some(1e-8), 1e-8));
+        assert!(is_last(1e-9, None, 1e-8));
+        assert!(is_last(1e-9, Some(1e-4), 1e-8));
+        assert!(!is_last(5e-9, Some(1e-8), 1e-8));
     }
 
     #[test]
     fn rounding_is_a_floor_and_a_stall_is_not() {
-        assert!(is_last::<f64>(3e-10, Some(4e-10), 1e-8));
-        assert!(!is_last::<f64>(3e-3, Some(4e-3), 1e-8));
+        assert!(is_last(3e-10, Some(4e-10), 1e-8));
+        assert!(!is_last(3e-3, Some(4e-3), 1e-8));
         assert!(!is_last(f64::NAN, Some(1e-3), 1e-8));
     }
 }

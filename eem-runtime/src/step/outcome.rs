@@ -1,27 +1,27 @@
 //! The outcome of a step for all solvers: what its certificate proves.
 
 use crate::step::certificate::Certificate;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// The result of a step, from its certificate.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Outcome<S> {
+pub(crate) struct Outcome {
     /// `ΔE − work − heat`, and its bound for rounding, J.
-    pub(crate) defect: S,
-    pub(crate) bound: S,
+    pub(crate) defect: f64,
+    pub(crate) bound: f64,
     pub(crate) is_bound_wide: bool,
     /// The entropy production of all dashpots and paths of heat, and the smallest one, J/K.
-    pub(crate) production: S,
-    pub(crate) least_production: S,
+    pub(crate) production: f64,
+    pub(crate) least_production: f64,
     /// Conductions and dashpots that relax faster than the step resolves.
     pub(crate) unresolved: usize,
     /// The energy error of an explicit step before its correction, relative to the energy terms: the largest of all
     /// connected bodies, with its sign.
-    pub(crate) correction: S,
+    pub(crate) correction: f64,
 }
 
-impl<S: Real> From<Certificate<S>> for Outcome<S> {
-    fn from(certificate: Certificate<S>) -> Self {
+impl From<Certificate> for Outcome {
+    fn from(certificate: Certificate) -> Self {
         Self {
             defect: certificate.defect,
             bound: certificate.bound,
@@ -29,7 +29,7 @@ impl<S: Real> From<Certificate<S>> for Outcome<S> {
             production: certificate.production,
             least_production: certificate.least_production,
             unresolved: certificate.unresolved,
-            correction: S::zero(),
+            correction: 0.0,
         }
     }
 }
@@ -40,27 +40,27 @@ impl<S: Real> From<Certificate<S>> for Outcome<S> {
 /// small steps the correction is proportional to the ninth power of the step; if it is proportional to the step, a
 /// force is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Corrections<S> {
+pub struct Corrections {
     /// The largest correction.
-    pub largest: S,
+    pub largest: f64,
     /// `Σ |correction|`.
-    pub total: S,
+    pub total: f64,
     /// `Σ correction`, positive if energy was missing.
-    pub signed: S,
+    pub signed: f64,
 }
 
-impl<S: Real> Corrections<S> {
+impl Corrections {
     pub(crate) fn none() -> Self {
         Self {
-            largest: S::zero(),
-            total: S::zero(),
-            signed: S::zero(),
+            largest: 0.0,
+            total: 0.0,
+            signed: 0.0,
         }
     }
 
     /// Counts a step.
-    pub(crate) fn note(&mut self, correction: S) {
-        self.largest = self.largest.maximum(correction.abs());
+    pub(crate) fn note(&mut self, correction: f64) {
+        self.largest = Scalar::maximum(self.largest, correction.abs());
         self.total += correction.abs();
         self.signed += correction;
     }
@@ -68,18 +68,18 @@ impl<S: Real> Corrections<S> {
 
 /// An attempted step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Attempt<S> {
+pub(crate) struct Attempt {
     /// The estimate of its error in units of the tolerance; zero without a tolerance.
-    pub(crate) error: S,
+    pub(crate) error: f64,
     /// `None` if the error exceeds the tolerance: the step is then not made.
-    pub(crate) outcome: Option<Outcome<S>>,
+    pub(crate) outcome: Option<Outcome>,
 }
 
-impl<S: Real> Attempt<S> {
+impl Attempt {
     /// A step that was made without a tolerance.
-    pub(crate) fn made(outcome: impl Into<Outcome<S>>) -> Self {
+    pub(crate) fn made(outcome: impl Into<Outcome>) -> Self {
         Self {
-            error: S::zero(),
+            error: 0.0,
             outcome: Some(outcome.into()),
         }
     }

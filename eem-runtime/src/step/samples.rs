@@ -17,7 +17,7 @@
 //! that of the samples, too.
 
 use crate::step::load_rule::LoadRule;
-use eem_material::number::scalar::{Mask, Real, Scalar};
+use eem_material::number::scalar::Scalar;
 
 /// Parts of a step between the points of P₈.
 const PARTS: u32 = 8;
@@ -56,21 +56,21 @@ const NEWTON_COTES: [f64; POINTS] = [
 const DOUBT: f64 = 4.0;
 
 /// The mean of a function over a step by a rule: whole, and in halves if the step is made so.
-type Means<S, const N: usize> = [[S; N]; 2];
+type Means<const N: usize> = [[f64; N]; 2];
 
 /// Samples of a step at equal distances, including both ends.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grid<S> {
-    start: S,
-    size: S,
+pub(crate) struct Grid {
+    start: f64,
+    size: f64,
     /// A multiple of [`PARTS`].
     intervals: u32,
 }
 
-impl<S: Real> Grid<S> {
+impl Grid {
     /// For a step, with intervals of at most this length, s, unless that would be more than [`MOST`].
-    pub(crate) fn new([start, size]: [S; 2], longest: S) -> Self {
-        let count = (size / longest).to_f64();
+    pub(crate) fn new([start, size]: [f64; 2], longest: f64) -> Self {
+        let count = size / longest;
         let mut intervals = FEWEST;
         while f64::from(intervals) < count && intervals < MOST {
             intervals += PARTS;
@@ -83,23 +83,23 @@ impl<S: Real> Grid<S> {
     }
 
     /// The start and the size of the step, s.
-    pub(crate) fn span(&self) -> [S; 2] {
+    pub(crate) fn span(&self) -> [f64; 2] {
         [self.start, self.size]
     }
 
     /// The time of a sample. The last one is the end of the step as the schemes compute it.
-    fn time(&self, sample: u32) -> S {
+    fn time(&self, sample: u32) -> f64 {
         let share = f64::from(sample) / f64::from(self.intervals);
-        self.start + S::from_f64(share) * self.size
+        self.start + share * self.size
     }
 
     /// Looks at a function of time.
     pub(crate) fn look<const N: usize, E>(
         &self,
-        mut of: impl FnMut(S) -> Result<[S; N], E>,
-    ) -> Result<Look<S, N>, E> {
+        mut of: impl FnMut(f64) -> Result<[f64; N], E>,
+    ) -> Result<Look<N>, E> {
         let stride = self.intervals / PARTS;
-        let mut points = [[S::zero(); N]; POINTS];
+        let mut points = [[0.0; N]; POINTS];
         for (point, index) in points.iter_mut().zip(0..) {
             *point = of(self.time(index * stride))?;
         }
@@ -110,9 +110,8 @@ impl<S: Real> Grid<S> {
         // Simpson's weights are 1, 4, 2, 4 … 2, 4, 1 thirds.
         let third = 1.0 / (3.0 * f64::from(self.intervals));
         look.add(1, third, &points[0]);
-        let is_constant = points[1..]
-            .iter()
-            .all(|point| (0..N).all(|at| point[at].equal(points[0][at]).all()));
+        #[expect(clippy::float_cmp, reason = "constant are the same numbers")]
+        let is_constant = points.iter().all(|point| *point == points[0]);
         for sample in 1..=self.intervals {
             let (part, within) = (sample / stride, sample % stride);
             let weight = match sample {
@@ -143,20 +142,20 @@ impl<S: Real> Grid<S> {
     }
 }
 
-impl<S: Real> Grid<S> {
+impl Grid {
     /// The means of a function by the rule of the step.
     pub(crate) fn means<const N: usize, E>(
         &self,
         rule: LoadRule,
-        mut of: impl FnMut(S) -> Result<[S; N], E>,
-    ) -> Result<Means<S, N>, E> {
+        mut of: impl FnMut(f64) -> Result<[f64; N], E>,
+    ) -> Result<Means<N>, E> {
         let mut mean = |first: f64, part: f64| {
-            let mut sum = [S::zero(); N];
+            let mut sum = [0.0; N];
             for (time, weight) in rule.times.iter().zip(rule.weights) {
-                let share = S::from_f64(first + part * time);
+                let share = first + part * time;
                 let value = of(self.start + share * self.size)?;
                 for (sum, value) in sum.iter_mut().zip(value) {
-                    *sum += S::from_f64(part * weight) * value;
+                    *sum += part * weight * value;
                 }
             }
             Ok(sum)
@@ -179,7 +178,7 @@ const COARSE: usize = POINTS / 2 + 1;
 /// ```text
 /// Σ_i f_i Π_{j≠i} (x − j)/(i − j)
 /// ```
-fn polynomial<S: Real, const N: usize, const P: usize>(values: &[[S; N]; P], place: f64) -> [S; N] {
+fn polynomial<const N: usize, const P: usize>(values: &[[f64; N]; P], place: f64) -> [f64; N] {
     let index = |at: usize| f64::from(u8::try_from(at).unwrap_or(0));
     // The products of the factors before and behind each value.
     let (mut before, mut behind) = ([1.0; P], [1.0; P]);
@@ -188,9 +187,9 @@ fn polynomial<S: Real, const N: usize, const P: usize>(values: &[[S; N]; P], pla
         before[at] = before[at - 1] * (place - (from - 1.0)) / from;
         behind[back] = behind[back + 1] * (index(back + 1) - place) / from;
     }
-    let mut result = [S::zero(); N];
+    let mut result = [0.0; N];
     for ((value, before), behind) in values.iter().zip(before).zip(behind) {
-        let weight = S::from_f64(before * behind);
+        let weight = before * behind;
         for (sum, &value) in result.iter_mut().zip(value) {
             *sum += weight * value;
         }
@@ -200,36 +199,36 @@ fn polynomial<S: Real, const N: usize, const P: usize>(values: &[[S; N]; P], pla
 
 /// What samples of a function show, component by component.
 #[derive(Clone, Debug)]
-pub(crate) struct Look<S, const N: usize> {
+pub(crate) struct Look<const N: usize> {
     /// The size of the step and the largest magnitude of a time in it, s.
-    size: S,
-    time: S,
+    size: f64,
+    time: f64,
     /// The number of samples that are not points of a polynomial, and of all intervals.
-    between: S,
-    intervals: S,
+    between: f64,
+    intervals: f64,
     /// The first and the last value so far.
-    pub(crate) first: [S; N],
-    last: [S; N],
+    pub(crate) first: [f64; N],
+    last: [f64; N],
     /// The largest magnitude.
-    largest: [S; N],
+    largest: [f64; N],
     /// Sums of the magnitudes of changes from sample to sample, and the largest change.
-    variation: [S; N],
-    change: [S; N],
+    variation: [f64; N],
+    change: [f64; N],
     /// Of P₈ and of P₄: the sum of the magnitudes of what it misses, and the largest one.
-    sums: [[S; N]; 2],
-    missed: [[S; N]; 2],
+    sums: [[f64; N]; 2],
+    missed: [[f64; N]; 2],
     /// The means by P₈ and by Simpson's rule with all samples.
-    means: [[S; N]; 2],
+    means: [[f64; N]; 2],
 }
 
-impl<S: Real, const N: usize> Look<S, N> {
-    fn new(grid: &Grid<S>, points: &[[S; N]; POINTS]) -> Self {
-        let zeros = [S::zero(); N];
+impl<const N: usize> Look<N> {
+    fn new(grid: &Grid, points: &[[f64; N]; POINTS]) -> Self {
+        let zeros = [0.0; N];
         Self {
             size: grid.size,
-            time: grid.start.abs().maximum(grid.time(grid.intervals).abs()),
-            between: S::from_f64(f64::from(grid.intervals - PARTS)),
-            intervals: S::from_f64(f64::from(grid.intervals)),
+            time: Scalar::maximum(grid.start.abs(), grid.time(grid.intervals).abs()),
+            between: f64::from(grid.intervals - PARTS),
+            intervals: f64::from(grid.intervals),
             first: points[0],
             last: points[0],
             largest: points[0].map(Scalar::abs),
@@ -242,31 +241,31 @@ impl<S: Real, const N: usize> Look<S, N> {
     }
 
     /// Adds a weighted value to a mean.
-    fn add(&mut self, mean: usize, weight: f64, value: &[S; N]) {
+    fn add(&mut self, mean: usize, weight: f64, value: &[f64; N]) {
         for (sum, &value) in self.means[mean].iter_mut().zip(value) {
-            *sum += S::from_f64(weight) * value;
+            *sum += weight * value;
         }
     }
 
     /// The next sample, and the polynomials there unless it is a point of both.
-    fn see(&mut self, value: &[S; N], polynomials: Option<[&[S; N]; 2]>) {
+    fn see(&mut self, value: &[f64; N], polynomials: Option<[&[f64; N]; 2]>) {
         for at in 0..N {
             let change = (value[at] - self.last[at]).abs();
             self.variation[at] += change;
-            self.change[at] = self.change[at].maximum(change);
-            self.largest[at] = self.largest[at].maximum(value[at].abs());
+            self.change[at] = Scalar::maximum(self.change[at], change);
+            self.largest[at] = Scalar::maximum(self.largest[at], value[at].abs());
             for (degree, polynomial) in polynomials.into_iter().flatten().enumerate() {
                 let missed = (value[at] - polynomial[at]).abs();
                 self.sums[degree][at] += missed;
-                self.missed[degree][at] = self.missed[degree][at].maximum(missed);
+                self.missed[degree][at] = Scalar::maximum(self.missed[degree][at], missed);
             }
         }
         self.last = *value;
     }
 
     /// Whether P₈ misses more than a fraction of what P₄ misses.
-    fn is_rough([fine, coarse]: [S; 2]) -> bool {
-        (S::from_f64(SMOOTH) * coarse).less(fine).all()
+    fn is_rough([fine, coarse]: [f64; 2]) -> bool {
+        SMOOTH * coarse < fine
     }
 
     /// Whether the impulse of what the step does not follow exceeds this one, in the unit of the function times s, in some
@@ -277,19 +276,19 @@ impl<S: Real, const N: usize> Look<S, N> {
     /// ```
     ///
     /// The last term is rounding: that of the values, and that of the times.
-    pub(crate) fn misses_impulse(&self, impulse: S) -> bool {
+    pub(crate) fn misses_impulse(&self, impulse: f64) -> bool {
         let per_sample = self.size / self.between;
         (0..N).any(|at| {
             let [fine, coarse] = [0, 1].map(|degree| per_sample * self.sums[degree][at]);
-            (impulse + self.rounding(at)).less(fine).all() && Self::is_rough([fine, coarse])
+            impulse + self.rounding(at) < fine && Self::is_rough([fine, coarse])
         })
     }
 
     /// The rounding of an integral over the step: of values, and of times.
-    fn rounding(&self, at: usize) -> S {
+    fn rounding(&self, at: usize) -> f64 {
         let of_values = self.size * self.largest[at];
         let of_times = self.time * self.variation[at];
-        S::from_f64(ROUNDINGS) * S::EPSILON * (of_values + of_times)
+        ROUNDINGS * f64::EPSILON * (of_values + of_times)
     }
 
     /// Whether the integral by the rule of the step, whose means these are, differs from that of the samples by more than this, in
@@ -302,17 +301,17 @@ impl<S: Real, const N: usize> Look<S, N> {
     /// The estimate is `e = h |Σ b f (whole) − Σ b f (halves)|/(2ᵖ − 1)` for a step in two halves, zero otherwise.
     pub(crate) fn differs(
         &self,
-        [whole, kept]: Means<S, N>,
+        [whole, kept]: Means<N>,
         rule: LoadRule,
-        [impulse, share]: [S; 2],
+        [impulse, share]: [f64; 2],
     ) -> bool {
         let quotient = rule.order.map_or(0.0, |order| DOUBT / (order.exp2() - 1.0));
         (0..N).any(|at| {
             let [coarse, fine] = self.means.map(|means| means[at]);
-            let estimate = S::from_f64(quotient) * (whole[at] - kept[at]).abs();
+            let estimate = quotient * (whole[at] - kept[at]).abs();
             let doubt = estimate + (coarse - fine).abs() + share * self.variation[at];
             let allowed = impulse + self.size * doubt + self.rounding(at);
-            allowed.less(self.size * (fine - kept[at]).abs()).all()
+            allowed < self.size * (fine - kept[at]).abs()
         })
     }
 
@@ -324,15 +323,15 @@ impl<S: Real, const N: usize> Look<S, N> {
     ///
     /// The second part is by how much the function goes back and forth. The end of a step is always seen, so that a jump counts
     /// only together with the one back.
-    pub(crate) fn misses_height(&self, height: S) -> bool {
+    pub(crate) fn misses_height(&self, height: f64) -> bool {
         (0..N).any(|at| {
             let [fine, coarse] = [0, 1].map(|degree| self.missed[degree][at]);
             let forth = (self.last[at] - self.first[at]).abs();
-            let back = S::from_f64(0.5) * (self.variation[at] - forth);
+            let back = 0.5 * (self.variation[at] - forth);
             let slope = self.change[at] * self.intervals / self.size;
             let of_sizes = self.largest[at] + self.time * slope;
-            let rounding = S::from_f64(ROUNDINGS) * S::EPSILON * of_sizes;
-            (height + rounding).less(fine.minimum(back)).all() && Self::is_rough([fine, coarse])
+            let rounding = ROUNDINGS * f64::EPSILON * of_sizes;
+            height + rounding < Scalar::minimum(fine, back) && Self::is_rough([fine, coarse])
         })
     }
 }
@@ -344,7 +343,7 @@ mod tests {
     use super::{Grid, Look};
 
     /// A look at a function in a step from 0 to 1 s.
-    fn look(intervals: f64, of: impl Fn(f64) -> f64) -> Look<f64, 1> {
+    fn look(intervals: f64, of: impl Fn(f64) -> f64) -> Look<1> {
         let grid = Grid::new([0.0, 1.0], intervals.recip());
         let Ok(look) = grid.look(|time| Ok::<_, Infallible>([of(time)]));
         look

@@ -30,7 +30,6 @@ use crate::step::scheme::Scheme;
 use crate::step::systems::Systems;
 use balance::Balance;
 use coupling::Coupling;
-use eem_material::number::scalar::Real;
 
 pub(crate) use effort::Effort;
 use kept_factors::KeptFactors;
@@ -42,38 +41,38 @@ use stages::Stages;
 
 /// Workspace of a step. Later steps depend only on the history in `past`.
 #[derive(Debug)]
-pub(crate) struct Solver<S: Real, const D: usize> {
+pub(crate) struct Solver<const D: usize> {
     scheme: Scheme,
     /// The sets of unknowns.
     sets: Vec<UnknownSet>,
     /// The nodes that move, in the order of their unknowns, set after set.
-    nodes: Vec<Balance<S, D>>,
+    nodes: Vec<Balance<D>>,
     /// The masses that couple these nodes.
-    coupling: Coupling<S, D>,
-    rockets: Rockets<S, D>,
+    coupling: Coupling<D>,
+    rockets: Rockets<D>,
     /// The coupled interface temperatures, set after set.
     interfaces: Vec<Interface>,
     /// The system of an iteration.
-    tangent: LinearSystem<S, 1>,
+    tangent: LinearSystem<1>,
     factors: KeptFactors,
-    trial: Trial<S, D>,
+    trial: Trial<D>,
     /// Workspace of schemes with stages.
-    stages: Option<Stages<S, D>>,
+    stages: Option<Stages<D>>,
     /// The part of the nodal forces that depends on the old state and the loads only, N; empty if there is none.
-    old_force: Vec<[S; D]>,
-    past: Past<S, D>,
-    /// The unit of length of each node: its shortest element in the old state, m; `S::MAX` without elements.
-    lengths: Vec<S>,
+    old_force: Vec<[f64; D]>,
+    past: Past<D>,
+    /// The unit of length of each node: its shortest element in the old state, m; `f64::MAX` without elements.
+    lengths: Vec<f64>,
     /// Whether other initial guesses remain, so that an attempt may be given up early.
     has_other_starts: bool,
     /// The nodes that are anchors.
     anchors: Vec<usize>,
     /// The magnitude of the terms of the impulses on each node, N s; empty unless needed.
-    magnitudes: Vec<S>,
+    magnitudes: Vec<f64>,
     /// The largest residual of the momentum balances where the step was closed, N s.
-    final_residual: S,
+    final_residual: f64,
     /// The certificate of the last closed step.
-    certificate: Option<Certificate<S>>,
+    certificate: Option<Certificate>,
     /// The error because of which the last update was not applied in full.
     obstacle: Option<StateError>,
     /// The element with the largest defect of its own energy balance, when elements were last evaluated for it.
@@ -83,7 +82,7 @@ pub(crate) struct Solver<S: Real, const D: usize> {
 }
 
 /// Whether there are nodal forces that do not depend on the trial; forces at stages do not count.
-fn has_old_forces<S: Real>(scheme: Scheme, loads: &StepLoads<S>) -> bool {
+fn has_old_forces(scheme: Scheme, loads: &StepLoads) -> bool {
     scheme.has_old_forces() || (loads.has_total_force() && scheme.tableau().is_none())
 }
 
@@ -93,14 +92,14 @@ fn predicted(scheme: Scheme, layout: &Layout) -> [usize; 2] {
     [layout.viscous, layout.thermal].map(|count| if predicts { count } else { 0 })
 }
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     pub(crate) fn new(
         scheme: Scheme,
-        systems: Systems<S, D>,
-        masses: &Masses<S>,
+        systems: Systems<D>,
+        masses: &Masses,
         layout: &Layout,
-        conduction: &Conduction<S>,
-        loads: &StepLoads<S>,
+        conduction: &Conduction,
+        loads: &StepLoads,
     ) -> Self {
         let sets = scheme.sets();
         let Systems { tangent, secant } = systems;
@@ -137,12 +136,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
             trial: Trial::new(sets.len(), masses.len(), slots),
             sets,
             stages,
-            old_force: vec![[S::zero(); D]; nodes_with(has_old_forces(scheme, loads))],
-            lengths: vec![S::one(); masses.len()],
+            old_force: vec![[0.0; D]; nodes_with(has_old_forces(scheme, loads))],
+            lengths: vec![1.0; masses.len()],
             has_other_starts: false,
             anchors: masses.anchors().collect(),
             magnitudes: Vec::with_capacity(nodes_with(scheme.is_exact())),
-            final_residual: S::zero(),
+            final_residual: 0.0,
             certificate: None,
             obstacle: None,
             worst: None,
@@ -162,7 +161,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// The system of an iteration; nothing in it outlives a step.
     #[cfg(feature = "gradients")]
-    pub(crate) const fn tangent_mut(&mut self) -> &mut LinearSystem<S, 1> {
+    pub(crate) const fn tangent_mut(&mut self) -> &mut LinearSystem<1> {
         &mut self.tangent
     }
 
@@ -170,8 +169,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
     pub(crate) fn sites<'a>(
         &'a self,
         layout: &'a Layout,
-        conduction: &'a Conduction<S>,
-    ) -> Sites<'a, S, D> {
+        conduction: &'a Conduction,
+    ) -> Sites<'a, D> {
         Sites {
             layout,
             conduction,

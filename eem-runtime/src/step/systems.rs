@@ -17,23 +17,22 @@ use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
 use crate::element::tableau::Ending;
 use crate::step::scheme::{Closing, Scheme};
-use eem_material::number::scalar::Real;
 
 /// The linear systems that a scheme solves in a step.
 #[derive(Debug)]
-pub(crate) struct Systems<S, const D: usize> {
+pub(crate) struct Systems<const D: usize> {
     /// The system of an iteration.
-    pub(crate) tangent: LinearSystem<S, 1>,
+    pub(crate) tangent: LinearSystem<1>,
     /// The system of a stage, if a scheme ends its steps stage by stage.
-    pub(crate) secant: Option<LinearSystem<S, D>>,
+    pub(crate) secant: Option<LinearSystem<D>>,
 }
 
-impl<S: Real, const D: usize> Systems<S, D> {
+impl<const D: usize> Systems<D> {
     /// The systems of a scheme, or an error if one exceeds the memory limit.
     pub(crate) fn new(
         scheme: Scheme,
         (elements, layout): (&Ends, &Layout),
-        conduction: &Conduction<S>,
+        conduction: &Conduction,
         rockets: &[PushLine],
         limit: MemoryLimit,
     ) -> Result<Self, TooLarge> {
@@ -61,10 +60,10 @@ impl<S: Real, const D: usize> Systems<S, D> {
 ///
 /// The forces of an element depend on its nodes, on its own Θ and on that of its partners, and
 /// so does its own Θ. If there are no Θ, the coordinates of a node are the rows of a block.
-fn tangent_pattern<S: Real>(
+fn tangent_pattern(
     elements: &Ends,
     layout: &Layout,
-    conduction: &Conduction<S>,
+    conduction: &Conduction,
     rockets: &[PushLine],
     dimension: usize,
 ) -> Pattern {

@@ -102,7 +102,7 @@ impl Matrix {
         let mut right: Vec<[f64; 1]> = b.iter().map(|&b| [b]).collect();
         let values = self.values();
         let report = Solver::new(&self.pattern)?
-            .factor::<f64>(&values)?
+            .factor(&values)?
             .solve(&mut right)?;
         Ok((right.into_iter().flatten().collect(), report))
     }

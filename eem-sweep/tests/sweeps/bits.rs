@@ -6,9 +6,7 @@ use std::path::Path;
 use eem::prelude::*;
 use eem::sweep::{Format, Inputs, Plan, RunOptions, Selection};
 
-use crate::program::{
-    End, STEP, Spring, Stone, contents, directory, finish, inputs, plan, start, stones,
-};
+use crate::program::{STEP, Stone, contents, directory, finish, inputs, start, stones};
 
 const MEMBERS: usize = 103;
 const STEPS: usize = 20;
@@ -60,7 +58,10 @@ fn shards_threads_and_batches_do_not_change_a_bit_of_the_plain_ensemble() {
         .map(|place| inputs.row(place, &mut values).values().try_into().unwrap())
         .collect();
     let ends = Ensemble::new(Scheme::EemEntropy, STEP);
-    let ends = ends.run_experiment(&Stone { steps: STEPS }, &values);
+    let stone = Stone { steps: STEPS };
+    let ends = ends.run(&values, Stone::build, |run, node, _| {
+        stone.observe(run, node)
+    });
     let rows = rows(&one);
     assert_eq!(rows.len(), MEMBERS);
     for (id, (row, (input, end))) in rows.iter().zip(values.iter().zip(ends)).enumerate() {
@@ -76,38 +77,6 @@ fn shards_threads_and_batches_do_not_change_a_bit_of_the_plain_ensemble() {
         let expected = [input[0], input[1], end.height, end.energy].map(f64::to_bits);
         assert_eq!(numbers, expected);
     }
-}
-
-#[test]
-fn closures_have_the_bits_of_the_experiment() {
-    let directory = directory("bits-closures");
-    let sweep = plan(MEMBERS, STEPS).closures(
-        |row| Ok([row.number("stiffness")?, row.number("speed")?]),
-        |input| {
-            let mut scene = Scene::<1>::new();
-            let hook = scene.anchor([0.0]);
-            let stone = scene.mass(1.0, [-1.0], [input[1]]);
-            let law = Spring {
-                stiffness: input[0],
-                length: 1.0,
-            };
-            scene.spring(law, [hook, stone]);
-            scene.set_gravity([-10.0]);
-            (scene, stone)
-        },
-        |run, stone, _| {
-            for _ in 0..STEPS {
-                run.step()?;
-            }
-            Ok(End {
-                height: run.position(stone)?.x,
-                energy: run.ledger().energy,
-            })
-        },
-    );
-    sweep.run(&directory, &RunOptions::default()).unwrap();
-    let table = fs::read(sweep.merge(&directory, None).unwrap().path).unwrap();
-    assert!(table == merged("bits-experiment", 1, &RunOptions::default()));
 }
 
 #[test]
@@ -218,7 +187,7 @@ fn ids_of_a_file_find_their_members() {
     fs::write(&file, "speed,id,stiffness\n1,70,100\n2,5,200\n3,900,300\n").unwrap();
     let inputs = Inputs::csv(&file).unwrap();
     let plan = Plan::new("ids", inputs, Scheme::EemEntropy, STEP).program("1");
-    let sweep = plan.experiment(Stone { steps: 1 }, |row| {
+    let sweep = Stone { steps: 1 }.sweep(plan, |row| {
         Ok([row.number("stiffness")?, row.number("speed")?])
     });
     let of = |selection| RunOptions {

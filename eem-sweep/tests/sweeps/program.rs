@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 use clap::Parser;
+use eem::MemberFailure;
 use eem::prelude::*;
-use eem::sweep::{Inputs, Plan, Record, Sweep, execute};
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem::sweep::{InputError, Inputs, Plan, Record, Row, Sweep, execute};
 
 #[derive(FreeEnergy)]
 #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
-pub(crate) struct Spring<S> {
-    pub(crate) stiffness: S,
-    pub(crate) length: S,
+pub(crate) struct Spring {
+    pub(crate) stiffness: f64,
+    pub(crate) length: f64,
 }
 
 /// Where a stone is after some steps, and how fast.
@@ -37,38 +37,38 @@ pub(crate) struct Stone {
     pub(crate) steps: usize,
 }
 
-impl Experiment<1> for Stone {
-    type Input = [f64; 2];
-    type Handles = Node;
-    type Output = End;
-
-    fn build<S: Real>(&self, members: Members<'_, [f64; 2], S>) -> (Scene<1, S>, Node) {
-        let number = S::from_f64;
-        let mut scene = Scene::default();
-        let hook = scene.anchor([number(0.0)]);
-        let speed = members.number(|[_, speed]| *speed);
-        let stone = scene.mass(number(1.0), [number(-1.0)], [speed]);
-        let stiffness = members.number(|[stiffness, _]| *stiffness);
-        let length = number(1.0);
+impl Stone {
+    pub(crate) fn build(&[stiffness, speed]: &[f64; 2]) -> (Scene<1>, Node) {
+        let mut scene = Scene::<1>::new();
+        let hook = scene.anchor([0.0]);
+        let stone = scene.mass(1.0, [-1.0], [speed]);
+        let length = 1.0;
         scene.spring(Spring { stiffness, length }, [hook, stone]);
-        scene.set_gravity([number(-10.0)]);
+        scene.set_gravity([-10.0]);
         (scene, stone)
     }
 
-    fn observe<S: Real>(
+    pub(crate) fn observe(
         &self,
-        run: &mut Simulation<1, S>,
+        run: &mut Simulation<1>,
         stone: Node,
-        members: Members<'_, [f64; 2], S>,
-    ) -> Result<Outputs<End>, MemberFailure> {
+    ) -> Result<End, MemberFailure> {
         for _ in 0..self.steps {
             run.step()?;
         }
         let (height, energy) = (run.position(stone)?.x, run.ledger().energy);
-        Ok(members.outputs(|_, of| End {
-            height: of(height),
-            energy: of(energy),
-        }))
+        Ok(End { height, energy })
+    }
+
+    /// The sweep whose inputs `input` makes of rows.
+    pub(crate) fn sweep<'a>(
+        self,
+        plan: Plan,
+        input: impl Fn(Row<'_>) -> Result<[f64; 2], InputError> + Send + Sync + 'a,
+    ) -> Sweep<'a> {
+        plan.closures(input, Self::build, move |run, stone, _| {
+            self.observe(run, stone)
+        })
     }
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn plan(members: usize, steps: usize) -> Plan {
 /// The sweep of so many members and steps.
 pub(crate) fn stones(members: usize, steps: usize) -> Sweep<'static> {
     let abort: Option<u64> = env::var(ABORT).ok().map(|id| id.parse().unwrap());
-    plan(members, steps).experiment(Stone { steps }, move |row| {
+    Stone { steps }.sweep(plan(members, steps), move |row| {
         if Some(row.id()) == abort {
             std::process::abort();
         }

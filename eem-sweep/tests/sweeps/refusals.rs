@@ -11,7 +11,7 @@ use crate::program::{STEP, Stone, contents, directory, inputs, plan, stones};
 const MEMBERS: usize = 20;
 
 fn sweep(plan: Plan) -> Sweep<'static> {
-    plan.experiment(Stone { steps: 1 }, |row| {
+    Stone { steps: 1 }.sweep(plan, |row| {
         Ok([row.number("stiffness")?, row.number("speed")?])
     })
 }

@@ -7,7 +7,7 @@ pub mod solids;
 
 pub use eem::materials::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
 use eem::prelude::*;
-use eem::{EndState, Material, Real, RefusedScene, StateQuantity};
+use eem::{EndState, Material, RefusedScene, StateQuantity};
 
 /// The only error for which a scene is refused.
 pub fn only_error<const D: usize>(refused: Result<Simulation<D>, RefusedScene<D>>) -> SceneError {
@@ -89,16 +89,15 @@ pub fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
     }
 }
 
-/// The scene of the single pendulum in numbers of any type, with bob, spring and air.
-pub fn single_pendulum_scene<S: Real>() -> (Scene<2, S>, Node, Element, Reservoir) {
-    let number = S::from_f64;
+/// The scene of the single pendulum, with bob, spring and air.
+pub fn single_pendulum_scene() -> (Scene<2>, Node, Element, Reservoir) {
     let mut scene = Scene::default();
-    let pivot = scene.anchor([number(0.0); 2]);
-    let bob = scene.mass(number(1.0), [3.0, 0.0].map(number), [0.0, 1.0].map(number));
+    let pivot = scene.anchor([0.0; 2]);
+    let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
     let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
-    scene.set_temperature(spring, number(380.0));
-    let air = scene.reservoir(number(300.0));
-    scene.conduct(spring, air, number(10.0));
+    scene.set_temperature(spring, 380.0);
+    let air = scene.reservoir(300.0);
+    scene.conduct(spring, air, 10.0);
     (scene, bob, spring, air)
 }
 
@@ -198,7 +197,7 @@ impl DoublePendulum {
     }
 
     /// The same with springs of another material.
-    pub fn scene_of<M: Material<f64>>(
+    pub fn scene_of<M: Material>(
         &self,
         of: impl Fn(LogarithmicStiffness) -> M,
     ) -> (Scene<3>, [Node; 2], [Element; 2]) {

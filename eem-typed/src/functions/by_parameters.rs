@@ -1,6 +1,5 @@
 //! Tapes of the derivatives of a law with respect to its parameters.
 
-use eem_material::number::scalar::Scalar;
 use eem_symbolic::{ParameterPrograms, Program};
 
 use super::staged::of_state;
@@ -13,21 +12,21 @@ pub(crate) const MOST_PARAMETERS: usize = 64;
 
 /// The tapes of [`ParameterPrograms`], for fixed values of the parameters.
 #[derive(Debug)]
-pub(crate) struct ByParameters<S> {
+pub(crate) struct ByParameters {
     /// `None` without a temperature, as the next one.
-    pub(crate) temperature_form_adjoint: Option<Tape<S>>,
-    pub(crate) temperature_form_tangent: Option<Tape<S>>,
-    pub(crate) entropy_form_adjoint: Tape<S>,
-    pub(crate) entropy_form_tangent: Tape<S>,
-    pub(crate) gradient_adjoint: Tape<S>,
-    pub(crate) energy: Tape<S>,
-    pub(crate) viscosity_adjoint: Option<Tape<S>>,
-    pub(crate) drag_adjoint: Option<Tape<S>>,
+    pub(crate) temperature_form_adjoint: Option<Tape>,
+    pub(crate) temperature_form_tangent: Option<Tape>,
+    pub(crate) entropy_form_adjoint: Tape,
+    pub(crate) entropy_form_tangent: Tape,
+    pub(crate) gradient_adjoint: Tape,
+    pub(crate) energy: Tape,
+    pub(crate) viscosity_adjoint: Option<Tape>,
+    pub(crate) drag_adjoint: Option<Tape>,
 }
 
-impl<S: Scalar> ByParameters<S> {
+impl ByParameters {
     /// The tapes of these programs.
-    pub(super) fn new(programs: &ParameterPrograms, parameters: &[S]) -> Result<Self, LawError> {
+    pub(super) fn new(programs: &ParameterPrograms, parameters: &[f64]) -> Result<Self, LawError> {
         let one = |program: &Program| of_state(program, parameters);
         let sometimes = |program: &Option<Program>| program.as_ref().map(one).transpose();
         Ok(Self {

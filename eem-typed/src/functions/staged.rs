@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use eem_material::number::scalar::Scalar;
 use eem_symbolic::{Operation, Program, Value};
 
 use crate::error::LawError;
@@ -14,18 +13,18 @@ pub(crate) const KEPT: usize = 32;
 
 /// A function of old and new inputs, in two parts.
 #[derive(Debug)]
-pub(crate) struct Staged<S> {
+pub(crate) struct Staged {
     /// From the old inputs to the kept values.
-    pub(crate) old: Tape<S>,
+    pub(crate) old: Tape,
     /// From the kept values and the new inputs to the results.
-    pub(crate) new: Tape<S>,
+    pub(crate) new: Tape,
 }
 
 /// A form: response and tangent, and the response alone.
 #[derive(Debug)]
-pub(crate) struct Form<S> {
-    pub(crate) staged: Staged<S>,
-    pub(crate) response: Tape<S>,
+pub(crate) struct Form {
+    pub(crate) staged: Staged,
+    pub(crate) response: Tape,
 }
 
 /// The inputs of a program that are not parameters, counted from the first of them.
@@ -41,18 +40,18 @@ pub(super) fn state_inputs(
 }
 
 /// The values of the old stage that the new one reads, without those that depend on parameters alone.
-pub(super) fn kept<S: Scalar>(program: &Program, parameters: &[S]) -> Vec<Value> {
+pub(super) fn kept(program: &Program, parameters: &[f64]) -> Vec<Value> {
     let folded = fold(program, parameters);
     let mut kept = program.hoisted();
     kept.retain(|value| folded[value.index()].number().is_none());
     kept
 }
 
-impl<S: Scalar> Staged<S> {
+impl Staged {
     /// The first `old` inputs after the parameters are old. Keeps the values of [`kept`] if they fit, else the old inputs.
     pub(super) fn new(
         program: &Program,
-        parameters: &[S],
+        parameters: &[f64],
         old: usize,
         fits: impl Fn(&[Value]) -> bool,
     ) -> Result<Self, LawError> {
@@ -63,7 +62,7 @@ impl<S: Scalar> Staged<S> {
     /// The same, with the places of the inputs of the new part.
     fn with_places(
         program: &Program,
-        parameters: &[S],
+        parameters: &[f64],
         old: usize,
         fits: impl Fn(&[Value]) -> bool,
     ) -> Result<(Self, Places), LawError> {
@@ -99,16 +98,16 @@ impl<S: Scalar> Staged<S> {
     }
 
     /// Computes the kept values from the old inputs, at the beginning of `kept`.
-    pub(crate) fn keep(&self, inputs: &[S], kept: &mut [S]) {
+    pub(crate) fn keep(&self, inputs: &[f64], kept: &mut [f64]) {
         self.old.run([inputs], [&mut kept[..self.old.results()]]);
     }
 }
 
-impl<S: Scalar> Form<S> {
+impl Form {
     /// The form of a program of x⁰, x¹ and corners.
     pub(super) fn new(
         program: &Program,
-        parameters: &[S],
+        parameters: &[f64],
         [variables, responses]: [usize; 2],
         fits: impl Fn(&[Value]) -> bool,
     ) -> Result<Self, LawError> {
@@ -152,10 +151,7 @@ impl Places {
 }
 
 /// The tape of a program whose inputs are the parameters and one state.
-pub(super) fn of_state<S: Scalar>(
-    program: &Program,
-    parameters: &[S],
-) -> Result<Tape<S>, LawError> {
+pub(super) fn of_state(program: &Program, parameters: &[f64]) -> Result<Tape, LawError> {
     let known: BTreeMap<Value, usize> = state_inputs(program, parameters.len()).collect();
     Tape::new(&Wanted {
         program,

@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use eem_material::number::scalar::Scalar;
 use eem_symbolic::{DifferencePart, Operation, Value};
 
 use super::fold::Folded;
@@ -10,8 +9,8 @@ use super::instruction::{Action, Instruction, Register};
 use super::lower::{Line, Wanted};
 
 /// The parts of a tape, with registers as operands.
-pub(super) struct Allocated<S> {
-    pub(super) constants: Box<[S]>,
+pub(super) struct Allocated {
+    pub(super) constants: Box<[f64]>,
     pub(super) instructions: Box<[Instruction]>,
     pub(super) outputs: Box<[Register]>,
     /// The number of registers.
@@ -19,7 +18,7 @@ pub(super) struct Allocated<S> {
 }
 
 /// The tape of these lines. With more than 2¹⁶ registers only their count is right; such a tape is refused.
-pub(super) fn allocate<S: Scalar>(wanted: &Wanted<'_, S>, lines: &[Line]) -> Allocated<S> {
+pub(super) fn allocate(wanted: &Wanted<'_>, lines: &[Line]) -> Allocated {
     let mut constants = Constants::new(wanted);
     for line in lines {
         line.action.operands(|operand| constants.see(operand));
@@ -49,14 +48,14 @@ pub(super) fn allocate<S: Scalar>(wanted: &Wanted<'_, S>, lines: &[Line]) -> All
 }
 
 /// The folded values that lines or outputs read.
-struct Constants<'w, S> {
-    folded: &'w [Folded<S>],
+struct Constants<'w> {
+    folded: &'w [Folded],
     places: BTreeMap<Value, usize>,
-    numbers: Vec<S>,
+    numbers: Vec<f64>,
 }
 
-impl<'w, S: Scalar> Constants<'w, S> {
-    fn new(wanted: &'w Wanted<'_, S>) -> Self {
+impl<'w> Constants<'w> {
+    fn new(wanted: &'w Wanted<'_>) -> Self {
         Self {
             folded: wanted.folded,
             places: BTreeMap::new(),
@@ -85,7 +84,7 @@ struct File<'w> {
 }
 
 impl<'w> File<'w> {
-    fn new<S>(wanted: &Wanted<'w, S>, constants: &Constants<'_, S>, lines: &[Line]) -> Self {
+    fn new(wanted: &Wanted<'w>, constants: &Constants<'_>, lines: &[Line]) -> Self {
         let first = constants.numbers.len();
         let inputs = wanted.known.iter();
         let mut places = constants.places.clone();

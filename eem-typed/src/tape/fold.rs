@@ -8,16 +8,16 @@ use super::instruction::{apply, first, joint, second};
 
 /// A value, if it depends on parameters alone.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Folded<S> {
+pub(crate) enum Folded {
     /// It depends on the state.
     No,
-    Number(S),
-    Differences(Differences<S>),
+    Number(f64),
+    Differences(Differences<f64>),
 }
 
-impl<S: Copy> Folded<S> {
+impl Folded {
     /// The number, unless it depends on the state.
-    pub(crate) fn number(&self) -> Option<S> {
+    pub(crate) fn number(&self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(*number),
             Self::No | Self::Differences(_) => None,
@@ -26,7 +26,7 @@ impl<S: Copy> Folded<S> {
 }
 
 /// The values of a program whose first inputs are these parameters.
-pub(crate) fn fold<S: Scalar>(program: &Program, parameters: &[S]) -> Vec<Folded<S>> {
+pub(crate) fn fold(program: &Program, parameters: &[f64]) -> Vec<Folded> {
     let mut folded = Vec::with_capacity(program.instructions.len());
     for instruction in &program.instructions {
         let value = evaluate(&instruction.operation, parameters, &folded);
@@ -36,23 +36,19 @@ pub(crate) fn fold<S: Scalar>(program: &Program, parameters: &[S]) -> Vec<Folded
 }
 
 /// The value of an operation, if all its operands are known.
-fn evaluate<S: Scalar>(
-    operation: &Operation,
-    parameters: &[S],
-    folded: &[Folded<S>],
-) -> Option<Folded<S>> {
+fn evaluate(operation: &Operation, parameters: &[f64], folded: &[Folded]) -> Option<Folded> {
     let of = |value: Value| folded[value.index()].number();
     Some(Folded::Number(match *operation {
         Operation::Input(index) => *parameters.get(index)?,
-        Operation::Constant(number) => S::from_f64(number.to_f64()),
+        Operation::Constant(number) => number.to_f64(),
         Operation::Add(a, b) => of(a)? + of(b)?,
         Operation::Sub(a, b) => of(a)? - of(b)?,
         Operation::Mul(a, b) => of(a)? * of(b)?,
         Operation::Div(a, b) => of(a)? / of(b)?,
         Operation::Neg(a) => -of(a)?,
-        Operation::Powi(a, n) => of(a)?.powi(n),
+        Operation::Powi(a, n) => Scalar::powi(of(a)?, n),
         Operation::Sqrt(a) => of(a)?.sqrt(),
-        Operation::Power(a, b) => of(a)?.powf(of(b)?),
+        Operation::Power(a, b) => Scalar::powf(of(a)?, of(b)?),
         Operation::Apply(function, a) => apply(function, of(a)?),
         Operation::DividedDifference(f, a, b) => first(kernel(f, of)?, of(a)?, of(b)?),
         Operation::SecondDividedDifference(f, a, b) => second(kernel(f, of)?, of(a)?, of(b)?),
@@ -74,10 +70,7 @@ fn evaluate<S: Scalar>(
 }
 
 /// The function of a difference, if the values that it depends on are known.
-fn kernel<S: Scalar>(
-    f: ProgramKernel,
-    of: impl Fn(Value) -> Option<S>,
-) -> Option<ProgramKernel<S>> {
+fn kernel(f: ProgramKernel, of: impl Fn(Value) -> Option<f64>) -> Option<ProgramKernel<f64>> {
     Some(match f {
         ProgramKernel::Function(function) => ProgramKernel::Function(function),
         ProgramKernel::Powi(n) => ProgramKernel::Powi(n),

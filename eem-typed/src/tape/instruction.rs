@@ -88,14 +88,14 @@ impl<V: Copy> Action<V> {
 }
 
 /// `P` registers, a power of two: each has `Q` blocks of `B` numbers, one number per element.
-pub(crate) type File<S, const B: usize, const Q: usize, const P: usize> = [[[S; B]; Q]; P];
+pub(crate) type File<const B: usize, const Q: usize, const P: usize> = [[[f64; B]; Q]; P];
 
 impl Instruction {
     /// Reads and writes registers.
     #[inline]
-    pub(crate) fn execute<S: Scalar, const B: usize, const Q: usize, const P: usize>(
+    pub(crate) fn execute<const B: usize, const Q: usize, const P: usize>(
         &self,
-        file: &mut File<S, B, Q, P>,
+        file: &mut File<B, Q, P>,
     ) {
         let to = self.to;
         match self.action {
@@ -104,9 +104,9 @@ impl Instruction {
             Action::Mul(a, b) => each(file, to, [a, b], |[a, b]| a * b),
             Action::Div(a, b) => each(file, to, [a, b], |[a, b]| a / b),
             Action::Neg(a) => each(file, to, [a], |[a]| -a),
-            Action::Powi(a, n) => each(file, to, [a], |[a]| a.powi(n)),
+            Action::Powi(a, n) => each(file, to, [a], |[a]| Scalar::powi(a, n)),
             Action::Sqrt(a) => each(file, to, [a], |[a]| a.sqrt()),
-            Action::Power(a, b) => each(file, to, [a, b], |[a, b]| a.powf(b)),
+            Action::Power(a, b) => each(file, to, [a, b], |[a, b]| Scalar::powf(a, b)),
             Action::Apply(function, a) => each(file, to, [a], |[a]| apply(function, a)),
             Action::MulAdd(a, b, c) => each(file, to, [a, b, c], |[a, b, c]| a * b + c),
             Action::MulSub(a, b, c) => each(file, to, [a, b, c], |[a, b, c]| a * b - c),
@@ -132,11 +132,11 @@ impl Instruction {
     clippy::needless_range_loop,
     reason = "the same blocks of several registers"
 )]
-fn each<S: Scalar, const B: usize, const Q: usize, const P: usize, const N: usize>(
-    file: &mut File<S, B, Q, P>,
+fn each<const B: usize, const Q: usize, const P: usize, const N: usize>(
+    file: &mut File<B, Q, P>,
     to: Register,
     from: [Register; N],
-    of: impl Fn([S; N]) -> S,
+    of: impl Fn([f64; N]) -> f64,
 ) {
     for block in 0..Q {
         let operands = from.map(|register| file[usize::from(register) & (P - 1)][block]);
@@ -151,11 +151,11 @@ fn each<S: Scalar, const B: usize, const Q: usize, const P: usize, const N: usiz
     clippy::needless_range_loop,
     reason = "the same blocks of several registers"
 )]
-fn differences<S: Scalar, const B: usize, const Q: usize, const P: usize, const N: usize>(
-    file: &mut File<S, B, Q, P>,
+fn differences<const B: usize, const Q: usize, const P: usize, const N: usize>(
+    file: &mut File<B, Q, P>,
     to: Register,
     (f, a, b): (ProgramKernel<Register>, Register, Register),
-    of: impl Fn(ProgramKernel<S>, S, S) -> [S; N],
+    of: impl Fn(ProgramKernel<f64>, f64, f64) -> [f64; N],
 ) {
     let place = |register: usize| register & (P - 1);
     for block in 0..Q {
@@ -171,31 +171,31 @@ fn differences<S: Scalar, const B: usize, const Q: usize, const P: usize, const 
 
 /// `f(a)`.
 #[inline(never)]
-pub(super) fn apply<S: Scalar>(function: Function, a: S) -> S {
+pub(super) fn apply(function: Function, a: f64) -> f64 {
     match function {
-        Function::Exp => a.exp(),
-        Function::ExpM1 => a.exp_m1(),
-        Function::Ln => a.ln(),
-        Function::Ln1p => a.ln_1p(),
-        Function::Log2 => a.log2(),
-        Function::Log10 => a.log10(),
-        Function::Sin => a.sin(),
-        Function::Cos => a.cos(),
-        Function::Tan => a.tan(),
-        Function::Sinh => a.sinh(),
-        Function::Cosh => a.cosh(),
-        Function::Tanh => a.tanh(),
-        Function::Asinh => a.asinh(),
-        Function::Atan => a.atan(),
-        Function::Atanh => a.atanh(),
-        Function::Cbrt => a.cbrt(),
+        Function::Exp => Scalar::exp(a),
+        Function::ExpM1 => Scalar::exp_m1(a),
+        Function::Ln => Scalar::ln(a),
+        Function::Ln1p => Scalar::ln_1p(a),
+        Function::Log2 => Scalar::log2(a),
+        Function::Log10 => Scalar::log10(a),
+        Function::Sin => Scalar::sin(a),
+        Function::Cos => Scalar::cos(a),
+        Function::Tan => Scalar::tan(a),
+        Function::Sinh => Scalar::sinh(a),
+        Function::Cosh => Scalar::cosh(a),
+        Function::Tanh => Scalar::tanh(a),
+        Function::Asinh => Scalar::asinh(a),
+        Function::Atan => Scalar::atan(a),
+        Function::Atanh => Scalar::atanh(a),
+        Function::Cbrt => Scalar::cbrt(a),
         Function::Abs => a.abs(),
     }
 }
 
 /// `f[a, b]`.
 #[inline(never)]
-pub(super) fn first<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> S {
+pub(super) fn first(f: ProgramKernel<f64>, a: f64, b: f64) -> f64 {
     match f {
         ProgramKernel::Function(function) => match function {
             Function::Exp => kernel::exp_dd(a, b),
@@ -226,7 +226,7 @@ pub(super) fn first<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> S {
 
 /// `f[a, b, b]`.
 #[inline(never)]
-pub(super) fn second<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> S {
+pub(super) fn second(f: ProgramKernel<f64>, a: f64, b: f64) -> f64 {
     match f {
         ProgramKernel::Function(function) => match function {
             Function::Exp => kernel::exp_dd2(a, b),
@@ -257,7 +257,7 @@ pub(super) fn second<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> S {
 
 /// All three differences: of functions without a joint kernel one by one, with the same bits.
 #[inline(never)]
-pub(super) fn joint<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> Differences<S> {
+pub(super) fn joint(f: ProgramKernel<f64>, a: f64, b: f64) -> Differences<f64> {
     match f {
         ProgramKernel::Function(Function::Ln) => kernel::ln_dds(a, b),
         ProgramKernel::Function(Function::Ln1p) => kernel::ln_1p_dds(a, b),
@@ -274,6 +274,6 @@ pub(super) fn joint<S: Scalar>(f: ProgramKernel<S>, a: S, b: S) -> Differences<S
 }
 
 /// `|x|` has no kernel: programs write its differences with quotients.
-fn no_kernel<S: Scalar>() -> S {
-    S::from_f64(f64::NAN)
+fn no_kernel() -> f64 {
+    f64::NAN
 }

@@ -8,10 +8,10 @@ use super::fold::Folded;
 use super::instruction::Action;
 
 /// The program of a tape, with its inputs and outputs.
-pub(crate) struct Wanted<'p, S> {
+pub(crate) struct Wanted<'p> {
     pub(crate) program: &'p Program,
     /// The values that depend on parameters alone.
-    pub(crate) folded: &'p [Folded<S>],
+    pub(crate) folded: &'p [Folded],
     /// The values that are inputs of the tape, with their indices among these.
     pub(crate) known: BTreeMap<Value, usize>,
     /// Number of inputs.
@@ -27,7 +27,7 @@ pub(super) struct Line {
 }
 
 /// The lines of a tape. Their operands are values of the program; folded values and inputs of the tape have no line.
-pub(super) fn lower<S>(wanted: &Wanted<'_, S>) -> Vec<Line> {
+pub(super) fn lower(wanted: &Wanted<'_>) -> Vec<Line> {
     let needed = needed(wanted);
     let instructions = wanted.program.instructions.iter().enumerate();
     let lines = instructions.filter(|(index, _)| needed[*index]);
@@ -44,7 +44,7 @@ pub(super) fn lower<S>(wanted: &Wanted<'_, S>) -> Vec<Line> {
 }
 
 /// Which values have to be computed.
-fn needed<S>(wanted: &Wanted<'_, S>) -> Vec<bool> {
+fn needed(wanted: &Wanted<'_>) -> Vec<bool> {
     let mut needed = vec![false; wanted.program.instructions.len()];
     let is_given = |value: Value| {
         wanted.known.contains_key(&value) || !matches!(wanted.folded[value.index()], Folded::No)
@@ -82,7 +82,7 @@ fn action(operation: &Operation) -> Option<Action<Value>> {
 }
 
 /// Joins every product with one reader to a sum, difference or product that reads it.
-fn fuse<S>(lines: &mut Vec<Line>, wanted: &Wanted<'_, S>) {
+fn fuse(lines: &mut Vec<Line>, wanted: &Wanted<'_>) {
     let count = wanted.program.instructions.len();
     let mut readers = vec![0_usize; count];
     let mut place = vec![None; count];

@@ -5,7 +5,6 @@ use core::slice;
 use std::sync::Arc;
 
 use eem_material::free_energy::{Caloric, Each, FormRows, FreeEnergy, Rows};
-use eem_material::number::scalar::Scalar;
 
 use super::{Typed, caloric};
 use crate::functions::{Form, Functions, KEPT, Staged};
@@ -13,7 +12,6 @@ use crate::shape::Measures;
 use crate::tape::{ROW, Tape};
 
 impl<
-    S: Scalar,
     H: Measures,
     const N: usize,
     const K: usize,
@@ -21,9 +19,9 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> Typed<S, H, N, K, V, D, C, R>
+> Typed<H, N, K, V, D, C, R>
 {
-    pub(super) const fn rows() -> Rows<S, Self> {
+    pub(super) const fn rows() -> Rows<f64, Self> {
         Rows {
             most: ROW,
             temperature_form: FormRows {
@@ -72,7 +70,7 @@ impl<
     fn runs<'a, T>(
         model: impl Fn(usize) -> &'a Self,
         mut found: &mut [T],
-        mut of_run: impl FnMut(&'a Functions<S>, usize, &mut [T]),
+        mut of_run: impl FnMut(&'a Functions, usize, &mut [T]),
     ) {
         let mut first = 0;
         while !found.is_empty() {
@@ -89,13 +87,13 @@ impl<
 
     /// The values that forms keep of the old state, one form after the other.
     fn keep_of_each<'a, const F: usize>(
-        each: &Each<'_, (&'a Self, &'a [S; N])>,
-        forms: impl Fn(&'a Functions<S>) -> [Option<&'a Staged<S>>; F],
-        found: &mut [[S; KEPT]],
+        each: &Each<'_, (&'a Self, &'a [f64; N])>,
+        forms: impl Fn(&'a Functions) -> [Option<&'a Staged>; F],
+        found: &mut [[f64; KEPT]],
     ) {
         let model = |element| each(element).0;
         Self::runs(model, found, |functions, first, found| {
-            found.fill([S::zero(); KEPT]);
+            found.fill([0.0; KEPT]);
             let inputs = |element: usize| [&each(first + element).1[..]];
             let mut start = 0;
             for form in forms(functions).into_iter().flatten() {
@@ -109,11 +107,11 @@ impl<
 
     /// Runs a tape of a step. Its inputs are a range of the kept values, the new variables, and corners.
     fn step_of_each<'a, P: 'a, T, const O: usize>(
-        each: &Each<'_, (&'a Self, &'a [S; KEPT], &'a [S; N], &'a P)>,
-        corners: fn(&P) -> &[S],
-        tape: impl Fn(&'a Functions<S>) -> Option<AndKept<'a, S>>,
+        each: &Each<'_, (&'a Self, &'a [f64; KEPT], &'a [f64; N], &'a P)>,
+        corners: fn(&P) -> &[f64],
+        tape: impl Fn(&'a Functions) -> Option<AndKept<'a>>,
         found: &mut [T],
-        parts: impl Fn(&mut T) -> [&mut [S]; O] + Copy,
+        parts: impl Fn(&mut T) -> [&mut [f64]; O] + Copy,
     ) {
         let model = |element| each(element).0;
         Self::runs(model, found, |functions, first, found| {
@@ -128,7 +126,10 @@ impl<
         });
     }
 
-    fn viscosity_of_each<'a>(each: &Each<'_, (&'a Self, &'a S)>, found: &mut [([S; V], [S; V])]) {
+    fn viscosity_of_each<'a>(
+        each: &Each<'_, (&'a Self, &'a f64)>,
+        found: &mut [([f64; V], [f64; V])],
+    ) {
         let model = |element| each(element).0;
         Self::runs(model, found, |functions, first, found| {
             let inputs = |element: usize| {
@@ -141,7 +142,10 @@ impl<
         });
     }
 
-    fn caloric_of_each<'a>(each: &Each<'_, (&'a Self, &'a [S; N])>, found: &mut [(Caloric<S>, S)]) {
+    fn caloric_of_each<'a>(
+        each: &Each<'_, (&'a Self, &'a [f64; N])>,
+        found: &mut [(Caloric<f64>, f64)],
+    ) {
         let model = |element| each(element).0;
         Self::runs(model, found, |functions, first, found| {
             for (row, found) in found.chunks_mut(ROW).enumerate() {
@@ -153,7 +157,7 @@ impl<
                     }
                     continue;
                 };
-                let (mut kept, mut values) = ([[S::zero(); KEPT]; ROW], [[S::zero(); 4]; ROW]);
+                let (mut kept, mut values) = ([[0.0; KEPT]; ROW], [[0.0; 4]; ROW]);
                 let (kept, values) = (&mut kept[..found.len()], &mut values[..found.len()]);
                 let count = staged.old.results();
                 let x = |element: usize| each(first + element).1.split_at(N - 1);
@@ -170,34 +174,34 @@ impl<
 }
 
 /// The temperature form. Without a temperature both forms are the same.
-fn in_temperature<S>(of: &Functions<S>) -> &Form<S> {
+fn in_temperature(of: &Functions) -> &Form {
     of.temperature_form.as_ref().unwrap_or(&of.entropy_form)
 }
 
-fn in_entropy<S>(of: &Functions<S>) -> &Form<S> {
+fn in_entropy(of: &Functions) -> &Form {
     &of.entropy_form
 }
 
 /// A tape, and the range of the kept values that it reads.
-type AndKept<'a, S> = (&'a Tape<S>, Range<usize>);
+type AndKept<'a> = (&'a Tape, Range<usize>);
 
-fn with_tangent<S: Scalar>(form: &Form<S>) -> AndKept<'_, S> {
+fn with_tangent(form: &Form) -> AndKept<'_> {
     (&form.staged.new, 0..form.staged.old.results())
 }
 
-fn alone<S: Scalar>(form: &Form<S>) -> AndKept<'_, S> {
+fn alone(form: &Form) -> AndKept<'_> {
     (&form.response, 0..form.staged.old.results())
 }
 
-fn mixed_states<S: Scalar>(of: &Functions<S>) -> Option<AndKept<'_, S>> {
+fn mixed_states(of: &Functions) -> Option<AndKept<'_>> {
     let mixed = of.mixed_states.as_ref()?;
     let first = of.entropy_form.staged.old.results();
     Some((&mixed.new, first..first + mixed.old.results()))
 }
 
 /// The parts of a form with its tangent.
-fn form_parts<S, const N: usize, const R: usize>(
-    (response, tangent): &mut ([S; R], [[S; N]; R]),
-) -> [&mut [S]; 2] {
+fn form_parts<const N: usize, const R: usize>(
+    (response, tangent): &mut ([f64; R], [[f64; N]; R]),
+) -> [&mut [f64]; 2] {
     [response, tangent.as_flattened_mut()]
 }

@@ -1,7 +1,6 @@
 //! Solids of laws: their strains, and at a point the components of a viscous strain.
 
 use eem_material::free_energy::{FreeEnergy, Material};
-use eem_material::number::scalar::{Real, Scalar};
 use eem_material::{ComponentEnergy, Joint, JointEnergy};
 use eem_runtime::{Strain, StrainEnergy};
 
@@ -14,7 +13,6 @@ const KEPT_WITH_COMPONENTS: usize = KEPT + 12;
 
 // Which strains they are is known only at run time, from `strains`; only the length of `STRAINS` counts.
 impl<
-    S: Scalar,
     const M: usize,
     const N: usize,
     const K: usize,
@@ -22,7 +20,7 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> StrainEnergy<M> for Typed<S, Strains<M>, N, K, V, D, C, R>
+> StrainEnergy<M> for Typed<Strains<M>, N, K, V, D, C, R>
 {
     const STRAINS: [Strain; M] = [Strain::Trace; M];
 
@@ -30,21 +28,20 @@ impl<
         self.strains_at_point()
     }
 
-    type AtPoint<T: Real>
+    type AtPoint
         = Self
     where
-        Self: Material<T>;
+        Self: Material;
 
-    fn at_point<T: Real>(&self) -> Self
+    fn at_point(&self) -> Self
     where
-        Self: Material<T>,
+        Self: Material,
     {
-        FreeEnergy::<T>::duplicate(self)
+        FreeEnergy::<f64>::duplicate(self)
     }
 }
 
 impl<
-    S: Scalar,
     const M: usize,
     const N1: usize,
     const K1: usize,
@@ -55,7 +52,7 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> StrainEnergy<M> for Typed<S, Flow<M, N1, K1, R1>, N, K, V, D, C, R>
+> StrainEnergy<M> for Typed<Flow<M, N1, K1, R1>, N, K, V, D, C, R>
 {
     const STRAINS: [Strain; M] = [Strain::Trace; M];
 
@@ -63,21 +60,20 @@ impl<
         self.strains_at_point()
     }
 
-    type AtPoint<T: Real>
+    type AtPoint
         = ComponentEnergy<Self, N1, K1, R1, KEPT_WITH_COMPONENTS, KEPT_WITH_COMPONENTS>
     where
-        Self: Material<T>;
+        Self: Material;
 
-    fn at_point<T: Real>(&self) -> Self::AtPoint<T>
+    fn at_point(&self) -> Self::AtPoint
     where
-        Self: Material<T>,
+        Self: Material,
     {
-        ComponentEnergy::new(FreeEnergy::<T>::duplicate(self))
+        ComponentEnergy::new(FreeEnergy::<f64>::duplicate(self))
     }
 }
 
 impl<
-    S: Scalar,
     const M: usize,
     const N1: usize,
     const K1: usize,
@@ -88,7 +84,7 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> JointEnergy for Typed<S, Flow<M, N1, K1, R1>, N, K, V, D, C, R>
+> JointEnergy for Typed<Flow<M, N1, K1, R1>, N, K, V, D, C, R>
 {
     // Only their number, and whether the trace is among them, are right: which they are, `joints` says.
     const JOINT: &'static [Joint] = match (Self::SHAPE.joints, Self::SHAPE.flows) {

@@ -57,12 +57,7 @@ fn run<const N: usize, E>(
     mut watch: impl FnMut(&[f64; N]),
 ) -> Result<Solved<N>, DiffsolError>
 where
-    E: OdeEquationsImplicit<
-            T = f64,
-            M = NalgebraMat<f64>,
-            V = NalgebraVec<f64>,
-            C = NalgebraContext,
-        >,
+    E: OdeEquationsImplicit<T = f64, M = NalgebraMat<f64>, V = NalgebraVec<f64>, C = NalgebraContext>,
 {
     // The crate's limit of 50 is for a whole run, however long it is.
     problem.ode_options.max_nonlinear_solver_failures = usize::MAX;

@@ -43,7 +43,7 @@ impl Simulation {
     }
 
     /// Controls the steps.
-    pub(crate) fn control(&self, tolerance: Tolerance<f64>) -> PyResult<()> {
+    pub(crate) fn control(&self, tolerance: Tolerance) -> PyResult<()> {
         self.ask(|run| run.control_steps(tolerance))
     }
 

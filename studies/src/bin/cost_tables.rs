@@ -87,7 +87,7 @@ fn steps(progress: &mut Progress) -> Found<()> {
         Ok(())
     };
     add("single", &|scheme| {
-        per_step(|| single(1.0).scene, scheme, [0.01, 20.0])
+        per_step(|| single().scene, scheme, [0.01, 20.0])
     })?;
     // In steps in which the explicit scheme is stable, up to where all arrive.
     for (name, case, span) in [
@@ -96,7 +96,7 @@ fn steps(progress: &mut Progress) -> Found<()> {
         ("log", Double::LOG, [0.01, 5.0]),
     ] {
         add(name, &|scheme| {
-            per_step(|| case.build(1.0).scene, scheme, span)
+            per_step(|| case.build().scene, scheme, span)
         })?;
         progress.advance(1);
     }
@@ -201,12 +201,12 @@ fn errors(progress: &mut Progress) -> Found<()> {
         .chain(heads);
     let mut table = table::headed(heads);
     let cases = [
-        ("single", run(|| single(1.0).scene, 0.2, progress)?),
+        ("single", run(|| single().scene, 0.2, progress)?),
         (
             "krueger",
-            run(|| Double::KRUEGER.build(1.0).scene, 0.1, progress)?,
+            run(|| Double::KRUEGER.build().scene, 0.1, progress)?,
         ),
-        ("log", run(|| Double::LOG.build(1.0).scene, 0.1, progress)?),
+        ("log", run(|| Double::LOG.build().scene, 0.1, progress)?),
     ];
     for (case, rows) in cases {
         for error in ERRORS {

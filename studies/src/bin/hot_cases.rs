@@ -62,7 +62,7 @@ const SPRINGS: u8 = 64;
 
 /// A chain in the plane that hangs on one end, elastic or thermoelastic and conducting.
 fn chain(is_warm: bool) -> Scene<2> {
-    let mut build = Build::new(1.0);
+    let mut build = Build::new();
     let mut near = build.anchor([0.0; 2]);
     let mut last = None;
     for index in 1..=SPRINGS {
@@ -93,10 +93,9 @@ fn chain(is_warm: bool) -> Scene<2> {
 fn main() -> Result<(), Box<dyn Error>> {
     use Scheme::{EemEntropy, EemExplicit, EemTemperature};
     let Options { case, steps, step } = Options::parse();
-    let single = |scheme, size| go(single(1.0).scene, scheme, step.unwrap_or(size), steps);
-    let double = |case: &Double, scheme, size| {
-        go(case.build(1.0).scene, scheme, step.unwrap_or(size), steps)
-    };
+    let single = |scheme, size| go(single().scene, scheme, step.unwrap_or(size), steps);
+    let double =
+        |case: &Double, scheme, size| go(case.build().scene, scheme, step.unwrap_or(size), steps);
     match case {
         Case::ExplicitSingle => single(EemExplicit, 0.05),
         Case::ExplicitKrueger => double(&Double::KRUEGER, EemExplicit, 0.1),

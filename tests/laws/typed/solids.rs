@@ -61,7 +61,7 @@ fn flowing(
 /// Two warm cells that tumble, are stretched, and lose heat.
 fn plate<M, const N: usize>(material: M, bulk: &Bulk<2>) -> Built<2>
 where
-    M: eem::Material<f64> + StrainEnergy<N>,
+    M: eem::Material + StrainEnergy<N>,
 {
     let mut scene = Scene::new();
     let mesh = Mesh::<Quad4, 2>::block([2, 1], [[0.0, 2.0], [0.0, 1.0]]).unwrap();

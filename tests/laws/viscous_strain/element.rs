@@ -37,7 +37,7 @@ fn joint_invariants_have_exact_mean_value_gradients() {
             k3: k[2],
             eta: 1.0,
         };
-        let energy = material.at_point::<f64>();
+        let energy = material.at_point();
         let size = [1.0, 1e-3, 1e-9][trial / 3 % 3];
         // e2, six components of E, six of Γ.
         let x0: [f64; 13] = std::array::from_fn(|_| numbers.next());

@@ -55,7 +55,7 @@ fn errors(scheme: Scheme, steps: u32) -> [f64; 2] {
     let (mut run, body) = held::<Hex8, 3>(scheme, TIME / 5.0 / f64::from(steps));
     let point = body.points()[3];
     let driving = deviator(strain());
-    let stress_of = |state: SolidState<f64>| state.stress;
+    let stress_of = |state: SolidState| state.stress;
     let glassy = stress_of(run.solid_state(point).unwrap());
     let tensor = Matrix3::from(HELD).transpose();
     // σ = F S Fᵀ/J; S of the branch at first.

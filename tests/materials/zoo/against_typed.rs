@@ -1,11 +1,12 @@
-//! Materials of texts against derived ones: every function has the same bits, in `f64` and in `f32`.
+//! Materials of texts against derived ones: every function has the same bits.
 
+use eem::Scalar;
 use eem::typed::{
     DampedSpring0, DampedSpring1, DampedThermalSpring0, DampedThermalSpring1, Law, Source, Spring0,
     Spring1, Spring2, Spring3, ThermalSpring0, ThermalSpring1, ThermalSpring2, ThermalSpring3,
     compile, solid,
 };
-use eem::{Array, FreeEnergy, Real};
+use eem::{Array, FreeEnergy};
 use eem_material::free_energy::{Form, FormRows};
 
 use crate::zoo::families;
@@ -22,34 +23,34 @@ pub(crate) struct At {
 /// A function and the bits of its results.
 pub(crate) type Results = Vec<(&'static str, Vec<u64>)>;
 
-fn array<S: Real, A: Array<S>>(numbers: &[f64]) -> A {
-    let mut array = A::filled(S::zero());
+fn array<A: Array<f64>>(numbers: &[f64]) -> A {
+    let mut array = A::filled(0.0);
     for (entry, &number) in array.as_mut().iter_mut().zip(numbers) {
-        *entry = S::from_f64(number);
+        *entry = number;
     }
     array
 }
 
 /// All NaN are one.
-fn bits<S: Real>(numbers: impl IntoIterator<Item = S>) -> Vec<u64> {
-    let bits = |number: S| match number.to_f64() {
+fn bits(numbers: impl IntoIterator<Item = f64>) -> Vec<u64> {
+    let bits = |number: f64| match number {
         number if number.is_nan() => f64::NAN.to_bits(),
         number => number.to_bits(),
     };
     numbers.into_iter().map(bits).collect()
 }
 
-fn rows_of<S: Real, F: Array<S>, V: Array<S>, M: Array<V>>(first: &F, matrix: &M) -> Vec<u64> {
+fn rows_of<F: Array<f64>, V: Array<f64>, M: Array<V>>(first: &F, matrix: &M) -> Vec<u64> {
     let rows = matrix.as_ref().iter().flat_map(AsRef::as_ref);
     bits(first.as_ref().iter().chain(rows).copied())
 }
 
-fn flat<S: Real, A: Array<S>>(arrays: &[A]) -> Vec<u64> {
+fn flat<A: Array<f64>>(arrays: &[A]) -> Vec<u64> {
     bits(arrays.iter().flat_map(AsRef::as_ref).copied())
 }
 
 /// Everything that a free energy computes, at the new state and between both.
-pub(crate) fn everything<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
+pub(crate) fn everything<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
     let mut all = of_state(model, at);
     all.extend(of_step(model, at));
     #[cfg(feature = "gradients")]
@@ -59,14 +60,14 @@ pub(crate) fn everything<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Resul
 
 /// The derivatives by the parameters that there are: an array of a law has more room.
 #[cfg(feature = "gradients")]
-fn by_parameters<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
+fn by_parameters<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
     assert!(M::HAS_PARAMETER_DERIVATIVES);
-    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<S, M::Variables>(x));
+    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(x));
     let corners: M::Corners = array(&at.corners);
     let count = model.parameter_names().len();
     assert_eq!(count, model.parameter_count());
     let seed: Vec<f64> = (0..64_u8)
-        .map(|k| (1.0 + 2.0 * f64::from(k)).sin())
+        .map(|k| Scalar::sin(1.0 + 2.0 * f64::from(k)))
         .collect();
     let own = |found: M::Parameters| bits(found.as_ref()[..count].iter().copied());
     let (weights, along) = (array(&seed), array(&seed));
@@ -106,11 +107,11 @@ fn by_parameters<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
     ]
 }
 
-fn of_state<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
-    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<S, M::Variables>(x));
+fn of_state<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
+    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(x));
     let last = M::Variables::LEN - 1;
-    let (theta, none) = (x1[last], M::Variables::filled(S::zero()));
-    let caloric = |c: eem::Caloric<S>| [c.entropy, c.heat_capacity, c.magnitude];
+    let (theta, none) = (x1[last], M::Variables::filled(0.0));
+    let caloric = |c: eem::Caloric<f64>| [c.entropy, c.heat_capacity, c.magnitude];
     let (gradient, hessian) = model.hessian(&x1);
     let rates = model.rates(&x1);
     let (rates_at, others) = model.rates_at(x0)(theta);
@@ -147,9 +148,9 @@ fn of_state<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
     all
 }
 
-fn of_step<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
-    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<S, M::Variables>(x));
-    let (corners, none): (M::Corners, _) = (array(&at.corners), M::Variables::filled(S::zero()));
+fn of_step<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
+    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(x));
+    let (corners, none): (M::Corners, _) = (array(&at.corners), M::Variables::filled(0.0));
     let old = model.entropy_form_old(&x0);
     let (response, tangent) = model.entropy_form(&old, &x1, &corners);
     let alone = model.entropy_form_response(&old, &x1, &corners);
@@ -174,11 +175,11 @@ fn of_step<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) -> Results {
 }
 
 /// The same of a form, whose values are `forms`; returns what it keeps.
-fn assert_same_form_in_rows<S: Real, M: FreeEnergy<S>, Old: Copy, P>(
+fn assert_same_form_in_rows<M: FreeEnergy<f64>, Old: Copy, P>(
     (model, memory, old): (&M, &P, Old),
     states: &[M::Variables; 2],
-    rows: &FormRows<S, M, Old, P>,
-    forms: &[Form<S, M>; 2],
+    rows: &FormRows<f64, M, Old, P>,
+    forms: &[Form<f64, M>; 2],
     count: usize,
 ) -> Vec<Old> {
     let mut kept = vec![old; count];
@@ -198,11 +199,11 @@ fn assert_same_form_in_rows<S: Real, M: FreeEnergy<S>, Old: Copy, P>(
 }
 
 /// Elements that are evaluated together, at both states in turn, have the bits of one.
-fn assert_same_in_rows<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) {
+fn assert_same_in_rows<M: FreeEnergy<f64>>(model: &M, at: &At) {
     let Some(rows) = M::ROWS else {
         return;
     };
-    let states = [&at.x0, &at.x1].map(|x| array::<S, M::Variables>(x));
+    let states = [&at.x0, &at.x1].map(|x| array::<M::Variables>(x));
     let corners: M::Corners = array(&at.corners);
     let last = M::Variables::LEN - 1;
     for count in [1, rows.most / 4, rows.most, 2 * rows.most + 1] {
@@ -245,7 +246,7 @@ fn assert_same_in_rows<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) {
             let mut of_rows = vec![caloric[1]; count];
             let each = |element| (model, &states[here(element)]);
             (rows.caloric_at)(&each, &mut of_rows);
-            let numbers = |(c, psi): &(eem::Caloric<S>, S)| {
+            let numbers = |(c, psi): &(eem::Caloric<f64>, f64)| {
                 bits([c.entropy, c.heat_capacity, c.magnitude, *psi])
             };
             for (element, found) in of_rows.iter().enumerate() {
@@ -258,7 +259,7 @@ fn assert_same_in_rows<S: Real, M: FreeEnergy<S>>(model: &M, at: &At) {
 macro_rules! shapes {
     ($($shape:ty),* $(,)?) => {
         /// The same of a law, whatever its shape is.
-        fn of_law<S: Real>(law: &Law, at: &At) -> Results {
+        fn of_law(law: &Law, at: &At) -> Results {
             $(
                 let model: Result<$shape, _> = law.model();
                 if let Ok(model) = model {
@@ -272,16 +273,16 @@ macro_rules! shapes {
 }
 
 shapes! {
-    Spring0<S>, Spring1<S>, Spring2<S>, Spring3<S>,
-    ThermalSpring0<S>, ThermalSpring1<S>, ThermalSpring2<S>, ThermalSpring3<S>,
-    DampedSpring0<S>, DampedSpring1<S>, DampedThermalSpring0<S>, DampedThermalSpring1<S>,
-    solid!(strains: 2, numbers: S),
-    solid!(strains: 3, numbers: S),
-    solid!(strains: 2, temperature: 1, numbers: S),
-    solid!(strains: 3, temperature: 1, numbers: S),
-    solid!(strains: 4, temperature: 1, numbers: S),
-    solid!(strains: 2, dashpots: 2, temperature: 1, numbers: S),
-    solid!(strains: 2, invariants: 3, volume_flow: 1, dashpots: 1, temperature: 1, numbers: S),
+    Spring0, Spring1, Spring2, Spring3,
+    ThermalSpring0, ThermalSpring1, ThermalSpring2, ThermalSpring3,
+    DampedSpring0, DampedSpring1, DampedThermalSpring0, DampedThermalSpring1,
+    solid!(strains: 2),
+    solid!(strains: 3),
+    solid!(strains: 2, temperature: 1),
+    solid!(strains: 3, temperature: 1),
+    solid!(strains: 4, temperature: 1),
+    solid!(strains: 2, dashpots: 2, temperature: 1),
+    solid!(strains: 2, invariants: 3, volume_flow: 1, dashpots: 1, temperature: 1),
 }
 
 #[test]
@@ -303,20 +304,13 @@ fn materials_of_texts_have_the_bits_of_derived_ones() {
             let [x0, x1] = step;
             let corners = corners.iter().map(|corner| corner.theta).collect();
             let at = At { x0, x1, corners };
-            let [double, single] = specimen.everything(&at);
+            let derived = specimen.everything(&at);
             let name = specimen.name();
-            for ((function, derived), typed) in double.iter().zip(of_law::<f64>(&law, &at)) {
+            for ((function, derived), typed) in derived.iter().zip(of_law(&law, &at)) {
                 assert_eq!(
                     (*function, derived),
                     (typed.0, &typed.1),
                     "{name}, {function} at {at:?}"
-                );
-            }
-            for ((function, derived), typed) in single.iter().zip(of_law::<f32>(&law, &at)) {
-                assert_eq!(
-                    (*function, derived),
-                    (typed.0, &typed.1),
-                    "{name}, {function} of f32 at {at:?}"
                 );
             }
         }

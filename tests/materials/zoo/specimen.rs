@@ -36,9 +36,9 @@ pub(crate) trait Formula: FreeEnergy<f64> + Clone + Send + Sync + 'static {
     /// The formulas as texts.
     #[cfg(feature = "typed")]
     const TEXTS: (&'static str, &'static [(&'static str, &'static str)]);
-    /// All functions, in `f64` and in `f32`.
+    /// All functions.
     #[cfg(feature = "typed")]
-    fn all_functions(&self, at: &against_typed::At) -> [against_typed::Results; 2];
+    fn all_functions(&self, at: &against_typed::At) -> against_typed::Results;
     /// `η_k`.
     fn viscosities<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Vec<Num<V>>;
 }
@@ -108,9 +108,8 @@ macro_rules! specimen {
             fn all_functions(
                 &self,
                 at: &$crate::zoo::against_typed::At,
-            ) -> [$crate::zoo::against_typed::Results; 2] {
-                use $crate::zoo::against_typed::everything;
-                [everything::<f64, Self>(self, at), everything::<f32, Self>(self, at)]
+            ) -> $crate::zoo::against_typed::Results {
+                $crate::zoo::against_typed::everything(self, at)
             }
 
             fn viscosities<V: $crate::zoo::number::Value>(
@@ -148,9 +147,9 @@ pub(crate) trait Specimen: Table {
     /// The formulas as texts, and the values of the parameters.
     #[cfg(feature = "typed")]
     fn text(&self) -> Text;
-    /// All functions, in `f64` and in `f32`.
+    /// All functions.
     #[cfg(feature = "typed")]
-    fn everything(&self, at: &against_typed::At) -> [against_typed::Results; 2];
+    fn everything(&self, at: &against_typed::At) -> against_typed::Results;
 
     /// What the macro should have understood.
     fn symbolic(&self) -> Model;
@@ -207,7 +206,7 @@ impl<F: Formula> Specimen for F {
     }
 
     #[cfg(feature = "typed")]
-    fn everything(&self, at: &against_typed::At) -> [against_typed::Results; 2] {
+    fn everything(&self, at: &against_typed::At) -> against_typed::Results {
         self.all_functions(at)
     }
 

@@ -187,7 +187,7 @@ fn inputs_that_are_not_there_are_errors() {
     let (net, mut run) = start(&INPUTS, Scheme::EemEntropy);
     let [anchor, bob, tail] = net.nodes;
     let [voigt, two] = net.springs;
-    let foreign = crate::support::single_pendulum_scene::<f64>().1;
+    let foreign = crate::support::single_pendulum_scene().1;
     for (input, expected) in [
         (Input::parameter(voigt, "stiffness"), "it has k, length"),
         (Input::mass(foreign), "another scene"),

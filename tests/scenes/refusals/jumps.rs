@@ -2,7 +2,7 @@
 
 use eem::prelude::*;
 
-use super::{WARM, WARM_SINGLE};
+use super::WARM;
 
 /// A spring whose support moves and whose temperature is prescribed.
 fn build(
@@ -62,10 +62,10 @@ fn roundings_of_a_function_are_no_jump() {
     let motion = |t: f64| [0.1 * 7.0 + t, (core::f64::consts::PI + t).sin()];
     build(motion, |t| 310.1 - 0.1 + t).unwrap();
 
-    let mut scene = Scene::<1, f32>::default();
+    let mut scene = Scene::<1>::new();
     let support = scene.anchor([0.7]);
     let bob = scene.mass(1.0, [1.7], [0.0]);
-    let spring = scene.spring(WARM_SINGLE, [support, bob]);
+    let spring = scene.spring(WARM, [support, bob]);
     scene.set_temperature(spring, 310.0);
     scene.move_anchor(support, |t| [0.1 * 7.0 + t]);
     scene.prescribe_temperature(spring, |t| 310.1 - 0.1 + t);

@@ -93,30 +93,3 @@ fn a_stretch_whose_square_underflows_or_overflows_is_refused_with_its_true_lengt
          that its square neither underflows nor overflows"
     );
 }
-
-#[test]
-fn single_precision_has_a_range_of_its_own() {
-    let step = |length: f32| {
-        let mut scene = Scene::<2, f32>::default();
-        let pivot = scene.anchor([0.0, 0.0]);
-        let bob = scene.mass(1.0, [0.0, length], [0.1 * length, 0.0]);
-        let spring = Elastic {
-            stiffness: 3.0,
-            length,
-        };
-        scene.spring(spring, [pivot, bob]);
-        let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-        run.step().unwrap();
-        Ok::<_, SceneError>(run.ledger().kinetic_energy)
-    };
-    for length in [1e-15, 1.0, 1e15] {
-        assert!(step(length).unwrap() > 0.0);
-    }
-    for length in [1e-20, 1e-19] {
-        let error = step(length).unwrap_err();
-        let SceneError::State(StateError::Stretch { least, most, .. }) = error else {
-            panic!("{error}");
-        };
-        assert!((1e-19..1.1e-19).contains(&least) && (1.8e19..1.9e19).contains(&most));
-    }
-}

@@ -170,7 +170,7 @@ fn a_wild_number_is_an_error_or_the_run_stays_finite() {
 fn ends_and_tolerances_of_runs() {
     for wild in WILD {
         let mut run = SOUND.build(Scheme::EemEntropy).unwrap();
-        let go_on = |run: &Simulation<2>, _: &StepReport<f64>| {
+        let go_on = |run: &Simulation<2>, _: &StepReport| {
             if run.time() < 0.1 {
                 ControlFlow::Continue(())
             } else {

@@ -68,14 +68,16 @@ impl<T> __eem::StrainEnergy<7> for Flowing<T> {
         __eem::Strain::Component(3),
         __eem::Strain::Component(4),
     ];
-    type AtPoint<__S: __eem::Real> = __eem::ComponentEnergy<Self, 12, 5, 12, 13, 13>
+    type AtPoint = __eem::ComponentEnergy<Self, 12, 5, 12, 13, 13>
     where
-        Self: __eem::Material<__S>;
-    fn at_point<__S: __eem::Real>(&self) -> Self::AtPoint<__S>
+        Self: __eem::Material;
+    fn at_point(&self) -> Self::AtPoint
     where
-        Self: __eem::Material<__S>,
+        Self: __eem::Material,
     {
-        __eem::ComponentEnergy::new(__eem::FreeEnergy::<__S>::duplicate(self))
+        __eem::ComponentEnergy::new(
+            __eem::FreeEnergy::<__eem::core::primitive::f64>::duplicate(self),
+        )
     }
 }
 #[automatically_derived]

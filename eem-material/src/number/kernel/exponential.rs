@@ -88,10 +88,9 @@ pub fn power_dds<S: Scalar>(value_a: S, value_b: S, x_a: S, x_b: S) -> Differenc
     let high = value_a.maximum(value_b);
     let distance = (x_b - x_a).abs();
     let [at_low, at_high] = [phi3(distance), phi2(distance)];
-    let rising = x_a.less(x_b);
     Differences {
         first: high * phi(distance),
-        second_a: S::branch(rising, || high * at_low, || high * at_high),
-        second_b: S::branch(x_b.less(x_a), || high * at_low, || high * at_high),
+        second_a: high * if x_a < x_b { at_low } else { at_high },
+        second_b: high * if x_b < x_a { at_low } else { at_high },
     }
 }

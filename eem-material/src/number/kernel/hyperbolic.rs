@@ -56,7 +56,7 @@ pub fn cosh_dd<S: Scalar>(a: S, b: S) -> S {
     let sum = a + b;
     let dominant = high.maximum(-low).exp();
     let size = half(phi(d)) * dominant * -(-sum.abs()).exp_m1();
-    S::branch(sum.less(S::zero()), || -size, || size)
+    if sum < S::zero() { -size } else { size }
 }
 
 /// `f[a,b,b]` of the hyperbolic cosine: `½(exp[a,b,b] + exp[−a,−b,−b])`.

@@ -27,15 +27,15 @@ use crate::number::scalar::Scalar;
 pub fn asinh_dd<S: Scalar>(a: S, b: S) -> S {
     let (smaller, larger, d) = ends(a, b);
     let sum = (a + b).abs();
-    let low = S::branch((a + b).less(S::zero()), || -larger, || smaller);
+    let low = if a + b < S::zero() { -larger } else { smaller };
     let cosines = smaller.hypot(S::one()) + larger.hypot(S::one());
     let growth = S::one() + sum / cosines;
     let cosine = low.hypot(S::one());
-    let base = S::branch(
-        low.less(S::zero()),
-        || (cosine - low).recip(),
-        || low + cosine,
-    );
+    let base = if low < S::zero() {
+        (cosine - low).recip()
+    } else {
+        low + cosine
+    };
     growth * log_difference(d * growth, base)
 }
 
@@ -73,11 +73,11 @@ pub fn asinh_dd2<S: Scalar>(a: S, b: S) -> S {
 pub fn atan_dd<S: Scalar>(a: S, b: S) -> S {
     let (_, _, d) = ends(a, b);
     let cosine = S::one() + a * b;
-    S::branch(
-        d.equal(S::zero()),
-        || cosine.recip(),
-        || d.atan2(cosine) / d,
-    )
+    if d == S::zero() {
+        cosine.recip()
+    } else {
+        d.atan2(cosine) / d
+    }
 }
 
 /// `f[a,b,b]` of the arc tangent: `−F(b + sinc′δ/sinc δ)/(1 + b²)` with `F = f[a,b]`, `δ = (b − a)F` for `|δ| < 1`,

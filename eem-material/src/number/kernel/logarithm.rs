@@ -146,19 +146,18 @@ fn differences<S: Scalar>(mean: S, c: S, [u, v]: [S; 2], [a, b]: [S; 2]) -> Diff
     let z = half(b - a) * inverse;
     let tail = z * area_tangent_tail(z * z);
     let [shift, weight] = [inverse * tail, -half(inverse)];
-    let near = z.abs().less(S::from_f64(CLOSE));
-    Differences {
-        first: S::branch(near, || inverse + z * shift, move || distant(c, a, b)),
-        second_a: S::branch(
-            near,
-            || weight * (u.recip() - shift),
-            move || distant_second(c, b, a),
-        ),
-        second_b: S::branch(
-            near,
-            || weight * (v.recip() + shift),
-            move || distant_second(c, a, b),
-        ),
+    if z.abs() < S::from_f64(CLOSE) {
+        Differences {
+            first: inverse + z * shift,
+            second_a: weight * (u.recip() - shift),
+            second_b: weight * (v.recip() + shift),
+        }
+    } else {
+        Differences {
+            first: distant(c, a, b),
+            second_a: distant_second(c, b, a),
+            second_b: distant_second(c, a, b),
+        }
     }
 }
 

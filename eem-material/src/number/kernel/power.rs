@@ -98,17 +98,14 @@ fn mean_square<S: Scalar>(x: S, y: S) -> S {
 #[inline]
 pub fn powf_dd<S: Scalar>(a: S, b: S, p: S) -> S {
     let (low, high, d) = ends(a, b);
-    S::branch(
-        d.equal(S::zero()),
-        || slope(low, p),
-        || {
-            let x = p * log_ratio(d, low);
-            near_or_far(
-                x,
-                || low.powf(p) * x.exp_m1() / d,
-                || (high.powf(p) - low.powf(p)) / d,
-            )
-        },
+    if d == S::zero() {
+        return slope(low, p);
+    }
+    let x = p * log_ratio(d, low);
+    near_or_far(
+        x,
+        || low.powf(p) * x.exp_m1() / d,
+        || (high.powf(p) - low.powf(p)) / d,
     )
 }
 
@@ -123,17 +120,13 @@ pub fn powf_dd<S: Scalar>(a: S, b: S, p: S) -> S {
 #[inline]
 pub fn powf_dd2<S: Scalar>(a: S, b: S, p: S) -> S {
     let reduced = p - S::one();
-    S::branch(
-        b.equal(S::zero()),
-        || at_zero_dd2(a, p),
-        || {
-            S::branch(
-                reduced.abs().less(S::from_f64(0.5)),
-                || product_dd2(a, b, reduced),
-                || direct_dd2(a, b, p),
-            )
-        },
-    )
+    if b == S::zero() {
+        at_zero_dd2(a, p)
+    } else if reduced.abs() < S::from_f64(0.5) {
+        product_dd2(a, b, reduced)
+    } else {
+        direct_dd2(a, b, p)
+    }
 }
 
 /// `p x^(p−1)`, without rounding the exponent where `xᵖ` is in range.
@@ -146,11 +139,11 @@ fn slope<S: Scalar>(x: S, p: S) -> S {
 #[inline]
 fn at_zero_dd2<S: Scalar>(a: S, p: S) -> S {
     let zero = S::zero();
-    S::branch(
-        a.equal(zero),
-        || half(p) * slope(zero, p - S::one()),
-        || by_definition(slope(zero, p), powf_dd(a, zero, p), a, zero),
-    )
+    if a == zero {
+        half(p) * slope(zero, p - S::one())
+    } else {
+        by_definition(slope(zero, p), powf_dd(a, zero, p), a, zero)
+    }
 }
 
 /// `f[a,b,b]` where the two terms do not cancel: |p − 1| ≥ ½.
@@ -173,12 +166,14 @@ fn direct_dd2<S: Scalar>(a: S, b: S, p: S) -> S {
 #[inline]
 fn product_dd2<S: Scalar>(a: S, b: S, q: S) -> S {
     let second = || direct_dd2(a, b, q);
-    S::branch(
-        b.less(a),
-        || b * second() + powf_dd(a, b, q),
+    if b < a {
+        b * second() + powf_dd(a, b, q)
+    } else if a == S::zero() {
         // a·g[a,b,b] vanishes with a, although g may be singular.
-        || slope(b, q) + S::branch(a.equal(S::zero()), S::zero, || a * second()),
-    )
+        slope(b, q)
+    } else {
+        slope(b, q) + a * second()
+    }
 }
 
 /// `f[a,b]` of an integer power, for any signs (negative `n`: `a, b ≠ 0`).
@@ -239,11 +234,11 @@ pub fn powi_dd2<S: Scalar>(a: S, b: S, n: i32) -> S {
 /// `numerator/(aⁿbⁿ)`, divided by the larger power first, which is of nearly the size of the numerator.
 fn over_powers<S: Scalar>(numerator: S, a: S, b: S, n: u32) -> S {
     let (a_power, b_power) = (compensated_power(a, n), compensated_power(b, n));
-    S::branch(
-        a_power.abs().less(b_power.abs()),
-        || numerator / b_power / a_power,
-        || numerator / a_power / b_power,
-    )
+    if a_power.abs() < b_power.abs() {
+        numerator / b_power / a_power
+    } else {
+        numerator / a_power / b_power
+    }
 }
 
 /// `base^n` rounded nearly once: the rounding errors of the products are carried along.

@@ -140,21 +140,23 @@ pub(super) fn ends<S: Scalar>(a: S, b: S) -> (S, S, S) {
 /// `near` for |x| < 1 and `far` elsewhere.
 #[inline]
 pub(super) fn near_or_far<S: Scalar>(x: S, near: impl FnOnce() -> S, far: impl FnOnce() -> S) -> S {
-    S::branch(x.abs().less(S::one()), near, far)
+    if x.abs() < S::one() { near() } else { far() }
 }
 
 /// Neither infinite nor NaN: only then is the product with zero a number.
 #[inline]
-fn is_finite<S: Scalar>(x: S) -> S::Mask {
-    (x * S::zero()).equal(S::zero())
+fn is_finite<S: Scalar>(x: S) -> bool {
+    x * S::zero() == S::zero()
 }
 
 /// `value` if it is finite and not zero, `otherwise` if it over- or underflowed.
 #[inline]
-pub(super) fn in_range_or<S: Scalar>(value: S, otherwise: impl Fn() -> S) -> S {
-    S::branch(value.equal(S::zero()), &otherwise, || {
-        S::branch(is_finite(value), || value, &otherwise)
-    })
+pub(super) fn in_range_or<S: Scalar>(value: S, otherwise: impl FnOnce() -> S) -> S {
+    if value != S::zero() && is_finite(value) {
+        value
+    } else {
+        otherwise()
+    }
 }
 
 /// `f[a,b,b] = (f′(b) − f[a,b])/(b − a)` by definition: for distant ends only.
@@ -202,19 +204,31 @@ fn phi_far<S: Scalar>(d: S) -> S {
 #[inline]
 pub(super) fn log_ratio<S: Scalar>(d: S, w: S) -> S {
     let u = d / w;
-    S::branch(is_finite(u), || u.ln_1p(), || d.ln() - w.ln())
+    if is_finite(u) {
+        u.ln_1p()
+    } else {
+        d.ln() - w.ln()
+    }
 }
 
 /// `ln(1 + d/w)/d` for `d ≥ 0`, `w > 0`: the divided difference of `ln` on `[w, w + d]`.
 #[inline]
 pub(super) fn log_difference<S: Scalar>(d: S, w: S) -> S {
-    S::branch(d.equal(S::zero()), || w.recip(), || log_ratio(d, w) / d)
+    if d == S::zero() {
+        w.recip()
+    } else {
+        log_ratio(d, w) / d
+    }
 }
 
 /// `sinc x = sin x/x`.
 #[inline]
 pub(super) fn sinc<S: Scalar>(x: S) -> S {
-    S::branch(x.equal(S::zero()), S::one, || x.sin() / x)
+    if x == S::zero() {
+        S::one()
+    } else {
+        x.sin() / x
+    }
 }
 
 /// `sinc′ x = (cos x − sinc x)/x`.
@@ -230,7 +244,11 @@ pub(super) fn sinc_prime<S: Scalar>(x: S) -> S {
 /// `sinhc x = sinh x/x`.
 #[inline]
 pub(super) fn sinhc<S: Scalar>(x: S) -> S {
-    S::branch(x.equal(S::zero()), S::one, || x.sinh() / x)
+    if x == S::zero() {
+        S::one()
+    } else {
+        x.sinh() / x
+    }
 }
 
 /// `sinhc′ x = (cosh x − sinhc x)/x` for |x| < 1.
@@ -255,9 +273,6 @@ pub fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
 }
 
 /// `ab = product + error` exactly in double precision (Dekker 1971), short of overflow.
-///
-/// In single precision the splitting constant is too large and the error comes
-/// out as zero: the product is then rounded as usual.
 #[inline]
 pub(super) fn two_product<S: Scalar>(a: S, b: S) -> (S, S) {
     let product = a * b;

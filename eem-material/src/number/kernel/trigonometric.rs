@@ -115,8 +115,10 @@ fn half_distance_pair<S: Scalar>(a: S, b: S) -> (S, S) {
 #[inline]
 fn shifted_sinc<S: Scalar>(x: S, shift: S) -> (S, S) {
     let (value, slope) = (sinc(x), sinc_prime(x));
-    let bend = S::branch(x.equal(S::zero()), S::zero, || {
+    let bend = if x == S::zero() {
+        S::zero()
+    } else {
         -(value + (slope + slope) / x)
-    });
+    };
     (value + shift * slope, slope + shift * bend)
 }

@@ -7,8 +7,6 @@
 
 use core::array;
 
-use eem_material::number::scalar::{Mask, Real};
-
 /// A matrix without a usable pivot in some column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Singular;
@@ -19,19 +17,19 @@ const LARGEST_RATIO: f64 = 4.0;
 
 /// The first row of `x` becomes the solution of `A x = b` for one unknown, and A zero.
 #[inline]
-pub(crate) fn solve_one<S: Real, const W: usize>(
-    matrix: &mut [S],
-    b: &[[S; W]],
-    x: &mut [[S; W]],
+pub(crate) fn solve_one<const W: usize>(
+    matrix: &mut [f64],
+    b: &[[f64; W]],
+    x: &mut [[f64; W]],
 ) -> Result<(), Singular> {
     let ([pivot, ..], [right, ..], [x, ..]) = (matrix, b, x) else {
         return Err(Singular);
     };
-    if !pivot.is_finite() || pivot.equal(S::zero()).any() {
+    if !pivot.is_finite() || *pivot == 0.0 {
         return Err(Singular);
     }
     *x = right.map(|value| value / *pivot);
-    *pivot = S::zero();
+    *pivot = 0.0;
     Ok(())
 }
 
@@ -40,10 +38,10 @@ pub(crate) fn solve_one<S: Real, const W: usize>(
 ///
 /// It reads A row by row, as elements write it: a load across rows would stall until both stores are complete.
 #[inline]
-pub(crate) fn solve_two<S: Real, const W: usize>(
-    matrix: &mut [S],
-    b: &[[S; W]],
-    x: &mut [[S; W]],
+pub(crate) fn solve_two<const W: usize>(
+    matrix: &mut [f64],
+    b: &[[f64; W]],
+    x: &mut [[f64; W]],
 ) -> Result<(), Singular> {
     let ([matrix, ..], [b, ..], [x, ..]) = (
         matrix.as_chunks_mut::<4>().0,
@@ -54,19 +52,19 @@ pub(crate) fn solve_two<S: Real, const W: usize>(
     };
     let (a, u) = (matrix[0], matrix[1]);
     // This branch keeps the compiler from loading u and c together.
-    let is_small = (S::from_f64(LARGEST_RATIO) * a.abs()).at_most(u.abs());
-    if is_small.decide()? {
+    let is_small = LARGEST_RATIO * a.abs() <= u.abs();
+    if is_small {
         *x = *b;
-        return solve_fixed::<S, 2, W>(matrix, x);
+        return solve_fixed::<2, W>(matrix, x);
     }
     let (c, d) = (matrix[2], matrix[3]);
     let determinant = a * d - c * u;
     let square = determinant * determinant;
     // Products and reciprocal are normal numbers.
-    let is_normal = S::MAX.recip().less(square) & square.at_most(S::MAX);
-    if !is_normal.decide()? {
+    let is_normal = square > f64::MAX.recip() && square <= f64::MAX;
+    if !is_normal {
         *x = *b;
-        return solve_fixed::<S, 2, W>(matrix, x);
+        return solve_fixed::<2, W>(matrix, x);
     }
     let inverse = determinant.recip();
     for column in 0..W {
@@ -74,14 +72,14 @@ pub(crate) fn solve_two<S: Real, const W: usize>(
         x[0][column] = (d * upper - u * lower) * inverse;
         x[1][column] = (a * lower - c * upper) * inverse;
     }
-    *matrix = [S::zero(); 4];
+    *matrix = [0.0; 4];
     Ok(())
 }
 
 /// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns, and A with zeros.
-pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
-    matrix: &mut [S],
-    b: &mut [[S; W]],
+pub(crate) fn solve_fixed<const N: usize, const W: usize>(
+    matrix: &mut [f64],
+    b: &mut [[f64; W]],
 ) -> Result<(), Singular> {
     let [a, ..] = matrix.as_chunks_mut::<N>().0.as_chunks_mut::<N>().0 else {
         return Err(Singular);
@@ -94,29 +92,29 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
         Ok(()) => substitute(a, b),
         Err(row) => exchange_from(row, a, b)?,
     }
-    *a = [[S::zero(); N]; N];
+    *a = [[0.0; N]; N];
     Ok(())
 }
 
 /// Replaces A by its upper factor, whose diagonal is one. The error is the first row without a good pivot.
 #[inline]
-fn eliminate<S: Real, const N: usize, const W: usize>(
-    a: &mut [[S; N]; N],
-    b: &mut [[S; W]; N],
+fn eliminate<const N: usize, const W: usize>(
+    a: &mut [[f64; N]; N],
+    b: &mut [[f64; W]; N],
 ) -> Result<(), usize> {
     // Unrolled by hand, as the compiler does not unroll loops in loops: rows stay in registers.
-    eliminate_row::<S, 0, N, W>(a, b)?;
-    eliminate_row::<S, 1, N, W>(a, b)?;
-    eliminate_row::<S, 2, N, W>(a, b)?;
-    eliminate_row::<S, 3, N, W>(a, b)?;
-    eliminate_row::<S, 4, N, W>(a, b)?;
-    eliminate_row::<S, 5, N, W>(a, b)?;
-    eliminate_row::<S, 6, N, W>(a, b)?;
-    eliminate_row::<S, 7, N, W>(a, b)?;
-    eliminate_row::<S, 8, N, W>(a, b)?;
-    eliminate_row::<S, 9, N, W>(a, b)?;
-    eliminate_row::<S, 10, N, W>(a, b)?;
-    eliminate_row::<S, 11, N, W>(a, b)?;
+    eliminate_row::<0, N, W>(a, b)?;
+    eliminate_row::<1, N, W>(a, b)?;
+    eliminate_row::<2, N, W>(a, b)?;
+    eliminate_row::<3, N, W>(a, b)?;
+    eliminate_row::<4, N, W>(a, b)?;
+    eliminate_row::<5, N, W>(a, b)?;
+    eliminate_row::<6, N, W>(a, b)?;
+    eliminate_row::<7, N, W>(a, b)?;
+    eliminate_row::<8, N, W>(a, b)?;
+    eliminate_row::<9, N, W>(a, b)?;
+    eliminate_row::<10, N, W>(a, b)?;
+    eliminate_row::<11, N, W>(a, b)?;
     Ok(())
 }
 
@@ -124,9 +122,9 @@ fn eliminate<S: Real, const N: usize, const W: usize>(
 /// pivot, the row does not change, and the error is its index.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "only then is the row a constant")]
-fn eliminate_row<S: Real, const I: usize, const N: usize, const W: usize>(
-    a: &mut [[S; N]; N],
-    b: &mut [[S; W]; N],
+fn eliminate_row<const I: usize, const N: usize, const W: usize>(
+    a: &mut [[f64; N]; N],
+    b: &mut [[f64; W]; N],
 ) -> Result<(), usize> {
     if I >= N {
         return Ok(());
@@ -154,15 +152,11 @@ fn eliminate_row<S: Real, const I: usize, const N: usize, const W: usize>(
 /// exchange of two columns.
 #[cold]
 #[inline(never)]
-fn exchange_from<S: Real, const N: usize, const W: usize>(
+fn exchange_from<const N: usize, const W: usize>(
     first: usize,
-    a: &mut [[S; N]; N],
-    b: &mut [[S; W]; N],
+    a: &mut [[f64; N]; N],
+    b: &mut [[f64; W]; N],
 ) -> Result<(), Singular> {
-    if S::LANES > 1 {
-        // Some of the lanes may have good pivots.
-        return Err(Singular);
-    }
     let mut order: [usize; N] = array::from_fn(|at| at);
     for at in first..N {
         for k in 0..at {
@@ -190,17 +184,14 @@ fn exchange_from<S: Real, const N: usize, const W: usize>(
 }
 
 /// The column of the largest entry of a row, on the diagonal or behind it.
-fn largest_behind<S: Real, const N: usize>(
-    row: &[S; N],
-    diagonal: usize,
-) -> Result<usize, Singular> {
+fn largest_behind<const N: usize>(row: &[f64; N], diagonal: usize) -> Result<usize, Singular> {
     let (mut pivot, mut size) = (diagonal, row[diagonal].abs());
     for (column, entry) in row.iter().enumerate().skip(diagonal + 1) {
-        if size.less(entry.abs()).decide()? {
+        if size < entry.abs() {
             (pivot, size) = (column, entry.abs());
         }
     }
-    if size.is_finite() && S::zero().less(size).all() {
+    if size.is_finite() && size > 0.0 {
         Ok(pivot)
     } else {
         Err(Singular)
@@ -209,7 +200,7 @@ fn largest_behind<S: Real, const N: usize>(
 
 /// Finds the solution from the upper factor, whose diagonal is one.
 #[inline]
-fn substitute<S: Real, const N: usize, const W: usize>(a: &[[S; N]; N], b: &mut [[S; W]; N]) {
+fn substitute<const N: usize, const W: usize>(a: &[[f64; N]; N], b: &mut [[f64; W]; N]) {
     for (row, entries) in a.iter().enumerate().rev() {
         let (head, known) = b.split_at_mut(row + 1);
         // The result computed last is used last.
@@ -226,19 +217,19 @@ const fn even(column: usize) -> usize {
 
 /// Whether the diagonal entry of a row is a good pivot.
 #[inline]
-fn dominates<S: Real, const N: usize>(row: &[S; N], diagonal: usize) -> bool {
-    let mut squares = [S::zero(); 2];
+fn dominates<const N: usize>(row: &[f64; N], diagonal: usize) -> bool {
+    let mut squares = [0.0; 2];
     for (column, &entry) in row.iter().enumerate().skip(diagonal + 1) {
         squares[column % 2] += entry * entry;
     }
     let own = row[diagonal] * row[diagonal];
-    let least = S::from_f64(1.0 / (LARGEST_RATIO * LARGEST_RATIO)) * (squares[0] + squares[1]);
-    (least.less(own) & own.at_most(S::MAX)).all()
+    let least = 1.0 / (LARGEST_RATIO * LARGEST_RATIO) * (squares[0] + squares[1]);
+    least < own && own <= f64::MAX
 }
 
 /// `x −= factor y`.
 #[inline]
-fn subtract<S: Real>(x: &mut [S], factor: S, y: &[S]) {
+fn subtract(x: &mut [f64], factor: f64, y: &[f64]) {
     for (x, &y) in x.iter_mut().zip(y) {
         *x -= factor * y;
     }
@@ -256,7 +247,7 @@ mod tests {
 
     fn check<const N: usize>(mut a: [[f64; N]; N]) {
         let mut b = image(&a);
-        solve_fixed::<f64, N, 1>(a.as_flattened_mut(), &mut b).unwrap();
+        solve_fixed::<N, 1>(a.as_flattened_mut(), &mut b).unwrap();
         for (found, exact) in b.iter().zip(1_u8..) {
             let exact = f64::from(exact);
             assert!((found[0] - exact).abs() <= 16.0 * f64::EPSILON * exact);
@@ -299,7 +290,7 @@ mod tests {
             [1.0, 0.0, 0.0, f64::INFINITY],
             [f64::INFINITY, 1.0, 1.0, 1.0],
         ] {
-            let solved = solve_fixed::<f64, 2, 1>(&mut [a, b, c, d], &mut [[1.0]; 2]);
+            let solved = solve_fixed::<2, 1>(&mut [a, b, c, d], &mut [[1.0]; 2]);
             assert_eq!(solved, Err(Singular));
         }
     }
@@ -350,7 +341,7 @@ mod tests {
             [1.0, 0.0, 0.0, f64::INFINITY],
             [f64::INFINITY, 1.0, 1.0, 1.0],
         ] {
-            let solved = solve_two::<f64, 1>(&mut matrix, &[[1.0]; 2], &mut [[0.0]; 2]);
+            let solved = solve_two::<1>(&mut matrix, &[[1.0]; 2], &mut [[0.0]; 2]);
             assert_eq!(solved, Err(Singular));
         }
     }

@@ -2,15 +2,12 @@
 
 use core::array;
 
-#[cfg(feature = "sparse")]
-use super::Stored;
 use super::{LinearSystem, MOST_FIXED, Storage, solve_fixed};
 use crate::algebra::lu::{self, Singular};
-use eem_material::number::scalar::Real;
 
-impl<S: Real> LinearSystem<S, 1> {
+impl LinearSystem<1> {
     /// Replaces B by `B − A x`.
-    pub(crate) fn subtract_product(&mut self, x: &[[S; 1]]) {
+    pub(crate) fn subtract_product(&mut self, x: &[[f64; 1]]) {
         let n = self.unknowns;
         let values = &self.values;
         let rows = self.right[..n].iter_mut().enumerate();
@@ -34,7 +31,7 @@ impl<S: Real> LinearSystem<S, 1> {
     /// eliminated once, or, with at most [`MOST_FIXED`] unknowns, once for every four right-hand sides.
     pub(crate) fn solve_each<'a>(
         &mut self,
-        columns: impl Iterator<Item = &'a mut Vec<[S; 1]>>,
+        columns: impl Iterator<Item = &'a mut Vec<[f64; 1]>>,
     ) -> Result<(), Singular> {
         let n = self.unknowns;
         let mut columns = columns.map(|column| &mut column[..n]);
@@ -45,17 +42,17 @@ impl<S: Real> LinearSystem<S, 1> {
                 let values = &mut values[..n * n];
                 lu::factor(values, pivots)?;
                 columns.for_each(|column| lu::solve(values, pivots, column));
-                values.fill(S::zero());
+                values.fill(0.0);
             }
             #[cfg(feature = "sparse")]
             Storage::Sparse(sparse) => {
                 let values = &mut values[..sparse.pattern().entries()];
-                let mut factored = sparse.factor::<Stored<S>>(values).map_err(|_| Singular)?;
+                let mut factored = sparse.factor(values).map_err(|_| Singular)?;
                 columns.try_for_each(|column| {
                     let solved = factored.solve(column);
                     solved.map(drop).map_err(|_| Singular)
                 })?;
-                values.fill(S::zero());
+                values.fill(0.0);
             }
         }
         self.is_clear = true;
@@ -64,22 +61,22 @@ impl<S: Real> LinearSystem<S, 1> {
 }
 
 /// Overwrites right-hand sides with their solutions, four at a time.
-fn solve_fixed_each<'a, S: Real>(
+fn solve_fixed_each<'a>(
     unknowns: usize,
-    values: &mut [S],
-    columns: &mut impl Iterator<Item = &'a mut [[S; 1]]>,
+    values: &mut [f64],
+    columns: &mut impl Iterator<Item = &'a mut [[f64; 1]]>,
 ) -> Result<(), Singular> {
     const AT_ONCE: usize = 4;
-    let mut matrix = [S::zero(); MOST_FIXED * MOST_FIXED];
+    let mut matrix = [0.0; MOST_FIXED * MOST_FIXED];
     let matrix = &mut matrix[..values.len()];
     matrix.copy_from_slice(values);
     loop {
-        let mut some: [Option<&'a mut [[S; 1]]>; AT_ONCE] = array::from_fn(|_| columns.next());
+        let mut some: [Option<&'a mut [[f64; 1]]>; AT_ONCE] = array::from_fn(|_| columns.next());
         if some[0].is_none() {
-            values.fill(S::zero());
+            values.fill(0.0);
             return Ok(());
         }
-        let mut right = [[S::zero(); AT_ONCE]; MOST_FIXED];
+        let mut right = [[0.0; AT_ONCE]; MOST_FIXED];
         for (place, column) in some.iter().enumerate() {
             for (row, value) in right
                 .iter_mut()

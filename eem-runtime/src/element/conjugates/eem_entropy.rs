@@ -15,7 +15,6 @@ use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Place
 use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
 use core::array;
 use eem_material::free_energy::{Array, Entry, FormRows, FreeEnergy, Material};
-use eem_material::number::scalar::{Mask, Real, unless};
 
 /// The largest first correction of ln θ with which Newton's method continues, and the factor by which corrections have to
 /// shrink; otherwise a safeguarded search finds the temperatures one by one.
@@ -29,9 +28,9 @@ const TOGETHER: usize = 32;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EemEntropy;
 
-impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
+impl<M: Material> ElementScheme<M> for EemEntropy {
     const EXACT: bool = true;
-    const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = match M::ROWS {
+    const ROWS: Option<FormRows<f64, M, Self::Old, Self::Memory>> = match M::ROWS {
         Some(rows) => Some(rows.entropy_form),
         None => None,
     };
@@ -48,18 +47,18 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     }
 
     #[inline]
-    fn old(model: &M, x0: &M::Variables, _: S) -> Self::Old {
+    fn old(model: &M, x0: &M::Variables, _: f64) -> Self::Old {
         model.entropy_form_old(x0)
     }
 
-    fn memory(theta0: S) -> Self::Memory {
+    fn memory(theta0: f64) -> Self::Memory {
         M::Corners::filled(theta0)
     }
 
     #[inline]
     fn prepare(
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         corners: &mut Self::Memory,
     ) -> Result<(), Infeasible> {
@@ -70,7 +69,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     }
 
     fn prepare_rows<'a>(
-        each: impl Fn(usize) -> Step<'a, S, M>,
+        each: impl Fn(usize) -> Step<'a, M>,
         memories: &mut [Self::Memory],
     ) -> Result<(), Infeasible> {
         if M::THERMAL {
@@ -83,10 +82,10 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     fn form(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         corners: &Self::Memory,
-    ) -> Form<S, M> {
+    ) -> Form<f64, M> {
         model.entropy_form(&start.old, x, corners)
     }
 
@@ -96,9 +95,9 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     #[inline(never)]
     fn starting_form(
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
-    ) -> Option<Form<S, M>> {
+    ) -> Option<Form<f64, M>> {
         let old = model.temperature_form_old(&start.x0);
         Some(model.temperature_form(&old, x))
     }
@@ -107,7 +106,7 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     fn response(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         corners: &Self::Memory,
     ) -> M::Response {
@@ -147,21 +146,21 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
 }
 
 /// A model, the data of the old state, and the new variables.
-type Step<'a, S, M> = (
+type Step<'a, M> = (
     &'a M,
-    &'a Start<S, M, <M as FreeEnergy<S>>::EntropyFormOld>,
-    &'a <M as FreeEnergy<S>>::Variables,
+    &'a Start<M, <M as FreeEnergy<f64>>::EntropyFormOld>,
+    &'a <M as FreeEnergy<f64>>::Variables,
 );
 
 /// Finds the temperatures of all mixed states of an element, from those of the last trial.
 #[inline]
-fn find_corners<S: Real, M: FreeEnergy<S>>(
-    step: Step<'_, S, M>,
+fn find_corners<M: FreeEnergy<f64>>(
+    step: Step<'_, M>,
     corners: &mut M::Corners,
 ) -> Result<(), Infeasible> {
     let (model, start, x1) = step;
-    let mut search = Search::<S, M>::new(corners);
-    while !search.settled.all() {
+    let mut search = Search::<M>::new(corners);
+    while !search.settled {
         let mixed = model.mixed_states(&start.x0, &start.old, x1, corners);
         search.correct(step, &mixed, corners)?;
     }
@@ -169,8 +168,8 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
 }
 
 /// The same of several elements, whose mixed states are evaluated in one call, with the same bits.
-fn find_corners_of_each<'a, S: Real, M: Material<S>>(
-    each: impl Fn(usize) -> Step<'a, S, M>,
+fn find_corners_of_each<'a, M: Material>(
+    each: impl Fn(usize) -> Step<'a, M>,
     corners: &mut [M::Corners],
 ) -> Result<(), Infeasible> {
     let Some(rows) = M::ROWS else {
@@ -181,11 +180,11 @@ fn find_corners_of_each<'a, S: Real, M: Material<S>>(
         let each = |index: usize| each(part * TOGETHER + index);
         let count = corners.len();
         let mut searches: [_; TOGETHER] =
-            array::from_fn(|index| Search::<S, M>::new(&corners[index % count]));
+            array::from_fn(|index| Search::<M>::new(&corners[index % count]));
         let searches = &mut searches[..count];
         let mut mixed = [[corners[0]; 2]; TOGETHER];
         let mixed = &mut mixed[..count];
-        while !searches.iter().all(|search| search.settled.all()) {
+        while !searches.iter().all(|search| search.settled) {
             let step = |index: usize| {
                 let (model, start, x1) = each(index);
                 (model, &start.old, x1, &corners[index])
@@ -193,7 +192,7 @@ fn find_corners_of_each<'a, S: Real, M: Material<S>>(
             (rows.mixed_states)(&step, mixed);
             let found = searches.iter_mut().zip(&*mixed).zip(&mut *corners);
             for (index, ((search, mixed), corners)) in found.enumerate() {
-                if !search.settled.all() {
+                if !search.settled {
                     search.correct(each(index), mixed, corners)?;
                 }
             }
@@ -203,21 +202,21 @@ fn find_corners_of_each<'a, S: Real, M: Material<S>>(
 }
 
 /// Newton's method in ln θ for the temperatures of the mixed states of an element.
-struct Search<S: Real, M: FreeEnergy<S>> {
+struct Search<M: FreeEnergy<f64>> {
     guesses: M::Corners,
     /// The largest correction with which Newton's method continues.
-    limit: S,
-    /// Lanes that have converged.
-    settled: S::Mask,
+    limit: f64,
+    /// Whether it has converged.
+    settled: bool,
 }
 
-impl<S: Real, M: FreeEnergy<S>> Search<S, M> {
+impl<M: FreeEnergy<f64>> Search<M> {
     #[inline]
     fn new(guesses: &M::Corners) -> Self {
         Self {
             guesses: *guesses,
-            limit: S::from_f64(LARGEST_FIRST),
-            settled: S::Mask::none(),
+            limit: LARGEST_FIRST,
+            settled: false,
         }
     }
 
@@ -225,52 +224,50 @@ impl<S: Real, M: FreeEnergy<S>> Search<S, M> {
     #[inline]
     fn correct(
         &mut self,
-        (model, start, x1): Step<'_, S, M>,
+        (model, start, x1): Step<'_, M>,
         [excess, capacities]: &[M::Corners; 2],
         corners: &mut M::Corners,
     ) -> Result<(), Infeasible> {
-        let root = S::EPSILON.sqrt();
+        let root = f64::EPSILON.sqrt();
         // S(ln θ) is linear where the capacity is constant, so that only the series of e^x is left.
         let enough = if model.has_constant_capacity() {
             root.sqrt()
         } else {
-            S::from_f64(LAST_CORRECTION) * root
+            LAST_CORRECTION * root
         };
-        let settled = self.settled;
         let mut found = *corners;
-        let (mut largest, mut sum, mut least) = (S::zero(), S::zero(), S::MAX);
+        let (mut largest, mut sum, mut least) = (0.0, 0.0, f64::MAX);
         for index in 0..M::Corners::LEN {
             let correction = -excess[index] / capacities[index];
             let size = correction.abs();
             // The sum keeps a NaN; a comparison loses it.
             sum += size;
-            largest = S::select(largest.less(size), size, largest);
-            least = S::select(capacities[index].less(least), capacities[index], least);
+            if largest < size {
+                largest = size;
+            }
+            if capacities[index] < least {
+                least = capacities[index];
+            }
             found[index] = corners[index] + corners[index] * growth(correction);
         }
-        let size = largest + S::zero() * sum;
-        let is_far = !(settled | (size.at_most(self.limit) & S::zero().less(least)));
-        if is_far.any() {
-            let sought = search_corners(model, start, x1, self.guesses)?;
-            for index in 0..M::Corners::LEN {
-                found[index] = S::select(is_far, sought[index], found[index]);
-            }
+        let size = largest + 0.0 * sum;
+        let is_far = !(size <= self.limit && least > 0.0);
+        if is_far {
+            found = search_corners(model, start, x1, self.guesses)?;
         }
-        for index in 0..M::Corners::LEN {
-            corners[index] = unless(settled, corners[index], found[index]);
-        }
-        self.settled = settled | size.at_most(enough) | is_far;
-        self.limit = S::from_f64(SHRINKING) * size;
+        *corners = found;
+        self.settled = size <= enough || is_far;
+        self.limit = SHRINKING * size;
         Ok(())
     }
 }
 
 /// `e^x − 1` up to `x⁵/120`.
 #[inline]
-fn growth<S: Real>(x: S) -> S {
-    let [half, third, quarter] = [0.5, 1.0 / 6.0, 1.0 / 24.0].map(S::from_f64);
+fn growth(x: f64) -> f64 {
+    let [third, quarter] = [1.0 / 6.0, 1.0 / 24.0];
     let square = x * x;
-    (x + half * square) + (x * square) * (third + quarter * x)
+    (x + 0.5 * square) + (x * square) * (third + quarter * x)
 }
 
 /// Searches the temperatures one by one, alternately in two chains: the ascending one, where the first k variables are new
@@ -279,9 +276,9 @@ fn growth<S: Real>(x: S) -> S {
 /// A trial beyond a spinodal is refused, so that all corners lie on the stable branch.
 #[cold]
 #[inline(never)]
-fn search_corners<S: Real, M: FreeEnergy<S>>(
+fn search_corners<M: FreeEnergy<f64>>(
     model: &M,
-    start: &Start<S, M, M::EntropyFormOld>,
+    start: &Start<M, M::EntropyFormOld>,
     x1: &M::Variables,
     mut corners: M::Corners,
 ) -> Result<M::Corners, Infeasible> {

@@ -11,17 +11,14 @@
 
 use crate::element::conjugates::element::{ElementScheme, Form, Placement, Start};
 use eem_material::free_energy::{Entry, FormRows, Material};
-use eem_material::number::scalar::Real;
 
 /// See the module; with one damping or none.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EemTemperature<const DAMPINGS: usize>;
 
-impl<S: Real, M: Material<S>, const DAMPINGS: usize> ElementScheme<S, M>
-    for EemTemperature<DAMPINGS>
-{
+impl<M: Material, const DAMPINGS: usize> ElementScheme<M> for EemTemperature<DAMPINGS> {
     const EXACT: bool = true;
-    const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = match M::ROWS {
+    const ROWS: Option<FormRows<f64, M, Self::Old, Self::Memory>> = match M::ROWS {
         Some(rows) => Some(rows.temperature_form),
         None => None,
     };
@@ -37,20 +34,20 @@ impl<S: Real, M: Material<S>, const DAMPINGS: usize> ElementScheme<S, M>
     }
 
     #[inline]
-    fn old(model: &M, x0: &M::Variables, _: S) -> Self::Old {
+    fn old(model: &M, x0: &M::Variables, _: f64) -> Self::Old {
         model.temperature_form_old(x0)
     }
 
-    fn memory(_: S) -> Self::Memory {}
+    fn memory(_: f64) -> Self::Memory {}
 
     #[inline]
     fn form(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         (): &Self::Memory,
-    ) -> Form<S, M> {
+    ) -> Form<f64, M> {
         model.temperature_form(&start.old, x)
     }
 
@@ -58,7 +55,7 @@ impl<S: Real, M: Material<S>, const DAMPINGS: usize> ElementScheme<S, M>
     fn response(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         (): &Self::Memory,
     ) -> M::Response {

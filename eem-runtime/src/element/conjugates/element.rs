@@ -5,7 +5,7 @@ use crate::element::handle::Element;
 pub(crate) use eem_material::free_energy::Form;
 use eem_material::free_energy::{Array, Entry, FormRows, FreeEnergy};
 use eem_material::inversion::InversionError;
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// Where along a step the measures and their gradient are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,9 +26,7 @@ pub(crate) enum Placement {
 /// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 that depends on the scheme: the new one for
 /// schemes that evaluate the ends of the step, the mean one for those that evaluate its middle. Newton's method
 /// corrects τ, or the entropy change Δs if [`temperature`](Self::temperature) finds τ from it.
-pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
-    Copy + Send + Sync + 'static
-{
+pub(crate) trait ElementScheme<M: FreeEnergy<f64>>: Copy + Send + Sync + 'static {
     /// Whether `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, so that every step has to keep the laws.
     const EXACT: bool = false;
 
@@ -44,7 +42,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
 
     /// [`old`](Self::old), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
     /// has them.
-    const ROWS: Option<FormRows<S, M, Self::Old, Self::Memory>> = None;
+    const ROWS: Option<FormRows<f64, M, Self::Old, Self::Memory>> = None;
 
     /// `[T; 1]` for a rule that evaluates the model at one point of the step, `[T; 0]` for others.
     type AtPoint<T: Entry>: Array<T>;
@@ -68,20 +66,20 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     }
 
     /// Computes [`Old`](Self::Old) from the old variables and the old entropy, once per step.
-    fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old;
+    fn old(model: &M, x0: &M::Variables, entropy: f64) -> Self::Old;
 
     /// The first starting values of a step, from the old temperature.
-    fn memory(theta0: S) -> Self::Memory;
+    fn memory(theta0: f64) -> Self::Memory;
 
     /// The temperature τ of the trial, given its other variables and Δs, if the scheme has the entropy as its unknown;
     /// the present τ otherwise.
     fn temperature(
         self,
         _: &M,
-        _: &Start<S, M, Self::Old>,
+        _: &Start<M, Self::Old>,
         x: &M::Variables,
-        _entropy_change: S,
-    ) -> Result<S, Infeasible> {
+        _entropy_change: f64,
+    ) -> Result<f64, Infeasible> {
         Ok(x.as_ref()[M::Variables::LEN - 1])
     }
 
@@ -89,7 +87,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     #[inline]
     fn prepare(
         _: &M,
-        _: &Start<S, M, Self::Old>,
+        _: &Start<M, Self::Old>,
         _: &M::Variables,
         _: &mut Self::Memory,
     ) -> Result<(), Infeasible> {
@@ -99,7 +97,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     /// [`prepare`](Self::prepare) of several elements, with [rows](Self::ROWS).
     #[inline]
     fn prepare_rows<'a>(
-        _: impl Fn(usize) -> (&'a M, &'a Start<S, M, Self::Old>, &'a M::Variables),
+        _: impl Fn(usize) -> (&'a M, &'a Start<M, Self::Old>, &'a M::Variables),
         _: &mut [Self::Memory],
     ) -> Result<(), Infeasible>
     where
@@ -112,20 +110,20 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     fn form(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         memory: &Self::Memory,
-    ) -> Form<S, M>;
+    ) -> Form<f64, M>;
 
     /// A fallback form that is easier to solve and gives an initial guess for this one, if there is one.
     #[cold]
-    fn starting_form(_: &M, _: &Start<S, M, Self::Old>, _: &M::Variables) -> Option<Form<S, M>> {
+    fn starting_form(_: &M, _: &Start<M, Self::Old>, _: &M::Variables) -> Option<Form<f64, M>> {
         None
     }
 
     /// Rejects an unstable trial of an exact scheme, by `∂Δs/∂θ¹ = C/θ¹` in its form.
     #[inline]
-    fn check(x: &M::Variables, form: &Form<S, M>) -> Result<(), Infeasible> {
+    fn check(x: &M::Variables, form: &Form<f64, M>) -> Result<(), Infeasible> {
         if !Self::EXACT || !M::THERMAL {
             return Ok(());
         }
@@ -139,12 +137,12 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     fn change_entropy_at_rates(
         self,
         _: &M,
-        _: &Start<S, M, Self::Old>,
+        _: &Start<M, Self::Old>,
         _: &M::Variables,
         _: &M::Variables,
-        _: &mut Form<S, M>,
+        _: &mut Form<f64, M>,
     ) -> M::Variables {
-        M::Variables::filled(S::zero())
+        M::Variables::filled(0.0)
     }
 
     /// The response alone, without its tangent, at the end of a step. That the new state is stable is
@@ -153,7 +151,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
     fn response(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         memory: &Self::Memory,
     ) -> M::Response {
@@ -176,7 +174,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         _: &Self::Memory,
         _weights: &M::Response,
     ) -> M::Parameters {
-        M::Parameters::filled(S::from_f64(f64::NAN))
+        M::Parameters::filled(f64::NAN)
     }
 
     /// The derivative of the response along a direction of the parameters, likewise.
@@ -188,13 +186,13 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
         _: &Self::Memory,
         _direction: &M::Parameters,
     ) -> M::Response {
-        M::Response::filled(S::from_f64(f64::NAN))
+        M::Response::filled(f64::NAN)
     }
 }
 
 /// The old state of an element as its scheme sees it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Start<S: Real, M: FreeEnergy<S>, Old> {
+pub(crate) struct Start<M: FreeEnergy<f64>, Old> {
     /// x⁰.
     pub(crate) x0: M::Variables,
     /// What the scheme keeps of the old state.
@@ -215,13 +213,13 @@ pub(crate) enum Infeasible {
 
 impl Infeasible {
     /// An error unless the heat capacity is positive and finite.
-    pub(crate) fn unless_stable<S: Real>(heat_capacity: S, theta: S) -> Result<(), Self> {
+    pub(crate) fn unless_stable(heat_capacity: f64, theta: f64) -> Result<(), Self> {
         if is_positive(heat_capacity) {
             return Ok(());
         }
         Err(Self::HeatCapacity {
-            value: heat_capacity.to_f64(),
-            temperature: theta.to_f64(),
+            value: heat_capacity,
+            temperature: theta,
         })
     }
 

@@ -1,7 +1,7 @@
 //! The weight of the end of a step with which a decay is exact.
 
 use eem_material::number::kernel::{tanh_dd, tanh_dd2};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// α with which `y¹ − y⁰ = −x (½ y⁰ + ½ y¹ + α (y¹ − y⁰))` is the exact decay `y¹ = y⁰ e^−x`, for x ≥ 0 (Liniger &
 /// Willoughby 1970):
@@ -12,11 +12,10 @@ use eem_material::number::scalar::Real;
 ///
 /// `x/12` for small x, `½ − 1/x` for large ones. With divided differences of tanh no difference is formed:
 /// `tanh[z,0,0] = −(z − tanh z)/z²`, `tanh[0,z] = tanh(z)/z`.
-pub(crate) fn end_weight<S: Real>(x: S) -> S {
-    let half = S::from_f64(0.5);
+pub(crate) fn end_weight(x: f64) -> f64 {
     // From 1/ε on, α is ½ to rounding.
-    let z = half * x.minimum(S::EPSILON.recip());
-    -half * tanh_dd2(z, S::zero()) / tanh_dd(S::zero(), z)
+    let z = 0.5 * Scalar::minimum(x, f64::EPSILON.recip());
+    -0.5 * tanh_dd2(z, 0.0) / tanh_dd(0.0, z)
 }
 
 #[cfg(test)]

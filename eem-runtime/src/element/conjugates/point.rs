@@ -29,7 +29,6 @@
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
 use crate::element::conjugates::temperature::temperature_at;
 use eem_material::free_energy::{Array, Entry, FreeEnergy, Material};
-use eem_material::number::scalar::Real;
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,11 +62,11 @@ impl PointRule {
     }
 }
 
-impl<S: Real, M: Material<S>> ElementScheme<S, M> for PointRule {
+impl<M: Material> ElementScheme<M> for PointRule {
     const SCALES_HEAT: bool = false;
 
     /// s⁰, J/K.
-    type Old = S;
+    type Old = f64;
     type Memory = ();
     type AtPoint<T: Entry> = [T; 1];
     type Damping<T: Entry> = [T; 0];
@@ -91,21 +90,21 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for PointRule {
         )
     }
 
-    fn old(_: &M, _: &M::Variables, entropy: S) -> Self::Old {
+    fn old(_: &M, _: &M::Variables, entropy: f64) -> Self::Old {
         entropy
     }
 
-    fn memory(_: S) -> Self::Memory {}
+    fn memory(_: f64) -> Self::Memory {}
 
     // The entropy at the point is s⁰ + c Δs.
     fn temperature(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
-        entropy_change: S,
-    ) -> Result<S, Infeasible> {
-        let c = S::from_f64(self.time());
+        entropy_change: f64,
+    ) -> Result<f64, Infeasible> {
+        let c = self.time();
         let guess = x.as_ref()[M::Variables::LEN - 1];
         let entropy = start.old + c * entropy_change;
         temperature_at(model, point(start, x, c), entropy, guess)
@@ -114,33 +113,29 @@ impl<S: Real, M: Material<S>> ElementScheme<S, M> for PointRule {
     fn form(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         (): &Self::Memory,
-    ) -> Form<S, M> {
-        respond(model, start, x, S::from_f64(self.time()))
+    ) -> Form<f64, M> {
+        respond(model, start, x, self.time())
     }
 
     fn change_entropy_at_rates(
         self,
         model: &M,
-        start: &Start<S, M, Self::Old>,
+        start: &Start<M, Self::Old>,
         x: &M::Variables,
         increments: &M::Variables,
-        form: &mut Form<S, M>,
+        form: &mut Form<f64, M>,
     ) -> M::Variables {
-        let c = S::from_f64(self.time());
+        let c = self.time();
         let point = point(start, x, c);
         change_entropy_at_rates(model, &point, increments, c, form)
     }
 }
 
 /// `(π, γ⁰ + c (γ − γ⁰), τ)` for `x = (π, γ, τ)`.
-fn point<S: Real, M: FreeEnergy<S>>(
-    start: &Start<S, M, S>,
-    x: &M::Variables,
-    c: S,
-) -> M::Variables {
+fn point<M: FreeEnergy<f64>>(start: &Start<M, f64>, x: &M::Variables, c: f64) -> M::Variables {
     let mut point = *x;
     for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
         let old = start.x0.as_ref()[index];
@@ -156,31 +151,23 @@ fn point<S: Real, M: FreeEnergy<S>>(
 /// ```
 ///
 /// `c = ½` is the midpoint, where `s_m = s⁰ + ½Δs`; `c = 1` the end of the step.
-fn respond<S: Real, M: FreeEnergy<S>>(
+fn respond<M: FreeEnergy<f64>>(
     model: &M,
-    start: &Start<S, M, S>,
+    start: &Start<M, f64>,
     x: &M::Variables,
-    c: S,
-) -> Form<S, M> {
+    c: f64,
+) -> Form<f64, M> {
     let variables = M::Variables::LEN;
     let dashpots = M::MEASURES..M::MEASURES + M::DASHPOTS;
     let (gradient, hessian) = model.hessian(&point(start, x, c));
     let (gradient, hessian) = (gradient.as_ref(), hessian.as_ref());
-    let mut response = M::Response::filled(S::zero());
-    let mut tangent = M::Tangent::filled(M::Variables::filled(S::zero()));
+    let mut response = M::Response::filled(0.0);
+    let mut tangent = M::Tangent::filled(M::Variables::filled(0.0));
     let by = |column: usize| {
-        if dashpots.contains(&column) {
-            c
-        } else {
-            S::one()
-        }
+        if dashpots.contains(&column) { c } else { 1.0 }
     };
     for row in 0..M::MEASURES + M::DASHPOTS {
-        let sign = if row < M::MEASURES {
-            S::one()
-        } else {
-            -S::one()
-        };
+        let sign = if row < M::MEASURES { 1.0 } else { -1.0 };
         response.as_mut()[row] = sign * gradient[row];
         for column in 0..variables {
             let entry = hessian[row].as_ref()[column];
@@ -190,7 +177,7 @@ fn respond<S: Real, M: FreeEnergy<S>>(
     if M::THERMAL {
         let last = variables - 1;
         response.as_mut()[last] = x.as_ref()[last];
-        tangent.as_mut()[last].as_mut()[last] = S::one();
+        tangent.as_mut()[last].as_mut()[last] = 1.0;
         response.as_mut()[variables] = (-gradient[last] - start.old) / c;
         for column in 0..variables {
             let entry = hessian[last].as_ref()[column];
@@ -204,12 +191,12 @@ fn respond<S: Real, M: FreeEnergy<S>>(
 /// increments `δ` of measures, viscous stretches and temperature along the step.
 ///
 /// Returns `∂s/∂x`. With `θ ṡ = Σ g²/η + Q` written as `θ (s_λ λ̇ + s_γ γ̇ + s_θ θ̇)` this is the rule for θ̇.
-fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
+fn change_entropy_at_rates<M: FreeEnergy<f64>>(
     model: &M,
     point: &M::Variables,
     increments: &M::Variables,
-    c: S,
-    (response, tangent): &mut Form<S, M>,
+    c: f64,
+    (response, tangent): &mut Form<f64, M>,
 ) -> M::Variables {
     let (variables, last) = (M::Variables::LEN, M::Variables::LEN - 1);
     let entropy_hessian = model.entropy_hessian(point);
@@ -223,13 +210,13 @@ fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
             c * entry
         }
     };
-    let mut change = S::zero();
+    let mut change = 0.0;
     for (i, &increment) in increments.as_ref().iter().enumerate() {
         change += slope(i) * increment;
     }
     response.as_mut()[variables] = change;
     for column in 0..variables {
-        let mut entry = S::zero();
+        let mut entry = 0.0;
         for (i, &increment) in increments.as_ref().iter().enumerate() {
             entry += entropy_hessian.as_ref()[i].as_ref()[column] * increment;
         }
@@ -243,7 +230,7 @@ fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
         };
         tangent.as_mut()[variables].as_mut()[column] = entry;
     }
-    let mut by_increment = M::Variables::filled(S::zero());
+    let mut by_increment = M::Variables::filled(0.0);
     for (i, by) in by_increment.as_mut().iter_mut().enumerate() {
         *by = slope(i);
     }

@@ -6,7 +6,6 @@ use crate::element::conjugates::element::Infeasible;
 use crate::element::state::Energy;
 use eem_material::free_energy::{Caloric, FreeEnergy};
 use eem_material::inversion::temperature_near;
-use eem_material::number::scalar::Real;
 
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
 /// again. Newton's method in ln θ leaves half the square of the correction, times the slope
@@ -15,49 +14,49 @@ pub(super) const LAST_CORRECTION: f64 = 0.25;
 
 /// θ̂ at the configuration of `x`, whose own temperature does not matter; its heat capacity is positive.
 #[inline]
-pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
+pub(crate) fn temperature_at<M: FreeEnergy<f64>>(
     model: &M,
     x: M::Variables,
-    entropy: S,
-    guess: S,
-) -> Result<S, Infeasible> {
+    entropy: f64,
+    guess: f64,
+) -> Result<f64, Infeasible> {
     temperature_of(&model.caloric_at(x), entropy, guess)
 }
 
 /// The same, given the caloric quantities as functions of the temperature.
 #[inline]
-pub(crate) fn temperature_of<S: Real>(
-    caloric_at: &impl Fn(S) -> (Caloric<S>, S),
-    entropy: S,
-    guess: S,
-) -> Result<S, Infeasible> {
-    let enough = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
+pub(crate) fn temperature_of(
+    caloric_at: &impl Fn(f64) -> (Caloric<f64>, f64),
+    entropy: f64,
+    guess: f64,
+) -> Result<f64, Infeasible> {
+    let enough = LAST_CORRECTION * f64::EPSILON.sqrt();
     let found = near(|theta| (caloric_at(theta).0, []), entropy, guess, enough)?;
     Ok(found.0)
 }
 
 /// Temperature and energies of a new state, from its entropy.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Recovered<S> {
+pub(crate) struct Recovered {
     /// θ̂, K.
-    pub(crate) temperature: S,
+    pub(crate) temperature: f64,
     /// ψ, J.
-    pub(crate) free_energy: S,
+    pub(crate) free_energy: f64,
     /// `ψ + θ s`, J.
-    pub(crate) energy: Energy<S>,
+    pub(crate) energy: Energy,
 }
 
 /// θ̂ and the energies of a state that is stored. The last correction of ln θ is at most ε^¾: the error left, half
 /// its square times d ln C/d ln θ, is far below a rounding of the entropy. `ψ + θ s` is stationary in θ
 /// at fixed s, so that it may be that of the last temperature that was tried.
 #[inline]
-pub(crate) fn recovered_at<S: Real>(
-    mut energy_at: impl FnMut(S) -> (Caloric<S>, S),
-    entropy: S,
-    guess: S,
-) -> Result<Recovered<S>, Infeasible> {
-    let root = S::EPSILON.sqrt();
-    let with_energy = |theta: S| {
+pub(crate) fn recovered_at(
+    mut energy_at: impl FnMut(f64) -> (Caloric<f64>, f64),
+    entropy: f64,
+    guess: f64,
+) -> Result<Recovered, Infeasible> {
+    let root = f64::EPSILON.sqrt();
+    let with_energy = |theta: f64| {
         let (caloric, psi) = energy_at(theta);
         let of_energy = [psi, theta, caloric.heat_capacity, caloric.magnitude];
         (caloric, of_energy)
@@ -78,14 +77,12 @@ pub(crate) fn recovered_at<S: Real>(
 
 /// θ̂, and what else was evaluated at the last temperature that was tried.
 #[inline]
-fn near<S: Real, const W: usize>(
-    caloric_at: impl FnMut(S) -> (Caloric<S>, [S; W]),
-    entropy: S,
-    guess: S,
-    enough: S,
-) -> Result<(S, [S; W]), Infeasible> {
-    temperature_near(caloric_at, entropy, guess, enough).map_err(|source| Infeasible::Entropy {
-        entropy: entropy.to_f64(),
-        source,
-    })
+fn near<const W: usize>(
+    caloric_at: impl FnMut(f64) -> (Caloric<f64>, [f64; W]),
+    entropy: f64,
+    guess: f64,
+    enough: f64,
+) -> Result<(f64, [f64; W]), Infeasible> {
+    temperature_near(caloric_at, entropy, guess, enough)
+        .map_err(|source| Infeasible::Entropy { entropy, source })
 }

@@ -3,20 +3,19 @@
 use super::point::Viscosities;
 use crate::element::conjugates::Form;
 use eem_material::free_energy::{Caloric, FreeEnergy};
-use eem_material::number::scalar::Real;
 
 /// Workspace for the springs of a call; empty for other models.
-pub(super) struct Ahead<S: Real, M: FreeEnergy<S>, O, P> {
+pub(super) struct Ahead<M: FreeEnergy<f64>, O, P> {
     pub(super) x: Vec<M::Variables>,
     pub(super) old: Vec<O>,
     pub(super) memories: Vec<P>,
-    pub(super) forms: Vec<Form<S, M>>,
+    pub(super) forms: Vec<Form<f64, M>>,
     pub(super) responses: Vec<M::Response>,
-    pub(super) viscosities: Vec<Viscosities<S, M>>,
-    pub(super) caloric: Vec<(Caloric<S>, S)>,
+    pub(super) viscosities: Vec<Viscosities<M>>,
+    pub(super) caloric: Vec<(Caloric<f64>, f64)>,
 }
 
-impl<S: Real, M: FreeEnergy<S>, O, P> Ahead<S, M, O, P> {
+impl<M: FreeEnergy<f64>, O, P> Ahead<M, O, P> {
     pub(super) const fn new() -> Self {
         Self {
             x: Vec::new(),

@@ -4,32 +4,31 @@ use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
 use eem_material::free_energy::Array;
 use eem_material::number::compensated::Compensated;
-use eem_material::number::scalar::Real;
 
 /// `Σ_i g_i · w_i` over the arms.
 #[inline]
-pub(super) fn along<K: Kinematics<S, D>, S: Real, const D: usize>(
-    gradient: &Arms<K, S, D>,
-    motion: &Arms<K, S, D>,
-) -> S {
+pub(super) fn along<K: Kinematics<D>, const D: usize>(
+    gradient: &Arms<K, D>,
+    motion: &Arms<K, D>,
+) -> f64 {
     let pairs = gradient.as_ref().iter().zip(motion.as_ref());
-    pairs.fold(S::zero(), |sum, (g, w)| sum + dot(g, w))
+    pairs.fold(0.0, |sum, (g, w)| sum + dot(g, w))
 }
 
 #[inline]
-pub(super) fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
-    a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+pub(super) fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum, (&a, &b)| sum + a * b)
 }
 
 /// The arms of an element in a state, with an error of ε of the arms wherever the origin is: the compensations of the
 /// positions are included.
 #[inline]
-pub(super) fn arms_in<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn arms_in<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
-    positions: &Compensated<S>,
-) -> Arms<K, S, D> {
+    positions: &Compensated,
+) -> Arms<K, D> {
     let [first, first_carry] = positions.point::<D>(nodes[0] as usize);
-    let mut arms = Arms::<K, S, D>::filled([S::zero(); D]);
+    let mut arms = Arms::<K, D>::filled([0.0; D]);
     for (arm, &node) in arms.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
         let [other, carry] = positions.point::<D>(node as usize);
         for axis in 0..D {
@@ -41,35 +40,35 @@ pub(super) fn arms_in<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// The change of the arms of an element at a trial, with an error of ε of the change, from displacements.
 #[inline]
-pub(super) fn change_in<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn change_in<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
-    trial: &Trial<S, D>,
-) -> Arms<K, S, D> {
-    change_of::<K, S, D>(nodes, [&trial.displacements, &trial.carries])
+    trial: &Trial<D>,
+) -> Arms<K, D> {
+    change_of::<K, D>(nodes, [&trial.displacements, &trial.carries])
 }
 
 /// The same at the stage of a set of unknowns.
 #[inline]
-pub(super) fn change_in_set<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn change_in_set<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
-    trial: &Trial<S, D>,
+    trial: &Trial<D>,
     set: usize,
-) -> Arms<K, S, D> {
+) -> Arms<K, D> {
     let first = trial.first_of_set(set);
-    change_of::<K, S, D>(
+    change_of::<K, D>(
         nodes,
         [&trial.displacements[first..], &trial.carries[first..]],
     )
 }
 
 #[inline]
-fn change_of<K: Kinematics<S, D>, S: Real, const D: usize>(
+fn change_of<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
-    [displacements, carries]: [&[[S; D]]; 2],
-) -> Arms<K, S, D> {
+    [displacements, carries]: [&[[f64; D]]; 2],
+) -> Arms<K, D> {
     let of = |node: u32| (&displacements[node as usize], &carries[node as usize]);
     let (first, first_rest) = of(nodes[0]);
-    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
+    let mut change = Arms::<K, D>::filled([0.0; D]);
     for (arm, &node) in change.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
         let (other, rest) = of(node);
         for axis in 0..D {
@@ -81,10 +80,10 @@ fn change_of<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// Derivatives with respect to the positions of the nodes, from those with respect to the arms.
 #[inline]
-pub(super) fn spread<K: Kinematics<S, D>, S: Real, const D: usize>(
-    by_arm: &Arms<K, S, D>,
-) -> K::PerNode<[S; D]> {
-    let mut by_node = K::PerNode::filled([S::zero(); D]);
+pub(super) fn spread<K: Kinematics<D>, const D: usize>(
+    by_arm: &Arms<K, D>,
+) -> K::PerNode<[f64; D]> {
+    let mut by_node = K::PerNode::filled([0.0; D]);
     for (i, by) in by_arm.as_ref().iter().enumerate() {
         by_node[i + 1] = *by;
         for (sum, &entry) in by_node[0].iter_mut().zip(by) {
@@ -96,23 +95,23 @@ pub(super) fn spread<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// The nodal forces `Σ_a f_a g_a` along a gradient.
 #[inline]
-pub(super) fn resultant<K: Kinematics<S, D>, S: Real, const D: usize>(
-    gradient: &Gradient<K, S, D>,
-    force: &Measures<K, S, D>,
-) -> K::PerNode<[S; D]> {
-    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+pub(super) fn resultant<K: Kinematics<D>, const D: usize>(
+    gradient: &Gradient<K, D>,
+    force: &Measures<K, D>,
+) -> K::PerNode<[f64; D]> {
+    let mut sum = Arms::<K, D>::filled([0.0; D]);
     for (row, &magnitude) in gradient.as_ref().iter().zip(force.as_ref()) {
-        add_scaled::<K, S, D>(&mut sum, magnitude, row);
+        add_scaled::<K, D>(&mut sum, magnitude, row);
     }
-    spread::<K, S, D>(&sum)
+    spread::<K, D>(&sum)
 }
 
 /// The first entries of an array, one per measure.
 #[inline]
-pub(super) fn measures_in<K: Kinematics<S, D>, S: Real, const D: usize>(
-    values: &impl Array<S>,
-) -> Measures<K, S, D> {
-    let mut measures = Measures::<K, S, D>::filled(S::zero());
+pub(super) fn measures_in<K: Kinematics<D>, const D: usize>(
+    values: &impl Array<f64>,
+) -> Measures<K, D> {
+    let mut measures = Measures::<K, D>::filled(0.0);
     for (a, measure) in measures.as_mut().iter_mut().enumerate() {
         *measure = values[a];
     }
@@ -121,29 +120,26 @@ pub(super) fn measures_in<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// A list of coordinates as a list of points.
 #[inline]
-pub(crate) fn points<S, const D: usize>(coordinates: &[S]) -> &[[S; D]] {
+pub(crate) fn points<const D: usize>(coordinates: &[f64]) -> &[[f64; D]] {
     coordinates.as_chunks().0
 }
 
 #[inline]
-pub(super) fn mean<K: Kinematics<S, D>, S: Real, const D: usize>(
-    r0: &Arms<K, S, D>,
-    r1: &Arms<K, S, D>,
-) -> Arms<K, S, D> {
+pub(super) fn mean<K: Kinematics<D>, const D: usize>(
+    r0: &Arms<K, D>,
+    r1: &Arms<K, D>,
+) -> Arms<K, D> {
     let mut mean = *r1;
     let old = r0.as_ref().as_flattened();
     for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
-        *mean = S::from_f64(0.5) * (old + *mean);
+        *mean = 0.5 * (old + *mean);
     }
     mean
 }
 
 /// Multiplies all arms by a factor.
 #[inline]
-pub(super) fn scale<K: Kinematics<S, D>, S: Real, const D: usize>(
-    arms: &mut Arms<K, S, D>,
-    factor: S,
-) {
+pub(super) fn scale<K: Kinematics<D>, const D: usize>(arms: &mut Arms<K, D>, factor: f64) {
     for entry in arms.as_mut().as_flattened_mut() {
         *entry *= factor;
     }
@@ -151,10 +147,10 @@ pub(super) fn scale<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// `sum += factor arms`.
 #[inline]
-pub(super) fn add_scaled<K: Kinematics<S, D>, S: Real, const D: usize>(
-    sum: &mut Arms<K, S, D>,
-    factor: S,
-    arms: &Arms<K, S, D>,
+pub(super) fn add_scaled<K: Kinematics<D>, const D: usize>(
+    sum: &mut Arms<K, D>,
+    factor: f64,
+    arms: &Arms<K, D>,
 ) {
     let entries = arms.as_ref().as_flattened();
     for (sum, &entry) in sum.as_mut().as_flattened_mut().iter_mut().zip(entries) {

@@ -7,7 +7,7 @@ use crate::element::error::StateError;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use eem_material::free_energy::Material;
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::{Scalar, is_positive};
 
 /// The largest difference of a stored entropy and that of the model, in ε of its terms.
 ///
@@ -37,9 +37,7 @@ impl From<StateError> for Misfit {
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// An error unless energy and forces are finite and viscosities positive.
     pub(super) fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {
         self.unless_infinite(self.model.free_energy(x))?;
@@ -48,16 +46,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             return Err(StateError::NotFinite {
                 element: self.element,
                 quantity: "force or entropy",
-                value: value.to_f64(),
+                value: *value,
             });
         }
         let theta = if M::THERMAL {
             x[Self::TEMPERATURE]
         } else {
-            S::zero()
+            0.0
         };
         let (drag, _) = self.model.drag(theta);
-        check_drag::<S, M, K, D>(drag, theta).map_err(|error| error.of(self.element))?;
+        check_drag::<M, K, D>(drag, theta).map_err(|error| error.of(self.element))?;
         let (viscosities, _) = self.model.viscosity(theta);
         let mut viscosities = viscosities.as_ref().iter().enumerate();
         match viscosities.find(|&(_, &eta)| !is_positive(eta)) {
@@ -65,9 +63,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             Some((dashpot, eta)) => Err(StateError::Viscosity {
                 element: self.element,
                 dashpot,
-                value: eta.to_f64(),
+                value: *eta,
                 unit: K::VISCOSITY_UNIT,
-                temperature: M::THERMAL.then(|| theta.to_f64()),
+                temperature: M::THERMAL.then_some(theta),
             }),
         }
     }
@@ -77,7 +75,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// ```text
     /// |S − s| ≤ 8 ε (Σ|terms of S| + Σ |∂S/∂x| |x| + C max(1, |ln θ|)),   x = λ, γ
     /// ```
-    pub(super) fn audit_entropy(&self, x: &M::Variables, state: &State<S>) -> Result<(), Misfit> {
+    pub(super) fn audit_entropy(&self, x: &M::Variables, state: &State) -> Result<(), Misfit> {
         let Some(slot) = self.slots().thermal else {
             return Ok(());
         };
@@ -88,22 +86,22 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let entropy = state.entropies.values()[slot];
         let (_, hessian) = self.model.hessian(x);
         let by = hessian[Self::TEMPERATURE];
-        let resolution = theta.ln().abs().maximum(S::one());
-        let mut size = caloric.magnitude.maximum(entropy.abs());
+        let resolution = Scalar::maximum(Scalar::ln(theta).abs(), 1.0);
+        let mut size = Scalar::maximum(caloric.magnitude, entropy.abs());
         size += caloric.heat_capacity * resolution;
         for index in 0..Self::TEMPERATURE {
             size += (by[index] * x[index]).abs();
         }
-        let bound = S::from_f64(ENTROPY_ROUNDINGS) * S::EPSILON * size;
-        if (caloric.entropy - entropy).abs().at_most(bound).all() {
+        let bound = ENTROPY_ROUNDINGS * f64::EPSILON * size;
+        if (caloric.entropy - entropy).abs() <= bound {
             return Ok(());
         }
         Err(Misfit::Entropy {
             element: self.element.index(),
-            entropy: entropy.to_f64(),
-            expected: caloric.entropy.to_f64(),
-            temperature: theta.to_f64(),
-            bound: bound.to_f64(),
+            entropy,
+            expected: caloric.entropy,
+            temperature: theta,
+            bound,
         })
     }
 }

@@ -9,31 +9,30 @@ use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// Reduces the unit of length of each node to that of its elements, if that is shorter.
 #[inline]
-pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn shorten<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
-    own: S,
-    lengths: &mut [S],
+    own: f64,
+    lengths: &mut [f64],
 ) {
     for &node in nodes.as_ref() {
         let length = &mut lengths[node as usize];
         // No NaN: lengths of an admissible state.
-        *length = S::select(own.less(*length), own, *length);
+        if own < *length {
+            *length = own;
+        }
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// Takes the old state; the data that the scheme keeps of it may be known.
     #[inline]
     pub(super) fn begin(
         &mut self,
-        view: &StepView<'_, S>,
-        old: &mut Old<'_, S, D>,
+        view: &StepView<'_>,
+        old: &mut Old<'_, D>,
         known: Option<C::Old>,
     ) -> Result<(), StateError> {
         let r0 = self.arms_in(view.state);
@@ -42,7 +41,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let measures = point.kinematics.measure(&r0);
             point.begin(view, old.before.as_ref(), &measures, known);
             let length = point.kinematics.length(&measures);
-            shorten::<K, S, D>(&self.site.nodes, length, old.lengths);
+            shorten::<K, D>(&self.site.nodes, length, old.lengths);
         }
         if self.scheme().implicit() < 1.0 {
             self.take_old_share(view, old.force)?;
@@ -53,18 +52,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Finds the part of rates and nodal forces that the scheme takes from the old state.
     fn take_old_share(
         &mut self,
-        view: &StepView<'_, S>,
-        old_force: &mut [[S; D]],
+        view: &StepView<'_>,
+        old_force: &mut [[f64; D]],
     ) -> Result<(), StateError> {
         let velocities = self.old_velocities(view);
-        let share = S::one() - S::from_f64(self.scheme().implicit());
+        let share = 1.0 - self.scheme().implicit();
         for point in self.points.as_mut() {
             let gradient = point.take_old_share(view, &self.r0, &velocities)?;
-            let measures0 = measures_in::<K, S, D>(&point.start.x0);
+            let measures0 = measures_in::<K, D>(&point.start.x0);
             let ends = [&self.r0, &self.r0];
             let pose = Pose::between(&point.kinematics, point.scheme.placement(), ends, measures0);
             for (a, row) in pose.direction.as_ref().iter().enumerate() {
-                let by_node = spread::<K, S, D>(row);
+                let by_node = spread::<K, D>(row);
                 for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
                     for (force, &entry) in old_force[node as usize].iter_mut().zip(entry) {
                         *force += share * gradient[a] * entry;
@@ -76,29 +75,27 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted. What the scheme keeps
     /// of the old state may be known.
     #[inline]
     pub(super) fn begin(
         &mut self,
-        view: &StepView<'_, S>,
-        before: Option<&Before<'_, S>>,
-        measures: &Measures<K, S, D>,
+        view: &StepView<'_>,
+        before: Option<&Before<'_>>,
+        measures: &Measures<K, D>,
         old: Option<C::Old>,
     ) {
         let slots = self.slots();
-        let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
+        let x0 = variables::<M>(measures.as_ref(), slots, view.state);
         let entropy = slots
             .thermal
             .map(|slot| view.state.entropies.values()[slot]);
         self.start.x0 = x0;
-        let old = old.unwrap_or_else(|| C::old(&self.model, &x0, entropy.unwrap_or(S::zero())));
+        let old = old.unwrap_or_else(|| C::old(&self.model, &x0, entropy.unwrap_or(0.0)));
         self.start.old = old;
         self.x = x0;
-        self.creep = M::Viscosities::filled(S::zero());
+        self.creep = M::Viscosities::filled(0.0);
         if let Some(slot) = slots.thermal {
             let theta = x0[Self::TEMPERATURE];
             self.memory = C::memory(theta);
@@ -112,7 +109,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             self.predict(before);
         }
         for at_point in self.single.as_mut() {
-            at_point.entropy_change = S::zero();
+            at_point.entropy_change = 0.0;
         }
         self.begin_damping(view);
         self.hold();
@@ -121,7 +118,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Predicts the internal variables by their changes in the last step: viscous stretches linearly, the temperature by a
     /// factor.
     #[inline]
-    fn predict(&mut self, before: &Before<'_, S>) {
+    fn predict(&mut self, before: &Before<'_>) {
         let slots = self.slots();
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
@@ -139,16 +136,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Finds the part of the rates that the scheme takes from the old state; returns the old gradient.
     fn take_old_share(
         &mut self,
-        view: &StepView<'_, S>,
-        r0: &Arms<K, S, D>,
-        velocities: &Arms<K, S, D>,
+        view: &StepView<'_>,
+        r0: &Arms<K, D>,
+        velocities: &Arms<K, D>,
     ) -> Result<M::Variables, StateError> {
-        let share = S::one() - S::from_f64(self.scheme.implicit());
+        let share = 1.0 - self.scheme.implicit();
         let x0 = self.start.x0;
         let theta = x0[Self::VARIABLES - 1];
         self.find_viscosities(theta, None)?;
         let mut gradient = self.model.gradient(&x0);
-        let mut rates = M::Variables::filled(S::zero());
+        let mut rates = M::Variables::filled(0.0);
         let mut heat = self.add_old_drag((r0, velocities), &mut gradient, &mut rates)?;
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
@@ -167,7 +164,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             (at_point.old_rates, at_point.old_power) = (rates, old_power);
         }
         if M::THERMAL && self.scheme.is_in_temperature() {
-            let measures0 = measures_in::<K, S, D>(&x0);
+            let measures0 = measures_in::<K, D>(&x0);
             let at_rest = Pose::between(&self.kinematics, Placement::End, [r0, r0], measures0);
             self.find_old_heating(&at_rest, heat / theta, velocities);
         }
@@ -175,20 +172,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// Finds `(1 − w) θ̇⁰`, which a scheme in temperature uses instead of `(1 − w) ṡ⁰`.
-    fn find_old_heating(
-        &mut self,
-        pose: &Pose<K, S, D>,
-        entropy_rate: S,
-        velocities: &Arms<K, S, D>,
-    ) {
-        let share = S::one() - S::from_f64(self.scheme.implicit());
+    fn find_old_heating(&mut self, pose: &Pose<K, D>, entropy_rate: f64, velocities: &Arms<K, D>) {
+        let share = 1.0 - self.scheme.implicit();
         let last = Self::TEMPERATURE;
         let (_, hessian) = self.model.hessian(&self.start.x0);
         // ∂s/∂x = −∂²ψ/∂θ∂x
         let slope = |index: usize| -hessian[last][index];
         let mut rest = share * entropy_rate;
         for a in 0..M::MEASURES {
-            let rate = along::<K, S, D>(&pose.direction[a], velocities);
+            let rate = along::<K, D>(&pose.direction[a], velocities);
             rest -= slope(a) * share * rate;
         }
         for at_point in self.single.as_mut() {
@@ -196,7 +188,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 rest -= slope(index) * at_point.old_rates[index];
             }
             at_point.old_heating = rest / slope(last);
-            at_point.old_rates[last] = S::zero();
+            at_point.old_rates[last] = 0.0;
         }
     }
 }

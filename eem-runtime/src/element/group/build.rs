@@ -13,11 +13,8 @@ use crate::element::kinematics::QuadraticStrain;
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
 use eem_material::free_energy::Material;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Loose<S, D>
-    for LooseElements<S, M, K, D>
-{
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseElements<M, K, D> {
     fn as_any(&self) -> &dyn Any {
         self
     }
@@ -42,60 +39,46 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Loose<S,
         self.model().map_or(&M::MODEL, M::model)
     }
 
-    fn infinite_parameter(&self, place: usize) -> Option<(&'static str, S)> {
+    fn infinite_parameter(&self, place: usize) -> Option<(&'static str, f64)> {
         self.infinite_parameter_at(place)
     }
 
-    fn duplicate(&self) -> Box<dyn Loose<S, D>> {
+    fn duplicate(&self) -> Box<dyn Loose<D>> {
         Box::new(self.duplicate_all())
     }
 
-    fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
+    fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<D>> {
         match by {
             Conjugates::EntropyForm => single(EemEntropy, *self, placed),
             Conjugates::TemperatureForm => single(EemTemperature::<0>, *self, placed),
             Conjugates::DampedTemperatureForm => single(EemTemperature::<1>, *self, placed),
             Conjugates::Point(rule) => single(rule, *self, placed),
             Conjugates::Stages(rule) if rule.path.is_some() => {
-                staged::<S, M, K, Projections<S, M, K, D>, D>(rule, *self, placed)
+                staged::<M, K, Projections<M, K, D>, D>(rule, *self, placed)
             }
-            Conjugates::Stages(rule) => {
-                staged::<S, M, K, Values<S, M, K, D>, D>(rule, *self, placed)
-            }
+            Conjugates::Stages(rule) => staged::<M, K, Values<M, K, D>, D>(rule, *self, placed),
         }
     }
 
-    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<S, D>> {
+    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
         Box::new(ExplicitElements::new(*self, placed))
     }
 }
 
 /// The group of a scheme with one set of forces.
-fn single<
-    S: Real,
-    M: Material<S>,
-    K: QuadraticStrain<S, D>,
-    C: ElementScheme<S, M>,
-    const D: usize,
->(
+fn single<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize>(
     scheme: C,
-    elements: LooseElements<S, M, K, D>,
+    elements: LooseElements<M, K, D>,
     placed: Placed<'_>,
-) -> Box<dyn Group<S, D>> {
+) -> Box<dyn Group<D>> {
     Box::new(ElementGroup::new(scheme, elements, placed))
 }
 
 /// The group of a scheme that goes through stages, with conjugates of `C`.
-fn staged<
-    S: Real,
-    M: Material<S>,
-    K: QuadraticStrain<S, D>,
-    C: Source<S, M, K, D>,
-    const D: usize,
->(
+fn staged<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize>(
     rule: &'static Tableau,
-    elements: LooseElements<S, M, K, D>,
+    elements: LooseElements<M, K, D>,
     placed: Placed<'_>,
-) -> Box<dyn Group<S, D>> {
-    Box::new(StageGroup::<S, M, K, C, D>::new(rule, elements, placed))
+) -> Box<dyn Group<D>> {
+    Box::new(StageGroup::<M, K, C, D>::new(rule, elements, placed))
 }

@@ -16,16 +16,13 @@ use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, Caloric, Material, Rows};
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
     /// Takes the old state in all springs.
     pub(super) fn begin_by_rows(
         &mut self,
-        view: &StepView<'_, S>,
-        old: &mut Old<'_, S, D>,
+        view: &StepView<'_>,
+        old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
         let Some((model, form)) = M::ROWS.zip(C::ROWS) else {
             return self.begin_one_by_one(view, old);
@@ -35,7 +32,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             let count = ahead.take(members.iter().map(|member| {
                 let point = member.only();
                 let measures = point.kinematics.measure(&member.arms_in(view.state));
-                variables::<S, M>(measures.as_ref(), point.slots(), view.state)
+                variables::<M>(measures.as_ref(), point.slots(), view.state)
             }));
             let first = members[0].only().start.old;
             ahead.old.resize(count, first);
@@ -51,9 +48,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.
     pub(super) fn linearize_by_rows(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, 1>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
         let Some((model, form)) = M::ROWS.zip(C::ROWS).filter(|_| !trial.is_start) else {
             return self.linearize_one_by_one(view, trial, system);
@@ -63,8 +60,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         for members in self.members.chunks_mut(model.most) {
             let is_known = prepare(members, trial, ahead).is_ok();
             if is_known {
-                let zeros = M::Variables::filled(S::zero());
-                let none = (M::Response::filled(S::zero()), M::Tangent::filled(zeros));
+                let zeros = M::Variables::filled(0.0);
+                let none = (M::Response::filled(0.0), M::Tangent::filled(zeros));
                 ahead.forms.resize(members.len(), none);
                 (form.form)(&each(members, &ahead.x, &ahead.memories), &mut ahead.forms);
                 let response = |index: usize| &ahead.forms[index].0;
@@ -86,8 +83,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Evaluates responses without tangents.
     pub(super) fn respond_by_rows(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
     ) -> Result<(), StateError> {
         let Some((model, form)) = M::ROWS.zip(C::ROWS).filter(|_| !trial.is_start) else {
             return self.respond_one_by_one(view, trial);
@@ -96,7 +93,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         for members in self.members.chunks_mut(model.most) {
             let is_known = prepare(members, trial, ahead).is_ok();
             if is_known {
-                let none = M::Response::filled(S::zero());
+                let none = M::Response::filled(0.0);
                 ahead.responses.resize(members.len(), none);
                 let each = each(members, &ahead.x, &ahead.memories);
                 (form.response)(&each, &mut ahead.responses);
@@ -117,10 +114,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Closes the step in all springs, with caloric quantities evaluated ahead at the temperatures of the trial.
     pub(super) fn close_by_rows(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        next: &mut State,
+        tally: &mut Tally,
     ) -> Result<(), StateError> {
         let Some(model) = M::ROWS.filter(|_| M::THERMAL && !self.scheme.is_in_temperature()) else {
             return self.close_one_by_one(view, trial, next, tally);
@@ -135,17 +132,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                     next.viscous.advance(slots.viscous + k, old, point.creep[k]);
                 }
                 let measures = point.kinematics.measure(&member.arms_in(next));
-                let mut x = variables::<S, M>(measures.as_ref(), slots, next);
+                let mut x = variables::<M>(measures.as_ref(), slots, next);
                 x[M::Variables::LEN - 1] = point.x[M::Variables::LEN - 1];
                 x
             }));
-            let zero = S::zero();
             let none = Caloric {
-                entropy: zero,
-                heat_capacity: zero,
-                magnitude: zero,
+                entropy: 0.0,
+                heat_capacity: 0.0,
+                magnitude: 0.0,
             };
-            ahead.caloric.resize(count, (none, zero));
+            ahead.caloric.resize(count, (none, 0.0));
             let each = |index: usize| (&members[index].only().model, &ahead.x[index]);
             (model.caloric_at)(&each, &mut ahead.caloric);
             for (member, known) in members.iter_mut().zip(&ahead.caloric) {
@@ -158,16 +154,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
 /// Finds the variables at a trial and the memories of the scheme. On an error, the caller evaluates the springs one by one,
 /// so that the error returned is that of the first spring that has one.
-fn prepare<S, M, K, C, const D: usize>(
-    members: &[Member<S, M, K, C, D>],
-    trial: &Trial<S, D>,
-    ahead: &mut Ahead<S, M, C::Old, C::Memory>,
+fn prepare<M, K, C, const D: usize>(
+    members: &[Member<M, K, C, D>],
+    trial: &Trial<D>,
+    ahead: &mut Ahead<M, C::Old, C::Memory>,
 ) -> Result<(), Infeasible>
 where
-    S: Real,
-    M: Material<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+    M: Material,
+    K: Kinematics<D>,
+    C: ElementScheme<M>,
 {
     ahead.take(members.iter().map(|member| member.placed_variables(trial)));
     ahead.memories.clear();
@@ -181,16 +176,15 @@ where
 }
 
 /// Of a spring: its model, the data of its old state, its new variables and the memory of its scheme.
-fn each<'a, S, M, K, C, const D: usize>(
-    members: &'a [Member<S, M, K, C, D>],
+fn each<'a, M, K, C, const D: usize>(
+    members: &'a [Member<M, K, C, D>],
     x: &'a [M::Variables],
     memories: &'a [C::Memory],
 ) -> impl Fn(usize) -> (&'a M, &'a C::Old, &'a M::Variables, &'a C::Memory)
 where
-    S: Real,
-    M: Material<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+    M: Material,
+    K: Kinematics<D>,
+    C: ElementScheme<M>,
 {
     |index| {
         let point = members[index].only();
@@ -199,37 +193,34 @@ where
 }
 
 /// Finds the viscosities at the temperatures of responses.
-fn find_viscosities<'a, S, M, K, C, const D: usize>(
-    model: &Rows<S, M>,
-    members: &'a [Member<S, M, K, C, D>],
+fn find_viscosities<'a, M, K, C, const D: usize>(
+    model: &Rows<f64, M>,
+    members: &'a [Member<M, K, C, D>],
     response: impl Fn(usize) -> &'a M::Response,
-    viscosities: &mut Vec<Viscosities<S, M>>,
+    viscosities: &mut Vec<Viscosities<M>>,
 ) where
-    S: Real,
-    M: Material<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+    M: Material,
+    K: Kinematics<D>,
+    C: ElementScheme<M>,
 {
-    let zeros = M::Viscosities::filled(S::zero());
+    let zeros = M::Viscosities::filled(0.0);
     viscosities.resize(members.len(), (zeros, zeros));
     if M::DASHPOTS == 0 {
         return;
     }
     // Models without temperature ignore it, so that any entry will do.
-    let theta = Point::<S, M, K, C, D>::TEMPERATURE * usize::from(M::THERMAL);
+    let theta = Point::<M, K, C, D>::TEMPERATURE * usize::from(M::THERMAL);
     let each = |index: usize| (&members[index].only().model, &response(index)[theta]);
     (model.viscosity)(&each, viscosities);
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// The variables of a spring at a trial, at which the form of its scheme is evaluated.
     #[inline]
-    fn placed_variables(&self, trial: &Trial<S, D>) -> M::Variables {
+    fn placed_variables(&self, trial: &Trial<D>) -> M::Variables {
         let point = self.only();
         let at = point.scheme.placement();
-        let r1 = placed_arms::<K, S, D>(at, &self.r0, self.new_arms(trial));
+        let r1 = placed_arms::<K, D>(at, &self.r0, self.new_arms(trial));
         let mut x = point.x;
         for (a, &measure) in point.placed(&r1)[1].as_ref().iter().enumerate() {
             x[a] = measure;

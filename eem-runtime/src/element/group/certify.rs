@@ -11,11 +11,9 @@ use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// Adds the magnitude of the terms of `h F` to that of the nodes, N s, given the new arms and their change:
     ///
     /// ```text
@@ -24,14 +22,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[cold]
     pub(super) fn add_magnitude(
         &self,
-        h: S,
-        [r1, change]: [&Arms<K, S, D>; 2],
-        magnitudes: &mut [S],
+        h: f64,
+        [r1, change]: [&Arms<K, D>; 2],
+        magnitudes: &mut [f64],
     ) {
-        let mut largest = S::zero();
+        let mut largest = 0.0;
         for arm in change.as_ref() {
             for component in arm {
-                largest = largest.maximum(component.abs());
+                largest = Scalar::maximum(largest, component.abs());
             }
         }
         for point in self.points.as_ref() {
@@ -44,14 +42,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 }
 
 /// Magnitudes of the terms of variables and responses, and the checks of a point by the certificate.
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// The magnitudes of the terms of the variables in a state with these arms: times ε, their errors by rounding.
     #[inline]
-    fn sizes(&self, r: &Arms<K, S, D>, x: &M::Variables) -> M::Variables {
+    fn sizes(&self, r: &Arms<K, D>, x: &M::Variables) -> M::Variables {
         let mut sizes = *x;
-        let own = self.kinematics.sizes(r, &measures_in::<K, S, D>(x));
+        let own = self.kinematics.sizes(r, &measures_in::<K, D>(x));
         for (a, &size) in own.as_ref().iter().enumerate() {
             sizes[a] = size;
         }
@@ -60,31 +56,31 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// A bound of the force between its nodes, `Σ |∂π/∂r| |f*|`, N.
     #[inline]
-    pub(super) fn largest_pull(&self, r1: &Arms<K, S, D>) -> S {
-        let slopes = self.kinematics.slopes(r1, &measures_in::<K, S, D>(&self.x));
+    pub(super) fn largest_pull(&self, r1: &Arms<K, D>) -> f64 {
+        let slopes = self.kinematics.slopes(r1, &measures_in::<K, D>(&self.x));
         let forces = self.pulls();
         let forces = forces.as_ref().iter().zip(slopes.as_ref());
-        forces.fold(S::zero(), |sum, (&force, &slope)| sum + slope * force.abs())
+        forces.fold(0.0, |sum, (&force, &slope)| sum + slope * force.abs())
     }
 
-    fn magnitude_of_pull(&self, r1: &Arms<K, S, D>, motion: S) -> S {
+    fn magnitude_of_pull(&self, r1: &Arms<K, D>, motion: f64) -> f64 {
         let sizes = self.sizes(r1, &self.x);
-        let [old, new] = [&self.start.x0, &self.x].map(measures_in::<K, S, D>);
+        let [old, new] = [&self.start.x0, &self.x].map(measures_in::<K, D>);
         let slopes = self.kinematics.slopes(r1, &new);
         let slope_sizes = self.kinematics.slope_sizes(r1, &new);
-        let mut sum = S::zero();
+        let mut sum = 0.0;
         for a in 0..M::MEASURES {
             sum += slope_sizes[a] * self.pull_of_row(a).abs();
             sum += slopes[a] * self.resolution_of_row(a, &sizes);
         }
         let lengths = [old, new].map(|measures| self.kinematics.length(&measures));
-        sum * (S::one() + motion / lengths[0].minimum(lengths[1]))
+        sum * (1.0 + motion / Scalar::minimum(lengths[0], lengths[1]))
     }
 
     /// `Σ_j |T_ij| |x_j|`: times ε, the error of a response by rounding of the variables.
-    fn magnitude_of_row(&self, row: usize, sizes: &M::Variables) -> S {
+    fn magnitude_of_row(&self, row: usize, sizes: &M::Variables) -> f64 {
         let terms = self.slopes[row].as_ref().iter().zip(sizes.as_ref());
-        terms.fold(S::zero(), |sum, (&slope, &x)| sum + (slope * x).abs())
+        terms.fold(0.0, |sum, (&slope, &x)| sum + (slope * x).abs())
     }
 
     /// The same where the internal variables solve the equations of the element, so that they change with the rounding
@@ -96,7 +92,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     ///
     /// With a small heat capacity c the temperature has an error of `ε θ |∂s/∂λ| λ/c`, far above its own rounding.
     #[cold]
-    fn resolution_of_row(&self, row: usize, sizes: &M::Variables) -> S {
+    fn resolution_of_row(&self, row: usize, sizes: &M::Variables) -> f64 {
         let mut sum = self.magnitude_of_row(row, sizes);
         for a in 0..M::MEASURES {
             let by_measure = &self.condensed.by_measure[a];
@@ -131,15 +127,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn amplitude(
         &self,
-        [r0, r1]: [&Arms<K, S, D>; 2],
+        [r0, r1]: [&Arms<K, D>; 2],
         care: Care,
-        way: impl Fn() -> S,
-    ) -> [S; 2] {
+        way: impl Fn() -> f64,
+    ) -> [f64; 2] {
         let (sizes0, sizes1) = (self.sizes(r0, &self.start.x0), self.sizes(r1, &self.x));
-        let (mut sum, mut at_end) = (S::zero(), S::zero());
+        let (mut sum, mut at_end) = (0.0, 0.0);
         for row in 0..M::MEASURES + M::DASHPOTS {
             let size = sizes1[row].abs();
-            let rounding = S::EPSILON * size * size;
+            let rounding = f64::EPSILON * size * size;
             sum += self.pull_of_row(row).abs() * (sizes0[row].abs() + size);
             sum += self.slopes[row][row].abs() * rounding;
             let slopes = &self.slopes[row].as_ref()[..M::MEASURES + M::DASHPOTS];
@@ -162,7 +158,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Adds the terms that the bound of the next step needs of a state with these arms: those of the forces and, except
     /// for schemes with discrete derivatives, those of the value of the energy.
     #[cold]
-    pub(super) fn add_bounds(&self, r: &Arms<K, S, D>, x: &M::Variables, energy: &mut Energy<S>) {
+    pub(super) fn add_bounds(&self, r: &Arms<K, D>, x: &M::Variables, energy: &mut Energy) {
         energy.add_forces(self.work_of(&self.model.gradient(x), r, x));
         if !C::EXACT {
             energy.add_values(self.model.energy_magnitude(x));
@@ -171,17 +167,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// `Σ|f||π| + Σ|g||γ|` of forces in a state with these arms, J.
     #[inline]
-    pub(super) fn work_of(&self, forces: &M::Variables, r: &Arms<K, S, D>, x: &M::Variables) -> S {
+    pub(super) fn work_of(&self, forces: &M::Variables, r: &Arms<K, D>, x: &M::Variables) -> f64 {
         let sizes = self.sizes(r, x);
         let forces = forces.as_ref()[..M::MEASURES + M::DASHPOTS].iter();
         forces
             .zip(sizes.as_ref())
-            .fold(S::zero(), |sum, (&force, &size)| sum + (force * size).abs())
+            .fold(0.0, |sum, (&force, &size)| sum + (force * size).abs())
     }
 
     /// Δλ or Δγ.
     #[inline]
-    fn increment_of(&self, row: usize) -> S {
+    fn increment_of(&self, row: usize) -> f64 {
         if row < M::MEASURES {
             self.x[row] - self.start.x0[row]
         } else {
@@ -190,8 +186,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     #[cold]
-    fn work_of_arguments(&self, sizes: &M::Variables) -> S {
-        let mut sum = S::zero();
+    fn work_of_arguments(&self, sizes: &M::Variables) -> f64 {
+        let mut sum = 0.0;
         for row in 0..M::MEASURES + M::DASHPOTS {
             sum += self.magnitude_of_row(row, sizes) * self.increment_of(row).abs();
         }
@@ -204,7 +200,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The conditioning error of a response, in units of ε.
     #[inline]
-    fn known_to(&self, row: usize, r1: &Arms<K, S, D>, care: Care) -> S {
+    fn known_to(&self, row: usize, r1: &Arms<K, D>, care: Care) -> f64 {
         match care {
             Care::Quick => self.response[row].abs(),
             Care::Thorough => {
@@ -219,11 +215,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn judge(
         &self,
-        view: &StepView<'_, S>,
-        (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
-        r1: &Arms<K, S, D>,
-        (received, [magnitude, capacity]): (Received<S>, [S; 2]),
-        tally: &mut Tally<S>,
+        view: &StepView<'_>,
+        (contact, trial): (Option<&Contact<K, D>>, &Trial<D>),
+        r1: &Arms<K, D>,
+        (received, [magnitude, capacity]): (Received, [f64; 2]),
+        tally: &mut Tally,
     ) {
         for k in 0..M::DASHPOTS {
             if view.phase.heats() {

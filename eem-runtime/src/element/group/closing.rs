@@ -23,28 +23,21 @@ use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, Caloric, Material};
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// The nodal forces of the last responses along the gradient between two configurations, N.
-    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
+    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
         let mut sum = None;
         for point in self.points.as_ref() {
-            sum_nodes::<K, S, D>(&mut sum, point.force(at, ends));
+            sum_nodes::<K, D>(&mut sum, point.force(at, ends));
         }
-        sum.unwrap_or_else(|| K::PerNode::filled([S::zero(); D]))
+        sum.unwrap_or_else(|| K::PerNode::filled([0.0; D]))
     }
 
     /// The nodal forces of the last responses in the form `A r_m`, N.
     #[inline]
-    pub(super) fn pull(
-        &self,
-        ends: [&Arms<K, S, D>; 2],
-        mean: &Arms<K, S, D>,
-    ) -> K::PerNode<[S; D]> {
-        let mut sum: Option<Weights<K, S, D>> = None;
+    pub(super) fn pull(&self, ends: [&Arms<K, D>; 2], mean: &Arms<K, D>) -> K::PerNode<[f64; D]> {
+        let mut sum: Option<Weights<K, D>> = None;
         for point in self.points.as_ref() {
             let own = point.secant(ends);
             let Some(sum) = &mut sum else {
@@ -58,25 +51,23 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             }
         }
         match sum {
-            Some(weights) => pull::<K, S, D>(&weights, mean),
-            None => K::PerNode::filled([S::zero(); D]),
+            Some(weights) => pull::<K, D>(&weights, mean),
+            None => K::PerNode::filled([0.0; D]),
         }
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// Books the step, recovers the new temperature and judges the step. The caloric quantities at the temperature of the
     /// trial may be known.
     #[inline]
     pub(super) fn close(
         &mut self,
-        contacts: &[Contact<K, S, D>],
-        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
-        known: Option<&(Caloric<S>, S)>,
+        contacts: &[Contact<K, D>],
+        (view, trial): (&StepView<'_>, &Trial<D>),
+        next: &mut State,
+        tally: &mut Tally,
+        known: Option<&(Caloric<f64>, f64)>,
     ) -> Result<(), StateError> {
         let r1 = self.arms_in(next);
         for point in self.points.as_mut() {
@@ -104,9 +95,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
 /// Adds the nodal forces of a point to those of the points before it.
 #[inline]
-fn sum_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
-    sum: &mut Option<K::PerNode<[S; D]>>,
-    own: K::PerNode<[S; D]>,
+fn sum_nodes<K: Kinematics<D>, const D: usize>(
+    sum: &mut Option<K::PerNode<[f64; D]>>,
+    own: K::PerNode<[f64; D]>,
 ) {
     let Some(sum) = sum else {
         *sum = Some(own);
@@ -120,20 +111,20 @@ fn sum_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// The nodal forces `A r`, which sum to zero exactly and do not depend on the origin.
 #[inline]
-pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
-    weights: &Weights<K, S, D>,
-    r: &Arms<K, S, D>,
-) -> K::PerNode<[S; D]> {
-    spread::<K, S, D>(&pull_of_arms::<K, S, D>(weights, r))
+pub(super) fn pull<K: Kinematics<D>, const D: usize>(
+    weights: &Weights<K, D>,
+    r: &Arms<K, D>,
+) -> K::PerNode<[f64; D]> {
+    spread::<K, D>(&pull_of_arms::<K, D>(weights, r))
 }
 
 /// The same per arm: the forces on all nodes except the first.
 #[inline]
-pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
-    weights: &Weights<K, S, D>,
-    r: &Arms<K, S, D>,
-) -> Arms<K, S, D> {
-    let mut force = Arms::<K, S, D>::filled([S::zero(); D]);
+pub(super) fn pull_of_arms<K: Kinematics<D>, const D: usize>(
+    weights: &Weights<K, D>,
+    r: &Arms<K, D>,
+) -> Arms<K, D> {
+    let mut force = Arms::<K, D>::filled([0.0; D]);
     for (force, row) in force.as_mut().iter_mut().zip(weights.as_ref()) {
         for (&weight, arm) in row.as_ref().iter().zip(r.as_ref()) {
             for axis in 0..D {
@@ -144,17 +135,15 @@ pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
     force
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// The matrix A of the force `A r_m` at the last response.
     #[inline]
-    fn secant(&self, [r0, r1]: [&Arms<K, S, D>; 2]) -> Weights<K, S, D> {
-        let measures1 = measures_in::<K, S, D>(&self.x);
+    fn secant(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
+        let measures1 = measures_in::<K, D>(&self.x);
         let (arms, measures0) = match self.scheme.placement() {
-            Placement::Middle => ([mean::<K, S, D>(r0, r1); 2], measures1),
+            Placement::Middle => ([mean::<K, D>(r0, r1); 2], measures1),
             Placement::Ends | Placement::End | Placement::Start => {
-                ([*r0, *r1], measures_in::<K, S, D>(&self.start.x0))
+                ([*r0, *r1], measures_in::<K, D>(&self.start.x0))
             }
         };
         let ends = Ends::new(&self.kinematics, arms, [measures0, measures1]);
@@ -162,10 +151,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// The nodal forces of the last response along the gradient between two configurations, N.
-    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
-        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
+        let measures0 = measures_in::<K, D>(&self.start.x0);
         let pose = Pose::between(&self.kinematics, at, ends, measures0);
-        spread::<K, S, D>(&pose.pull(&self.kinematics, at, &self.pulls()))
+        spread::<K, D>(&pose.pull(&self.kinematics, at, &self.pulls()))
     }
 
     /// Adds the increments of the internal variables and of the reservoirs' entropies; returns heat and entropy
@@ -173,16 +162,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn book(
         &self,
-        view: &StepView<'_, S>,
-        (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
-    ) -> Received<S> {
+        view: &StepView<'_>,
+        (contact, trial): (Option<&Contact<K, D>>, &Trial<D>),
+        next: &mut State,
+        tally: &mut Tally,
+    ) -> Received {
         let slots = self.slots();
         let h = view.thermal_step();
-        let share = S::from_f64(self.scheme.implicit()) * h;
+        let share = self.scheme.implicit() * h;
         let theta = self.conducting_temperature(&self.response);
-        let per_theta = if M::THERMAL { theta.recip() } else { S::one() };
+        let per_theta = if M::THERMAL { theta.recip() } else { 1.0 };
         let mut dissipated = self.book_drag(per_theta, tally);
         if Self::DRAGS > 0 {
             let drag = view.state.viscous.values().len() + self.element.index();
@@ -231,14 +220,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     fn book_heat(
         &self,
-        view: &StepView<'_, S>,
+        view: &StepView<'_>,
         slot: usize,
-        (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
-        balances: &mut Balances<'_, S>,
-        mut received: Received<S>,
-    ) -> Received<S> {
+        (contact, trial): (Option<&Contact<K, D>>, &Trial<D>),
+        balances: &mut Balances<'_>,
+        mut received: Received,
+    ) -> Received {
         let h = view.thermal_step();
-        let share = S::from_f64(self.scheme.implicit()) * h;
+        let share = self.scheme.implicit() * h;
         for at_point in self.single.as_ref() {
             received.add(h * at_point.old_rates[Self::TEMPERATURE]);
         }
@@ -265,8 +254,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// Books the heat flow from reservoirs in the old state, which is part of the old rates.
-    fn book_old_flow(&self, view: &StepView<'_, S>, slot: usize, next: &mut State<S>) {
-        let h = (S::one() - S::from_f64(self.scheme.implicit())) * view.thermal_step();
+    fn book_old_flow(&self, view: &StepView<'_>, slot: usize, next: &mut State) {
+        let h = (1.0 - self.scheme.implicit()) * view.thermal_step();
         for link in view.conduction.links(slot) {
             if let Partner::Reservoir(index) = link.partner {
                 let theta_r = view.conduction.reservoirs[index];
@@ -278,9 +267,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// See [`reservoir_correction`]; zero unless the scheme is exact and the temperature free.
-    fn reservoir_correction(&self, view: &StepView<'_, S>, slot: usize, heat: S) -> S {
+    fn reservoir_correction(&self, view: &StepView<'_>, slot: usize, heat: f64) -> f64 {
         if !C::EXACT || self.is_prescribed {
-            return S::zero();
+            return 0.0;
         }
         let theta = self.conducting_temperature(&self.response);
         let flow = view.conduction.reservoir_flow(slot, theta);

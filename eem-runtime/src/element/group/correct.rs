@@ -7,30 +7,28 @@ use super::site::{Contact, Site};
 use crate::element::conjugates::ElementScheme;
 use crate::element::kinematics::{Arms, Kinematics};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Applies the corrections of the local unknowns for a motion of the arms; returns the largest in their units.
     #[inline]
     pub(super) fn correct(
         &mut self,
-        motion: &Arms<K, S, D>,
-        contact: Option<&Contact<K, S, D>>,
-        solution: &[[S; 1]],
-    ) -> S {
+        motion: &Arms<K, D>,
+        contact: Option<&Contact<K, D>>,
+        solution: &[[f64; 1]],
+    ) -> f64 {
         for a in 0..M::MEASURES {
-            self.correction[a] = along::<K, S, D>(&self.sensitivity[a], motion);
+            self.correction[a] = along::<K, D>(&self.sensitivity[a], motion);
         }
-        let mut heat = S::zero();
+        let mut heat = 0.0;
         if M::THERMAL
             && let Some(contact) = contact
         {
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
         for at_point in self.single.as_ref() {
-            heat += along::<K, S, D>(&at_point.by_increment, motion);
+            heat += along::<K, D>(&at_point.by_increment, motion);
         }
         for u in 0..Self::UNKNOWNS {
             let mut change = self.condensed.constant.get(u);
@@ -48,40 +46,40 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 at_point.previous_entropy_change = self.response[Self::ENTROPY];
                 let terms = at_point.entropy_by.as_ref().iter();
                 let terms = terms.zip(self.correction.as_ref());
-                at_point.entropy_correction = terms.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+                at_point.entropy_correction = terms.fold(0.0, |sum, (&a, &b)| sum + a * b);
             }
         }
         let update = self.scaled_update();
-        self.apply(S::one());
+        self.apply(1.0);
         update
     }
 
     /// The largest correction of a local unknown in its unit.
     #[inline]
-    fn scaled_update(&self) -> S {
-        let mut largest = S::zero();
+    fn scaled_update(&self) -> f64 {
+        let mut largest = 0.0;
         let unit = self.viscous_unit();
         for index in M::MEASURES..Self::TEMPERATURE {
             let scaled = self.correction[index] / unit;
-            largest = largest.maximum(scaled.abs());
+            largest = Scalar::maximum(largest, scaled.abs());
         }
         if M::THERMAL {
             let scaled = self.correction[Self::TEMPERATURE] / self.x[Self::TEMPERATURE];
-            largest = largest.maximum(scaled.abs());
+            largest = Scalar::maximum(largest, scaled.abs());
         }
         largest
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     /// The corrections of the arms.
     #[inline]
-    pub(super) fn motion_in(&self, solution: &[[S; 1]]) -> Arms<K, S, D> {
-        let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
+    pub(super) fn motion_in(&self, solution: &[[f64; 1]]) -> Arms<K, D> {
+        let mut motion = Arms::<K, D>::filled([0.0; D]);
         let (rows, solution) = (self.rows.as_ref(), solution.as_flattened());
-        let first: &[S; D] = run(solution, rows[0] as usize);
+        let first: &[f64; D] = run(solution, rows[0] as usize);
         for (arm, &row) in motion.as_mut().iter_mut().zip(&rows[1..]) {
-            let other: &[S; D] = run(solution, row as usize);
+            let other: &[f64; D] = run(solution, row as usize);
             for axis in 0..D {
                 arm[axis] = other[axis] - first[axis];
             }
@@ -90,12 +88,12 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     /// `Σ κ (δΘ_partner − δΘ)`, W.
     #[inline]
-    pub(super) fn heat(&self, solution: &[[S; 1]]) -> S {
+    pub(super) fn heat(&self, solution: &[[f64; 1]]) -> f64 {
         let own = solution[self.unknown as usize][0];
-        self.partners.iter().fold(S::zero(), |sum, partner| {
+        self.partners.iter().fold(0.0, |sum, partner| {
             sum + partner.conductance * (solution[partner.unknown as usize][0] - own)
         })
     }

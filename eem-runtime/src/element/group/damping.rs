@@ -25,31 +25,31 @@
 //! dashpot that creeps steadily under a load, by the factor `1 + α hk/η`.
 
 use eem_material::number::kernel::exp_dd2;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// The damping of a point, constant in a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Damping<S> {
+pub(super) struct Damping {
     /// `2α θ⁰`, K; zero without paths of heat, and where a thermostat prescribes the temperature.
-    pub(super) weight: S,
+    pub(super) weight: f64,
     /// `1/c⁰`, K/J.
-    pub(super) per_capacity: S,
+    pub(super) per_capacity: f64,
 }
 
-impl<S: Real> Damping<S> {
+impl Damping {
     pub(super) fn none() -> Self {
         Self {
-            weight: S::zero(),
-            per_capacity: S::zero(),
+            weight: 0.0,
+            per_capacity: 0.0,
         }
     }
 
     /// `Θ − θ*` for a change Δs of the entropy, over it, K²/J, and its derivative with respect to Δs, K²/J.
-    pub(super) fn shift(&self, change: S) -> [S; 2] {
+    pub(super) fn shift(&self, change: f64) -> [f64; 2] {
         let y = change * self.per_capacity;
         let factor = self.weight * self.per_capacity;
-        let difference = exp_dd2(S::zero(), y);
+        let difference = exp_dd2(0.0, y);
         // (y exp[0,y,y])′ = eʸ − exp[0,y,y]
-        [factor * difference, factor * (y.exp() - difference)]
+        [factor * difference, factor * (Scalar::exp(y) - difference)]
     }
 }

@@ -23,29 +23,21 @@ use crate::element::state::State;
 use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::Material;
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// Elements of the model `M` with the kinematics `K`, stepped by the scheme `C`.
-pub(crate) struct ElementGroup<
-    S: Real,
-    M: Material<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
-    const D: usize,
-> {
+pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> {
     pub(super) scheme: C,
-    pub(super) members: Vec<Member<S, M, K, C, D>>,
-    pub(super) contacts: Vec<Contact<K, S, D>>,
+    pub(super) members: Vec<Member<M, K, C, D>>,
+    pub(super) contacts: Vec<Contact<K, D>>,
     /// Workspace for elements with many points, a round of elements at a time.
-    pub(super) shares: Vec<Share<K, S, D>>,
+    pub(super) shares: Vec<Share<K, D>>,
     /// Workspace for elements that are evaluated together.
-    pub(super) ahead: Ahead<S, M, C::Old, C::Memory>,
+    pub(super) ahead: Ahead<M, C::Old, C::Memory>,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
-    pub(crate) fn new(scheme: C, loose: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
+    pub(crate) fn new(scheme: C, loose: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
         let members = loose.elements.into_iter();
         let members = members.map(|parts| Member::new(scheme, parts, placed));
         Self {
@@ -58,7 +50,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// The elements without the scheme.
-    pub(super) fn into_loose(self) -> LooseElements<S, M, K, D> {
+    pub(super) fn into_loose(self) -> LooseElements<M, K, D> {
         let elements = self.members.into_iter().map(Member::into_parts);
         LooseElements {
             elements: elements.collect(),
@@ -66,20 +58,20 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// All points.
-    pub(super) fn points(&self) -> impl Iterator<Item = &Point<S, M, K, C, D>> {
+    pub(super) fn points(&self) -> impl Iterator<Item = &Point<M, K, C, D>> {
         let members = self.members.iter();
         members.flat_map(|member| member.points.as_ref())
     }
 
     /// All points, mutable.
-    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut Point<S, M, K, C, D>> {
+    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut Point<M, K, C, D>> {
         let members = self.members.iter_mut();
         members.flat_map(|member| member.points.as_mut())
     }
 
     /// The element of the point with this index in the group, and the index of the point in the element.
-    pub(super) fn at(&self, place: usize) -> (&Member<S, M, K, C, D>, usize) {
-        let points = K::PerPoint::<Point<S, M, K, C, D>>::LEN;
+    pub(super) fn at(&self, place: usize) -> (&Member<M, K, C, D>, usize) {
+        let points = K::PerPoint::<Point<M, K, C, D>>::LEN;
         (&self.members[place / points], place % points)
     }
 
@@ -87,8 +79,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn begin_one_by_one(
         &mut self,
-        view: &StepView<'_, S>,
-        old: &mut Old<'_, S, D>,
+        view: &StepView<'_>,
+        old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
         let mut members = self.members.iter_mut();
         members.try_for_each(|member| member.begin(view, old, None))
@@ -98,10 +90,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn close_one_by_one(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        next: &mut State,
+        tally: &mut Tally,
     ) -> Result<(), StateError> {
         let mut members = self.members.iter_mut();
         members
@@ -109,22 +101,22 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Group<S, D> for ElementGroup<S, M, K, C, D>
+impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Group<D>
+    for ElementGroup<M, K, C, D>
 {
-    fn elements(&self) -> &dyn Elements<S, D> {
+    fn elements(&self) -> &dyn Elements<D> {
         self
     }
 
-    fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
+    fn elements_mut(&mut self) -> &mut dyn Elements<D> {
         self
     }
 
-    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>> {
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
         Box::new(Self::into_loose(*self))
     }
 
-    fn connect(&mut self, sites: &Sites<'_, S, D>) {
+    fn connect(&mut self, sites: &Sites<'_, D>) {
         self.contacts.clear();
         for member in &mut self.members {
             let nodes = member.site.nodes;
@@ -133,7 +125,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
                 let slot = point.slots().thermal;
                 point.meets_reservoirs =
                     slot.is_some_and(|slot| sites.conduction.meets_reservoirs(slot));
-                point.settling = slot.map_or(S::zero(), |slot| sites.conduction.settling(slot));
+                point.settling = slot.map_or(0.0, |slot| sites.conduction.settling(slot));
                 if let Some(contact) = Contact::new(&nodes, slot, sites) {
                     point.contact = compact(self.contacts.len());
                     self.contacts.push(contact);
@@ -142,7 +134,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         }
     }
 
-    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
+    fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
         if const { C::ROWS.is_some() } {
             return self.begin_by_rows(view, old);
         }
@@ -151,9 +143,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
 
     fn evaluate(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: Option<&mut LinearSystem<S, 1>>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
         match system {
             Some(system) if K::PerPoint::<()>::LEN > 1 => {
@@ -168,25 +160,23 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         }
     }
 
-    fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
-        let mut largest = S::zero();
-        if Point::<S, M, K, C, D>::UNKNOWNS == 0 {
+    fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
+        let mut largest = 0.0;
+        if Point::<M, K, C, D>::UNKNOWNS == 0 {
             return largest;
         }
         for member in &mut self.members {
             let motion = member.site.motion_in(solution);
             for point in member.points.as_mut() {
-                let found = point.values_to_restore(settled);
                 let contact = point.contact_in(&self.contacts);
                 let update = point.correct(&motion, contact, solution);
-                point.restore(found, settled);
-                largest = largest.maximum(update);
+                largest = Scalar::maximum(largest, update);
             }
         }
         largest
     }
 
-    fn apply(&mut self, share: S) {
+    fn apply(&mut self, share: f64) {
         self.points_mut().for_each(|point| point.apply(share));
     }
 
@@ -196,11 +186,11 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
 
     fn add_impulse(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
         along: Along,
-        impulses: &mut Impulses<'_, S, D>,
-        magnitudes: &mut [S],
+        impulses: &mut Impulses<'_, D>,
+        magnitudes: &mut [f64],
     ) {
         let at = match along {
             Along::Secant => None,
@@ -212,17 +202,17 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
             let (nodes, r0) = (&member.site.nodes, &member.r0);
             let r1 = member.new_arms(trial);
             if !magnitudes.is_empty() {
-                let change = change_in::<K, S, D>(nodes, trial);
+                let change = change_in::<K, D>(nodes, trial);
                 member.add_magnitude(view.step, [&r1, &change], magnitudes);
             }
             let (h, force) = if let Some(at) = at {
-                let share = view.step * S::from_f64(self.scheme.implicit());
+                let share = view.step * self.scheme.implicit();
                 (share, member.force(at, [r0, &r1]))
             } else {
-                let mut mean = change_in::<K, S, D>(nodes, trial);
+                let mut mean = change_in::<K, D>(nodes, trial);
                 let old = r0.as_ref().as_flattened();
                 for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
-                    *mean = old + S::from_f64(0.5) * *mean;
+                    *mean = old + 0.5 * *mean;
                 }
                 (view.step, member.pull([r0, &r1], &mean))
             };
@@ -236,10 +226,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
 
     fn close(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        next: &mut State,
+        tally: &mut Tally,
     ) -> Result<(), StateError> {
         if const { M::ROWS.is_some() } {
             return self.close_by_rows(view, trial, next, tally);
@@ -247,17 +237,17 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
         self.close_one_by_one(view, trial, next, tally)
     }
 
-    fn reevaluate(&self, ends: [&State<S>; 2], reevaluation: &mut Reevaluation<S>) {
+    fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation) {
         for member in &self.members {
             for point in member.points.as_ref() {
                 let own = point.balance_between(&member.site.nodes, ends);
-                let found = Point::<S, M, K, C, D>::change_of(&point.response, &own.increments);
+                let found = Point::<M, K, C, D>::change_of(&point.response, &own.increments);
                 reevaluation.element(point.element, own.by_values, own.by_differences, found);
             }
         }
     }
 
-    fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
+    fn generic_of_step(&self, ends: [&State; 2]) -> Vec<ElementGeneric> {
         let members = self.members.iter().flat_map(|member| {
             let [r0, r1] = ends.map(|state| member.arms_in(state));
             let points = member.points.as_ref().iter();
@@ -271,8 +261,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     #[cfg(feature = "gradients")]
     fn find_interfaces(
         &mut self,
-        step: &PastStep<'_, S>,
-        interface: &mut InterfaceTemperatures<S>,
+        step: &PastStep<'_>,
+        interface: &mut InterfaceTemperatures,
     ) -> Result<(), StateError> {
         Self::find_interfaces(self, step, interface)
     }
@@ -280,9 +270,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     #[cfg(feature = "gradients")]
     fn pull_back(
         &mut self,
-        step: &StepBack<'_, S>,
-        interface: &InterfaceTemperatures<S>,
-        system: &mut LinearSystem<S, 1>,
+        step: &StepBack<'_>,
+        interface: &InterfaceTemperatures,
+        system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
         Self::pull_back(self, step, interface, system)
     }
@@ -290,11 +280,11 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     #[cfg(feature = "gradients")]
     fn recover(
         &mut self,
-        step: &StepBack<'_, S>,
-        interface: &InterfaceTemperatures<S>,
-        solution: &[[S; 1]],
-        found: (&mut PerVariable<S>, &mut StepWeights<S>),
-        see: &mut SeeParameters<'_, S>,
+        step: &StepBack<'_>,
+        interface: &InterfaceTemperatures,
+        solution: &[[f64; 1]],
+        found: (&mut PerVariable, &mut StepWeights),
+        see: &mut SeeParameters<'_>,
     ) {
         Self::recover(self, step, interface, solution, found, see);
     }
@@ -302,21 +292,21 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, 
     #[cfg(feature = "gradients")]
     fn push_forward(
         &mut self,
-        step: &PastStep<'_, S>,
-        temperatures: (&InterfaceTemperatures<S>, &mut [S]),
-        system: &mut LinearSystem<S, 1>,
-        directions: &mut [Direction<S>],
+        step: &PastStep<'_>,
+        temperatures: (&InterfaceTemperatures, &mut [f64]),
+        system: &mut LinearSystem<1>,
+        directions: &mut [Direction],
     ) -> Result<(), StateError> {
         Self::push_forward(self, step, temperatures, system, directions)
     }
 
     #[cfg(feature = "gradients")]
-    fn follow(&self, directions: &mut [Direction<S>]) {
+    fn follow(&self, directions: &mut [Direction]) {
         Self::follow(self, directions);
     }
 
     #[cfg(feature = "gradients")]
-    fn energy_by_parameters(&self, state: &State<S>, see: &mut SeeParameters<'_, S>) {
+    fn energy_by_parameters(&self, state: &State, see: &mut SeeParameters<'_>) {
         Self::energy_by_parameters(self, state, see);
     }
 }

@@ -3,25 +3,25 @@
 use crate::algebra::lu::Singular;
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::{Array, FreeEnergy};
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// A number per local unknown: the viscous stretches, then the temperature.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PerUnknown<S, V> {
+pub(super) struct PerUnknown<V> {
     viscous: V,
-    temperature: S,
+    temperature: f64,
 }
 
-impl<S: Real, V: Array<S>> PerUnknown<S, V> {
+impl<V: Array<f64>> PerUnknown<V> {
     pub(super) fn zero() -> Self {
         Self {
-            viscous: V::filled(S::zero()),
-            temperature: S::zero(),
+            viscous: V::filled(0.0),
+            temperature: 0.0,
         }
     }
 
     #[inline]
-    pub(super) fn get(&self, unknown: usize) -> S {
+    pub(super) fn get(&self, unknown: usize) -> f64 {
         if unknown < V::LEN {
             self.viscous[unknown]
         } else {
@@ -30,7 +30,7 @@ impl<S: Real, V: Array<S>> PerUnknown<S, V> {
     }
 
     #[inline]
-    pub(super) fn set(&mut self, unknown: usize, value: S) {
+    pub(super) fn set(&mut self, unknown: usize, value: f64) {
         if unknown < V::LEN {
             self.viscous[unknown] = value;
         } else {
@@ -40,30 +40,30 @@ impl<S: Real, V: Array<S>> PerUnknown<S, V> {
 }
 
 /// The solved local system: `δu = −(constant + by_measure δπ + by_heat δr_s)`.
-pub(super) struct Condensed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
-    pub(super) constant: PerUnknown<S, M::Viscosities>,
-    pub(super) by_measure: K::PerMeasure<PerUnknown<S, M::Viscosities>>,
+pub(super) struct Condensed<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> {
+    pub(super) constant: PerUnknown<M::Viscosities>,
+    pub(super) by_measure: K::PerMeasure<PerUnknown<M::Viscosities>>,
     /// Only for elements whose heat depends on global unknowns other than through the measures.
-    pub(super) by_heat: PerUnknown<S, M::Viscosities>,
+    pub(super) by_heat: PerUnknown<M::Viscosities>,
     /// `∂r_s/∂Q = −h w/θ*`, by which heat from other elements enters.
-    pub(super) heat_factor: S,
+    pub(super) heat_factor: f64,
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Condensed<S, M, K, D> {
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> Condensed<M, K, D> {
     /// Before the first elimination.
     pub(super) fn zero() -> Self {
         Self {
             constant: PerUnknown::zero(),
             by_measure: K::PerMeasure::filled(PerUnknown::zero()),
             by_heat: PerUnknown::zero(),
-            heat_factor: S::zero(),
+            heat_factor: 0.0,
         }
     }
 }
 
 /// The local equations of an element, a row per unknown. Arrays have an entry per variable, of which the first are
 /// used.
-pub(super) struct LocalSystem<S: Real, M: FreeEnergy<S>> {
+pub(super) struct LocalSystem<M: FreeEnergy<f64>> {
     /// r, and after the elimination the constant of the solution.
     pub(super) constant: M::Variables,
     /// `∂r/∂x`; the columns of the measures are right-hand sides, and after the elimination the solution.
@@ -72,14 +72,14 @@ pub(super) struct LocalSystem<S: Real, M: FreeEnergy<S>> {
     pub(super) by_heat: M::Variables,
     /// Factors that turn rows into energies, in which pivots are compared: a length (m) for a dashpot (N), a
     /// temperature (K) for the heat balance (J/K).
-    pub(super) unit: [S; 2],
+    pub(super) unit: [f64; 2],
 }
 
-impl<S: Real, M: FreeEnergy<S>> LocalSystem<S, M> {
+impl<M: FreeEnergy<f64>> LocalSystem<M> {
     /// Without equations.
     #[inline]
-    pub(super) fn empty(unit: [S; 2]) -> Self {
-        let zeros = M::Variables::filled(S::zero());
+    pub(super) fn empty(unit: [f64; 2]) -> Self {
+        let zeros = M::Variables::filled(0.0);
         Self {
             constant: zeros,
             rows: M::Hessian::filled(zeros),
@@ -92,8 +92,8 @@ impl<S: Real, M: FreeEnergy<S>> LocalSystem<S, M> {
 /// Gauss–Jordan elimination with partial pivoting.
 #[expect(clippy::inline_always, reason = "a few numbers in registers")]
 #[inline(always)]
-pub(super) fn eliminate<S: Real, M: FreeEnergy<S>, const HEAT: bool>(
-    system: &mut LocalSystem<S, M>,
+pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
+    system: &mut LocalSystem<M>,
 ) -> Result<(), Singular> {
     let LocalSystem {
         constant,
@@ -110,7 +110,7 @@ pub(super) fn eliminate<S: Real, M: FreeEnergy<S>, const HEAT: bool>(
         let at = M::MEASURES + k;
         for row in k + 1..unknowns {
             let size = |row: usize| (units[row] * rows[row][at]).abs();
-            if size(k).less(size(row)).decide()? {
+            if size(k) < size(row) {
                 units.as_mut().swap(row, k);
                 rows.as_mut().swap(row, k);
                 constant.as_mut().swap(row, k);

@@ -12,18 +12,15 @@ use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Material;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
     /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.
     #[inline]
     pub(super) fn linearize_one_by_one(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, 1>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         for member in &mut self.members {
@@ -38,8 +35,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn respond_one_by_one(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
     ) -> Result<(), StateError> {
         let mut members = self.members.iter_mut();
         members.try_for_each(|member| member.respond(view, trial, None))
@@ -49,16 +46,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline(never)]
     pub(super) fn linearize_in_rounds(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, 1>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         let contacts = &self.contacts;
-        let linearize = |member: &mut Member<S, M, K, C, D>, share: &mut Share<K, S, D>| {
+        let linearize = |member: &mut Member<M, K, C, D>, share: &mut Share<K, D>| {
             member.linearize(contacts, view, trial, None, share)
         };
-        let mut add = |member: &Member<S, M, K, C, D>, share: &Share<K, S, D>| {
+        let mut add = |member: &Member<M, K, C, D>, share: &Share<K, D>| {
             member.add_share(share, contacts, (&mut *values, &mut *right));
         };
         in_rounds(&mut self.members, &mut self.shares, &linearize, &mut add)
@@ -67,11 +64,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
 /// Computes contributions of elements with many points in parallel, and adds them in the order of the elements, so that
 /// every sum has the same bits for any number of threads.
-pub(super) fn in_rounds<A: Send, K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn in_rounds<A: Send, K: Kinematics<D>, const D: usize>(
     members: &mut [A],
-    shares: &mut Vec<Share<K, S, D>>,
-    of_one: &(impl Fn(&mut A, &mut Share<K, S, D>) -> Result<(), StateError> + Sync),
-    add: &mut (impl FnMut(&A, &Share<K, S, D>) + Send),
+    shares: &mut Vec<Share<K, D>>,
+    of_one: &(impl Fn(&mut A, &mut Share<K, D>) -> Result<(), StateError> + Sync),
+    add: &mut (impl FnMut(&A, &Share<K, D>) + Send),
 ) -> Result<(), StateError> {
     shares.resize_with(ROUND.min(members.len()), Share::none);
     let is_shared = members.len() > PIECE;
@@ -122,24 +119,18 @@ fn in_pieces<A: Send, B: Send>(
     first.and(second)
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// Evaluates the responses, which may be known, without tangents.
     #[inline]
     pub(super) fn respond(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        known: Known<C::Memory, M::Response, S, M>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        known: Known<C::Memory, M::Response, M>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
-        self.points.as_mut().iter_mut().try_for_each(|point| {
-            let found = point.values_to_restore(trial.settled);
-            point.respond_alone(view, trial, &arms, known)?;
-            point.restore(found, trial.settled);
-            Ok(())
-        })
+        let mut points = self.points.as_mut().iter_mut();
+        points.try_for_each(|point| point.respond_alone(view, trial, &arms, known))
     }
 
     /// Evaluates responses and tangents, which may be known, and the contribution of the element to the system of the next
@@ -151,16 +142,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline(always)]
     pub(super) fn linearize(
         &mut self,
-        contacts: &[Contact<K, S, D>],
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        known: Known<C::Memory, &Form<S, M>, S, M>,
-        share: &mut Share<K, S, D>,
+        contacts: &[Contact<K, D>],
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        known: Known<C::Memory, &Form<f64, M>, M>,
+        share: &mut Share<K, D>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms(view, trial);
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
-            let found = point.values_to_restore(trial.settled);
             let measures = point.locate_trial(&arms.placed, trial, known.map(|known| known.0))?;
             let pose = point.pose(&arms, &measures);
             point.sensitivity = pose.sensitivity;
@@ -184,7 +174,6 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             }
             point.keep(&form);
             point.drop_drag(&elastic);
-            point.restore(found, trial.settled);
         }
         Ok(())
     }

@@ -9,13 +9,10 @@ use crate::element::kinematics::{Arms, Kinematics, Measures};
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Replaces the response by the derivatives of the energy in a state.
-    pub(super) fn take_derivatives(&mut self, r: &Arms<K, S, D>, state: &State<S>) {
+    pub(super) fn take_derivatives(&mut self, r: &Arms<K, D>, state: &State) {
         let x = self.variables_in(r, state);
         let gradient = self.model.gradient(&x);
         let theta = x[M::Variables::LEN - 1];
@@ -24,7 +21,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         self.start.x0 = x;
         for index in 0..M::MEASURES + M::DASHPOTS {
             let is_force = index < M::MEASURES;
-            let sign = if is_force { S::one() } else { -S::one() };
+            let sign = if is_force { 1.0 } else { -1.0 };
             self.response[index] = sign * gradient[index];
         }
         if M::THERMAL {
@@ -36,17 +33,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     pub(super) fn generic(
         &self,
         nodes: &K::PerNode<u32>,
-        (at, ends): (Placement, [&Arms<K, S, D>; 2]),
-    ) -> ElementGeneric<S> {
-        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+        (at, ends): (Placement, [&Arms<K, D>; 2]),
+    ) -> ElementGeneric {
+        let measures0 = measures_in::<K, D>(&self.start.x0);
         let pose = Pose::between(&self.kinematics, at, ends, measures0);
-        let on_nodes = |forces: &Measures<K, S, D>| {
+        let on_nodes = |forces: &Measures<K, D>| {
             let pulled = pose.pull(&self.kinematics, at, forces);
-            by_coordinate::<K, S, D>(nodes, &spread::<K, S, D>(&pulled))
+            by_coordinate::<K, D>(nodes, &spread::<K, D>(&pulled))
         };
         let drags = (0..Self::DRAGS).map(|a| {
-            let mut unit = Measures::<K, S, D>::filled(S::zero());
-            unit[a] = S::one();
+            let mut unit = Measures::<K, D>::filled(0.0);
+            unit[a] = 1.0;
             (self.drag.viscosity.0[a], on_nodes(&unit))
         });
         let dashpots = (0..M::DASHPOTS).map(|k| {
@@ -54,7 +51,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             (self.slots().viscous + k, g, self.viscosities.0[k])
         });
         ElementGeneric {
-            forces: on_nodes(&measures_in::<K, S, D>(&self.response)),
+            forces: on_nodes(&measures_in::<K, D>(&self.response)),
             dashpots: dashpots.collect(),
             drags: drags.collect(),
             temperature: self.slots().thermal.map(|slot| (slot, self.temperature())),
@@ -66,14 +63,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     pub(super) fn entropy_slopes(
         &self,
         nodes: &K::PerNode<u32>,
-        (at, ends): (Placement, [&Arms<K, S, D>; 2]),
-    ) -> Option<EntropySlopes<S>> {
+        (at, ends): (Placement, [&Arms<K, D>; 2]),
+    ) -> Option<EntropySlopes> {
         let Slots { viscous, thermal } = self.slots();
         let x = self.start.x0;
         let (_, hessian) = self.model.hessian(&x);
         let theta = M::Variables::LEN - 1;
-        let pose = Pose::between(&self.kinematics, at, ends, measures_in::<K, S, D>(&x));
-        let mut by_measure = Measures::<K, S, D>::filled(S::zero());
+        let pose = Pose::between(&self.kinematics, at, ends, measures_in::<K, D>(&x));
+        let mut by_measure = Measures::<K, D>::filled(0.0);
         for a in 0..M::MEASURES {
             by_measure[a] = -hessian[theta][a];
         }
@@ -81,7 +78,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let dashpots = (0..M::DASHPOTS).map(|k| (viscous + k, -hessian[theta][M::MEASURES + k]));
         thermal.map(|slot| EntropySlopes {
             slot,
-            by_position: by_coordinate::<K, S, D>(nodes, &spread::<K, S, D>(&pulled)),
+            by_position: by_coordinate::<K, D>(nodes, &spread::<K, D>(&pulled)),
             by_viscous: dashpots.collect(),
             by_temperature: -hessian[theta][theta],
         })
@@ -89,10 +86,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 }
 
 /// The components of vectors on nodes, with their coordinates.
-fn by_coordinate<K: Kinematics<S, D>, S: Real, const D: usize>(
+fn by_coordinate<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
-    by_node: &K::PerNode<[S; D]>,
-) -> Vec<(usize, S)> {
+    by_node: &K::PerNode<[f64; D]>,
+) -> Vec<(usize, f64)> {
     let mut entries = Vec::new();
     for (&node, vector) in nodes.as_ref().iter().zip(by_node.as_ref()) {
         let axes = vector.iter().enumerate();

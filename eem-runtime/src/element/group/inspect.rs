@@ -15,12 +15,11 @@ use crate::element::layout::Slots;
 use crate::element::state::{Energy, State};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Elements<S, D> for ElementGroup<S, M, K, C, D>
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Elements<D>
+    for ElementGroup<M, K, C, D>
 {
-    fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError)) {
+    fn initialize(&mut self, state: &mut State, refuse: &mut dyn FnMut(StateError)) {
         for member in &mut self.members {
             let r = member.arms_in(state);
             for point in member.points.as_mut() {
@@ -31,7 +30,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    fn find_energies(&self, state: &mut State<S>) {
+    fn find_energies(&self, state: &mut State) {
         for member in &self.members {
             let r = member.arms_in(state);
             for point in member.points.as_ref() {
@@ -40,16 +39,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    fn energy_terms(&self, state: &State<S>) -> S {
+    fn energy_terms(&self, state: &State) -> f64 {
         let members = self.members.iter();
-        members.fold(S::zero(), |sum, member| {
+        members.fold(0.0, |sum, member| {
             let r = member.arms_in(state);
             let points = member.points.as_ref().iter();
             points.fold(sum, |sum, point| sum + point.energy_in(&r, state).terms)
         })
     }
 
-    fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>) {
+    fn add_totals(&self, state: &State, totals: &mut ElementTotals) {
         for member in &self.members {
             let r = member.arms_in(state);
             for point in member.points.as_ref() {
@@ -64,7 +63,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
+    fn inspect(&self, place: usize, state: &State) -> ElementView {
         let (member, point) = self.at(place);
         let point = &member.points.as_ref()[point];
         let x = point.variables_in(&member.arms_in(state), state);
@@ -75,23 +74,28 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    fn solid_state(&self, place: usize, state: &State<S>) -> Option<SolidState<S>> {
+    fn solid_state(&self, place: usize, state: &State) -> Option<SolidState> {
         let (member, point) = self.at(place);
         let point = &member.points.as_ref()[point];
         let r = member.arms_in(state);
         let gradient = point.model.gradient(&point.variables_in(&r, state));
-        let force = measures_in::<K, S, D>(&gradient);
+        let force = measures_in::<K, D>(&gradient);
         point.kinematics.solid_state(&r, &force)
     }
 
-    fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S {
+    fn dissipation(
+        &self,
+        place: usize,
+        state: &State,
+        velocity: &dyn Fn(usize) -> [f64; D],
+    ) -> f64 {
         let (member, point) = self.at(place);
         let point = &member.points.as_ref()[point];
         let r = member.arms_in(state);
         let x = point.variables_in(&r, state);
         let (gradient, theta) = (point.model.gradient(&x), x[M::Variables::LEN - 1]);
         let (viscosities, _) = point.model.viscosity(theta);
-        let mut power = S::zero();
+        let mut power = 0.0;
         for dashpot in 0..M::DASHPOTS {
             let g = gradient[M::MEASURES + dashpot];
             power += g * g / viscosities[dashpot];
@@ -100,8 +104,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let nodes = member.site.nodes.as_ref();
         let first = velocity(nodes[0] as usize);
         for (a, &drag) in drags.as_ref().iter().enumerate() {
-            let slopes = K::gradient(&point.kinematics, &r, &measures_in::<K, S, D>(&x));
-            let mut rate = S::zero();
+            let slopes = K::gradient(&point.kinematics, &r, &measures_in::<K, D>(&x));
+            let mut rate = 0.0;
             for (&node, slope) in nodes[1..].iter().zip(slopes[a].as_ref()) {
                 for (axis, speed) in velocity(node as usize).into_iter().enumerate() {
                     rate += slope[axis] * (speed - first[axis]);
@@ -112,14 +116,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         power
     }
 
-    fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(Stiffness<'_, S>)) {
+    fn stiffness(&self, state: &State, see: &mut dyn FnMut(Stiffness<'_>)) {
         for member in &self.members {
             let (nodes, r) = (member.site.nodes.as_ref(), member.arms_in(state));
             for point in member.points.as_ref() {
                 let (model, kinematics) = (&point.model, &point.kinematics);
                 let x = point.variables_in(&r, state);
                 let of = (model, kinematics, nodes);
-                see(stiffness_of::<S, M, K, D>(of, (&r, &x), point.slots()));
+                see(stiffness_of::<M, K, D>(of, (&r, &x), point.slots()));
             }
         }
     }
@@ -139,7 +143,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         member.points.as_ref()[point].slots()
     }
 
-    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
+    fn generic_in(&mut self, state: &State) -> Vec<ElementGeneric> {
         let mut elements = Vec::with_capacity(self.members.len());
         for member in &mut self.members {
             let r = member.arms_in(state);
@@ -173,7 +177,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     #[cfg(feature = "gradients")]
-    fn parameter(&self, place: usize, index: usize) -> S {
+    fn parameter(&self, place: usize, index: usize) -> f64 {
         let (member, point) = self.at(place);
         member.points.as_ref()[point].model.parameter(index)
     }
@@ -199,7 +203,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
     }
 
-    fn audit(&self, state: &State<S>) -> Result<(), Misfit> {
+    fn audit(&self, state: &State) -> Result<(), Misfit> {
         for member in &self.members {
             let r = member.arms_in(state);
             for point in member.points.as_ref() {
@@ -212,19 +216,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Finds entropy and energy in an initial state with these arms.
-    fn initialize(&mut self, r: &Arms<K, S, D>, state: &mut State<S>) -> Result<(), StateError> {
+    fn initialize(&mut self, r: &Arms<K, D>, state: &mut State) -> Result<(), StateError> {
         let x = self.locate(r, state)?;
         let slot = self.slots().thermal;
-        let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
+        let theta = slot.map_or(0.0, |slot| state.temperatures[slot]);
         self.find_viscosities(theta, None)?;
         self.find_drag_viscosity(theta)?;
         let caloric = self.model.caloric(&x);
         let mut energy = self.energy_at(&x, caloric)?;
-        check_gradient::<S, M>(self.element, &self.model.gradient(&x))?;
+        check_gradient::<M>(self.element, &self.model.gradient(&x))?;
         self.add_bounds(r, &x, &mut energy);
         state.energies[self.element.index()] = energy;
         let Some(slot) = slot else {
@@ -237,7 +239,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// The energy in a state with these arms whose temperature and entropy are known.
-    fn energy_in(&self, r: &Arms<K, S, D>, state: &State<S>) -> Energy<S> {
+    fn energy_in(&self, r: &Arms<K, D>, state: &State) -> Energy {
         let x = self.variables_in(r, state);
         let psi = self.model.free_energy(&x);
         let mut energy = match self.slots().thermal {
@@ -253,12 +255,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// The variables in a state with these arms.
-    pub(super) fn variables_in(&self, r: &Arms<K, S, D>, state: &State<S>) -> M::Variables {
-        variables::<S, M>(self.kinematics.measure(r).as_ref(), self.slots(), state)
+    pub(super) fn variables_in(&self, r: &Arms<K, D>, state: &State) -> M::Variables {
+        variables::<M>(self.kinematics.measure(r).as_ref(), self.slots(), state)
     }
 
     /// `ψ + θ s` with the stored entropy, J.
-    fn internal_energy(&self, x: &M::Variables, state: &State<S>) -> S {
+    fn internal_energy(&self, x: &M::Variables, state: &State) -> f64 {
         let psi = self.model.free_energy(x);
         match self.slots().thermal {
             Some(slot) => psi + state.temperatures[slot] * state.entropies.values()[slot],
@@ -268,7 +270,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 }
 
 /// An error unless forces and entropy of an initial state are finite; those of later states are checked with a response.
-fn check_gradient<S: Real, M: FreeEnergy<S>>(
+fn check_gradient<M: FreeEnergy<f64>>(
     element: Element,
     gradient: &M::Variables,
 ) -> Result<(), StateError> {
@@ -287,7 +289,7 @@ fn check_gradient<S: Real, M: FreeEnergy<S>>(
             } else {
                 "entropy"
             },
-            value: gradient.as_ref()[index].to_f64(),
+            value: gradient.as_ref()[index],
         }),
     }
 }

@@ -23,29 +23,28 @@ use crate::element::layout::{Shape, Slots};
 use crate::element::state::State;
 use crate::element::tally::{Reevaluation, Tally};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 
 /// Elements of one model in a state, for any scheme.
-pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
+pub(crate) trait Elements<const D: usize>: Send + Sync {
     /// Finds the entropies and energies of an initial state from its temperatures.
     ///
     /// Calls `refuse` for every element for which the state is inadmissible.
-    fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError));
+    fn initialize(&mut self, state: &mut State, refuse: &mut dyn FnMut(StateError));
 
     /// Adds energy and entropy, from their definitions.
-    fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>);
+    fn add_totals(&self, state: &State, totals: &mut ElementTotals);
 
     /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of a state, J.
-    fn energy_terms(&self, state: &State<S>) -> S;
+    fn energy_terms(&self, state: &State) -> f64;
 
     /// Writes the energies of a state whose temperatures and entropies are known.
-    fn find_energies(&self, state: &mut State<S>);
+    fn find_energies(&self, state: &mut State);
 
     /// The contributions of the elements to the GENERIC form in a state.
-    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
+    fn generic_in(&mut self, state: &State) -> Vec<ElementGeneric>;
 
     /// Passes stiffness and rates of each point in a state to `see`.
-    fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(Stiffness<'_, S>));
+    fn stiffness(&self, state: &State, see: &mut dyn FnMut(Stiffness<'_>));
 
     /// The handle of the element at `place`.
     fn handle(&self, place: usize) -> Element;
@@ -73,62 +72,63 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// A parameter of the element at `place`.
     #[cfg(feature = "gradients")]
-    fn parameter(&self, _place: usize, _index: usize) -> S {
-        S::zero()
+    fn parameter(&self, _place: usize, _index: usize) -> f64 {
+        0.0
     }
 
     /// The state indices of the internal variables of the element at `place`.
     fn slots(&self, place: usize) -> Slots;
 
     /// The element at `place` in a state.
-    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
+    fn inspect(&self, place: usize, state: &State) -> ElementView;
 
     /// Stress and strain of the element at `place`; `None` for a spring.
-    fn solid_state(&self, place: usize, state: &State<S>) -> Option<SolidState<S>>;
+    fn solid_state(&self, place: usize, state: &State) -> Option<SolidState>;
 
     /// The power that the dashpots of the element at `place` turn into heat, W, at these velocities of nodes, m/s.
-    fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S;
+    fn dissipation(&self, place: usize, state: &State, velocity: &dyn Fn(usize) -> [f64; D])
+    -> f64;
 
     /// Adds the parameters of all elements to a digest.
     fn digest(&self, digest: &mut Digest);
 
     /// An error unless the elements can be in a state that comes from outside, and its entropies are
     /// those of its temperatures.
-    fn audit(&self, state: &State<S>) -> Result<(), Misfit>;
+    fn audit(&self, state: &State) -> Result<(), Misfit>;
 }
 
 /// Elements of one model in an implicit scheme, for any model, kinematics and scheme.
-pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
+pub(crate) trait Group<const D: usize>: Send + Sync {
     /// The elements in a state.
-    fn elements(&self) -> &dyn Elements<S, D>;
+    fn elements(&self) -> &dyn Elements<D>;
 
     /// The same, mutable.
-    fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
+    fn elements_mut(&mut self) -> &mut dyn Elements<D>;
 
     /// The elements without a scheme.
-    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>>;
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>>;
 
     /// Finds the matrix indices of its elements; called once per scene.
-    fn connect(&mut self, sites: &Sites<'_, S, D>);
+    fn connect(&mut self, sites: &Sites<'_, D>);
 
     /// Takes over the old state, adds its contribution to the nodes, and starts the trial there.
-    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError>;
+    fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError>;
 
     /// Computes everything that depends on the trial state, element by element, and adds residual and
     /// tangent, local unknowns eliminated, to a system if there is one.
     fn evaluate(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: Option<&mut LinearSystem<S, 1>>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError>;
 
-    /// Applies the local corrections for a global solution, except in lanes that have converged; returns the largest,
+    /// Applies the local corrections for a global solution and returns the largest,
     /// in units of the measure (viscous stretches) and of the temperature.
-    fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S;
+    fn correct(&mut self, solution: &[[f64; 1]]) -> f64;
 
     /// Applies a fraction of the last corrections instead.
-    fn apply(&mut self, share: S);
+    fn apply(&mut self, share: f64);
 
     /// Starts the next correction, of zero, from the present trial.
     fn hold(&mut self);
@@ -137,47 +137,41 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// the magnitude of its terms to that of each node.
     fn add_impulse(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
         along: Along,
-        impulses: &mut Impulses<'_, S, D>,
-        magnitudes: &mut [S],
+        impulses: &mut Impulses<'_, D>,
+        magnitudes: &mut [f64],
     );
 
     /// Adds `(h w) A` and `−(h w) A q⁰`, where `A q_i` is the nodal force found at the stage of a set and w
     /// its weight in the rows of the set; moved anchors are taken from the trial. Only for schemes closed stage by stage.
-    fn add_secant(
-        &mut self,
-        _set: usize,
-        _: &StepView<'_, S>,
-        _: &Trial<S, D>,
-        _: &mut LinearSystem<S, D>,
-    ) {
+    fn add_secant(&mut self, _set: usize, _: &StepView<'_>, _: &Trial<D>, _: &mut LinearSystem<D>) {
     }
 
     /// Adds the increments of the internal variables and of the reservoirs' entropies to a new state
     /// whose positions are known, and finds its temperatures and energies.
     fn close(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        next: &mut State,
+        tally: &mut Tally,
     ) -> Result<(), StateError>;
 
     /// Adds the energy balances of the elements in the last step, from the old state to a closed one.
-    fn reevaluate(&self, ends: [&State<S>; 2], reevaluation: &mut Reevaluation<S>);
+    fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation);
 
     /// The contributions of the elements to the discrete GENERIC form of the last step, between two states; empty for
     /// schemes of several stages.
-    fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
+    fn generic_of_step(&self, ends: [&State; 2]) -> Vec<ElementGeneric>;
 
     /// Finds the interface temperatures θ* of its points in a completed step, before [`pull_back`](Self::pull_back).
     #[cfg(feature = "gradients")]
     fn find_interfaces(
         &mut self,
-        _: &PastStep<'_, S>,
-        _: &mut InterfaceTemperatures<S>,
+        _: &PastStep<'_>,
+        _: &mut InterfaceTemperatures,
     ) -> Result<(), StateError> {
         Ok(())
     }
@@ -187,9 +181,9 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     #[cfg(feature = "gradients")]
     fn pull_back(
         &mut self,
-        _: &StepBack<'_, S>,
-        _: &InterfaceTemperatures<S>,
-        _: &mut LinearSystem<S, 1>,
+        _: &StepBack<'_>,
+        _: &InterfaceTemperatures,
+        _: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
         Ok(())
     }
@@ -199,11 +193,11 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     #[cfg(feature = "gradients")]
     fn recover(
         &mut self,
-        _: &StepBack<'_, S>,
-        _: &InterfaceTemperatures<S>,
-        _solution: &[[S; 1]],
-        _found: (&mut PerVariable<S>, &mut StepWeights<S>),
-        _see: &mut SeeParameters<'_, S>,
+        _: &StepBack<'_>,
+        _: &InterfaceTemperatures,
+        _solution: &[[f64; 1]],
+        _found: (&mut PerVariable, &mut StepWeights),
+        _see: &mut SeeParameters<'_>,
     ) {
     }
 
@@ -212,55 +206,55 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     #[cfg(feature = "gradients")]
     fn push_forward(
         &mut self,
-        _: &PastStep<'_, S>,
-        _: (&InterfaceTemperatures<S>, &mut [S]),
-        _: &mut LinearSystem<S, 1>,
-        _: &mut [Direction<S>],
+        _: &PastStep<'_>,
+        _: (&InterfaceTemperatures, &mut [f64]),
+        _: &mut LinearSystem<1>,
+        _: &mut [Direction],
     ) -> Result<(), StateError> {
         Ok(())
     }
 
     /// Finds the changes of the internal variables of the new state, given those of the positions and the solutions.
     #[cfg(feature = "gradients")]
-    fn follow(&self, _: &mut [Direction<S>]) {}
+    fn follow(&self, _: &mut [Direction]) {}
 
     /// Passes the derivatives of the internal energy of every point with respect to its parameters in a state to `see`.
     #[cfg(feature = "gradients")]
-    fn energy_by_parameters(&self, _state: &State<S>, _see: &mut SeeParameters<'_, S>) {}
+    fn energy_by_parameters(&self, _state: &State, _see: &mut SeeParameters<'_>) {}
 }
 
 /// Elements of one model in an explicit scheme.
-pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
+pub(crate) trait ExplicitGroup<const D: usize>: Send + Sync {
     /// The elements in a state.
-    fn elements(&self) -> &dyn Elements<S, D>;
+    fn elements(&self) -> &dyn Elements<D>;
 
     /// The same, mutable.
-    fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
+    fn elements_mut(&mut self) -> &mut dyn Elements<D>;
 
     /// The elements without a scheme.
-    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>>;
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>>;
 
     /// Takes the component of each element, and the places of its nodes by component and node; called once per scene.
     fn join(&mut self, component_of: &[u32], place_of: &dyn Fn(u32, u32) -> u32);
 
     /// Adds the forces and writes the rates at a stage.
-    fn rates(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
+    fn rates(&self, stage: &mut Stage<D>) -> Result<(), StateError>;
 
     /// Adds a stage with a weight to the integrals of thermostats, after its rates have been written.
-    fn integrate_thermostats(&self, stage: &mut Stage<S, D>, is_start: bool);
+    fn integrate_thermostats(&self, stage: &mut Stage<D>, is_start: bool);
 
     /// Finds temperatures and energies of the open components.
-    fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError>;
+    fn close(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError>;
 
     /// Adds the forces on places at the last closing of these components, and writes `γ̇` and `g γ̇` of their dashpots.
-    fn pull(&self, components: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]);
+    fn pull(&self, components: &[bool], forces: &mut [[f64; D]], creep: &mut [[f64; 2]]);
 
     /// Writes the rates of the closed state, whose temperatures differ little from those of the last [`close`](Self::close).
-    fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError>;
+    fn finish(&self, stage: &mut Stage<D>) -> Result<(), StateError>;
 }
 
 /// Elements of one model without a scheme, for any model.
-pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
+pub(crate) trait Loose<const D: usize>: Any + Debug + Send + Sync {
     /// The elements, for a downcast to their type.
     fn as_any(&self) -> &dyn Any;
 
@@ -284,14 +278,14 @@ pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
     fn name(&self) -> &'static &'static str;
 
     /// The first parameter of the point at `place` that is not finite, and its value.
-    fn infinite_parameter(&self, place: usize) -> Option<(&'static str, S)>;
+    fn infinite_parameter(&self, place: usize) -> Option<(&'static str, f64)>;
 
     /// A copy of the elements.
-    fn duplicate(&self) -> Box<dyn Loose<S, D>>;
+    fn duplicate(&self) -> Box<dyn Loose<D>>;
 
     /// The elements, ready to be stepped.
-    fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>>;
+    fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<D>>;
 
     /// The elements, ready for an explicit scheme.
-    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<S, D>>;
+    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<D>>;
 }

@@ -19,11 +19,9 @@ use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, FreeEnergy};
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
-impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Number of measures with a dashpot of their own.
     pub(super) const DRAGS: usize = M::Drag::LEN;
 
@@ -36,9 +34,9 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline]
     pub(super) fn extend(
         &mut self,
-        pose: &Pose<K, S, D>,
-        motion: &Arms<K, S, D>,
-    ) -> Option<Gradient<K, S, D>> {
+        pose: &Pose<K, D>,
+        motion: &Arms<K, D>,
+    ) -> Option<Gradient<K, D>> {
         if Self::HAS_RATES {
             let (own, by_arm) = pose.increase(&self.kinematics, self.scheme.placement(), motion);
             for a in 0..Self::DRAGS {
@@ -47,42 +45,41 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             return Some(by_arm);
         }
         for a in 0..Self::DRAGS {
-            self.drag.extension[a] = along::<K, S, D>(&pose.direction[a], motion);
+            self.drag.extension[a] = along::<K, D>(&pose.direction[a], motion);
         }
         None
     }
 
     /// `λ̇` of the trial, m/s.
     #[inline]
-    fn extension_rate(&self, a: usize, per_step: S) -> S {
+    fn extension_rate(&self, a: usize, per_step: f64) -> f64 {
         self.drag.extension[a] * self.per_share(per_step)
     }
 
     /// `1/(w h)`, 1/s.
     #[inline]
-    fn per_share(&self, per_step: S) -> S {
-        per_step * S::from_f64(self.scheme.implicit().recip())
+    fn per_share(&self, per_step: f64) -> f64 {
+        per_step * self.scheme.implicit().recip()
     }
 
     /// Evaluates the viscosity at a temperature; an error unless it is positive.
     #[inline]
-    pub(super) fn find_drag_viscosity(&mut self, theta: S) -> Result<(), StateError> {
+    pub(super) fn find_drag_viscosity(&mut self, theta: f64) -> Result<(), StateError> {
         if Self::DRAGS == 0 {
             return Ok(());
         }
         self.drag.viscosity = self.model.drag(theta);
-        check_drag::<S, M, K, D>(self.drag.viscosity.0, theta)
-            .map_err(|error| error.of(self.element))
+        check_drag::<M, K, D>(self.drag.viscosity.0, theta).map_err(|error| error.of(self.element))
     }
 
     /// Finds the force for a response, given 1/h, 1/s.
     #[inline]
     pub(super) fn find_drag(
         &mut self,
-        per_step: S,
+        per_step: f64,
         response: &M::Response,
     ) -> Result<(), StateError> {
-        self.find_drag_viscosity(temperature_in::<S, M>(response))?;
+        self.find_drag_viscosity(temperature_in::<M>(response))?;
         for a in 0..Self::DRAGS {
             self.drag.force[a] = self.drag.viscosity.0[a] * self.extension_rate(a, per_step);
         }
@@ -91,8 +88,12 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// Adds the force and its derivatives to a form; returns the forces without it.
     #[inline]
-    pub(super) fn add_drag(&self, per_step: S, (response, tangent): &mut Form<S, M>) -> M::Drag {
-        let mut elastic = M::Drag::filled(S::zero());
+    pub(super) fn add_drag(
+        &self,
+        per_step: f64,
+        (response, tangent): &mut Form<f64, M>,
+    ) -> M::Drag {
+        let mut elastic = M::Drag::filled(0.0);
         for a in 0..Self::DRAGS {
             elastic[a] = response[a];
             response[a] += self.drag.force[a];
@@ -112,7 +113,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// `λ̇ dη/dθ`, the derivative of the force with respect to θ*.
     #[inline]
-    fn thinning(&self, a: usize, per_step: S) -> S {
+    fn thinning(&self, a: usize, per_step: f64) -> f64 {
         self.extension_rate(a, per_step) * self.drag.viscosity.1[a]
     }
 
@@ -128,9 +129,9 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline]
     pub(super) fn dissipate_by_drag(
         &self,
-        view: &StepView<'_, S>,
-        (_, tangent): &Form<S, M>,
-        dissipation: &mut Dissipation<S, M>,
+        view: &StepView<'_>,
+        (_, tangent): &Form<f64, M>,
+        dissipation: &mut Dissipation<M>,
     ) {
         for a in 0..Self::DRAGS {
             let rate = self.extension_rate(a, view.per_step);
@@ -151,16 +152,16 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     }
 
     /// For a classical scheme: finds the derivatives of the heat balance with respect to the new arms through the rates.
-    pub(super) fn warm_by_rates(&mut self, view: &StepView<'_, S>, by_arm: &Gradient<K, S, D>) {
+    pub(super) fn warm_by_rates(&mut self, view: &StepView<'_>, by_arm: &Gradient<K, D>) {
         let per_share = self.per_share(view.per_step);
         for at_point in self.single.as_mut() {
             for a in 0..Self::DRAGS {
                 let force = self.drag.force[a];
                 let mut by = by_arm[a];
                 let by_extension = self.condensed.heat_factor * (force + force) * per_share;
-                scale::<K, S, D>(&mut by, by_extension);
+                scale::<K, D>(&mut by, by_extension);
                 if self.scheme.is_in_temperature() {
-                    add_scaled::<K, S, D>(&mut at_point.by_increment, S::one(), &by);
+                    add_scaled::<K, D>(&mut at_point.by_increment, 1.0, &by);
                 } else {
                     at_point.by_increment = by;
                 }
@@ -172,13 +173,13 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     pub(super) fn force_by_rate(
         &self,
         a: usize,
-        per_step: S,
-        factor: S,
-        by_arm: &Gradient<K, S, D>,
-    ) -> Arms<K, S, D> {
+        per_step: f64,
+        factor: f64,
+        by_arm: &Gradient<K, D>,
+    ) -> Arms<K, D> {
         let mut by = by_arm[a];
         let eta = self.drag.viscosity.0[a];
-        scale::<K, S, D>(&mut by, factor * eta * self.per_share(per_step));
+        scale::<K, D>(&mut by, factor * eta * self.per_share(per_step));
         by
     }
 
@@ -186,21 +187,21 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     /// power, W.
     pub(super) fn add_old_drag(
         &mut self,
-        (r0, velocities): (&Arms<K, S, D>, &Arms<K, S, D>),
+        (r0, velocities): (&Arms<K, D>, &Arms<K, D>),
         gradient: &mut M::Variables,
         rates: &mut M::Variables,
-    ) -> Result<S, StateError> {
-        let mut power = S::zero();
+    ) -> Result<f64, StateError> {
+        let mut power = 0.0;
         if Self::DRAGS == 0 {
             return Ok(power);
         }
         let x0 = self.start.x0;
         self.find_drag_viscosity(x0[Self::VARIABLES - 1])?;
-        let measures0 = measures_in::<K, S, D>(&x0);
+        let measures0 = measures_in::<K, D>(&x0);
         let by_arm = self.kinematics.gradient(r0, &measures0);
-        let share = S::one() - S::from_f64(self.scheme.implicit());
+        let share = 1.0 - self.scheme.implicit();
         for a in 0..Self::DRAGS {
-            let rate = along::<K, S, D>(&by_arm[a], velocities);
+            let rate = along::<K, D>(&by_arm[a], velocities);
             let force = self.drag.viscosity.0[a] * rate;
             gradient[a] += force;
             rates[a] = share * rate;
@@ -211,8 +212,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// Books the entropy production of the step; returns the heat, J.
     #[inline]
-    pub(super) fn book_drag(&self, per_theta: S, tally: &mut Tally<S>) -> S {
-        let mut dissipated = S::zero();
+    pub(super) fn book_drag(&self, per_theta: f64, tally: &mut Tally) -> f64 {
+        let mut dissipated = 0.0;
         for a in 0..Self::DRAGS {
             let heat = self.drag.force[a] * self.drag.extension[a];
             dissipated += heat;
@@ -223,8 +224,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// The forces between the nodes: those of the response plus those of Kelvin–Voigt dashpots, N.
     #[inline]
-    pub(super) fn pulls(&self) -> Measures<K, S, D> {
-        let mut forces = measures_in::<K, S, D>(&self.response);
+    pub(super) fn pulls(&self) -> Measures<K, D> {
+        let mut forces = measures_in::<K, D>(&self.response);
         for a in 0..Self::DRAGS {
             forces[a] += self.drag.force[a];
         }
@@ -233,7 +234,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// A row of the response, including the dashpot force if the row is a force.
     #[inline]
-    pub(super) fn pull_of_row(&self, row: usize) -> S {
+    pub(super) fn pull_of_row(&self, row: usize) -> f64 {
         if row < Self::DRAGS {
             self.response[row] + self.drag.force[row]
         } else {
@@ -263,16 +264,16 @@ impl WrongDrag {
 
 /// An error unless the viscosity of a Kelvin–Voigt dashpot is positive and finite.
 #[inline]
-pub(super) fn check_drag<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize>(
+pub(super) fn check_drag<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize>(
     drag: M::Drag,
-    theta: S,
+    theta: f64,
 ) -> Result<(), WrongDrag> {
     match drag.as_ref().iter().find(|&&eta| !is_positive(eta)) {
         None => Ok(()),
         Some(eta) => Err(WrongDrag {
-            value: eta.to_f64(),
+            value: *eta,
             unit: K::VISCOSITY_UNIT,
-            temperature: M::THERMAL.then(|| theta.to_f64()),
+            temperature: M::THERMAL.then_some(theta),
         }),
     }
 }

@@ -22,40 +22,37 @@ use crate::element::group::point::temperature_in;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::{Array, FreeEnergy};
-use eem_material::number::scalar::Real;
 
 /// The power dissipated by the dashpots, `Σ η γ̇²`, W, and its derivatives with respect to the variables.
-pub(super) struct Dissipation<S: Real, M: FreeEnergy<S>> {
-    pub(super) power: S,
+pub(super) struct Dissipation<M: FreeEnergy<f64>> {
+    pub(super) power: f64,
     pub(super) by: M::Variables,
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Eliminates the internal variables of an element, given its response with tangent and its viscosities.
     #[inline]
     pub(super) fn condense(
         &mut self,
-        view: &StepView<'_, S>,
-        interface: &InterfaceTemperatures<S>,
-        form: &Form<S, M>,
-        contact: Option<&Contact<K, S, D>>,
+        view: &StepView<'_>,
+        interface: &InterfaceTemperatures,
+        form: &Form<f64, M>,
+        contact: Option<&Contact<K, D>>,
     ) -> Result<(), StateError> {
         if Self::UNKNOWNS == 0 {
             return Ok(());
         }
         // Called first: the call would spill the registers used below.
-        let theta = temperature_in::<S, M>(&form.0);
+        let theta = temperature_in::<M>(&form.0);
         let conducting = self.conducting_temperature(&form.0);
         let flow = self.heat_flow(view, contact, interface, conducting);
-        let mut system = LocalSystem::<S, M>::empty(self.pivot_units(theta));
+        let mut system = LocalSystem::<M>::empty(self.pivot_units(theta));
         self.balances::<true>(view, &flow, form, &mut system);
         let depends_on_heat = self.depends_on_heat(contact.is_some());
         let solved = if depends_on_heat {
-            eliminate::<S, M, true>(&mut system)
+            eliminate::<M, true>(&mut system)
         } else {
-            eliminate::<S, M, false>(&mut system)
+            eliminate::<M, false>(&mut system)
         };
         solved.map_err(|singular| self.unsolved(singular))?;
         self.keep_solved(&system, depends_on_heat);
@@ -76,14 +73,14 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline(always)]
     pub(super) fn balances<const SCALED: bool>(
         &mut self,
-        view: &StepView<'_, S>,
-        flow: &HeatFlow<S>,
-        form: &Form<S, M>,
-        system: &mut LocalSystem<S, M>,
+        view: &StepView<'_>,
+        flow: &HeatFlow,
+        form: &Form<f64, M>,
+        system: &mut LocalSystem<M>,
     ) {
         let mut dissipation = Dissipation {
-            power: S::zero(),
-            by: M::Variables::filled(S::zero()),
+            power: 0.0,
+            by: M::Variables::filled(0.0),
         };
         for k in 0..M::DASHPOTS {
             self.dashpot_balance(view, k, form, system, &mut dissipation);
@@ -93,10 +90,10 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             let row = M::DASHPOTS;
             if self.is_prescribed {
                 // r_s = τ − τ_prescribed, which is zero from the start.
-                self.condensed.heat_factor = S::zero();
-                system.rows[row][Self::TEMPERATURE] = S::one();
+                self.condensed.heat_factor = 0.0;
+                system.rows[row][Self::TEMPERATURE] = 1.0;
             } else {
-                system.by_heat[row] = S::one();
+                system.by_heat[row] = 1.0;
                 self.heat_balance::<SCALED>(view, flow, form, system, &dissipation);
             }
         }
@@ -104,7 +101,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// Stores the solved local system.
     #[inline]
-    pub(super) fn keep_solved(&mut self, system: &LocalSystem<S, M>, depends_on_heat: bool) {
+    pub(super) fn keep_solved(&mut self, system: &LocalSystem<M>, depends_on_heat: bool) {
         for u in 0..Self::UNKNOWNS {
             self.condensed.constant.set(u, system.constant[u]);
             for a in 0..M::MEASURES {
@@ -118,11 +115,11 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// Factors that turn the rows of the local system into energies.
     #[inline]
-    pub(super) fn pivot_units(&self, theta: S) -> [S; 2] {
+    pub(super) fn pivot_units(&self, theta: f64) -> [f64; 2] {
         if C::EXACT {
             [self.viscous_unit(), theta]
         } else {
-            [S::one(); 2]
+            [1.0; 2]
         }
     }
 
@@ -140,11 +137,11 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline(always)]
     pub(super) fn heat_flow(
         &self,
-        view: &StepView<'_, S>,
-        contact: Option<&Contact<K, S, D>>,
-        interface: &InterfaceTemperatures<S>,
-        theta: S,
-    ) -> HeatFlow<S> {
+        view: &StepView<'_>,
+        contact: Option<&Contact<K, D>>,
+        interface: &InterfaceTemperatures,
+        theta: f64,
+    ) -> HeatFlow {
         let mut flow = HeatFlow::none();
         let Some(slot) = self.slots().thermal else {
             return flow;
@@ -162,7 +159,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// `γ̇_k` of the trial, to which the scheme gives the weight w, m/s.
     #[inline]
-    pub(super) fn creep_rate(&self, k: usize, view: &StepView<'_, S>) -> S {
+    pub(super) fn creep_rate(&self, k: usize, view: &StepView<'_>) -> f64 {
         if C::EXACT {
             self.creep[k] * view.per_step
         } else {
@@ -172,7 +169,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// `η_k γ̇_k²`, W.
     #[inline]
-    pub(super) fn power_of(&self, k: usize, view: &StepView<'_, S>) -> S {
+    pub(super) fn power_of(&self, k: usize, view: &StepView<'_>) -> f64 {
         let rate = self.creep_rate(k, view);
         self.viscosities.0[k] * (rate * rate)
     }
@@ -181,16 +178,16 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline]
     fn dashpot_balance(
         &self,
-        view: &StepView<'_, S>,
+        view: &StepView<'_>,
         k: usize,
-        (response, tangent): &Form<S, M>,
-        system: &mut LocalSystem<S, M>,
-        dissipation: &mut Dissipation<S, M>,
+        (response, tangent): &Form<f64, M>,
+        system: &mut LocalSystem<M>,
+        dissipation: &mut Dissipation<M>,
     ) {
         let index = M::MEASURES + k;
         if !view.phase.heats() {
             // Δγ = 0.
-            system.rows[k][index] = S::one();
+            system.rows[k][index] = 1.0;
             return;
         }
         if !C::EXACT {
@@ -206,13 +203,9 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             let thinning = if M::THERMAL {
                 rate * self.viscosities.1[k] * tangent[Self::TEMPERATURE][column]
             } else {
-                S::zero()
+                0.0
             };
-            let own = if column == index {
-                per_creep
-            } else {
-                S::zero()
-            };
+            let own = if column == index { per_creep } else { 0.0 };
             system.rows[k][column] = (own + thinning) - tangent[index][column];
             // ∂(η γ̇²)/∂x = γ̇ (2η ∂γ̇/∂x + γ̇ ∂η/∂x)
             let power_by = rate * ((own + own) + thinning);
@@ -227,11 +220,11 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     /// `r_γk` of a classical scheme and its derivatives; adds to the derivatives of the dissipated power.
     fn ordinary_dashpot_balance(
         &self,
-        view: &StepView<'_, S>,
+        view: &StepView<'_>,
         k: usize,
         (response, tangent): (&M::Response, &M::Tangent),
-        system: &mut LocalSystem<S, M>,
-        dissipation: &mut Dissipation<S, M>,
+        system: &mut LocalSystem<M>,
+        dissipation: &mut Dissipation<M>,
     ) {
         let index = M::MEASURES + k;
         let per_eta = self.viscosities.0[k].recip();
@@ -239,7 +232,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         dissipation.power += response[index] * rate;
         let h = view.thermal_step();
         system.constant[k] = self.creep[k] - self.increment(index, rate, h);
-        let mobility = -h * S::from_f64(self.scheme.implicit()) * per_eta;
+        let mobility = -h * self.scheme.implicit() * per_eta;
         // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
         let thinning = rate * self.viscosities.1[k];
         for column in 0..Self::VARIABLES {
@@ -256,7 +249,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             } else {
                 dissipation.by[column] + power_by
             };
-            let own = if column == index { S::one() } else { S::zero() };
+            let own = if column == index { 1.0 } else { 0.0 };
             system.rows[k][column] = own + mobility * driving;
         }
     }
@@ -265,13 +258,13 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline]
     fn heat_balance<const SCALED: bool>(
         &mut self,
-        view: &StepView<'_, S>,
-        flow: &HeatFlow<S>,
-        (response, tangent): &Form<S, M>,
-        system: &mut LocalSystem<S, M>,
-        dissipation: &Dissipation<S, M>,
+        view: &StepView<'_>,
+        flow: &HeatFlow,
+        (response, tangent): &Form<f64, M>,
+        system: &mut LocalSystem<M>,
+        dissipation: &Dissipation<M>,
     ) {
-        let per_theta = temperature_in::<S, M>(response).recip();
+        let per_theta = temperature_in::<M>(response).recip();
         let rate = (dissipation.power + flow.heat) * per_theta;
         let h = view.thermal_step();
         let row = M::DASHPOTS;
@@ -279,7 +272,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         let residual = response[Self::ENTROPY] - received;
         system.constant[row] = residual;
         // ∂r_s/∂(power) without the sign, and ∂r_s/∂θ*.
-        let weight = h * S::from_f64(self.scheme.implicit()) * per_theta;
+        let weight = h * self.scheme.implicit() * per_theta;
         self.condensed.heat_factor = -weight;
         let mut by_theta = weight * (flow.conductance + rate);
         if SCALED && C::SCALES_HEAT {

@@ -6,17 +6,16 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{Kinematics, Points};
 use crate::element::layout::Shape;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// Model and kinematics of the points of an element.
-pub(crate) type Parts<S, M, K, const D: usize> = <K as Kinematics<S, D>>::PerPoint<(M, K)>;
+pub(crate) type Parts<M, K, const D: usize> = <K as Kinematics<D>>::PerPoint<(M, K)>;
 
 /// Elements of the model `M` with the kinematics `K`, each with the handle of its first point.
-pub(crate) struct LooseElements<S: Real, M: Send + Sync, K: Kinematics<S, D>, const D: usize> {
-    pub(crate) elements: Vec<(Element, Parts<S, M, K, D>)>,
+pub(crate) struct LooseElements<M: Send + Sync, K: Kinematics<D>, const D: usize> {
+    pub(crate) elements: Vec<(Element, Parts<M, K, D>)>,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements<S, M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
     pub(super) const POINTS: usize = K::PerPoint::<(M, K)>::LEN;
 
     /// No elements yet.
@@ -42,7 +41,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements
         Shape {
             dashpots: M::DASHPOTS,
             thermal: M::THERMAL,
-            drag: <M::Drag as Array<S>>::LEN > 0,
+            drag: <M::Drag as Array<f64>>::LEN > 0,
             is_spring: K::IS_SPRING,
             viscous_strain: M::VISCOUS_STRAIN,
             viscous_unit: K::VISCOUS_UNIT,
@@ -50,7 +49,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements
     }
 
     /// See [`Loose::infinite_parameter`](super::Loose::infinite_parameter).
-    pub(super) fn infinite_parameter_at(&self, place: usize) -> Option<(&'static str, S)> {
+    pub(super) fn infinite_parameter_at(&self, place: usize) -> Option<(&'static str, f64)> {
         let (_, points) = &self.elements[place / Self::POINTS];
         let (model, _) = &points.as_ref()[place % Self::POINTS];
         let parameters = M::PARAMETERS.iter().enumerate();
@@ -73,9 +72,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> fmt::Debug
-    for LooseElements<S, M, K, D>
-{
+impl<M: Material, K: Kinematics<D>, const D: usize> fmt::Debug for LooseElements<M, K, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} elements of {}", self.elements.len(), M::MODEL)
     }

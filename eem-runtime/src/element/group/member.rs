@@ -11,25 +11,16 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// An element.
-pub(crate) struct Member<
-    S: Real,
-    M: Material<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
-    const D: usize,
-> {
-    pub(super) site: Site<K, S, D>,
+pub(crate) struct Member<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> {
+    pub(super) site: Site<K, D>,
     /// The old arms.
-    pub(super) r0: Arms<K, S, D>,
-    pub(super) points: K::PerPoint<Point<S, M, K, C, D>>,
+    pub(super) r0: Arms<K, D>,
+    pub(super) points: K::PerPoint<Point<M, K, C, D>>,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// An element whose points have consecutive handles, of which the first is given.
     pub(super) fn new(
         scheme: C,
@@ -39,7 +30,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let mut parts = points.into_iter();
         Self {
             site: Site::unconnected(placed.nodes.of(first.index())),
-            r0: Arms::<K, S, D>::filled([S::zero(); D]),
+            r0: Arms::<K, D>::filled([0.0; D]),
             points: K::PerPoint::from_fn(|point| {
                 let element = first.after(point);
                 let slots = placed.layout.elements[element.index()];
@@ -60,7 +51,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// The first point, the only one of a spring.
-    pub(super) fn only(&self) -> &Point<S, M, K, C, D> {
+    pub(super) fn only(&self) -> &Point<M, K, C, D> {
         &self.points.as_ref()[0]
     }
 
@@ -72,55 +63,47 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// Its arms in a state.
     #[inline]
-    pub(super) fn arms_in(&self, state: &State<S>) -> Arms<K, S, D> {
-        arms_in::<K, S, D>(&self.site.nodes, &state.positions)
+    pub(super) fn arms_in(&self, state: &State) -> Arms<K, D> {
+        arms_in::<K, D>(&self.site.nodes, &state.positions)
     }
 
     /// The new arms `r¹ = r⁰ + Δr`.
     #[inline]
-    pub(super) fn new_arms(&self, trial: &Trial<S, D>) -> Arms<K, S, D> {
-        let mut r1 = change_in::<K, S, D>(&self.site.nodes, trial);
-        add_scaled::<K, S, D>(&mut r1, S::one(), &self.r0);
+    pub(super) fn new_arms(&self, trial: &Trial<D>) -> Arms<K, D> {
+        let mut r1 = change_in::<K, D>(&self.site.nodes, trial);
+        add_scaled::<K, D>(&mut r1, 1.0, &self.r0);
         r1
     }
 
     /// Its arms at a trial.
     #[inline]
-    pub(super) fn trial_arms(
-        &self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-    ) -> TrialArms<K, S, D> {
+    pub(super) fn trial_arms(&self, view: &StepView<'_>, trial: &Trial<D>) -> TrialArms<K, D> {
         TrialArms {
             old: self.r0,
-            placed: placed_arms::<K, S, D>(
-                self.scheme().placement(),
-                &self.r0,
-                self.new_arms(trial),
-            ),
+            placed: placed_arms::<K, D>(self.scheme().placement(), &self.r0, self.new_arms(trial)),
             motion: self.motion(view, trial),
         }
     }
 
     /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms; only schemes in temperature and Kelvin–Voigt dashpots use it.
     #[inline]
-    fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
+    fn motion(&self, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
         if !self.scheme().is_in_temperature() && M::Drag::LEN == 0 {
             return self.r0;
         }
-        let rest = (S::one() - S::from_f64(self.scheme().implicit())) * view.step;
-        let mut motion = change_in::<K, S, D>(&self.site.nodes, trial);
+        let rest = (1.0 - self.scheme().implicit()) * view.step;
+        let mut motion = change_in::<K, D>(&self.site.nodes, trial);
         let velocities = self.old_velocities(view);
-        add_scaled::<K, S, D>(&mut motion, -rest, &velocities);
+        add_scaled::<K, D>(&mut motion, -rest, &velocities);
         motion
     }
 
     /// The old velocities of the arms; those of anchors are means over the step, m/s.
-    pub(super) fn old_velocities(&self, view: &StepView<'_, S>) -> Arms<K, S, D> {
+    pub(super) fn old_velocities(&self, view: &StepView<'_>) -> Arms<K, D> {
         let velocity = |node: u32| view.old_velocity::<D>(node as usize);
         let nodes = self.site.nodes.as_ref();
         let first = velocity(nodes[0]);
-        let mut velocities = Arms::<K, S, D>::filled([S::zero(); D]);
+        let mut velocities = Arms::<K, D>::filled([0.0; D]);
         for (arm, &node) in velocities.as_mut().iter_mut().zip(&nodes[1..]) {
             *arm = velocity(node);
             for (component, &first) in arm.iter_mut().zip(&first) {

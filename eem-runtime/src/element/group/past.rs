@@ -12,36 +12,31 @@ use crate::element::conjugates::{ElementScheme, Form, Start};
 use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Ends, Kinematics};
 use eem_material::free_energy::Material;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// Its arms in both states.
     #[inline]
-    pub(super) fn past_arms(&self, step: &PastStep<'_, S>) -> [Arms<K, S, D>; 2] {
+    pub(super) fn past_arms(&self, step: &PastStep<'_>) -> [Arms<K, D>; 2] {
         [step.view.state, step.new].map(|state| self.arms_in(state))
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Sets both states, and what depends on them, to those of a step.
     #[inline]
     pub(super) fn return_to(
         &mut self,
-        step: &PastStep<'_, S>,
-        arms: &[Arms<K, S, D>; 2],
+        step: &PastStep<'_>,
+        arms: &[Arms<K, D>; 2],
     ) -> Result<(), StateError> {
         let [r0, r1] = arms;
         let x0 = self.variables_in(r0, step.view.state);
         self.x = self.variables_in(r1, step.new);
         self.start = Start {
             x0,
-            old: C::old(&self.model, &x0, S::zero()),
+            old: C::old(&self.model, &x0, 0.0),
         };
-        let mut theta = S::one();
+        let mut theta = 1.0;
         if let Some(slot) = self.slots().thermal {
             theta = x0[Self::TEMPERATURE];
             self.is_prescribed = step.held[slot];
@@ -60,21 +55,21 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The arms and measures of both states.
     #[inline]
-    pub(super) fn ends(&self, arms: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
-        let measures = [&self.start.x0, &self.x].map(|x| measures_in::<K, S, D>(x));
+    pub(super) fn ends(&self, arms: [Arms<K, D>; 2]) -> Ends<K, D> {
+        let measures = [&self.start.x0, &self.x].map(|x| measures_in::<K, D>(x));
         Ends::new(&self.kinematics, arms, measures)
     }
 
     /// The same with the two states exchanged.
     #[inline]
-    pub(super) fn ends_back(&self, [r0, r1]: [Arms<K, S, D>; 2]) -> Ends<K, S, D> {
-        let measures = [&self.x, &self.start.x0].map(|x| measures_in::<K, S, D>(x));
+    pub(super) fn ends_back(&self, [r0, r1]: [Arms<K, D>; 2]) -> Ends<K, D> {
+        let measures = [&self.x, &self.start.x0].map(|x| measures_in::<K, D>(x));
         Ends::new(&self.kinematics, [r1, r0], measures)
     }
 
     /// Its response with tangent, including Kelvin–Voigt dashpots.
     #[inline]
-    pub(super) fn tangent_in(&mut self, per_step: S) -> Result<Form<S, M>, StateError> {
+    pub(super) fn tangent_in(&mut self, per_step: f64) -> Result<Form<f64, M>, StateError> {
         let mut form = self
             .scheme
             .form(&self.model, &self.start, &self.x, &self.memory);
@@ -89,7 +84,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     pub(super) fn slopes_by_old(&self) -> M::Tangent {
         let start = Start {
             x0: self.x,
-            old: C::old(&self.model, &self.x, S::zero()),
+            old: C::old(&self.model, &self.x, 0.0),
         };
         let memory = C::exchanged(&self.memory);
         let (_, mut tangent) = self

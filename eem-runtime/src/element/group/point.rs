@@ -13,7 +13,7 @@ use crate::element::layout::Slots;
 use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// The Kelvin–Voigt dashpot at a trial; `A` is empty without one.
 #[derive(Clone, Copy, Debug)]
@@ -39,17 +39,17 @@ impl<A: Copy> Drag<A> {
 
 /// Variables of a scheme that evaluates the model at one point of the step; `V` is per variable, `A` per arm.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PointMemory<S, V, A> {
+pub(super) struct PointMemory<V, A> {
     /// The contribution of the old state to the rates of the internal variables.
     pub(super) old_rates: V,
     /// Its contribution to the power of the dashpots, `(1 − w) (Σ g⁰ γ̇⁰ + Σ η (λ̇⁰)²)`, W.
-    pub(super) old_power: S,
+    pub(super) old_power: f64,
     /// For a scheme in temperature: the contribution of the old state to θ̇, K/s.
-    pub(super) old_heating: S,
+    pub(super) old_heating: f64,
     /// The trial Δs, before the last correction, and the correction, J/K.
-    pub(super) entropy_change: S,
-    pub(super) previous_entropy_change: S,
-    pub(super) entropy_correction: S,
+    pub(super) entropy_change: f64,
+    pub(super) previous_entropy_change: f64,
+    pub(super) entropy_correction: f64,
     /// The derivative of the Δs of the response with respect to the variables.
     pub(super) entropy_by: V,
     /// The derivative of `r_s` with respect to the new arms, without that through the measures: through the increments for
@@ -58,42 +58,36 @@ pub(super) struct PointMemory<S, V, A> {
 }
 
 /// The same for an element with this model and these kinematics.
-pub(super) type MemoryAtPoint<S, M, K, const D: usize> =
-    PointMemory<S, <M as FreeEnergy<S>>::Variables, Arms<K, S, D>>;
+pub(super) type MemoryAtPoint<M, K, const D: usize> =
+    PointMemory<<M as FreeEnergy<f64>>::Variables, Arms<K, D>>;
 
-impl<S: Real, V: Array<S>, A> PointMemory<S, V, A> {
+impl<V: Array<f64>, A> PointMemory<V, A> {
     /// Before the first step, of an element whose arms are all zero.
     pub(super) fn zero(arms: A) -> Self {
         Self {
-            old_rates: V::filled(S::zero()),
-            old_power: S::zero(),
-            old_heating: S::zero(),
-            entropy_change: S::zero(),
-            previous_entropy_change: S::zero(),
-            entropy_correction: S::zero(),
-            entropy_by: V::filled(S::zero()),
+            old_rates: V::filled(0.0),
+            old_power: 0.0,
+            old_heating: 0.0,
+            entropy_change: 0.0,
+            previous_entropy_change: 0.0,
+            entropy_correction: 0.0,
+            entropy_by: V::filled(0.0),
             by_increment: arms,
         }
     }
 }
 
 /// `η_k` and `dη_k/dθ`.
-pub(super) type Viscosities<S, M> = (
-    <M as FreeEnergy<S>>::Viscosities,
-    <M as FreeEnergy<S>>::Viscosities,
+pub(super) type Viscosities<M> = (
+    <M as FreeEnergy<f64>>::Viscosities,
+    <M as FreeEnergy<f64>>::Viscosities,
 );
 
 /// Values of a trial that may have been evaluated ahead: memory of the scheme, response or form, and viscosities.
-pub(super) type Known<P, T, S, M> = Option<(P, T, Viscosities<S, M>)>;
+pub(super) type Known<P, T, M> = Option<(P, T, Viscosities<M>)>;
 
 /// A point with its variables in a step of the scheme `C`.
-pub(crate) struct Point<
-    S: Real,
-    M: FreeEnergy<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
-    const D: usize,
-> {
+pub(crate) struct Point<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> {
     pub(super) scheme: C,
     /// Its handle.
     pub(super) element: Element,
@@ -109,9 +103,9 @@ pub(crate) struct Point<
     /// Whether a thermostat prescribes its temperature.
     pub(super) is_prescribed: bool,
     /// See [`settling`](crate::element::conduction::Conduction::settling), W/K.
-    pub(super) settling: S,
+    pub(super) settling: f64,
     /// The old state.
-    pub(super) start: Start<S, M, C::Old>,
+    pub(super) start: Start<M, C::Old>,
     /// Initial guesses that the scheme keeps from one iteration to the next.
     pub(super) memory: C::Memory,
     /// The trial variables `(π, γ, τ)`.
@@ -119,28 +113,26 @@ pub(crate) struct Point<
     /// Δγ of the trial, m, stored because `γ⁰ + Δγ` would lose its digits where dashpots are stiff.
     pub(super) creep: M::Viscosities,
     /// Δγ and τ before the last correction, and the correction of all variables.
-    pub(super) previous: PerUnknown<S, M::Viscosities>,
+    pub(super) previous: PerUnknown<M::Viscosities>,
     pub(super) correction: M::Variables,
     /// The response at the trial, and the derivatives of `(f*, g*, θ*)` with respect to `x`.
     pub(super) response: M::Response,
     pub(super) slopes: M::Hessian,
     /// `η_k` and `dη_k/dθ` at θ*.
-    pub(super) viscosities: Viscosities<S, M>,
+    pub(super) viscosities: Viscosities<M>,
     /// The Kelvin–Voigt dashpot, if there is one.
     pub(super) drag: Drag<M::Drag>,
     /// The derivative of the measures with respect to the new arms.
-    pub(super) sensitivity: Gradient<K, S, D>,
+    pub(super) sensitivity: Gradient<K, D>,
     /// Local unknowns as functions of the global ones.
-    pub(super) condensed: Condensed<S, M, K, D>,
+    pub(super) condensed: Condensed<M, K, D>,
     /// Only for schemes that evaluate the model at one point of the step.
-    pub(super) single: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
+    pub(super) single: C::AtPoint<MemoryAtPoint<M, K, D>>,
     /// Only for a damped scheme.
-    pub(super) damping: C::Damping<Damping<S>>,
+    pub(super) damping: C::Damping<Damping>,
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Number of variables.
     pub(super) const VARIABLES: usize = M::Variables::LEN;
 
@@ -159,10 +151,10 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
         (model, kinematics): (M, K),
         slots: Slots,
     ) -> Self {
-        let zeros = M::Variables::filled(S::zero());
-        let viscosities = M::Viscosities::filled(S::zero());
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        let old = C::old(&model, &zeros, S::zero());
+        let zeros = M::Variables::filled(0.0);
+        let viscosities = M::Viscosities::filled(0.0);
+        let nowhere = Arms::<K, D>::filled([0.0; D]);
+        let old = C::old(&model, &zeros, 0.0);
         Self {
             scheme,
             element,
@@ -173,20 +165,20 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             contact: u32::MAX,
             meets_reservoirs: false,
             is_prescribed: false,
-            settling: S::zero(),
+            settling: 0.0,
             start: Start { x0: zeros, old },
-            memory: C::memory(S::zero()),
+            memory: C::memory(0.0),
             x: zeros,
             creep: viscosities,
             previous: PerUnknown::zero(),
             correction: zeros,
-            response: M::Response::filled(S::zero()),
+            response: M::Response::filled(0.0),
             slopes: M::Hessian::filled(zeros),
             viscosities: (viscosities, viscosities),
-            drag: Drag::zero(M::Drag::filled(S::zero())),
-            sensitivity: Gradient::<K, S, D>::filled(nowhere),
+            drag: Drag::zero(M::Drag::filled(0.0)),
+            sensitivity: Gradient::<K, D>::filled(nowhere),
             condensed: Condensed::zero(),
-            single: C::AtPoint::filled(MemoryAtPoint::<S, M, K, D>::zero(nowhere)),
+            single: C::AtPoint::filled(MemoryAtPoint::<M, K, D>::zero(nowhere)),
             damping: C::Damping::filled(Damping::none()),
         }
     }
@@ -202,8 +194,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// The unit of its viscous stretches.
     #[inline]
-    pub(super) fn viscous_unit(&self) -> S {
-        let measures = measures_in::<K, S, D>(&self.start.x0);
+    pub(super) fn viscous_unit(&self) -> f64 {
+        let measures = measures_in::<K, D>(&self.start.x0);
         self.kinematics.unit(&measures)
     }
 
@@ -211,8 +203,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline]
     pub(super) fn contact_in<'a>(
         &self,
-        contacts: &'a [Contact<K, S, D>],
-    ) -> Option<&'a Contact<K, S, D>> {
+        contacts: &'a [Contact<K, D>],
+    ) -> Option<&'a Contact<K, D>> {
         if M::THERMAL {
             contacts.get(self.contact as usize)
         } else {
@@ -222,7 +214,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// Stores the response, and the rows of its tangent that are needed later.
     #[inline]
-    pub(super) fn keep(&mut self, (response, tangent): &Form<S, M>) {
+    pub(super) fn keep(&mut self, (response, tangent): &Form<f64, M>) {
         self.response = *response;
         for row in 0..Self::VARIABLES {
             self.slopes[row] = tangent[row];
@@ -237,14 +229,14 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     /// The increment `h (w ẋ + c)` of an internal variable with the rate `ẋ` of the response; c is the contribution of
     /// the old state.
     #[inline]
-    pub(super) fn increment(&self, index: usize, rate: S, h: S) -> S {
-        let own = S::from_f64(self.scheme.implicit()) * rate;
+    pub(super) fn increment(&self, index: usize, rate: f64, h: f64) -> f64 {
+        let own = self.scheme.implicit() * rate;
         let old = self.single.as_ref().iter();
         h * old.fold(own, |sum, old| sum + old.old_rates[index])
     }
 
     /// The new temperature that τ stands for, given the old one, K.
-    pub(super) fn new_temperature(&self, old: S) -> S {
+    pub(super) fn new_temperature(&self, old: f64) -> f64 {
         let theta = self.x[Self::TEMPERATURE];
         match self.scheme.placement() {
             Placement::Ends | Placement::End => theta,
@@ -254,19 +246,19 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 
     /// The algorithmic temperature θ*, K; zero without temperature.
     #[inline]
-    pub(super) fn temperature(&self) -> S {
-        temperature_in::<S, M>(&self.response)
+    pub(super) fn temperature(&self) -> f64 {
+        temperature_in::<M>(&self.response)
     }
 
     /// An error unless a free energy is finite.
-    pub(super) fn unless_infinite(&self, psi: S) -> Result<(), StateError> {
+    pub(super) fn unless_infinite(&self, psi: f64) -> Result<(), StateError> {
         if psi.is_finite() {
             return Ok(());
         }
         Err(StateError::NotFinite {
             element: self.element,
             quantity: "free energy",
-            value: psi.to_f64(),
+            value: psi,
         })
     }
 
@@ -274,8 +266,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline]
     pub(super) fn find_viscosities(
         &mut self,
-        theta: S,
-        known: Option<Viscosities<S, M>>,
+        theta: f64,
+        known: Option<Viscosities<M>>,
     ) -> Result<(), StateError> {
         if M::DASHPOTS == 0 {
             return Ok(());
@@ -287,9 +279,9 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
             Some(dashpot) => Err(StateError::Viscosity {
                 element: self.element,
                 dashpot,
-                value: viscosities[dashpot].to_f64(),
+                value: viscosities[dashpot],
                 unit: K::VISCOSITY_UNIT,
-                temperature: M::THERMAL.then(|| theta.to_f64()),
+                temperature: M::THERMAL.then_some(theta),
             }),
         }
     }
@@ -298,10 +290,10 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     #[inline]
     pub(super) fn hold(&mut self) {
         self.remember();
-        self.correction = M::Variables::filled(S::zero());
+        self.correction = M::Variables::filled(0.0);
         for at_point in self.single.as_mut() {
             at_point.previous_entropy_change = at_point.entropy_change;
-            at_point.entropy_correction = S::zero();
+            at_point.entropy_correction = 0.0;
         }
     }
 
@@ -319,7 +311,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
     /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature
     /// in its logarithm, so that it stays positive.
     #[inline]
-    pub(super) fn apply(&mut self, share: S) {
+    pub(super) fn apply(&mut self, share: f64) {
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
             self.creep[k] = self.previous.get(k) + share * self.correction[index];
@@ -339,11 +331,11 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, con
 ///
 /// It is `θ e^(δθ/θ)` up to `(δθ/θ)³/12`, positive, and limited.
 #[inline]
-pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
-    let most = S::from_f64(LARGEST_HALF_CHANGE) * theta;
-    let half = S::from_f64(0.5) * change;
-    let limited = || S::select(S::zero().less(half), most, -most);
-    let half = S::branch(most.less(half.abs()), limited, || half);
+pub(super) fn grown(theta: f64, change: f64) -> f64 {
+    let most = LARGEST_HALF_CHANGE * theta;
+    let half = 0.5 * change;
+    let limited = || if half > 0.0 { most } else { -most };
+    let half = if most < half.abs() { limited() } else { half };
     theta * ((theta + half) / (theta - half))
 }
 
@@ -353,22 +345,22 @@ const LARGEST_HALF_CHANGE: f64 = 0.75;
 
 /// θ* of a response, K; zero without temperature.
 #[inline]
-pub(super) fn temperature_in<S: Real, M: FreeEnergy<S>>(response: &M::Response) -> S {
+pub(super) fn temperature_in<M: FreeEnergy<f64>>(response: &M::Response) -> f64 {
     if M::THERMAL {
         response[M::MEASURES + M::DASHPOTS]
     } else {
-        S::zero()
+        0.0
     }
 }
 
 /// The variables `x = (π, γ, θ)` of a point in a state, given its measures.
 #[inline]
-pub(super) fn variables<S: Real, M: FreeEnergy<S>>(
-    measures: &[S],
+pub(super) fn variables<M: FreeEnergy<f64>>(
+    measures: &[f64],
     slots: Slots,
-    state: &State<S>,
+    state: &State,
 ) -> M::Variables {
-    let mut x = M::Variables::filled(S::zero());
+    let mut x = M::Variables::filled(0.0);
     for (a, &measure) in measures.iter().enumerate() {
         x[a] = measure;
     }

@@ -6,24 +6,23 @@ use super::view::StepView;
 use crate::element::handle::Element;
 use crate::element::layout::Layout;
 use crate::element::state::State;
-use eem_material::number::scalar::{Mask, Real};
 
 /// A number per variable of a state: derivatives with respect to the state, or of the state with respect to an input.
 #[derive(Clone, Debug)]
-pub(crate) struct PerVariable<S> {
+pub(crate) struct PerVariable {
     /// Positions and velocities of all nodes, anchors too; anchors have velocities only where masses couple them.
-    pub(crate) positions: Vec<S>,
-    pub(crate) velocities: Vec<S>,
-    pub(crate) viscous: Vec<S>,
-    pub(crate) temperatures: Vec<S>,
+    pub(crate) positions: Vec<f64>,
+    pub(crate) velocities: Vec<f64>,
+    pub(crate) viscous: Vec<f64>,
+    pub(crate) temperatures: Vec<f64>,
     /// The entropies that reservoirs have received.
-    pub(crate) reservoirs: Vec<S>,
+    pub(crate) reservoirs: Vec<f64>,
 }
 
-impl<S: Real> PerVariable<S> {
+impl PerVariable {
     /// Zeros, for a scene with this number of coordinates.
     pub(crate) fn zero(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
-        let zeros = |count| vec![S::zero(); count];
+        let zeros = |count| vec![0.0; count];
         Self {
             positions: zeros(coordinates),
             velocities: zeros(coordinates),
@@ -34,11 +33,11 @@ impl<S: Real> PerVariable<S> {
     }
 
     /// All its numbers.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = S> + '_ {
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         self.parts().into_iter().flatten().copied()
     }
 
-    fn parts(&self) -> [&[S]; 5] {
+    fn parts(&self) -> [&[f64]; 5] {
         [
             &self.positions,
             &self.velocities,
@@ -51,61 +50,60 @@ impl<S: Real> PerVariable<S> {
     /// Whether all its numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         // Zero for finite numbers, NaN for others.
-        let zero = S::zero();
         self.parts().into_iter().all(|part| {
-            let sum = part.iter().fold(zero, |sum, &number| sum + zero * number);
-            sum.equal(zero).all()
+            let sum = part.iter().fold(0.0, |sum, &number| sum + 0.0 * number);
+            sum == 0.0
         })
     }
 }
 
 /// A completed step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PastStep<'a, S> {
+pub(crate) struct PastStep<'a> {
     /// Its size, its old state, and the data common to all steps.
-    pub(crate) view: StepView<'a, S>,
-    pub(crate) new: &'a State<S>,
+    pub(crate) view: StepView<'a>,
+    pub(crate) new: &'a State,
     /// Whether thermostats prescribe the temperatures, by thermal slot.
     pub(crate) held: &'a [bool],
 }
 
 /// A step with the derivatives of a number with respect to its new state.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct StepBack<'a, S> {
-    pub(crate) past: PastStep<'a, S>,
-    pub(crate) by_new: &'a PerVariable<S>,
+pub(crate) struct StepBack<'a> {
+    pub(crate) past: PastStep<'a>,
+    pub(crate) by_new: &'a PerVariable,
 }
 
 /// A direction in which inputs change, in a step.
 #[derive(Clone, Debug)]
-pub(crate) struct Direction<S> {
+pub(crate) struct Direction {
     /// The changes of the old state and of the new one; in the latter those of anchors and prescribed temperatures are given.
-    pub(crate) old: PerVariable<S>,
-    pub(crate) new: PerVariable<S>,
+    pub(crate) old: PerVariable,
+    pub(crate) new: PerVariable,
     /// The changes of θ*, by thermal slot.
-    pub(crate) middle: Vec<S>,
+    pub(crate) middle: Vec<f64>,
     /// The changes of the parameters of each element; empty for most elements.
-    pub(crate) parameters: Vec<Vec<S>>,
+    pub(crate) parameters: Vec<Vec<f64>>,
     /// `[a, b]` for a change `a − b θ*` of the heat that a thermal slot receives, W, at constant temperatures of elements.
-    pub(crate) heat: Vec<[S; 2]>,
+    pub(crate) heat: Vec<[f64; 2]>,
     /// The rows of the right-hand side, then of the solution.
-    pub(crate) right: Vec<[S; 1]>,
+    pub(crate) right: Vec<[f64; 1]>,
 }
 
 /// The weights w of the equations of a step.
 #[derive(Clone, Debug)]
-pub(crate) struct StepWeights<S> {
+pub(crate) struct StepWeights {
     /// Those of the momentum balances of all nodes, zero at anchors.
-    pub(crate) motion: Vec<S>,
+    pub(crate) motion: Vec<f64>,
     /// Those of the entropy balances, those of prescribed temperatures, and θ*, by thermal slot.
-    pub(crate) entropies: Vec<S>,
-    pub(crate) held: Vec<S>,
-    pub(crate) temperatures: Vec<S>,
+    pub(crate) entropies: Vec<f64>,
+    pub(crate) held: Vec<f64>,
+    pub(crate) temperatures: Vec<f64>,
     /// The derivatives with respect to the positions of anchors in the old state and in the new one, zero at masses.
-    pub(crate) anchors: [Vec<S>; 2],
+    pub(crate) anchors: [Vec<f64>; 2],
     /// The terms of `−(∂R/∂h)ᵀ w` of the points.
-    pub(crate) by_size: Terms<S>,
+    pub(crate) by_size: Terms,
 }
 
 /// A function that receives the derivatives with respect to the parameters of each element.
-pub(crate) type SeeParameters<'a, S> = dyn FnMut(Element, &[S]) + 'a;
+pub(crate) type SeeParameters<'a> = dyn FnMut(Element, &[f64]) + 'a;

@@ -29,17 +29,14 @@ use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 use weights::Surroundings;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
     /// Finds the interface temperatures θ* of a step. Points that have one return to the states of the step.
     pub(super) fn find_interfaces(
         &mut self,
-        step: &PastStep<'_, S>,
-        interface: &mut InterfaceTemperatures<S>,
+        step: &PastStep<'_>,
+        interface: &mut InterfaceTemperatures,
     ) -> Result<(), StateError> {
         for member in &mut self.members {
             let arms = member.past_arms(step);
@@ -50,7 +47,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                     point.return_to(step, &arms)?;
                     let (model, scheme) = (&point.model, point.scheme);
                     let response = scheme.response(model, &point.start, &point.x, &point.memory);
-                    interface.set(slot, temperature_in::<S, M>(&response));
+                    interface.set(slot, temperature_in::<M>(&response));
                 }
             }
         }
@@ -60,16 +57,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Adds `(∂R/∂x¹)ᵀ` of a step and the right-hand side, local weights eliminated, to a system.
     pub(super) fn pull_back(
         &mut self,
-        step: &StepBack<'_, S>,
-        interface: &InterfaceTemperatures<S>,
-        system: &mut LinearSystem<S, 1>,
+        step: &StepBack<'_>,
+        interface: &InterfaceTemperatures,
+        system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         let contacts = &self.contacts;
-        let of_one = |member: &mut Member<S, M, K, C, D>, share: &mut Share<K, S, D>| {
+        let of_one = |member: &mut Member<M, K, C, D>, share: &mut Share<K, D>| {
             member.pull_back(contacts, step, interface, share)
         };
-        let mut add = |member: &Member<S, M, K, C, D>, share: &Share<K, S, D>| {
+        let mut add = |member: &Member<M, K, C, D>, share: &Share<K, D>| {
             member.add_transposed(share, contacts, (&mut *values, &mut *right));
         };
         if K::PerPoint::<()>::LEN > 1 {
@@ -86,25 +83,25 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Finds the derivatives with respect to the old state and to the parameters, given the solution of that system.
     pub(super) fn recover(
         &mut self,
-        step: &StepBack<'_, S>,
-        interface: &InterfaceTemperatures<S>,
-        solution: &[[S; 1]],
-        (by_old, weights): (&mut PerVariable<S>, &mut StepWeights<S>),
-        see: &mut SeeParameters<'_, S>,
+        step: &StepBack<'_>,
+        interface: &InterfaceTemperatures,
+        solution: &[[f64; 1]],
+        (by_old, weights): (&mut PerVariable, &mut StepWeights),
+        see: &mut SeeParameters<'_>,
     ) {
         let h = step.past.view.step;
         for member in &mut self.members {
             let w = member.site.motion_in(solution);
             let arms = member.past_arms(&step.past);
             let is_held = member.site.is_mass.as_ref().contains(&false);
-            let mut by_arms = [Arms::<K, S, D>::filled([S::zero(); D]); 2];
+            let mut by_arms = [Arms::<K, D>::filled([0.0; D]); 2];
             for point in member.points.as_mut() {
                 let contact = point.contact_in(&self.contacts);
                 let around = Surroundings {
                     step,
                     interface,
                     contact,
-                    theta: contact.map_or(S::zero(), |own| solution[own.unknown as usize][0]),
+                    theta: contact.map_or(0.0, |own| solution[own.unknown as usize][0]),
                 };
                 let [by_end, by_start] = &mut by_arms;
                 let ends = point.ends(arms);
@@ -134,7 +131,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// Passes the derivatives of the internal energies with respect to the parameters in a state to `see`.
-    pub(super) fn energy_by_parameters(&self, state: &State<S>, see: &mut SeeParameters<'_, S>) {
+    pub(super) fn energy_by_parameters(&self, state: &State, see: &mut SeeParameters<'_>) {
         for member in &self.members {
             for point in member.points.as_ref() {
                 let x = point.variables_in(&member.arms_in(state), state);
@@ -144,17 +141,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// The contribution of its points to the transposed system.
     #[inline]
     fn pull_back(
         &mut self,
-        contacts: &[Contact<K, S, D>],
-        step: &StepBack<'_, S>,
-        interface: &InterfaceTemperatures<S>,
-        share: &mut Share<K, S, D>,
+        contacts: &[Contact<K, D>],
+        step: &StepBack<'_>,
+        interface: &InterfaceTemperatures,
+        share: &mut Share<K, D>,
     ) -> Result<(), StateError> {
         let (past, arms) = (&step.past, self.past_arms(&step.past));
         share.momentum = None;
@@ -185,9 +180,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     fn add_transposed(
         &self,
-        share: &Share<K, S, D>,
-        contacts: &[Contact<K, S, D>],
-        (values, right): (&mut [S], &mut [[S; 1]]),
+        share: &Share<K, D>,
+        contacts: &[Contact<K, D>],
+        (values, right): (&mut [f64], &mut [[f64; 1]]),
     ) {
         let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
         for (heat, point) in heats {
@@ -202,10 +197,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     /// Adds transposed blocks.
     #[inline]
-    fn add_transposed(&self, momentum: &Momentum<K, S, D>, right: &mut [S], values: &mut [S]) {
+    fn add_transposed(&self, momentum: &Momentum<K, D>, right: &mut [f64], values: &mut [f64]) {
         self.subtract_arms(&momentum.pull, &self.rows, right);
         for (j, row) in momentum.blocks.as_ref().iter().enumerate() {
             for (i, block) in row.as_ref().iter().enumerate() {
@@ -222,9 +217,9 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 
     /// Subtracts derivatives with respect to the arms from those to the positions of all nodes, or of anchors only.
     #[inline]
-    fn subtract(&self, by_arm: &Arms<K, S, D>, only_anchors: bool, target: &mut [S]) {
+    fn subtract(&self, by_arm: &Arms<K, D>, only_anchors: bool, target: &mut [f64]) {
         let target = target.as_chunks_mut::<D>().0;
-        let by_node = spread::<K, S, D>(by_arm);
+        let by_node = spread::<K, D>(by_arm);
         let nodes = self.nodes.as_ref().iter().zip(self.is_mass.as_ref());
         for ((&node, &is_mass), by) in nodes.zip(by_node.as_ref()) {
             if is_mass && only_anchors {
@@ -237,29 +232,29 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     /// Adds the transposed equations of interface temperatures, see [`Point::heat_transposed`].
     fn add_transposed(
         &self,
-        site: &Site<K, S, D>,
-        heat: &Heat<K, S, D>,
-        (values, right): (&mut [S], &mut [[S; 1]]),
+        site: &Site<K, D>,
+        heat: &Heat<K, D>,
+        (values, right): (&mut [f64], &mut [[f64; 1]]),
     ) {
         site.add_column(&self.column, &heat.by_arm, values);
-        let mut sum = S::zero();
+        let mut sum = 0.0;
         for partner in &self.partners {
             let conductance = partner.conductance;
             sum += conductance;
             let mut pull = heat.pull;
-            scale::<K, S, D>(&mut pull, conductance);
+            scale::<K, D>(&mut pull, conductance);
             site.subtract_arms(&pull, &partner.row, values);
             values[partner.entry_back as usize] -= conductance * heat.slope;
             right[partner.unknown as usize][0] += conductance * heat.residual;
         }
         let mut pull = heat.pull;
-        scale::<K, S, D>(&mut pull, -sum);
+        scale::<K, D>(&mut pull, -sum);
         site.subtract_arms(&pull, &self.row, values);
-        values[self.diagonal as usize] += S::one() + sum * heat.slope;
+        values[self.diagonal as usize] += 1.0 + sum * heat.slope;
         right[self.unknown as usize][0] -= sum * heat.residual;
     }
 }

@@ -27,23 +27,20 @@ use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, points, scale};
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    ElementGroup<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
     /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction.
     /// In its new state, anchors and prescribed temperatures already have their changes, and masses those of the old state.
     pub(super) fn push_forward(
         &mut self,
-        step: &PastStep<'_, S>,
-        (interface, temperatures): (&InterfaceTemperatures<S>, &mut [S]),
-        system: &mut LinearSystem<S, 1>,
-        directions: &mut [Direction<S>],
+        step: &PastStep<'_>,
+        (interface, temperatures): (&InterfaceTemperatures, &mut [f64]),
+        system: &mut LinearSystem<1>,
+        directions: &mut [Direction],
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         for member in &mut self.members {
-            let mut share = Share::<K, S, D>::none();
+            let mut share = Share::<K, D>::none();
             let mut by_old = None;
             let arms = member.past_arms(step);
             for (point, heat) in member.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
@@ -60,7 +57,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 point.add_momentum(step.view.step, &pose, form, heat, &mut share.momentum);
                 point.add_old_curvature(step.view.step, &ends, &mut by_old);
                 if let Some(slot) = point.slots().thermal {
-                    temperatures[slot] = temperature_in::<S, M>(&linear.form.0);
+                    temperatures[slot] = temperature_in::<M>(&linear.form.0);
                 }
                 for direction in &mut *directions {
                     let moved = member.site.changes_in(&direction.old.positions);
@@ -68,7 +65,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                         point.change(step, (interface, contact), &moved, &linear, direction);
                     let forces = point.push(&linear, &change, contact, direction)?;
                     let mut pull = pose.pull(&point.kinematics, point.scheme.placement(), &forces);
-                    scale::<K, S, D>(&mut pull, step.view.step);
+                    scale::<K, D>(&mut pull, step.view.step);
                     let right = direction.right.as_flattened_mut();
                     member.site.subtract_arms(&pull, &member.site.rows, right);
                 }
@@ -82,7 +79,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// Finds the changes of the internal variables and of θ*.
-    pub(super) fn follow(&self, directions: &mut [Direction<S>]) {
+    pub(super) fn follow(&self, directions: &mut [Direction]) {
         for member in &self.members {
             for direction in &mut *directions {
                 let moved = member.site.changes_in(&direction.new.positions);
@@ -94,42 +91,40 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// Adds the changes with the old arms through the gradients, and all changes with the new arms.
     fn add_motion(
         &self,
-        share: &Share<K, S, D>,
-        by_old: Option<&Blocks<K, S, D>>,
-        contacts: &[Contact<K, S, D>],
-        direction: &mut Direction<S>,
+        share: &Share<K, D>,
+        by_old: Option<&Blocks<K, D>>,
+        contacts: &[Contact<K, D>],
+        direction: &mut Direction,
     ) {
         let [old, new] =
             [&direction.old, &direction.new].map(|own| self.site.changes_in(&own.positions));
         let right = direction.right.as_flattened_mut();
         for (heat, point) in share.heat.as_ref().iter().zip(self.points.as_ref()) {
             if let (Some(heat), Some(contact)) = (heat, point.contact_in(contacts)) {
-                right[contact.unknown as usize] += along::<K, S, D>(&heat.by_arm, &new);
+                right[contact.unknown as usize] += along::<K, D>(&heat.by_arm, &new);
             }
         }
         if let (Some(by_old), Some(momentum)) = (by_old, &share.momentum) {
-            let mut pull = applied::<K, S, D>(by_old, &old);
-            let by_new = applied::<K, S, D>(&momentum.blocks, &new);
-            add_scaled::<K, S, D>(&mut pull, S::one(), &by_new);
+            let mut pull = applied::<K, D>(by_old, &old);
+            let by_new = applied::<K, D>(&momentum.blocks, &new);
+            add_scaled::<K, D>(&mut pull, 1.0, &by_new);
             self.site.subtract_arms(&pull, &self.site.rows, right);
         }
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     /// The changes of the arms, given those of all coordinates.
     #[inline]
-    fn changes_in(&self, positions: &[S]) -> Arms<K, S, D> {
-        let at = points::<S, D>(positions);
+    fn changes_in(&self, positions: &[f64]) -> Arms<K, D> {
+        let at = points::<D>(positions);
         let nodes = self.nodes.as_ref();
         let first = at[nodes[0] as usize];
-        let mut arms = Arms::<K, S, D>::filled(first);
+        let mut arms = Arms::<K, D>::filled(first);
         for (arm, &node) in arms.as_mut().iter_mut().zip(&nodes[1..]) {
             for (arm, other) in arm.iter_mut().zip(at[node as usize]) {
                 *arm = other - *arm;
@@ -141,11 +136,11 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 
 /// The product of blocks with the changes of arms.
 #[inline]
-fn applied<K: Kinematics<S, D>, S: Real, const D: usize>(
-    blocks: &Blocks<K, S, D>,
-    arms: &Arms<K, S, D>,
-) -> Arms<K, S, D> {
-    let mut product = Arms::<K, S, D>::filled([S::zero(); D]);
+fn applied<K: Kinematics<D>, const D: usize>(
+    blocks: &Blocks<K, D>,
+    arms: &Arms<K, D>,
+) -> Arms<K, D> {
+    let mut product = Arms::<K, D>::filled([0.0; D]);
     for (product, row) in product.as_mut().iter_mut().zip(blocks.as_ref()) {
         for (block, arm) in row.as_ref().iter().zip(arms.as_ref()) {
             for (sum, row) in product.iter_mut().zip(block) {
@@ -157,11 +152,11 @@ fn applied<K: Kinematics<S, D>, S: Real, const D: usize>(
 }
 
 /// Gradients of zeros.
-fn still<K: Kinematics<S, D>, S: Real, const D: usize>() -> Gradient<K, S, D> {
-    Gradient::<K, S, D>::filled(Arms::<K, S, D>::filled([S::zero(); D]))
+fn still<K: Kinematics<D>, const D: usize>() -> Gradient<K, D> {
+    Gradient::<K, D>::filled(Arms::<K, D>::filled([0.0; D]))
 }
 
 /// Per measure, zeros.
-fn no_forces<K: Kinematics<S, D>, S: Real, const D: usize>() -> Measures<K, S, D> {
-    Measures::<K, S, D>::filled(S::zero())
+fn no_forces<K: Kinematics<D>, const D: usize>() -> Measures<K, D> {
+    Measures::<K, D>::filled(0.0)
 }

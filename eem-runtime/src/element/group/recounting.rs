@@ -6,24 +6,23 @@ use crate::element::conjugates::ElementScheme;
 use crate::element::kinematics::{Arms, Ends, Kinematics};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
-use eem_material::number::scalar::Real;
 
 /// The change of the energy of a point between two states.
-pub(super) struct EnergyChange<S: Real, M: FreeEnergy<S>> {
+pub(super) struct EnergyChange<M: FreeEnergy<f64>> {
     /// From values of the energy, with the magnitude of the terms of ψ, J.
-    pub(super) by_values: [S; 2],
+    pub(super) by_values: [f64; 2],
     /// From discrete derivatives, J.
-    pub(super) by_differences: S,
+    pub(super) by_differences: f64,
     /// `(Δλ, Δγ, Δs)`.
     pub(super) increments: M::Variables,
 }
 
 /// The change of the arms of an element between two stored states.
-fn change_between<K: Kinematics<S, D>, S: Real, const D: usize>(
+fn change_between<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
-    [old, new]: [&State<S>; 2],
-) -> Arms<K, S, D> {
-    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
+    [old, new]: [&State; 2],
+) -> Arms<K, D> {
+    let mut change = Arms::<K, D>::filled([0.0; D]);
     let nodes = nodes.as_ref();
     for (arm, &node) in change.as_mut().iter_mut().zip(&nodes[1..]) {
         for (axis, component) in arm.iter_mut().enumerate() {
@@ -37,17 +36,15 @@ fn change_between<K: Kinematics<S, D>, S: Real, const D: usize>(
     change
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// The change of its energy between two states, given its nodes.
     pub(super) fn balance_between(
         &self,
         nodes: &K::PerNode<u32>,
-        ends: [&State<S>; 2],
-    ) -> EnergyChange<S, M> {
-        let [r0, r1] = ends.map(|state| arms_in::<K, S, D>(nodes, &state.positions));
-        let change = change_between::<K, S, D>(nodes, ends);
+        ends: [&State; 2],
+    ) -> EnergyChange<M> {
+        let [r0, r1] = ends.map(|state| arms_in::<K, D>(nodes, &state.positions));
+        let change = change_between::<K, D>(nodes, ends);
         let at = self.element.index();
         let by_values = ends[1].energies[at].value - ends[0].energies[at].value;
         let x = [
@@ -66,17 +63,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// `(Δλ, Δγ, Δs)` between two stored states.
     fn increments_between(
         &self,
-        [r0, r1]: [&Arms<K, S, D>; 2],
-        change: &Arms<K, S, D>,
+        [r0, r1]: [&Arms<K, D>; 2],
+        change: &Arms<K, D>,
         [x0, x1]: &[M::Variables; 2],
-        [old, new]: [&State<S>; 2],
+        [old, new]: [&State; 2],
     ) -> M::Variables {
-        let mut increments = M::Variables::filled(S::zero());
-        let measures = [x0, x1].map(measures_in::<K, S, D>);
+        let mut increments = M::Variables::filled(0.0);
+        let measures = [x0, x1].map(measures_in::<K, D>);
         let ends = Ends::new(&self.kinematics, [*r0, *r1], measures);
         let gradient = self.kinematics.discrete_gradient(&ends);
         for (a, row) in gradient.as_ref().iter().enumerate() {
-            increments[a] = along::<K, S, D>(row, change);
+            increments[a] = along::<K, D>(row, change);
         }
         let slots = self.slots();
         for k in 0..M::DASHPOTS {
@@ -89,8 +86,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
-    pub(super) fn change_of(response: &M::Response, increments: &M::Variables) -> S {
-        let mut sum = S::zero();
+    pub(super) fn change_of(response: &M::Response, increments: &M::Variables) -> f64 {
+        let mut sum = 0.0;
         for row in 0..Self::VARIABLES {
             let is_dashpot = (M::MEASURES..Self::TEMPERATURE).contains(&row);
             let term = response[row] * increments[row];
@@ -101,7 +98,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// `Δe` between two states by discrete derivatives that are evaluated again: if the terms of a free energy cancel,
     /// its values have more rounding than its differences.
-    fn energy_change(&self, [x0, x1]: &[M::Variables; 2], increments: &M::Variables) -> S {
+    fn energy_change(&self, [x0, x1]: &[M::Variables; 2], increments: &M::Variables) -> f64 {
         let old = self.model.temperature_form_old(x0);
         let response = self.model.temperature_form_response(&old, x1);
         Self::change_of(&response, increments)

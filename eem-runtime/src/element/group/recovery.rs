@@ -8,21 +8,14 @@ use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::{Energy, State};
 use eem_material::free_energy::{Caloric, Material};
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// The variables in a state with these arms; an error if the deformation is inadmissible.
     #[inline]
-    pub(super) fn locate(
-        &self,
-        r: &Arms<K, S, D>,
-        state: &State<S>,
-    ) -> Result<M::Variables, StateError> {
+    pub(super) fn locate(&self, r: &Arms<K, D>, state: &State) -> Result<M::Variables, StateError> {
         let measures = self.kinematics.measure(r);
-        check_measures::<K, S, D>(&self.kinematics, self.element, &measures, r)?;
-        Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
+        check_measures::<K, D>(&self.kinematics, self.element, &measures, r)?;
+        Ok(variables::<M>(measures.as_ref(), self.slots(), state))
     }
 
     /// Finds the new temperature from the new entropy, starting at `near`, where the caloric quantities may be known. If the
@@ -32,11 +25,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn recover_temperature(
         &mut self,
-        r: &Arms<K, S, D>,
-        view: &StepView<'_, S>,
-        (near, known): (S, Option<&(Caloric<S>, S)>),
-        state: &mut State<S>,
-    ) -> Result<Option<S>, StateError> {
+        r: &Arms<K, D>,
+        view: &StepView<'_>,
+        (near, known): (f64, Option<&(Caloric<f64>, f64)>),
+        state: &mut State,
+    ) -> Result<Option<f64>, StateError> {
         let mut x = self.locate(r, state)?;
         self.check_viscous(&x)?;
         let at = self.element.index();
@@ -81,8 +74,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     pub(super) fn energy_at(
         &self,
         x: &M::Variables,
-        caloric: Caloric<S>,
-    ) -> Result<Energy<S>, StateError> {
+        caloric: Caloric<f64>,
+    ) -> Result<Energy, StateError> {
         let psi = self.model.free_energy(x);
         self.unless_infinite(psi)?;
         if !M::THERMAL {
@@ -95,9 +88,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// Books the heat of the thermostat, given the new entropy and the entropy received otherwise.
     pub(super) fn book_thermostat(
         &self,
-        view: &StepView<'_, S>,
-        [entropy, received]: [S; 2],
-        state: &mut State<S>,
+        view: &StepView<'_>,
+        [entropy, received]: [f64; 2],
+        state: &mut State,
     ) {
         let Some(slot) = self.slots().thermal else {
             return;
@@ -107,7 +100,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         state.book_thermostat(self.temperature() * given, given);
     }
 
-    fn check_stable(&self, caloric: &Caloric<S>, theta: S) -> Result<(), StateError> {
+    fn check_stable(&self, caloric: &Caloric<f64>, theta: f64) -> Result<(), StateError> {
         Infeasible::unless_stable(caloric.heat_capacity, theta)
             .map_err(|infeasible| infeasible.of(self.element))
     }
@@ -120,7 +113,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 return Err(StateError::ViscousStretch {
                     element: self.element,
                     dashpot,
-                    value: stretch.to_f64(),
+                    value: stretch,
                     unit: K::VISCOUS_UNIT,
                 });
             }

@@ -1,7 +1,7 @@
 //! The response of the elements at a trial state, and its checks.
 
 use super::arms::{add_scaled, measures_in};
-use super::point::{Drag, Known, Point, Viscosities, temperature_in};
+use super::point::{Known, Point, Viscosities, temperature_in};
 use super::pose::{Pose, placed_measures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
@@ -9,31 +9,29 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Kinematics, Measures};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// Arms of an element at a trial.
-pub(super) struct TrialArms<K: Kinematics<S, D>, S: Real, const D: usize> {
-    pub(super) old: Arms<K, S, D>,
+pub(super) struct TrialArms<K: Kinematics<D>, const D: usize> {
+    pub(super) old: Arms<K, D>,
     /// The new arms, or the mean ones for a scheme at the midpoint.
-    pub(super) placed: Arms<K, S, D>,
+    pub(super) placed: Arms<K, D>,
     /// `r¹ − r⁰ − (1 − w) h ṙ⁰`; only schemes in temperature and Kelvin–Voigt dashpots use it.
-    pub(super) motion: Arms<K, S, D>,
+    pub(super) motion: Arms<K, D>,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Finds the measures of the trial state, its temperature if that is not an unknown, and other values that the form
     /// of the scheme needs, unless they are known. Returns the measures of the arms that the scheme uses.
     #[inline]
     pub(super) fn locate_trial(
         &mut self,
-        r1: &Arms<K, S, D>,
-        trial: &Trial<S, D>,
+        r1: &Arms<K, D>,
+        trial: &Trial<D>,
         prepared: Option<C::Memory>,
-    ) -> Result<Measures<K, S, D>, StateError> {
+    ) -> Result<Measures<K, D>, StateError> {
         let [measures1, measures] = self.placed(r1);
-        check_measures::<K, S, D>(&self.kinematics, self.element, &measures, r1)?;
+        check_measures::<K, D>(&self.kinematics, self.element, &measures, r1)?;
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
@@ -58,28 +56,24 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The measures of arms, and those at which the scheme evaluates the model.
     #[inline]
-    pub(super) fn placed(&self, r1: &Arms<K, S, D>) -> [Measures<K, S, D>; 2] {
+    pub(super) fn placed(&self, r1: &Arms<K, D>) -> [Measures<K, D>; 2] {
         let measures1 = self.kinematics.measure(r1);
-        let measures0 = measures_in::<K, S, D>(&self.start.x0);
-        let placed = placed_measures::<K, S, D>(self.scheme.placement(), &measures0, measures1);
+        let measures0 = measures_in::<K, D>(&self.start.x0);
+        let placed = placed_measures::<K, D>(self.scheme.placement(), &measures0, measures1);
         [measures1, placed]
     }
 
     /// The gradients in the configuration that the scheme uses, which has these measures.
     #[inline]
-    pub(super) fn pose(
-        &self,
-        arms: &TrialArms<K, S, D>,
-        measures: &Measures<K, S, D>,
-    ) -> Pose<K, S, D> {
-        let measures = [measures_in::<K, S, D>(&self.start.x0), *measures];
+    pub(super) fn pose(&self, arms: &TrialArms<K, D>, measures: &Measures<K, D>) -> Pose<K, D> {
+        let measures = [measures_in::<K, D>(&self.start.x0), *measures];
         let ends = Ends::new(&self.kinematics, [arms.old, arms.placed], measures);
         Pose::new(&self.kinematics, self.scheme.placement(), ends)
     }
 
     /// The response and its tangent at the trial that has been located.
     #[inline]
-    pub(super) fn form(&self, trial: &Trial<S, D>) -> Form<S, M> {
+    pub(super) fn form(&self, trial: &Trial<D>) -> Form<f64, M> {
         if trial.is_start
             && let Some(form) = C::starting_form(&self.model, &self.start, &self.x)
         {
@@ -94,9 +88,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn accept(
         &mut self,
-        per_step: S,
-        form: &Form<S, M>,
-        known: Option<Viscosities<S, M>>,
+        per_step: f64,
+        form: &Form<f64, M>,
+        known: Option<Viscosities<M>>,
     ) -> Result<(), StateError> {
         C::check(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
         self.accept_response(per_step, &form.0, known)
@@ -106,10 +100,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn respond_alone(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        arms: &TrialArms<K, S, D>,
-        known: Known<C::Memory, M::Response, S, M>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        arms: &TrialArms<K, D>,
+        known: Known<C::Memory, M::Response, M>,
     ) -> Result<(), StateError> {
         let per_step = view.per_step;
         let prepared = known.map(|(prepared, ..)| prepared);
@@ -146,23 +140,23 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     fn accept_response(
         &mut self,
-        per_step: S,
+        per_step: f64,
         response: &M::Response,
-        known: Option<Viscosities<S, M>>,
+        known: Option<Viscosities<M>>,
     ) -> Result<(), StateError> {
-        check_response::<S, M>(self.element, response)?;
+        check_response::<M>(self.element, response)?;
         self.check_conducting(response)?;
         self.find_drag(per_step, response)?;
-        self.find_viscosities(temperature_in::<S, M>(response), known)
+        self.find_viscosities(temperature_in::<M>(response), known)
     }
 
     /// For a scheme in temperature: calls [`ElementScheme::change_entropy_at_rates`] with the increments of the trial.
     pub(super) fn change_entropy_at_rates(
         &mut self,
-        step: S,
-        pose: &Pose<K, S, D>,
-        motion: &Arms<K, S, D>,
-        form: &mut Form<S, M>,
+        step: f64,
+        pose: &Pose<K, D>,
+        motion: &Arms<K, D>,
+        form: &mut Form<f64, M>,
     ) {
         let (own, by_arm) = pose.increase(&self.kinematics, self.scheme.placement(), motion);
         let increments = self.increments(&own, step);
@@ -171,13 +165,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             .scheme
             .change_entropy_at_rates(model, start, &self.x, &increments, form);
         for at_point in self.single.as_mut() {
-            at_point.by_increment = combined::<K, S, M, D>(&slopes, by_arm.as_ref());
+            at_point.by_increment = combined::<K, M, D>(&slopes, by_arm.as_ref());
         }
     }
 
     /// The increments of measures, viscous stretches and temperature, less the contribution of the old state.
-    fn increments(&self, measures: &Measures<K, S, D>, step: S) -> M::Variables {
-        let mut increments = M::Variables::filled(S::zero());
+    fn increments(&self, measures: &Measures<K, D>, step: f64) -> M::Variables {
+        let mut increments = M::Variables::filled(0.0);
         let (old, last) = (&self.start.x0, Self::VARIABLES - 1);
         for (a, &increment) in measures.as_ref().iter().enumerate() {
             increments[a] = increment;
@@ -196,76 +190,25 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-/// The values of a trial that the closing of a step needs.
-#[derive(Clone, Copy)]
-pub(super) struct Found<S: Real, M: FreeEnergy<S>> {
-    x: M::Variables,
-    creep: M::Viscosities,
-    response: M::Response,
-    viscosities: M::Viscosities,
-    drag: Drag<M::Drag>,
-}
-
-impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
-    /// The present values, to be restored in the lanes that have converged. `None` if there are none, or with a single
-    /// lane.
-    #[inline]
-    pub(super) fn values_to_restore(&self, settled: S::Mask) -> Option<Found<S, M>> {
-        if S::LANES == 1 || !settled.any() {
-            return None;
-        }
-        Some(Found {
-            x: self.x,
-            creep: self.creep,
-            response: self.response,
-            viscosities: self.viscosities.0,
-            drag: self.drag,
-        })
-    }
-
-    /// Restores the values in lanes that have converged.
-    #[inline]
-    pub(super) fn restore(&mut self, found: Option<Found<S, M>>, settled: S::Mask) {
-        let Some(found) = found else {
-            return;
-        };
-        let keep = |values: &mut [S], kept: &[S]| {
-            for (value, &kept) in values.iter_mut().zip(kept) {
-                *value = S::select(settled, kept, *value);
-            }
-        };
-        keep(self.x.as_mut(), found.x.as_ref());
-        keep(self.creep.as_mut(), found.creep.as_ref());
-        keep(self.response.as_mut(), found.response.as_ref());
-        keep(self.viscosities.0.as_mut(), found.viscosities.as_ref());
-        let drag = &mut self.drag;
-        keep(drag.viscosity.0.as_mut(), found.drag.viscosity.0.as_ref());
-        keep(drag.extension.as_mut(), found.drag.extension.as_ref());
-        keep(drag.force.as_mut(), found.drag.force.as_ref());
-    }
-}
-
 /// `Σ_a slope_a ∂Λ_a/∂r¹`.
-fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
+fn combined<K: Kinematics<D>, M: FreeEnergy<f64>, const D: usize>(
     slopes: &M::Variables,
-    by_arm: &[Arms<K, S, D>],
-) -> Arms<K, S, D> {
-    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    by_arm: &[Arms<K, D>],
+) -> Arms<K, D> {
+    let mut sum = Arms::<K, D>::filled([0.0; D]);
     for (&slope, row) in slopes.as_ref().iter().zip(by_arm) {
-        add_scaled::<K, S, D>(&mut sum, slope, row);
+        add_scaled::<K, D>(&mut sum, slope, row);
     }
     sum
 }
 
 /// An error unless the deformation given by these arms is admissible.
 #[inline]
-pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn check_measures<K: Kinematics<D>, const D: usize>(
     kinematics: &K,
     element: Element,
-    measures: &Measures<K, S, D>,
-    r: &Arms<K, S, D>,
+    measures: &Measures<K, D>,
+    r: &Arms<K, D>,
 ) -> Result<(), StateError> {
     if kinematics.is_admissible(r, measures) {
         return Ok(());
@@ -275,7 +218,7 @@ pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// An error unless the temperature of a response is positive and the response finite.
 #[inline]
-fn check_response<S: Real, M: FreeEnergy<S>>(
+fn check_response<M: FreeEnergy<f64>>(
     element: Element,
     response: &M::Response,
 ) -> Result<(), StateError> {
@@ -283,33 +226,32 @@ fn check_response<S: Real, M: FreeEnergy<S>>(
         check_temperature(element, response[M::MEASURES + M::DASHPOTS])?;
     }
     // Zero for finite numbers, NaN for others.
-    let zero = S::zero();
     let sum = response
         .as_ref()
         .iter()
-        .fold(zero, |sum, &value| sum + zero * value);
-    if sum.equal(zero).all() {
+        .fold(0.0, |sum, &value| sum + 0.0 * value);
+    if sum == 0.0 {
         return Ok(());
     }
     Err(not_finite(element, response.as_ref()))
 }
 
 #[cold]
-fn not_finite<S: Real>(element: Element, response: &[S]) -> StateError {
+fn not_finite(element: Element, response: &[f64]) -> StateError {
     let value = response.iter().find(|value| !value.is_finite());
     StateError::NotFinite {
         element,
         quantity: "force or entropy",
-        value: value.map_or(f64::NAN, |value| value.to_f64()),
+        value: value.copied().unwrap_or(f64::NAN),
     }
 }
 
 /// An error unless a temperature is positive and finite.
 #[inline]
-pub(super) fn check_temperature<S: Real>(element: Element, theta: S) -> Result<(), StateError> {
+pub(super) fn check_temperature(element: Element, theta: f64) -> Result<(), StateError> {
     if is_positive(theta) {
         return Ok(());
     }
-    let value = theta.to_f64();
+    let value = theta;
     Err(StateError::Temperature { element, value })
 }

@@ -10,37 +10,36 @@ use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::group::member::Member;
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures, Points};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// The contribution of the points of an element to the system of an iteration.
-pub(super) struct Share<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct Share<K: Kinematics<D>, const D: usize> {
     /// To the momentum balances of its nodes; `None` where nothing moves.
-    pub(super) momentum: Option<Momentum<K, S, D>>,
+    pub(super) momentum: Option<Momentum<K, D>>,
     /// To the equations of the interface temperatures of its points.
-    pub(super) heat: K::PerPoint<Option<Heat<K, S, D>>>,
+    pub(super) heat: K::PerPoint<Option<Heat<K, D>>>,
 }
 
 /// The contribution of the points of an element to the momentum balances of its nodes.
-pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct Momentum<K: Kinematics<D>, const D: usize> {
     /// `h w Gᵀ f*`, with the internal variables eliminated, N s.
-    pub(super) pull: Arms<K, S, D>,
+    pub(super) pull: Arms<K, D>,
     /// Its derivatives with respect to the new arms.
-    pub(super) blocks: Blocks<K, S, D>,
+    pub(super) blocks: Blocks<K, D>,
 }
 
 /// The contribution of a point with an interface temperature.
-pub(super) struct Heat<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct Heat<K: Kinematics<D>, const D: usize> {
     /// `θ* − Θ`, with the internal variables eliminated, K.
-    pub(super) residual: S,
+    pub(super) residual: f64,
     /// The derivative of θ* with respect to the new arms, K/m.
-    pub(super) by_arm: Arms<K, S, D>,
+    pub(super) by_arm: Arms<K, D>,
     /// The derivative of −θ* with respect to the heat that the point receives, K/W.
-    pub(super) slope: S,
+    pub(super) slope: f64,
     /// The derivative of `h w Gᵀ f*` with respect to that heat, N s/W.
-    pub(super) pull: Arms<K, S, D>,
+    pub(super) pull: Arms<K, D>,
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Share<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Share<K, D> {
     /// Empty, before any point is evaluated.
     #[inline]
     pub(super) fn none() -> Self {
@@ -52,26 +51,24 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Share<K, S, D> {
 }
 
 /// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
-struct CondensedRow<K: Kinematics<S, D>, S: Real, const D: usize> {
-    value: S,
-    by_measure: Measures<K, S, D>,
-    by_heat: S,
+struct CondensedRow<K: Kinematics<D>, const D: usize> {
+    value: f64,
+    by_measure: Measures<K, D>,
+    by_heat: f64,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     #[inline]
     fn condensed_row(
         &self,
         row: usize,
-        (response, tangent): &Form<S, M>,
+        (response, tangent): &Form<f64, M>,
         is_coupled: bool,
-    ) -> CondensedRow<K, S, D> {
-        let mut condensed = CondensedRow::<K, S, D> {
+    ) -> CondensedRow<K, D> {
+        let mut condensed = CondensedRow::<K, D> {
             value: response[row],
-            by_measure: Measures::<K, S, D>::filled(S::zero()),
-            by_heat: S::zero(),
+            by_measure: Measures::<K, D>::filled(0.0),
+            by_heat: 0.0,
         };
         for a in 0..M::MEASURES {
             condensed.by_measure[a] = tangent[row][a];
@@ -91,16 +88,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The derivative of a condensed response with respect to the new arms, times a factor.
     #[inline]
-    fn by_arm(&self, row: &CondensedRow<K, S, D>, factor: S) -> Arms<K, S, D> {
+    fn by_arm(&self, row: &CondensedRow<K, D>, factor: f64) -> Arms<K, D> {
         let mut sum = self.sensitivity[0];
-        scale::<K, S, D>(&mut sum, factor * row.by_measure[0]);
+        scale::<K, D>(&mut sum, factor * row.by_measure[0]);
         for a in 1..M::MEASURES {
             let by = factor * row.by_measure[a];
-            add_scaled::<K, S, D>(&mut sum, by, &self.sensitivity[a]);
+            add_scaled::<K, D>(&mut sum, by, &self.sensitivity[a]);
         }
         for at_point in self.single.as_ref() {
             let by = -factor * row.by_heat;
-            add_scaled::<K, S, D>(&mut sum, by, &at_point.by_increment);
+            add_scaled::<K, D>(&mut sum, by, &at_point.by_increment);
         }
         sum
     }
@@ -114,14 +111,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline(always)]
     pub(super) fn add_momentum(
         &self,
-        step: S,
-        pose: &Pose<K, S, D>,
-        (form, by_rate): (&Form<S, M>, Option<&Gradient<K, S, D>>),
-        heat: &mut Option<Heat<K, S, D>>,
-        sum: &mut Option<Momentum<K, S, D>>,
+        step: f64,
+        pose: &Pose<K, D>,
+        (form, by_rate): (&Form<f64, M>, Option<&Gradient<K, D>>),
+        heat: &mut Option<Heat<K, D>>,
+        sum: &mut Option<Momentum<K, D>>,
     ) {
-        let impulse = step * S::from_f64(self.scheme.implicit());
-        let mut forces = Measures::<K, S, D>::filled(S::zero());
+        let impulse = step * self.scheme.implicit();
+        let mut forces = Measures::<K, D>::filled(0.0);
         let mut forces_by_arm = pose.direction;
         let mut values = forces;
         for a in 0..M::MEASURES {
@@ -132,12 +129,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 && a < Self::DRAGS
             {
                 let by = self.force_by_rate(a, step.recip(), impulse, by_rate);
-                add_scaled::<K, S, D>(&mut forces_by_arm[a], S::one(), &by);
+                add_scaled::<K, D>(&mut forces_by_arm[a], 1.0, &by);
             }
             values[a] = impulse * row.value;
             if let Some(heat) = heat {
                 let by_heat = impulse * row.by_heat * self.condensed.heat_factor;
-                add_scaled::<K, S, D>(&mut heat.pull, -by_heat, &pose.direction[a]);
+                add_scaled::<K, D>(&mut heat.pull, -by_heat, &pose.direction[a]);
             }
         }
         let (kinematics, at) = (&self.kinematics, self.scheme.placement());
@@ -151,7 +148,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 });
             }
             Some(sum) => {
-                add_scaled::<K, S, D>(&mut sum.pull, S::one(), &pull);
+                add_scaled::<K, D>(&mut sum.pull, 1.0, &pull);
                 let blocks = &mut sum.blocks;
                 pose.add_tangent(kinematics, at, (&forces, &forces_by_arm), blocks);
             }
@@ -162,9 +159,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn heat(
         &self,
-        interface: &InterfaceTemperatures<S>,
-        form: &Form<S, M>,
-    ) -> Heat<K, S, D> {
+        interface: &InterfaceTemperatures,
+        form: &Form<f64, M>,
+    ) -> Heat<K, D> {
         let row = if C::Damping::<()>::LEN > 0 {
             self.condensed_row(Self::TEMPERATURE, &self.conducting(form), true)
         } else {
@@ -173,16 +170,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let interface = interface.values()[self.slots().thermal.unwrap_or_default()];
         Heat {
             residual: row.value - interface,
-            by_arm: self.by_arm(&row, S::one()),
+            by_arm: self.by_arm(&row, 1.0),
             slope: row.by_heat * self.condensed.heat_factor,
-            pull: Arms::<K, S, D>::filled([S::zero(); D]),
+            pull: Arms::<K, D>::filled([0.0; D]),
         }
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Member<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
     /// Adds the contribution of the element to the entries of A and the rows of B.
     #[expect(
         clippy::inline_always,
@@ -191,9 +186,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline(always)]
     pub(super) fn add_share(
         &self,
-        share: &Share<K, S, D>,
-        contacts: &[Contact<K, S, D>],
-        (values, right): (&mut [S], &mut [[S; 1]]),
+        share: &Share<K, D>,
+        contacts: &[Contact<K, D>],
+        (values, right): (&mut [f64], &mut [[f64; 1]]),
     ) {
         let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
         for (heat, point) in heats {
@@ -211,14 +206,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     /// Adds the contribution to the balances of the nodes.
     #[expect(
         clippy::inline_always,
         reason = "a call of its own costs 2 % of a step"
     )]
     #[inline(always)]
-    fn add_momentum(&self, momentum: &Momentum<K, S, D>, right: &mut [S], values: &mut [S]) {
+    fn add_momentum(&self, momentum: &Momentum<K, D>, right: &mut [f64], values: &mut [f64]) {
         self.subtract_arms(&momentum.pull, &self.rows, right);
         for (i, row) in momentum.blocks.as_ref().iter().enumerate() {
             for (j, block) in row.as_ref().iter().enumerate() {
@@ -228,19 +223,19 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     /// Adds the derivatives of a vector per arm times `Σ κ (Θ_partner − Θ)` to the rows of the nodes.
     #[inline]
-    pub(super) fn add_pull(&self, site: &Site<K, S, D>, arms: &Arms<K, S, D>, values: &mut [S]) {
-        let mut sum = S::zero();
+    pub(super) fn add_pull(&self, site: &Site<K, D>, arms: &Arms<K, D>, values: &mut [f64]) {
+        let mut sum = 0.0;
         for partner in &self.partners {
             let mut by_partner = *arms;
-            scale::<K, S, D>(&mut by_partner, partner.conductance);
+            scale::<K, D>(&mut by_partner, partner.conductance);
             sum += partner.conductance;
             site.add_column(&partner.column, &by_partner, values);
         }
         let mut by_own = *arms;
-        scale::<K, S, D>(&mut by_own, -sum);
+        scale::<K, D>(&mut by_own, -sum);
         site.add_column(&self.column, &by_own, values);
     }
 
@@ -248,14 +243,14 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     #[inline]
     fn add_balance(
         &self,
-        site: &Site<K, S, D>,
-        heat: &Heat<K, S, D>,
-        values: &mut [S],
-        right: &mut [[S; 1]],
+        site: &Site<K, D>,
+        heat: &Heat<K, D>,
+        values: &mut [f64],
+        right: &mut [[f64; 1]],
     ) {
         right[self.unknown as usize][0] += heat.residual;
         site.subtract_arms(&heat.by_arm, &self.row, values);
-        let mut diagonal = S::one();
+        let mut diagonal = 1.0;
         for partner in &self.partners {
             let entry = heat.slope * partner.conductance;
             values[partner.entry as usize] += entry;
@@ -265,15 +260,15 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     /// Subtracts a vector per arm from the entries that begin at the index of its node, and adds it to those of the
     /// first node.
     #[inline]
     pub(super) fn subtract_arms(
         &self,
-        arms: &Arms<K, S, D>,
+        arms: &Arms<K, D>,
         places: &K::PerNode<u32>,
-        target: &mut [S],
+        target: &mut [f64],
     ) {
         for (i, arm) in arms.as_ref().iter().enumerate() {
             if self.is_mass[i + 1] {
@@ -291,7 +286,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     /// Adds the block of the arms of the nodes i and j to the blocks (i, j) and (0, 0) of the nodes, and with the other
     /// sign to (i, 0) and (0, j).
     #[inline]
-    pub(super) fn add_block(&self, [i, j]: [usize; 2], block: &[[S; D]; D], values: &mut [S]) {
+    pub(super) fn add_block(&self, [i, j]: [usize; 2], block: &[[f64; D]; D], values: &mut [f64]) {
         if self.is_mass[i] && self.is_mass[j] {
             self.add_rows(values, [i, j], block);
         }
@@ -308,7 +303,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 
     /// Adds to the block of two nodes, row by row.
     #[inline]
-    fn add_rows(&self, values: &mut [S], [i, j]: [usize; 2], block: &[[S; D]; D]) {
+    fn add_rows(&self, values: &mut [f64], [i, j]: [usize; 2], block: &[[f64; D]; D]) {
         let mut place = self.blocks[i][j] as usize;
         for entries in block {
             for (value, &entry) in run_mut::<_, D>(values, place).iter_mut().zip(entries) {
@@ -320,7 +315,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 
     /// Subtracts from the block of two nodes, row by row.
     #[inline]
-    fn subtract_rows(&self, values: &mut [S], [i, j]: [usize; 2], block: &[[S; D]; D]) {
+    fn subtract_rows(&self, values: &mut [f64], [i, j]: [usize; 2], block: &[[f64; D]; D]) {
         let mut place = self.blocks[i][j] as usize;
         for entries in block {
             subtract(values, place, entries);
@@ -335,8 +330,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     pub(super) fn add_column(
         &self,
         column: &K::PerNode<u32>,
-        arms: &Arms<K, S, D>,
-        values: &mut [S],
+        arms: &Arms<K, D>,
+        values: &mut [f64],
     ) {
         for (i, arm) in arms.as_ref().iter().enumerate() {
             if self.is_mass[i + 1] {
@@ -359,7 +354,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 
 /// Subtracts from consecutive entries.
 #[inline]
-pub(super) fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[S; D]) {
+pub(super) fn subtract<const D: usize>(values: &mut [f64], place: usize, entries: &[f64; D]) {
     for (value, &entry) in run_mut::<_, D>(values, place).iter_mut().zip(entries) {
         *value -= entry;
     }

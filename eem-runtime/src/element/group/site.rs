@@ -5,14 +5,13 @@ use crate::element::group::view::Sites;
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::Real;
 
 /// The matrix indices of one element in the tangent.
 ///
 /// The rows of a node have entries in the same columns, so that the entries of a column in them are
 /// equally spaced.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Site<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct Site<K: Kinematics<D>, const D: usize> {
     pub(super) nodes: K::PerNode<u32>,
     /// The first row of each node.
     pub(super) rows: K::PerNode<u32>,
@@ -26,7 +25,7 @@ pub(super) struct Site<K: Kinematics<S, D>, S: Real, const D: usize> {
 
 /// The matrix indices of the interface temperature Θ of an element.
 #[derive(Clone, Debug)]
-pub(super) struct Contact<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct Contact<K: Kinematics<D>, const D: usize> {
     /// The row of Θ.
     pub(super) unknown: u32,
     pub(super) diagonal: u32,
@@ -34,12 +33,12 @@ pub(super) struct Contact<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) row: K::PerNode<u32>,
     /// The entry of the first row of each node in the column of Θ.
     pub(super) column: K::PerNode<u32>,
-    pub(super) partners: Vec<PartnerSite<K, S, D>>,
+    pub(super) partners: Vec<PartnerSite<K, D>>,
 }
 
 /// A path of heat to another element.
 #[derive(Clone, Debug)]
-pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct PartnerSite<K: Kinematics<D>, const D: usize> {
     /// The partner's thermal slot, and the row of its Θ.
     pub(super) slot: u32,
     pub(super) unknown: u32,
@@ -48,7 +47,7 @@ pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// The index of the link in the list of all links.
     pub(super) link: u32,
     /// κ, W/K.
-    pub(super) conductance: S,
+    pub(super) conductance: f64,
     /// The entry of the first row of each node in the column of the partner's Θ.
     pub(super) column: K::PerNode<u32>,
     /// For the transposed system: the first entry of each node, and that of the own Θ, in the row of the partner's Θ.
@@ -58,7 +57,7 @@ pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) entry_back: u32,
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     /// The nodes, without matrix indices.
     pub(super) fn unconnected(nodes: &[u32]) -> Self {
         let mut own = K::PerNode::filled(0);
@@ -75,7 +74,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     }
 
     /// The matrix indices of an element with these nodes.
-    pub(super) fn new(nodes: K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
+    pub(super) fn new(nodes: K::PerNode<u32>, sites: &Sites<'_, D>) -> Self {
         let unknown = |node: usize| sites.layout.nodes[nodes[node] as usize];
         let mut site = Self {
             nodes,
@@ -98,12 +97,12 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     /// The matrix indices of an element with these nodes and the thermal slot, if it is coupled.
     pub(super) fn new(
         nodes: &K::PerNode<u32>,
         slot: Option<usize>,
-        sites: &Sites<'_, S, D>,
+        sites: &Sites<'_, D>,
     ) -> Option<Self> {
         let slot = slot?;
         let unknown = sites.layout.coupled[slot]?;
@@ -146,10 +145,10 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
 }
 
 /// The distance between the entries of a column in the first two rows of a node.
-fn stride<S: Real, const D: usize>(
+fn stride<const D: usize>(
     first: Option<usize>,
     column: Option<usize>,
-    sites: &Sites<'_, S, D>,
+    sites: &Sites<'_, D>,
 ) -> u32 {
     let place = |axis: usize| sites.place(first.map(|first| first + axis), column);
     if D == 1 || first.is_none() {

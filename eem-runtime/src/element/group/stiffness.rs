@@ -5,30 +5,30 @@ use super::arms::measures_in;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::layout::Slots;
 use eem_material::free_energy::FreeEnergy;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// Stiffness and rates of a point.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stiffness<'a, S> {
+pub(crate) struct Stiffness<'a> {
     /// The nodes of its element.
     pub(crate) nodes: &'a [u32],
     /// The stiffness between them at constant entropy and viscous stretch, N/m.
-    pub(crate) elastic: S,
+    pub(crate) elastic: f64,
     /// The same at constant temperature.
-    pub(crate) isothermal: S,
+    pub(crate) isothermal: f64,
     /// The viscosity of its dashpots in parallel, N s/m.
-    pub(crate) damping: S,
+    pub(crate) damping: f64,
     /// The displacement that changes its gradients by their own size: the length of a spring, m.
-    pub(crate) length: S,
+    pub(crate) length: f64,
     /// The terms of its force, `|∂²ψ/∂π²||π|`: times ε, their rounding, N.
-    pub(crate) force: S,
+    pub(crate) force: f64,
     /// The thermal slot and its heat capacity, J/K.
-    pub(crate) capacity: Option<(usize, S)>,
+    pub(crate) capacity: Option<(usize, f64)>,
     /// The largest rate of relaxation of a dashpot, 1/s.
-    pub(crate) relaxation: S,
+    pub(crate) relaxation: f64,
 }
 
-impl<S> Stiffness<'_, S> {
+impl Stiffness<'_> {
     /// The first and the last node, both of a spring.
     pub(crate) fn ends(&self) -> [usize; 2] {
         [self.nodes[0], self.nodes[self.nodes.len() - 1]].map(|node| node as usize)
@@ -37,19 +37,18 @@ impl<S> Stiffness<'_, S> {
 
 /// The larger of `Σ |∂π_a/∂r| |∂²e/∂π_a∂π_b| |∂π_b/∂r|`, along the measures at constant entropy, and `Σ |f_a||∂π_a/∂r|/l`, across
 /// them; `∂²e/∂π_a∂π_b = ψ_ab − ψ_aθ ψ_bθ/ψ_θθ`.
-pub(super) fn stiffness_of<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize>(
+pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize>(
     (model, kinematics, nodes): (&M, &K, &'a [u32]),
-    (r, x): (&Arms<K, S, D>, &M::Variables),
+    (r, x): (&Arms<K, D>, &M::Variables),
     slots: Slots,
-) -> Stiffness<'a, S> {
-    let measures = measures_in::<K, S, D>(x);
+) -> Stiffness<'a> {
+    let measures = measures_in::<K, D>(x);
     let length = kinematics.length(&measures);
     let slopes = kinematics.slopes(r, &measures);
     let sizes = kinematics.sizes(r, &measures);
     let (gradient, hessian) = model.hessian(x);
-    let zero = S::zero();
     let last = M::MEASURES + M::DASHPOTS;
-    let [mut along, mut isothermal, mut across, mut force] = [zero; 4];
+    let [mut along, mut isothermal, mut across, mut force] = [0.0; 4];
     for a in 0..M::MEASURES {
         for b in 0..M::MEASURES {
             let mut entry = hessian[a][b];
@@ -62,22 +61,22 @@ pub(super) fn stiffness_of<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, c
         }
         across += (gradient[a] / length).abs() * slopes[a];
     }
-    let theta = if M::THERMAL { x[last] } else { zero };
+    let theta = if M::THERMAL { x[last] } else { 0.0 };
     let capacity = slots
         .thermal
         .map(|slot| (slot, -theta * hessian[last][last]));
     let (viscosities, _) = model.viscosity(theta);
-    let relaxation = (0..M::DASHPOTS).fold(zero, |most, k| {
+    let relaxation = (0..M::DASHPOTS).fold(0.0, |most, k| {
         let index = M::MEASURES + k;
-        most.maximum(hessian[index][index].abs() / viscosities[k])
+        Scalar::maximum(most, hessian[index][index].abs() / viscosities[k])
     });
     let (drags, _) = model.drag(theta);
     let drags = drags.as_ref().iter().enumerate();
     Stiffness {
         nodes,
-        elastic: along.maximum(across),
-        isothermal: isothermal.maximum(across),
-        damping: drags.fold(zero, |sum, (a, &drag)| sum + drag * slopes[a] * slopes[a]),
+        elastic: Scalar::maximum(along, across),
+        isothermal: Scalar::maximum(isothermal, across),
+        damping: drags.fold(0.0, |sum, (a, &drag)| sum + drag * slopes[a] * slopes[a]),
         length,
         force,
         capacity,

@@ -10,13 +10,12 @@
 use core::marker::PhantomData;
 
 use crate::element::kinematics::strain::Measure;
-use eem_material::number::scalar::Real;
 use eem_mesh::tensor::{Symmetric, Tensor, plus, scaled};
 
 /// A deformation gradient with its strain.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Deformed<A, S, const D: usize> {
-    tensor: Tensor<S, D>,
+pub(super) struct Deformed<A, const D: usize> {
+    tensor: Tensor<D>,
     strain: A,
 }
 
@@ -25,9 +24,9 @@ pub(super) struct Deformed<A, S, const D: usize> {
 /// J that is small or comes with a large shear. At the limit both are accurate to ε.
 const LARGE_SQUARE: f64 = 0.25;
 
-impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
+impl<A: Symmetric<D>, const D: usize> Deformed<A, D> {
     #[inline]
-    pub(super) fn new(tensor: Tensor<S, D>) -> Self {
+    pub(super) fn new(tensor: Tensor<D>) -> Self {
         let strain = A::green_lagrange(&tensor);
         Self { tensor, strain }
     }
@@ -39,7 +38,7 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
 
     /// A measure of its strain.
     #[inline]
-    pub(super) fn measure(&self, of: &Measure<S, D>) -> S {
+    pub(super) fn measure(&self, of: &Measure<D>) -> f64 {
         match of {
             Measure::Dilatation => self.dilatation(),
             _ => of.of_strain(&self.strain),
@@ -48,25 +47,25 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
 
     /// `J − 1`.
     #[inline]
-    fn dilatation(&self) -> S {
-        let of_strain = Measure::<S, D>::Dilatation.of_strain(&self.strain);
-        let of_tensor = A::determinant(&self.tensor) - S::one();
+    fn dilatation(&self) -> f64 {
+        let of_strain = Measure::<D>::Dilatation.of_strain(&self.strain);
+        let of_tensor = A::determinant(&self.tensor) - 1.0;
         let square = self.strain.contracted(&self.strain);
-        let is_small = square.less(S::from_f64(LARGE_SQUARE));
-        S::select(is_small, of_strain, of_tensor)
+        let is_small = square < LARGE_SQUARE;
+        if is_small { of_strain } else { of_tensor }
     }
 }
 
-impl<S: Real, const D: usize> Measure<S, D> {
+impl<const D: usize> Measure<D> {
     /// The measure of a strain; j has the rounding of E.
     #[inline]
-    pub(super) fn of_strain<A: Symmetric<S, D>>(&self, strain: &A) -> S {
+    pub(super) fn of_strain<A: Symmetric<D>>(&self, strain: &A) -> f64 {
         match self {
             Self::Trace => strain.trace(),
             Self::Square => strain.contracted(strain),
             Self::Dilatation => {
                 let i3 = strain.growth();
-                i3 / (S::one() + (S::one() + i3).sqrt())
+                i3 / (1.0 + (1.0 + i3).sqrt())
             }
             Self::Fibre(along) => A::symmetrised(along, along).contracted(strain),
             Self::Component(k) => A::basis(*k).contracted(strain),
@@ -76,30 +75,30 @@ impl<S: Real, const D: usize> Measure<S, D> {
 
 /// Two strains, and the sum of their `J = 1 + j`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Between<A, S, const D: usize> {
+pub(super) struct Between<A, const D: usize> {
     /// `E⁰ + E¹`.
     sum: A,
     /// `E¹ − E⁰`.
     difference: A,
     /// `J⁰ + J¹`.
-    volumes: S,
+    volumes: f64,
     new: A,
-    new_volume: S,
+    new_volume: f64,
     dimension: PhantomData<[(); D]>,
 }
 
-impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
+impl<A: Symmetric<D>, const D: usize> Between<A, D> {
     /// Two deformations.
     #[inline]
-    pub(super) fn new(ends: [&Tensor<S, D>; 2]) -> Self {
-        let [old, new] = ends.map(|tensor| Deformed::<A, S, D>::new(*tensor));
-        let volumes = [&old, &new].map(|end| S::one() + end.dilatation());
+    pub(super) fn new(ends: [&Tensor<D>; 2]) -> Self {
+        let [old, new] = ends.map(|tensor| Deformed::<A, D>::new(*tensor));
+        let volumes = [&old, &new].map(|end| 1.0 + end.dilatation());
         Self::with_volumes([old.strain, new.strain], volumes)
     }
 
     /// Two strains, without deformation gradients.
     pub(super) fn of_strains(ends: [&A; 2]) -> Self {
-        let volumes = ends.map(|strain| S::one() + Measure::<S, D>::Dilatation.of_strain(strain));
+        let volumes = ends.map(|strain| 1.0 + Measure::<D>::Dilatation.of_strain(strain));
         Self::with_volumes(ends.map(|strain| *strain), volumes)
     }
 
@@ -110,10 +109,10 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
     }
 
     #[inline]
-    fn with_volumes([old, new]: [A; 2], [old_volume, new_volume]: [S; 2]) -> Self {
+    fn with_volumes([old, new]: [A; 2], [old_volume, new_volume]: [f64; 2]) -> Self {
         Self {
-            sum: plus(&old, S::one(), &new),
-            difference: plus(&new, -S::one(), &old),
+            sum: plus(&old, 1.0, &new),
+            difference: plus(&new, -1.0, &old),
             volumes: old_volume + new_volume,
             new,
             new_volume,
@@ -123,13 +122,13 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
 
     /// P with `P:ΔE = Δπ`.
     #[inline]
-    pub(super) fn slope(&self, measure: &Measure<S, D>) -> A {
+    pub(super) fn slope(&self, measure: &Measure<D>) -> A {
         match measure {
             Measure::Trace => A::unit(),
             Measure::Square => self.sum,
             Measure::Dilatation => {
                 let slope = A::slope_of_determinant(&self.sum, &self.difference);
-                scaled(S::from_f64(2.0) / self.volumes, &slope)
+                scaled(2.0 / self.volumes, &slope)
             }
             Measure::Fibre(along) => A::symmetrised(along, along),
             Measure::Component(k) => A::basis(*k),
@@ -138,16 +137,16 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
 
     /// The change of a slope P with the new strain.
     #[inline]
-    pub(super) fn change_of_slope(&self, measure: &Measure<S, D>, slope: &A, change: &A) -> A {
+    pub(super) fn change_of_slope(&self, measure: &Measure<D>, slope: &A, change: &A) -> A {
         match measure {
-            Measure::Trace | Measure::Fibre(_) | Measure::Component(_) => A::filled(S::zero()),
+            Measure::Trace | Measure::Fibre(_) | Measure::Component(_) => A::filled(0.0),
             Measure::Square => *change,
             Measure::Dilatation => {
                 let volume = self.new_slope_of_volume().contracted(change);
-                let (two, per_volume) = (S::from_f64(2.0), self.volumes.recip());
+                let per_volume = self.volumes.recip();
                 let mut total = A::change_of_slope(&self.sum, &self.difference, change);
                 for (entry, &slope) in total.as_mut().iter_mut().zip(slope.as_ref()) {
-                    *entry = per_volume * (two * *entry - slope * volume);
+                    *entry = per_volume * (2.0 * *entry - slope * volume);
                 }
                 total
             }
@@ -157,7 +156,7 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
     /// `∂J/∂E = cof C/J` at the new strain.
     #[inline]
     fn new_slope_of_volume(&self) -> A {
-        let twice = scaled(S::from_f64(2.0), &self.new);
+        let twice = scaled(2.0, &self.new);
         scaled(self.new_volume.recip(), &twice.cofactor_of_one_plus())
     }
 }

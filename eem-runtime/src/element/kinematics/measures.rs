@@ -4,47 +4,46 @@ use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::solid_state::SolidState;
 use eem_material::free_energy::{Array, Entry};
-use eem_material::number::scalar::Real;
 use eem_mesh::Points;
 
 /// The arms of an element, m.
-pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;
+pub type Arms<K, const D: usize> = <K as Kinematics<D>>::PerArm<[f64; D]>;
 
 /// A number per measure: the measures themselves, or their conjugate forces.
-pub type Measures<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<S>;
+pub type Measures<K, const D: usize> = <K as Kinematics<D>>::PerMeasure<f64>;
 
 /// Derivatives of measures with respect to the arms: per measure and arm.
-pub type Gradient<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<Arms<K, S, D>>;
+pub type Gradient<K, const D: usize> = <K as Kinematics<D>>::PerMeasure<Arms<K, D>>;
 
 /// Second derivatives with respect to the arms: a square block per pair of arms.
-pub type Blocks<K, S, const D: usize> =
-    <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<[[S; D]; D]>>;
+pub type Blocks<K, const D: usize> =
+    <K as Kinematics<D>>::PerArm<<K as Kinematics<D>>::PerArm<[[f64; D]; D]>>;
 
 /// A number per pair of arms.
-pub type Weights<K, S, const D: usize> =
-    <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<S>>;
+pub type Weights<K, const D: usize> =
+    <K as Kinematics<D>>::PerArm<<K as Kinematics<D>>::PerArm<f64>>;
 
 /// The arms and measures of one element at both ends of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Ends<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub struct Ends<K: Kinematics<D>, const D: usize> {
     /// Old arms `r⁰`, m.
-    pub r0: Arms<K, S, D>,
+    pub r0: Arms<K, D>,
     /// New arms `r¹`, m.
-    pub r1: Arms<K, S, D>,
+    pub r1: Arms<K, D>,
     /// Old measures `π⁰`.
-    pub measures0: Measures<K, S, D>,
+    pub measures0: Measures<K, D>,
     /// New measures `π¹`.
-    pub measures1: Measures<K, S, D>,
+    pub measures1: Measures<K, D>,
     pub(super) between: K::Between,
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Ends<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Ends<K, D> {
     /// Old and new arms, whose measures are given.
     #[inline]
     pub fn new(
         kinematics: &K,
-        [r0, r1]: [Arms<K, S, D>; 2],
-        [measures0, measures1]: [Measures<K, S, D>; 2],
+        [r0, r1]: [Arms<K, D>; 2],
+        [measures0, measures1]: [Measures<K, D>; 2],
     ) -> Self {
         let between = kinematics.between([&r0, &r1]);
         Self {
@@ -58,9 +57,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Ends<K, S, D> {
 }
 
 /// The measures at a point of an element as functions of its edge vectors from node 0 (arms), in `D` dimensions.
-pub trait Kinematics<S: Real, const D: usize>:
-    Copy + Send + Sync + core::fmt::Debug + 'static
-{
+pub trait Kinematics<const D: usize>: Copy + Send + Sync + core::fmt::Debug + 'static {
     /// `[T; number of nodes]`.
     type PerNode<T: Entry>: Array<T>;
     /// `[T; number of nodes − 1]`.
@@ -82,81 +79,72 @@ pub trait Kinematics<S: Real, const D: usize>:
     const VISCOSITY_UNIT: &'static str;
 
     /// Whether an element can have these arms, whose measures are given.
-    fn is_admissible(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>) -> bool;
+    fn is_admissible(&self, r: &Arms<Self, D>, measures: &Measures<Self, D>) -> bool;
 
     /// Why an element cannot have these arms.
-    fn refusal(&self, element: Element, r: &Arms<Self, S, D>) -> StateError;
+    fn refusal(&self, element: Element, r: &Arms<Self, D>) -> StateError;
 
     /// The factor that makes an energy of the force of a dashpot: the measure, m, for a force in N; one for strains.
-    fn unit(&self, measures: &Measures<Self, S, D>) -> S;
+    fn unit(&self, measures: &Measures<Self, D>) -> f64;
 
     /// The displacement that changes its gradients by their own size, m.
-    fn length(&self, measures: &Measures<Self, S, D>) -> S;
+    fn length(&self, measures: &Measures<Self, D>) -> f64;
 
     /// The terms of the measures, `|∂π/∂r| |r|`: times ε, the effect of rounding of the arms.
-    fn sizes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>) -> Measures<Self, S, D>;
+    fn sizes(&self, r: &Arms<Self, D>, measures: &Measures<Self, D>) -> Measures<Self, D>;
 
     /// The largest `|∂π/∂r|` of each measure.
-    fn slopes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>)
-    -> Measures<Self, S, D>;
+    fn slopes(&self, r: &Arms<Self, D>, measures: &Measures<Self, D>) -> Measures<Self, D>;
 
     /// The magnitude of the terms of `∂π/∂r`, `|∂²π/∂r²| |r|`: times ε, the rounding of the gradient. It is the
     /// gradient itself unless its terms cancel.
-    fn slope_sizes(
-        &self,
-        r: &Arms<Self, S, D>,
-        measures: &Measures<Self, S, D>,
-    ) -> Measures<Self, S, D> {
+    fn slope_sizes(&self, r: &Arms<Self, D>, measures: &Measures<Self, D>) -> Measures<Self, D> {
         self.slopes(r, measures)
     }
 
     /// Stress and strain with these arms under conjugates of the measures; `None` for a spring.
-    fn solid_state(&self, _: &Arms<Self, S, D>, _: &Measures<Self, S, D>) -> Option<SolidState<S>> {
+    fn solid_state(&self, _: &Arms<Self, D>, _: &Measures<Self, D>) -> Option<SolidState> {
         None
     }
 
     /// Calls `see` with the numbers of the reference configuration, which distinguish elements.
-    fn numbers(&self, see: &mut dyn FnMut(S));
+    fn numbers(&self, see: &mut dyn FnMut(f64));
 
     /// The measures `π(r)`, exact to rounding where the arms are admissible. Elsewhere they may be zero or infinite.
-    fn measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
+    fn measure(&self, r: &Arms<Self, D>) -> Measures<Self, D>;
 
     /// `∂π/∂r` at `r`, whose measures are given.
-    fn gradient(
-        &self,
-        r: &Arms<Self, S, D>,
-        measures: &Measures<Self, S, D>,
-    ) -> Gradient<Self, S, D>;
+    fn gradient(&self, r: &Arms<Self, D>, measures: &Measures<Self, D>) -> Gradient<Self, D>;
 
     /// `Σ_a f_a ∂²π_a/∂r²`.
     fn curvature(
         &self,
-        r: &Arms<Self, S, D>,
-        measures: &Measures<Self, S, D>,
-        force: &Measures<Self, S, D>,
-    ) -> Blocks<Self, S, D>;
+        r: &Arms<Self, D>,
+        measures: &Measures<Self, D>,
+        force: &Measures<Self, D>,
+    ) -> Blocks<Self, D>;
 
     /// The common part of the mean-value gradients between old and new arms.
-    fn between(&self, arms: [&Arms<Self, S, D>; 2]) -> Self::Between;
+    fn between(&self, arms: [&Arms<Self, D>; 2]) -> Self::Between;
 
     /// `∂π/∂r` at the new arms.
     #[inline]
-    fn new_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D> {
+    fn new_gradient(&self, ends: &Ends<Self, D>) -> Gradient<Self, D> {
         self.gradient(&ends.r1, &ends.measures1)
     }
 
     /// The mean-value gradient `D*π` between two states.
-    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D>;
+    fn discrete_gradient(&self, ends: &Ends<Self, D>) -> Gradient<Self, D>;
 
     /// `Σ_a f_a D*π_a` along given gradients. If forces of several measures cancel, they are summed before they act on the
     /// nodes, whose torque is then zero to the rounding of the sum.
     #[inline]
     fn pull(
         &self,
-        _: &Ends<Self, S, D>,
-        gradient: &Gradient<Self, S, D>,
-        force: &Measures<Self, S, D>,
-    ) -> Arms<Self, S, D> {
+        _: &Ends<Self, D>,
+        gradient: &Gradient<Self, D>,
+        force: &Measures<Self, D>,
+    ) -> Arms<Self, D> {
         let mut sum = gradient[0];
         for (a, (row, &force)) in gradient.as_ref().iter().zip(force.as_ref()).enumerate() {
             for (sum, row) in sum.as_mut().iter_mut().zip(row.as_ref()) {
@@ -176,33 +164,29 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// ```
     fn discrete_tangent(
         &self,
-        ends: &Ends<Self, S, D>,
-        force: &Measures<Self, S, D>,
-        force_by_arm: &Gradient<Self, S, D>,
-    ) -> Blocks<Self, S, D>;
+        ends: &Ends<Self, D>,
+        force: &Measures<Self, D>,
+        force_by_arm: &Gradient<Self, D>,
+    ) -> Blocks<Self, D>;
 
     /// Adds [`discrete_tangent`](Self::discrete_tangent) to a sum.
     #[inline]
     fn add_discrete_tangent(
         &self,
-        ends: &Ends<Self, S, D>,
-        force: &Measures<Self, S, D>,
-        force_by_arm: &Gradient<Self, S, D>,
-        sum: &mut Blocks<Self, S, D>,
+        ends: &Ends<Self, D>,
+        force: &Measures<Self, D>,
+        force_by_arm: &Gradient<Self, D>,
+        sum: &mut Blocks<Self, D>,
     ) {
         let own = self.discrete_tangent(ends, force, force_by_arm);
-        add_blocks::<Self, S, D>(sum, &own);
+        add_blocks::<Self, D>(sum, &own);
     }
 
     /// `D*π_a·w` of each measure, for vectors w on the arms.
     #[cfg(feature = "gradients")]
     #[inline]
-    fn discrete_rates(
-        &self,
-        ends: &Ends<Self, S, D>,
-        w: &Arms<Self, S, D>,
-    ) -> Measures<Self, S, D> {
-        let mut rates = Measures::<Self, S, D>::filled(S::zero());
+    fn discrete_rates(&self, ends: &Ends<Self, D>, w: &Arms<Self, D>) -> Measures<Self, D> {
+        let mut rates = Measures::<Self, D>::filled(0.0);
         let gradient = self.discrete_gradient(ends);
         for (rate, row) in rates.as_mut().iter_mut().zip(gradient.as_ref()) {
             let pairs = row
@@ -210,7 +194,7 @@ pub trait Kinematics<S: Real, const D: usize>:
                 .iter()
                 .flatten()
                 .zip(w.as_ref().iter().flatten());
-            *rate = pairs.fold(S::zero(), |sum, (&g, &w)| sum + g * w);
+            *rate = pairs.fold(0.0, |sum, (&g, &w)| sum + g * w);
         }
         rates
     }
@@ -220,11 +204,11 @@ pub trait Kinematics<S: Real, const D: usize>:
     #[inline]
     fn pull_back(
         &self,
-        ends: &Ends<Self, S, D>,
-        p: &Measures<Self, S, D>,
-        (force, w): (&Measures<Self, S, D>, &Arms<Self, S, D>),
-    ) -> Arms<Self, S, D> {
-        let still = Gradient::<Self, S, D>::filled(Arms::<Self, S, D>::filled([S::zero(); D]));
+        ends: &Ends<Self, D>,
+        p: &Measures<Self, D>,
+        (force, w): (&Measures<Self, D>, &Arms<Self, D>),
+    ) -> Arms<Self, D> {
+        let still = Gradient::<Self, D>::filled(Arms::<Self, D>::filled([0.0; D]));
         let blocks = self.discrete_tangent(ends, force, &still);
         let mut sum = self.pull(ends, &self.new_gradient(ends), p);
         for (row, w) in blocks.as_ref().iter().zip(w.as_ref()) {
@@ -240,19 +224,18 @@ pub trait Kinematics<S: Real, const D: usize>:
     }
 
     /// A of `Σ_a f_a D*π_a = A r_m`, which depends on the arms only through the strains at both ends.
-    fn secant(&self, ends: &Ends<Self, S, D>, force: &Measures<Self, S, D>) -> Weights<Self, S, D>;
+    fn secant(&self, ends: &Ends<Self, D>, force: &Measures<Self, D>) -> Weights<Self, D>;
 }
 
 /// A number per component of the strain C.
-pub(crate) type PerStrain<K, S, const D: usize> = <K as QuadraticStrain<S, D>>::PerStrain<S>;
+pub(crate) type PerStrain<K, const D: usize> = <K as QuadraticStrain<D>>::PerStrain<f64>;
 
 /// Derivatives of measures with respect to the strain.
-pub(crate) type StrainSlopes<K, S, const D: usize> =
-    <K as Kinematics<S, D>>::PerMeasure<PerStrain<K, S, D>>;
+pub(crate) type StrainSlopes<K, const D: usize> = <K as Kinematics<D>>::PerMeasure<PerStrain<K, D>>;
 
 /// A square matrix of the components of the strain.
-pub(crate) type StrainMatrix<K, S, const D: usize> =
-    <K as QuadraticStrain<S, D>>::PerStrain<PerStrain<K, S, D>>;
+pub(crate) type StrainMatrix<K, const D: usize> =
+    <K as QuadraticStrain<D>>::PerStrain<PerStrain<K, D>>;
 
 /// Measures as functions of the strain C of an element, which is quadratic in the arms:
 ///
@@ -262,53 +245,53 @@ pub(crate) type StrainMatrix<K, S, const D: usize> =
 /// ```
 ///
 /// A path of C through a step, with Ċ from the arms at Gauss points, ends at the strain of the new arms exactly.
-pub(crate) trait QuadraticStrain<S: Real, const D: usize>: Kinematics<S, D> {
+pub(crate) trait QuadraticStrain<const D: usize>: Kinematics<D> {
     /// `[T; number of components]`.
     type PerStrain<T: Entry>: Array<T>;
 
     /// C of these arms.
-    fn strain(&self, r: &Arms<Self, S, D>) -> PerStrain<Self, S, D>;
+    fn strain(&self, r: &Arms<Self, D>) -> PerStrain<Self, D>;
 
     /// `∂C/∂r·w`, bilinear in r and w.
-    fn strain_rate(&self, r: &Arms<Self, S, D>, w: &Arms<Self, S, D>) -> PerStrain<Self, S, D>;
+    fn strain_rate(&self, r: &Arms<Self, D>, w: &Arms<Self, D>) -> PerStrain<Self, D>;
 
     /// `Σ n_q ∂C_q/∂r`, linear in r.
-    fn strain_force(&self, r: &Arms<Self, S, D>, n: &PerStrain<Self, S, D>) -> Arms<Self, S, D>;
+    fn strain_force(&self, r: &Arms<Self, D>, n: &PerStrain<Self, D>) -> Arms<Self, D>;
 
     /// The magnitude of the terms of [`strain_force`](Self::strain_force), given that of n.
-    fn strain_force_size(&self, r: &Arms<Self, S, D>, n: &PerStrain<Self, S, D>) -> S;
+    fn strain_force_size(&self, r: &Arms<Self, D>, n: &PerStrain<Self, D>) -> f64;
 
     /// `Σ n_q ∂²C_q/∂r²`.
-    fn strain_stiffness(&self, n: &PerStrain<Self, S, D>) -> Weights<Self, S, D>;
+    fn strain_stiffness(&self, n: &PerStrain<Self, D>) -> Weights<Self, D>;
 
     /// The magnitude of the terms of each component of a strain.
-    fn strain_sizes(&self, strain: &PerStrain<Self, S, D>) -> PerStrain<Self, S, D>;
+    fn strain_sizes(&self, strain: &PerStrain<Self, D>) -> PerStrain<Self, D>;
 
     /// The weight of each component in the square of a strain, and the unit of the strain.
-    fn strain_metric(&self, strain: &PerStrain<Self, S, D>) -> (PerStrain<Self, S, D>, S);
+    fn strain_metric(&self, strain: &PerStrain<Self, D>) -> (PerStrain<Self, D>, f64);
 
     /// The measures of a strain; `None` if no deformation has it.
-    fn measures_of(&self, strain: &PerStrain<Self, S, D>) -> Option<Measures<Self, S, D>>;
+    fn measures_of(&self, strain: &PerStrain<Self, D>) -> Option<Measures<Self, D>>;
 
     /// Why an element cannot have this strain within a step.
-    fn refuse(&self, element: Element, strain: &PerStrain<Self, S, D>) -> StateError;
+    fn refuse(&self, element: Element, strain: &PerStrain<Self, D>) -> StateError;
 
     /// P with `P·(C¹ − C⁰) = π¹ − π⁰` exactly, symmetric in both.
-    fn strain_slopes(&self, ends: [&PerStrain<Self, S, D>; 2]) -> StrainSlopes<Self, S, D>;
+    fn strain_slopes(&self, ends: [&PerStrain<Self, D>; 2]) -> StrainSlopes<Self, D>;
 
     /// `Σ_a f_a ∂²π_a/∂C²`.
     fn strain_curvature(
         &self,
-        strain: &PerStrain<Self, S, D>,
-        force: &Measures<Self, S, D>,
-    ) -> StrainMatrix<Self, S, D>;
+        strain: &PerStrain<Self, D>,
+        force: &Measures<Self, D>,
+    ) -> StrainMatrix<Self, D>;
 }
 
 /// Adds blocks to a sum.
 #[inline]
-pub(crate) fn add_blocks<K: Kinematics<S, D>, S: Real, const D: usize>(
-    sum: &mut Blocks<K, S, D>,
-    own: &Blocks<K, S, D>,
+pub(crate) fn add_blocks<K: Kinematics<D>, const D: usize>(
+    sum: &mut Blocks<K, D>,
+    own: &Blocks<K, D>,
 ) {
     for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
         for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {

@@ -5,7 +5,7 @@ use core::array;
 use crate::element::kinematics::between::Between;
 use crate::element::kinematics::strain::Measure;
 use eem_material::free_energy::Array;
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::{Scalar, is_positive};
 use eem_mesh::integrals::{functions, gauss, jacobian};
 use eem_mesh::tensor::{Symmetric, Tensor, add, dot, pushed};
 use eem_mesh::{Points, Shape};
@@ -35,24 +35,24 @@ use eem_mesh::{Points, Shape};
 /// assert!((first.volume() - 0.25_f64).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct SolidPoint<H: Shape<D>, S: Real, const N: usize, const D: usize> {
-    pub(super) measures: [Measure<S, D>; N],
+pub struct SolidPoint<H: Shape<D>, const N: usize, const D: usize> {
+    pub(super) measures: [Measure<D>; N],
     /// `B_i` of the arms, 1/m.
-    pub(super) gradients: H::PerArm<[S; D]>,
+    pub(super) gradients: H::PerArm<[f64; D]>,
     /// w, m³.
-    pub(super) volume: S,
+    pub(super) volume: f64,
     /// The reciprocal of the largest `|B_i|`, m.
-    pub(super) length: S,
+    pub(super) length: f64,
 }
 
 /// Vectors per arm.
-pub(super) type PerArm<H, S, const D: usize> = <H as Shape<D>>::PerArm<[S; D]>;
+pub(super) type PerArm<H, const D: usize> = <H as Shape<D>>::PerArm<[f64; D]>;
 
 /// A block per pair of arms.
-pub(super) type PerPair<H, S, const D: usize> =
-    <H as Shape<D>>::PerArm<<H as Shape<D>>::PerArm<[[S; D]; D]>>;
+pub(super) type PerPair<H, const D: usize> =
+    <H as Shape<D>>::PerArm<<H as Shape<D>>::PerArm<[[f64; D]; D]>>;
 
-impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D> {
+impl<H: Shape<D>, const N: usize, const D: usize> SolidPoint<H, N, D> {
     /// The points, in the order of the shape, of a cell with these reference positions of its nodes (m) and this thickness
     /// (m), which is one in three dimensions.
     ///
@@ -60,27 +60,27 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
     ///
     /// The index of the first point at which the cell is inverted, with `det ∂X/∂ξ` there, m² or m³.
     pub fn points(
-        reference: &H::PerNode<[S; D]>,
-        thickness: S,
-        measures: [Measure<S, D>; N],
-    ) -> Result<H::PerPoint<Self>, (usize, S)> {
+        reference: &H::PerNode<[f64; D]>,
+        thickness: f64,
+        measures: [Measure<D>; N],
+    ) -> Result<H::PerPoint<Self>, (usize, f64)> {
         let mut inverted = None;
         let rule = gauss(H::PER_AXIS);
         let points = H::PerPoint::from_fn(|at| {
             let (place, weight) = rule[at];
-            let functions = functions::<H, S, D>(place);
+            let functions = functions::<H, D>(place);
             let jacobian = jacobian(reference.as_ref(), &functions);
-            let size = H::Tensor::<S>::determinant(&jacobian);
+            let size = H::Tensor::determinant(&jacobian);
             if inverted.is_none() && !is_positive(size) {
                 inverted = Some((at, size));
             }
             let mut point = Self {
                 measures,
-                gradients: H::PerArm::filled([S::zero(); D]),
+                gradients: H::PerArm::filled([0.0; D]),
                 volume: weight * size * thickness,
-                length: S::zero(),
+                length: 0.0,
             };
-            let cofactor = H::Tensor::<S>::cofactor(&jacobian);
+            let cofactor = H::Tensor::cofactor(&jacobian);
             let slopes = functions[1..].iter();
             for (gradient, (_, slope)) in point.gradients.as_mut().iter_mut().zip(slopes) {
                 *gradient = cofactor.map(|row| dot(&row, slope) / size);
@@ -92,38 +92,38 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
     }
 
     /// The largest `|B_i|` of all nodes, 1/m.
-    fn steepest(&self) -> S {
-        let size = |b: &[S; D]| (1..D).fold(b[0], |size, axis| size.hypot(b[axis]));
-        let mut first = [S::zero(); D];
-        let mut largest = S::zero();
+    fn steepest(&self) -> f64 {
+        let size = |b: &[f64; D]| (1..D).fold(b[0], |size, axis| Scalar::hypot(size, b[axis]));
+        let mut first = [0.0; D];
+        let mut largest = 0.0;
         for gradient in self.gradients.as_ref() {
-            largest = largest.maximum(size(gradient));
+            largest = Scalar::maximum(largest, size(gradient));
             first = array::from_fn(|axis| first[axis] - gradient[axis]);
         }
-        largest.maximum(size(&first))
+        Scalar::maximum(largest, size(&first))
     }
 
     /// The volume that the point stands for, m³.
     #[must_use]
-    pub fn volume(&self) -> S {
+    pub fn volume(&self) -> f64 {
         self.volume
     }
 
     /// F.
     #[inline]
-    pub(super) fn deformation(&self, r: &PerArm<H, S, D>) -> Tensor<S, D> {
+    pub(super) fn deformation(&self, r: &PerArm<H, D>) -> Tensor<D> {
         self.combined(r, |entry| entry)
     }
 
     /// The magnitude of the terms of F, `Σ |r_i| ⊗ |B_i|`.
-    pub(super) fn terms_of_deformation(&self, r: &PerArm<H, S, D>) -> Tensor<S, D> {
-        self.combined(r, S::abs)
+    pub(super) fn terms_of_deformation(&self, r: &PerArm<H, D>) -> Tensor<D> {
+        self.combined(r, f64::abs)
     }
 
     /// `Σ r_i ⊗ B_i` of functions of the entries of both.
     #[inline]
-    fn combined(&self, r: &PerArm<H, S, D>, of: impl Fn(S) -> S) -> Tensor<S, D> {
-        let mut sum = [[S::zero(); D]; D];
+    fn combined(&self, r: &PerArm<H, D>, of: impl Fn(f64) -> f64) -> Tensor<D> {
+        let mut sum = [[0.0; D]; D];
         for (arm, gradient) in r.as_ref().iter().zip(self.gradients.as_ref()) {
             for (row, &component) in sum.iter_mut().zip(arm) {
                 for (entry, &slope) in row.iter_mut().zip(gradient) {
@@ -136,7 +136,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
 
     /// `F A B_i` of all arms.
     #[inline]
-    pub(super) fn pulled(&self, tensor: &Tensor<S, D>, by: &H::Tensor<S>) -> PerArm<H, S, D> {
+    pub(super) fn pulled(&self, tensor: &Tensor<D>, by: &H::Tensor) -> PerArm<H, D> {
         let mut pulled = self.gradients;
         for b in pulled.as_mut() {
             *b = pushed(tensor, &by.applied(b));
@@ -145,22 +145,18 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
     }
 
     /// The magnitude of `F A B_i`, given that of the terms of F and of A.
-    pub(super) fn size_of_pull(&self, terms: &Tensor<S, D>, by: &H::Tensor<S>) -> S {
-        let mut steepness = [S::zero(); D];
+    pub(super) fn size_of_pull(&self, terms: &Tensor<D>, by: &H::Tensor) -> f64 {
+        let mut steepness = [0.0; D];
         for (sum, b) in (0..D).cycle().zip(self.gradients.as_ref().as_flattened()) {
             steepness[sum] += b.abs();
         }
         let sizes = pushed(terms, &by.applied(&steepness));
-        sizes.iter().fold(S::zero(), |sum, &size| sum + size)
+        sizes.iter().fold(0.0, |sum, &size| sum + size)
     }
 
     /// `F P B_i` of each measure.
     #[inline]
-    pub(super) fn along(
-        &self,
-        tensor: &Tensor<S, D>,
-        between: &Strains<H, S, D>,
-    ) -> [PerArm<H, S, D>; N] {
+    pub(super) fn along(&self, tensor: &Tensor<D>, between: &Strains<H, D>) -> [PerArm<H, D>; N] {
         let slope = |measure| between.slope(measure);
         self.measures
             .each_ref()
@@ -169,8 +165,8 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
 
     /// `Σ_a f_a P_a`.
     #[inline]
-    pub(super) fn stress(&self, between: &Strains<H, S, D>, force: &[S; N]) -> H::Tensor<S> {
-        let mut stress = H::Tensor::<S>::filled(S::zero());
+    pub(super) fn stress(&self, between: &Strains<H, D>, force: &[f64; N]) -> H::Tensor {
+        let mut stress = H::Tensor::filled(0.0);
         for (measure, &force) in self.measures.iter().zip(force) {
             add(&mut stress, force, &between.slope(measure));
         }
@@ -179,8 +175,8 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
 
     /// `B_i·S B_j` of all pairs of arms.
     #[inline]
-    pub(super) fn stiffness_of(&self, stress: &H::Tensor<S>) -> H::PerArm<H::PerArm<S>> {
-        let mut weights = H::PerArm::filled(H::PerArm::filled(S::zero()));
+    pub(super) fn stiffness_of(&self, stress: &H::Tensor) -> H::PerArm<H::PerArm<f64>> {
+        let mut weights = H::PerArm::filled(H::PerArm::filled(0.0));
         for (row, b) in weights.as_mut().iter_mut().zip(self.gradients.as_ref()) {
             let pulled = stress.applied(b);
             for (weight, by) in row.as_mut().iter_mut().zip(self.gradients.as_ref()) {
@@ -193,12 +189,12 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
 
 /// Deformations and strains of a cell between two states.
 #[derive(Clone, Copy, Debug)]
-pub struct Deformations<H: Shape<D>, S: Real, const D: usize> {
+pub struct Deformations<H: Shape<D>, const D: usize> {
     /// In the middle.
-    pub(super) mean: Tensor<S, D>,
-    pub(super) new: Tensor<S, D>,
-    pub(super) strains: Strains<H, S, D>,
+    pub(super) mean: Tensor<D>,
+    pub(super) new: Tensor<D>,
+    pub(super) strains: Strains<H, D>,
 }
 
 /// Two strains of a cell.
-pub(super) type Strains<H, S, const D: usize> = Between<<H as Shape<D>>::Tensor<S>, S, D>;
+pub(super) type Strains<H, const D: usize> = Between<<H as Shape<D>>::Tensor, D>;

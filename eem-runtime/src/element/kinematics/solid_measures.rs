@@ -15,98 +15,95 @@ use crate::element::kinematics::stiffness::strain_along;
 use crate::element::kinematics::strain::Measure;
 use eem_material::free_energy::{Array, Entry};
 use eem_material::joint::basis;
-use eem_material::number::scalar::{Mask, Real};
 use eem_mesh::Shape;
 use eem_mesh::tensor::{Symmetric, plus, pushed, scaled};
 
-impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
-    for SolidPoint<H, S, N, D>
-{
+impl<H: Shape<D>, const N: usize, const D: usize> Kinematics<D> for SolidPoint<H, N, D> {
     type PerNode<T: Entry> = H::PerNode<T>;
     type PerArm<T: Entry> = H::PerArm<T>;
     type PerMeasure<T: Entry> = [T; N];
     type PerPoint<T: Send + Sync> = H::PerPoint<T>;
 
-    type Between = Deformations<H, S, D>;
+    type Between = Deformations<H, D>;
 
     const IS_SPRING: bool = false;
     const VISCOUS_UNIT: &'static str = "";
     const VISCOSITY_UNIT: &'static str = "J s";
 
     #[inline]
-    fn is_admissible(&self, r: &PerArm<H, S, D>, measures: &[S; N]) -> bool {
-        let volume = H::Tensor::<S>::determinant(&self.deformation(r));
-        S::zero().less(volume).all() && measures.iter().all(|measure| measure.is_finite())
+    fn is_admissible(&self, r: &PerArm<H, D>, measures: &[f64; N]) -> bool {
+        let volume = H::Tensor::determinant(&self.deformation(r));
+        volume > 0.0 && measures.iter().all(|measure| measure.is_finite())
     }
 
     #[cold]
-    fn refusal(&self, element: Element, r: &PerArm<H, S, D>) -> StateError {
+    fn refusal(&self, element: Element, r: &PerArm<H, D>) -> StateError {
         StateError::InsideOut {
             element,
-            value: H::Tensor::<S>::determinant(&self.deformation(r)).to_f64(),
+            value: H::Tensor::determinant(&self.deformation(r)),
         }
     }
 
     #[inline]
-    fn unit(&self, _: &[S; N]) -> S {
-        S::one()
+    fn unit(&self, _: &[f64; N]) -> f64 {
+        1.0
     }
 
     #[inline]
-    fn length(&self, _: &[S; N]) -> S {
+    fn length(&self, _: &[f64; N]) -> f64 {
         self.length
     }
 
     // E has the rounding of ½(FᵀF − 1), and π that of P:E.
-    fn sizes(&self, r: &PerArm<H, S, D>, _: &[S; N]) -> [S; N] {
+    fn sizes(&self, r: &PerArm<H, D>, _: &[f64; N]) -> [f64; N] {
         let tensor = self.deformation(r);
-        let between = Strains::<H, S, D>::new([&tensor, &tensor]);
+        let between = Strains::<H, D>::new([&tensor, &tensor]);
         let squares = tensor.iter().flatten();
-        let square = squares.fold(S::one(), |sum, &entry| sum + entry * entry);
-        let size = S::from_f64(0.5) * square;
+        let square = squares.fold(1.0, |sum, &entry| sum + entry * entry);
+        let size = 0.5 * square;
         self.measures
             .each_ref()
             .map(|measure| sizes_of(between.slope(measure)).contracted(&H::Tensor::filled(size)))
     }
 
-    fn slopes(&self, r: &PerArm<H, S, D>, measures: &[S; N]) -> [S; N] {
+    fn slopes(&self, r: &PerArm<H, D>, measures: &[f64; N]) -> [f64; N] {
         let gradient = self.gradient(r, measures);
         gradient.map(|arms| {
             let entries = arms.as_ref().iter().flatten();
-            entries.fold(S::zero(), |sum, entry| sum + entry.abs())
+            entries.fold(0.0, |sum, entry| sum + entry.abs())
         })
     }
 
     // The slope of E:E, E⁰ + E¹, vanishes without strain, but the rounding of its terms ½(FᵀF + 1) remains. It acts in all
     // directions, also in those without force.
-    fn slope_sizes(&self, r: &PerArm<H, S, D>, _: &[S; N]) -> [S; N] {
+    fn slope_sizes(&self, r: &PerArm<H, D>, _: &[f64; N]) -> [f64; N] {
         let tensor = self.deformation(r);
-        let between = Strains::<H, S, D>::new([&tensor, &tensor]);
+        let between = Strains::<H, D>::new([&tensor, &tensor]);
         let terms = self.terms_of_deformation(r);
-        let unit = H::Tensor::<S>::unit();
-        let strain = plus(&H::Tensor::green_lagrange(&terms), S::one(), &unit);
+        let unit = H::Tensor::unit();
+        let strain = plus(&H::Tensor::green_lagrange(&terms), 1.0, &unit);
         self.measures.each_ref().map(|measure| {
             let slope = match measure {
-                Measure::Square => plus(&strain, S::one(), &strain),
+                Measure::Square => plus(&strain, 1.0, &strain),
                 _ => between.slope(measure),
             };
             self.size_of_pull(&terms, &sizes_of(slope))
         })
     }
 
-    fn solid_state(&self, r: &PerArm<H, S, D>, force: &[S; N]) -> Option<SolidState<S>> {
+    fn solid_state(&self, r: &PerArm<H, D>, force: &[f64; N]) -> Option<SolidState> {
         let tensor = self.deformation(r);
-        let between = Strains::<H, S, D>::new([&tensor, &tensor]);
-        let deformed = Deformed::<H::Tensor<S>, S, D>::new(tensor);
+        let between = Strains::<H, D>::new([&tensor, &tensor]);
+        let deformed = Deformed::<H::Tensor, D>::new(tensor);
         let dilatation = deformed.measure(&Measure::Dilatation);
-        let volume = S::one() + dilatation;
+        let volume = 1.0 + dilatation;
         let second = scaled(self.volume.recip(), &self.stress(&between, force));
-        let mut stress = SMatrix::from_element(S::zero());
+        let mut stress = SMatrix::from_element(0.0);
         let mut strain = stress;
         for (column, row) in tensor.iter().enumerate() {
             let pushed = pushed(&tensor, &second.applied(row));
-            let mut axis = [S::zero(); D];
-            axis[column] = S::one();
+            let mut axis = [0.0; D];
+            axis[column] = 1.0;
             let stretched = deformed.strain().applied(&axis);
             for row in 0..D {
                 stress[(row, column)] = pushed[row] / volume;
@@ -116,13 +113,13 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         if D == 2 {
             // The stress that keeps the thickness: P₃₃ of each measure.
             let slopes = self.measures.each_ref().map(|measure| match measure {
-                Measure::Trace => S::one(),
+                Measure::Trace => 1.0,
                 Measure::Dilatation => volume,
-                Measure::Square | Measure::Fibre(_) => S::zero(),
+                Measure::Square | Measure::Fibre(_) => 0.0,
                 Measure::Component(k) => basis(*k)[2],
             });
             let across = slopes.iter().zip(force);
-            let across = across.fold(S::zero(), |sum, (&slope, &force)| sum + slope * force);
+            let across = across.fold(0.0, |sum, (&slope, &force)| sum + slope * force);
             stress[(2, 2)] = across / (self.volume * volume);
         }
         Some(SolidState {
@@ -132,7 +129,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         })
     }
 
-    fn numbers(&self, see: &mut dyn FnMut(S)) {
+    fn numbers(&self, see: &mut dyn FnMut(f64)) {
         see(self.volume);
         let fibres = self.measures.iter().filter_map(|measure| match measure {
             Measure::Fibre(along) => Some(along),
@@ -144,34 +141,32 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     }
 
     #[inline]
-    fn measure(&self, r: &PerArm<H, S, D>) -> [S; N] {
-        let deformed = Deformed::<H::Tensor<S>, S, D>::new(self.deformation(r));
+    fn measure(&self, r: &PerArm<H, D>) -> [f64; N] {
+        let deformed = Deformed::<H::Tensor, D>::new(self.deformation(r));
         self.measures.each_ref().map(|of| deformed.measure(of))
     }
 
     #[inline]
-    fn gradient(&self, r: &PerArm<H, S, D>, _: &[S; N]) -> [PerArm<H, S, D>; N] {
+    fn gradient(&self, r: &PerArm<H, D>, _: &[f64; N]) -> [PerArm<H, D>; N] {
         let tensor = self.deformation(r);
         self.along(&tensor, &Between::new([&tensor, &tensor]))
     }
 
     // The change of P with both ends is twice that with the new one.
-    fn curvature(&self, r: &PerArm<H, S, D>, _: &[S; N], force: &[S; N]) -> PerPair<H, S, D> {
-        let two = S::from_f64(2.0);
+    fn curvature(&self, r: &PerArm<H, D>, _: &[f64; N], force: &[f64; N]) -> PerPair<H, D> {
         let tensor = self.deformation(r);
-        let between = Strains::<H, S, D>::new([&tensor, &tensor]);
-        let doubled = tensor.map(|row| row.map(|entry| two * entry));
-        let mut blocks = no_blocks::<H, S, D>();
+        let between = Strains::<H, D>::new([&tensor, &tensor]);
+        let doubled = tensor.map(|row| row.map(|entry| 2.0 * entry));
+        let mut blocks = no_blocks::<H, D>();
         let ends = [&doubled, &tensor];
-        self.add_stiffness(ends, &between, (force, &[]), S::one(), &mut blocks);
+        self.add_stiffness(ends, &between, (force, &[]), 1.0, &mut blocks);
         blocks
     }
 
     #[inline]
-    fn between(&self, arms: [&PerArm<H, S, D>; 2]) -> Deformations<H, S, D> {
+    fn between(&self, arms: [&PerArm<H, D>; 2]) -> Deformations<H, D> {
         let [old, new] = arms.map(|r| self.deformation(r));
-        let half = S::from_f64(0.5);
-        let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
+        let mean = array::from_fn(|i| array::from_fn(|j| 0.5 * (old[i][j] + new[i][j])));
         Deformations {
             mean,
             new,
@@ -180,52 +175,47 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     }
 
     #[inline]
-    fn new_gradient(&self, ends: &Ends<Self, S, D>) -> [PerArm<H, S, D>; N] {
+    fn new_gradient(&self, ends: &Ends<Self, D>) -> [PerArm<H, D>; N] {
         let Deformations { new, strains, .. } = &ends.between;
         self.along(new, &strains.at_the_end())
     }
 
     #[inline]
-    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [PerArm<H, S, D>; N] {
+    fn discrete_gradient(&self, ends: &Ends<Self, D>) -> [PerArm<H, D>; N] {
         self.along(&ends.between.mean, &ends.between.strains)
     }
 
     #[inline]
-    fn pull(
-        &self,
-        ends: &Ends<Self, S, D>,
-        _: &[PerArm<H, S, D>; N],
-        force: &[S; N],
-    ) -> PerArm<H, S, D> {
+    fn pull(&self, ends: &Ends<Self, D>, _: &[PerArm<H, D>; N], force: &[f64; N]) -> PerArm<H, D> {
         let stress = self.stress(&ends.between.strains, force);
         self.pulled(&ends.between.mean, &stress)
     }
 
     fn discrete_tangent(
         &self,
-        ends: &Ends<Self, S, D>,
-        force: &[S; N],
-        force_by_arm: &[PerArm<H, S, D>; N],
-    ) -> PerPair<H, S, D> {
-        let mut blocks = no_blocks::<H, S, D>();
+        ends: &Ends<Self, D>,
+        force: &[f64; N],
+        force_by_arm: &[PerArm<H, D>; N],
+    ) -> PerPair<H, D> {
+        let mut blocks = no_blocks::<H, D>();
         self.add_discrete_tangent(ends, force, force_by_arm, &mut blocks);
         blocks
     }
 
     fn add_discrete_tangent(
         &self,
-        ends: &Ends<Self, S, D>,
-        force: &[S; N],
-        force_by_arm: &[PerArm<H, S, D>; N],
-        sum: &mut PerPair<H, S, D>,
+        ends: &Ends<Self, D>,
+        force: &[f64; N],
+        force_by_arm: &[PerArm<H, D>; N],
+        sum: &mut PerPair<H, D>,
     ) {
         let Deformations { mean, new, strains } = &ends.between;
-        let (forces, half) = ((force, &force_by_arm[..]), S::from_f64(0.5));
-        self.add_stiffness([mean, new], strains, forces, half, sum);
+        let forces = (force, &force_by_arm[..]);
+        self.add_stiffness([mean, new], strains, forces, 0.5, sum);
     }
 
     #[cfg(feature = "gradients")]
-    fn discrete_rates(&self, ends: &Ends<Self, S, D>, w: &PerArm<H, S, D>) -> [S; N] {
+    fn discrete_rates(&self, ends: &Ends<Self, D>, w: &PerArm<H, D>) -> [f64; N] {
         let Deformations { mean, strains, .. } = &ends.between;
         let along = strain_along(mean, &self.deformation(w));
         let slope = |measure| strains.slope(measure).contracted(&along);
@@ -235,10 +225,10 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     #[cfg(feature = "gradients")]
     fn pull_back(
         &self,
-        ends: &Ends<Self, S, D>,
-        p: &[S; N],
-        (force, w): (&[S; N], &PerArm<H, S, D>),
-    ) -> PerArm<H, S, D> {
+        ends: &Ends<Self, D>,
+        p: &[f64; N],
+        (force, w): (&[f64; N], &PerArm<H, D>),
+    ) -> PerArm<H, D> {
         let Deformations { mean, new, strains } = &ends.between;
         let mut by = self.pulled_stiffness([mean, new], strains, force, &self.deformation(w));
         let stress = self.stress(&strains.at_the_end(), p);
@@ -255,19 +245,19 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     }
 
     // Σ f F_m P B_i = Σ_j (B_i·S* B_j) r_m,j
-    fn secant(&self, ends: &Ends<Self, S, D>, force: &[S; N]) -> H::PerArm<H::PerArm<S>> {
+    fn secant(&self, ends: &Ends<Self, D>, force: &[f64; N]) -> H::PerArm<H::PerArm<f64>> {
         let stress = self.stress(&ends.between.strains, force);
         self.stiffness_of(&stress)
     }
 }
 
 #[inline]
-fn no_blocks<H: Shape<D>, S: Real, const D: usize>() -> PerPair<H, S, D> {
-    H::PerArm::filled(H::PerArm::filled([[S::zero(); D]; D]))
+fn no_blocks<H: Shape<D>, const D: usize>() -> PerPair<H, D> {
+    H::PerArm::filled(H::PerArm::filled([[0.0; D]; D]))
 }
 
 /// The absolute values of the components.
-fn sizes_of<S: Real, A: Array<S>>(mut tensor: A) -> A {
+fn sizes_of<A: Array<f64>>(mut tensor: A) -> A {
     for entry in tensor.as_mut() {
         *entry = entry.abs();
     }

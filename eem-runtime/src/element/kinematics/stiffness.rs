@@ -12,23 +12,22 @@ use core::array;
 
 use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
 use eem_material::free_energy::Array;
-use eem_material::number::scalar::Real;
 use eem_mesh::Shape;
 use eem_mesh::tensor::{Symmetric, Tensor, add, dot, pushed};
 
 /// `∂(F S)_am/∂F_bl`, in the order of the indices a, m, b, l.
-type Moduli<S, const D: usize> = [[Tensor<S, D>; D]; D];
+type Moduli<const D: usize> = [[Tensor<D>; D]; D];
 
-impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D> {
+impl<H: Shape<D>, const N: usize, const D: usize> SolidPoint<H, N, D> {
     /// Adds the derivative of `F S B_i` with respect to the new deformation, of whose change F takes the fraction `share`.
     /// The derivatives of the forces with respect to the arms are included if they are given.
     pub(super) fn add_stiffness(
         &self,
-        [tensor, new]: [&Tensor<S, D>; 2],
-        between: &Strains<H, S, D>,
-        (force, force_by_arm): (&[S; N], &[PerArm<H, S, D>]),
-        share: S,
-        sum: &mut PerPair<H, S, D>,
+        [tensor, new]: [&Tensor<D>; 2],
+        between: &Strains<H, D>,
+        (force, force_by_arm): (&[f64; N], &[PerArm<H, D>]),
+        share: f64,
+        sum: &mut PerPair<H, D>,
     ) {
         let slopes = self
             .measures
@@ -40,11 +39,11 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
             for (slope, by_arm) in slopes.iter().zip(force_by_arm) {
                 let along = slope.applied(row);
                 for (change, along) in changes.iter_mut().zip(along) {
-                    add_scaled::<H, S, D>(change, along, by_arm);
+                    add_scaled::<H, D>(change, along, by_arm);
                 }
             }
             for (b, blocks) in self.gradients.as_ref().iter().zip(sum.as_mut()) {
-                let entries = combined::<H, S, D>(b, &changes);
+                let entries = combined::<H, D>(b, &changes);
                 for (block, entries) in blocks.as_mut().iter_mut().zip(entries.as_ref()) {
                     for (sum, &entry) in block[axis].iter_mut().zip(entries) {
                         *sum += entry;
@@ -58,23 +57,23 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
     #[inline]
     fn moduli(
         &self,
-        [tensor, new]: [&Tensor<S, D>; 2],
-        between: &Strains<H, S, D>,
-        (force, slopes): (&[S; N], &[H::Tensor<S>; N]),
-        share: S,
-    ) -> Moduli<S, D> {
-        let nothing = H::Tensor::<S>::filled(S::zero());
+        [tensor, new]: [&Tensor<D>; 2],
+        between: &Strains<H, D>,
+        (force, slopes): (&[f64; N], &[H::Tensor; N]),
+        share: f64,
+    ) -> Moduli<D> {
+        let nothing = H::Tensor::filled(0.0);
         let mut stress = nothing;
         for (slope, &force) in slopes.iter().zip(force) {
             add(&mut stress, share * force, slope);
         }
-        let mut moduli = [[[[S::zero(); D]; D]; D]; D];
+        let mut moduli = [[[[0.0; D]; D]; D]; D];
         for l in 0..D {
-            let mut direction = [S::zero(); D];
-            direction[l] = S::one();
+            let mut direction = [0.0; D];
+            direction[l] = 1.0;
             let turned = stress.applied(&direction);
             for (b, row) in new.iter().enumerate() {
-                let strain = H::Tensor::<S>::symmetrised(row, &direction);
+                let strain = H::Tensor::symmetrised(row, &direction);
                 let mut change = nothing;
                 for ((measure, slope), &force) in self.measures.iter().zip(slopes).zip(force) {
                     let own = between.change_of_slope(measure, slope, &strain);
@@ -83,7 +82,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
                 for (a, row) in tensor.iter().enumerate() {
                     let stretched = change.applied(row);
                     for m in 0..D {
-                        let turned = if a == b { turned[m] } else { S::zero() };
+                        let turned = if a == b { turned[m] } else { 0.0 };
                         moduli[a][m][b][l] = stretched[m] + turned;
                     }
                 }
@@ -96,27 +95,27 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
     #[cfg(feature = "gradients")]
     pub(super) fn pulled_stiffness(
         &self,
-        [tensor, new]: [&Tensor<S, D>; 2],
-        between: &Strains<H, S, D>,
-        force: &[S; N],
-        w: &Tensor<S, D>,
-    ) -> Tensor<S, D> {
+        [tensor, new]: [&Tensor<D>; 2],
+        between: &Strains<H, D>,
+        force: &[f64; N],
+        w: &Tensor<D>,
+    ) -> Tensor<D> {
         let slopes = self
             .measures
             .each_ref()
             .map(|measure| between.slope(measure));
-        let nothing = H::Tensor::<S>::filled(S::zero());
+        let nothing = H::Tensor::filled(0.0);
         let mut stress = nothing;
         for (slope, &force) in slopes.iter().zip(force) {
-            add(&mut stress, S::from_f64(0.5) * force, slope);
+            add(&mut stress, 0.5 * force, slope);
         }
-        let along = strain_along::<H::Tensor<S>, S, D>(tensor, w);
+        let along = strain_along::<H::Tensor, D>(tensor, w);
         let mut pulled = w.map(|row| stress.applied(&row));
         for l in 0..D {
-            let mut direction = [S::zero(); D];
-            direction[l] = S::one();
+            let mut direction = [0.0; D];
+            direction[l] = 1.0;
             for (b, row) in new.iter().enumerate() {
-                let strain = H::Tensor::<S>::symmetrised(row, &direction);
+                let strain = H::Tensor::symmetrised(row, &direction);
                 for ((measure, slope), &force) in self.measures.iter().zip(&slopes).zip(force) {
                     let own = between.change_of_slope(measure, slope, &strain);
                     pulled[b][l] += force * own.contracted(&along);
@@ -128,7 +127,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
 
     /// `𝔸_m·B_j` of all arms j, for each m.
     #[inline]
-    fn changes(&self, moduli: &[Tensor<S, D>; D]) -> [PerArm<H, S, D>; D] {
+    fn changes(&self, moduli: &[Tensor<D>; D]) -> [PerArm<H, D>; D] {
         array::from_fn(|m| {
             let mut change = self.gradients;
             for b in change.as_mut() {
@@ -142,23 +141,20 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
 /// The symmetric part of `FᵀW`.
 #[cfg(feature = "gradients")]
 #[inline]
-pub(super) fn strain_along<A: Symmetric<S, D>, S: Real, const D: usize>(
-    tensor: &Tensor<S, D>,
-    w: &Tensor<S, D>,
+pub(super) fn strain_along<A: Symmetric<D>, const D: usize>(
+    tensor: &Tensor<D>,
+    w: &Tensor<D>,
 ) -> A {
-    let mut along = A::filled(S::zero());
+    let mut along = A::filled(0.0);
     for (row, w) in tensor.iter().zip(w) {
-        add(&mut along, S::one(), &A::symmetrised(row, w));
+        add(&mut along, 1.0, &A::symmetrised(row, w));
     }
     along
 }
 
 /// `Σ_m b_m rows_m`.
 #[inline]
-fn combined<H: Shape<D>, S: Real, const D: usize>(
-    b: &[S; D],
-    rows: &[PerArm<H, S, D>; D],
-) -> PerArm<H, S, D> {
+fn combined<H: Shape<D>, const D: usize>(b: &[f64; D], rows: &[PerArm<H, D>; D]) -> PerArm<H, D> {
     let mut sum = rows[0];
     let rows = rows.each_ref().map(|row| row.as_ref().as_flattened());
     for (at, sum) in sum.as_mut().as_flattened_mut().iter_mut().enumerate() {
@@ -169,10 +165,10 @@ fn combined<H: Shape<D>, S: Real, const D: usize>(
 
 /// `sum += factor arms`.
 #[inline]
-fn add_scaled<H: Shape<D>, S: Real, const D: usize>(
-    sum: &mut PerArm<H, S, D>,
-    factor: S,
-    arms: &PerArm<H, S, D>,
+fn add_scaled<H: Shape<D>, const D: usize>(
+    sum: &mut PerArm<H, D>,
+    factor: f64,
+    arms: &PerArm<H, D>,
 ) {
     let entries = arms.as_ref().as_flattened();
     for (sum, &entry) in sum.as_mut().as_flattened_mut().iter_mut().zip(entries) {

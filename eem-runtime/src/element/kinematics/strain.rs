@@ -1,7 +1,7 @@
 //! The measures of strain on which a free energy per volume depends.
 
 use eem_material::free_energy::{FreeEnergy, Material};
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// A measure of the strain at a point of a solid: an invariant of the Green–Lagrange strain
 /// `E = ½(FᵀF − 1)` with the deformation gradient F.
@@ -30,7 +30,7 @@ pub enum Strain {
 
 /// A measure of the strain at a point of a solid, with the directions of fibres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Measure<S, const D: usize> {
+pub enum Measure<const D: usize> {
     /// `tr E`.
     Trace,
     /// `E:E`.
@@ -38,12 +38,12 @@ pub enum Measure<S, const D: usize> {
     /// `J − 1`.
     Dilatation,
     /// `a·E a` with the unit vector a.
-    Fibre([S; D]),
+    Fibre([f64; D]),
     /// `E:b_k`, see [`Strain::Component`].
     Component(usize),
 }
 
-impl<S: Real, const D: usize> Measure<S, D> {
+impl<const D: usize> Measure<D> {
     /// Gives the fibres among some measures their directions, one after the other; the lengths of the
     /// directions do not matter.
     ///
@@ -59,7 +59,10 @@ impl<S: Real, const D: usize> Measure<S, D> {
     ///
     /// `None` unless there are as many directions as fibres, each finite and not zero.
     #[must_use]
-    pub fn along<const N: usize>(strains: [Strain; N], directions: &[[S; D]]) -> Option<[Self; N]> {
+    pub fn along<const N: usize>(
+        strains: [Strain; N],
+        directions: &[[f64; D]],
+    ) -> Option<[Self; N]> {
         let mut directions = directions.iter();
         let mut measures = [Self::Trace; N];
         for (measure, strain) in measures.iter_mut().zip(strains) {
@@ -76,11 +79,11 @@ impl<S: Real, const D: usize> Measure<S, D> {
 }
 
 /// `a/|a|`.
-fn unit<S: Real, const D: usize>(direction: &[S; D]) -> Option<[S; D]> {
+fn unit<const D: usize>(direction: &[f64; D]) -> Option<[f64; D]> {
     let length = direction
         .iter()
-        .fold(S::zero(), |length, &component| length.hypot(component));
-    let is_length = S::zero().less(length).all() && length.is_finite();
+        .fold(0.0, |length, &component| Scalar::hypot(length, component));
+    let is_length = length > 0.0 && length.is_finite();
     is_length.then(|| direction.map(|component| component / length))
 }
 
@@ -114,12 +117,12 @@ pub trait StrainEnergy<const N: usize> {
 
     /// The free energy as a function of these measures: the material itself or, with a viscous strain, a function of
     /// components in place of the joint invariants of strain and viscous strain.
-    type AtPoint<S: Real>: FreeEnergy<S> + Send + Sync + 'static
+    type AtPoint: FreeEnergy<f64> + Send + Sync + 'static
     where
-        Self: Material<S>;
+        Self: Material;
 
     /// The material at a point.
-    fn at_point<S: Real>(&self) -> Self::AtPoint<S>
+    fn at_point(&self) -> Self::AtPoint
     where
-        Self: Material<S>;
+        Self: Material;
 }

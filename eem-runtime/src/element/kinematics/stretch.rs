@@ -6,13 +6,13 @@ use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::measures::{Ends, Kinematics, QuadraticStrain};
 use eem_material::free_energy::Entry;
-use eem_material::number::scalar::{Mask, Real, Scalar, is_positive};
+use eem_material::number::scalar::{Scalar, is_positive};
 use eem_mesh::tensor::dot;
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
 ///
 /// It is computed as `√Σr²`, so that `Σr²` must neither underflow nor overflow: λ lies between
-/// 1.5·10⁻¹⁵⁴ m and 1.3·10¹⁵⁴ m in double precision, between 1.1·10⁻¹⁹ m and 1.8·10¹⁹ m in single.
+/// 1.5·10⁻¹⁵⁴ m and 1.3·10¹⁵⁴ m.
 ///
 /// ```text
 /// ∂λ/∂r = r/λ,   ∂²λ/∂r² = (1 − n nᵀ)/λ,   n = r/λ
@@ -39,8 +39,8 @@ pub struct Stretch<const D: usize>;
 
 /// `t (1 − a bᵀ)`.
 #[inline]
-fn block<S: Scalar, const D: usize>(t: S, a: [S; D], b: [S; D]) -> [[S; D]; D] {
-    let mut block = [[S::zero(); D]; D];
+fn block<const D: usize>(t: f64, a: [f64; D], b: [f64; D]) -> [[f64; D]; D] {
+    let mut block = [[0.0; D]; D];
     for row in 0..D {
         let along = t * a[row];
         for column in 0..D {
@@ -51,7 +51,7 @@ fn block<S: Scalar, const D: usize>(t: S, a: [S; D], b: [S; D]) -> [[S; D]; D] {
     block
 }
 
-impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
+impl<const D: usize> Kinematics<D> for Stretch<D> {
     type PerNode<T: Entry> = [T; 2];
     type PerArm<T: Entry> = [T; 1];
     type PerMeasure<T: Entry> = [T; 1];
@@ -65,79 +65,79 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     const VISCOSITY_UNIT: &'static str = "N s/m";
 
     #[inline]
-    fn is_admissible(&self, _: &[[S; D]; 1], &[lambda]: &[S; 1]) -> bool {
-        let [least, most] = admissible::<S>();
-        (least.at_most(lambda) & lambda.at_most(most)).all()
+    fn is_admissible(&self, _: &[[f64; D]; 1], &[lambda]: &[f64; 1]) -> bool {
+        let [least, most] = admissible();
+        least <= lambda && lambda <= most
     }
 
     // The stretch may have under- or overflowed; the message has the correct value.
     #[cold]
-    fn refusal(&self, element: Element, [r]: &[[S; D]; 1]) -> StateError {
+    fn refusal(&self, element: Element, [r]: &[[f64; D]; 1]) -> StateError {
         let lambda = r
             .iter()
-            .fold(S::zero(), |length, &component| length.hypot(component));
-        let [least, most] = admissible::<S>().map(Real::to_f64);
+            .fold(0.0, |length, &component| Scalar::hypot(length, component));
+        let [least, most] = admissible();
         StateError::Stretch {
             element,
-            value: lambda.to_f64(),
+            value: lambda,
             least,
             most,
         }
     }
 
     #[inline]
-    fn unit(&self, &[lambda]: &[S; 1]) -> S {
+    fn unit(&self, &[lambda]: &[f64; 1]) -> f64 {
         lambda
     }
 
     #[inline]
-    fn length(&self, &[lambda]: &[S; 1]) -> S {
+    fn length(&self, &[lambda]: &[f64; 1]) -> f64 {
         lambda
     }
 
     // ∂λ/∂r·r = λ
     #[inline]
-    fn sizes(&self, _: &[[S; D]; 1], &lambda: &[S; 1]) -> [S; 1] {
+    fn sizes(&self, _: &[[f64; D]; 1], &lambda: &[f64; 1]) -> [f64; 1] {
         lambda
     }
 
     #[inline]
-    fn slopes(&self, _: &[[S; D]; 1], _: &[S; 1]) -> [S; 1] {
-        [S::one()]
+    fn slopes(&self, _: &[[f64; D]; 1], _: &[f64; 1]) -> [f64; 1] {
+        [1.0]
     }
 
-    fn numbers(&self, _: &mut dyn FnMut(S)) {}
+    fn numbers(&self, _: &mut dyn FnMut(f64)) {}
 
     #[inline]
-    fn measure(&self, [r]: &[[S; D]; 1]) -> [S; 1] {
+    fn measure(&self, [r]: &[[f64; D]; 1]) -> [f64; 1] {
         let square = r
             .iter()
-            .fold(S::zero(), |sum, &component| sum + component * component);
+            .fold(0.0, |sum, &component| sum + component * component);
         [square.sqrt()]
     }
 
     #[inline]
-    fn gradient(&self, [r]: &[[S; D]; 1], &[lambda]: &[S; 1]) -> [[[S; D]; 1]; 1] {
+    fn gradient(&self, [r]: &[[f64; D]; 1], &[lambda]: &[f64; 1]) -> [[[f64; D]; 1]; 1] {
         [[scaled(r, lambda.recip())]]
     }
 
     #[inline]
     fn curvature(
         &self,
-        [r]: &[[S; D]; 1],
-        &[lambda]: &[S; 1],
-        &[force]: &[S; 1],
-    ) -> [[[[S; D]; D]; 1]; 1] {
+        [r]: &[[f64; D]; 1],
+        &[lambda]: &[f64; 1],
+        &[force]: &[f64; 1],
+    ) -> [[[[f64; D]; D]; 1]; 1] {
         let shrink = lambda.recip();
         let n = scaled(r, shrink);
         [[block(force * shrink, n, n)]]
     }
 
     #[inline]
-    fn between(&self, _: [&[[S; D]; 1]; 2]) {}
+    fn between(&self, _: [&[[f64; D]; 1]; 2]) {}
 
     #[inline]
-    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [[[S; D]; 1]; 1] {
+    fn discrete_gradient(&self, ends: &Ends<Self, D>) -> [[[f64; D]; 1]; 1] {
         [[mean_direction(ends)]]
     }
 
@@ -145,10 +145,10 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     #[inline]
     fn discrete_tangent(
         &self,
-        ends: &Ends<Self, S, D>,
-        &[force]: &[S; 1],
-        [[force_by_arm]]: &[[[S; D]; 1]; 1],
-    ) -> [[[[S; D]; D]; 1]; 1] {
+        ends: &Ends<Self, D>,
+        &[force]: &[f64; 1],
+        [[force_by_arm]]: &[[[f64; D]; 1]; 1],
+    ) -> [[[[f64; D]; D]; 1]; 1] {
         let ([lambda0], [lambda1]) = (ends.measures0, ends.measures1);
         let n1 = scaled(&ends.r1[0], lambda1.recip());
         let direction = mean_direction(ends);
@@ -162,76 +162,76 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     }
 
     #[inline]
-    fn secant(&self, ends: &Ends<Self, S, D>, &[force]: &[S; 1]) -> [[S; 1]; 1] {
+    fn secant(&self, ends: &Ends<Self, D>, &[force]: &[f64; 1]) -> [[f64; 1]; 1] {
         let ([lambda0], [lambda1]) = (ends.measures0, ends.measures1);
         [[(force + force) / (lambda0 + lambda1)]]
     }
 }
 
 // C = λ²
-impl<S: Real, const D: usize> QuadraticStrain<S, D> for Stretch<D> {
+impl<const D: usize> QuadraticStrain<D> for Stretch<D> {
     type PerStrain<T: Entry> = [T; 1];
 
     #[inline]
-    fn strain(&self, [r]: &[[S; D]; 1]) -> [S; 1] {
+    fn strain(&self, [r]: &[[f64; D]; 1]) -> [f64; 1] {
         [dot(r, r)]
     }
 
     #[inline]
-    fn strain_rate(&self, [r]: &[[S; D]; 1], [w]: &[[S; D]; 1]) -> [S; 1] {
+    fn strain_rate(&self, [r]: &[[f64; D]; 1], [w]: &[[f64; D]; 1]) -> [f64; 1] {
         let half = dot(r, w);
         [half + half]
     }
 
     #[inline]
-    fn strain_force(&self, [r]: &[[S; D]; 1], &[n]: &[S; 1]) -> [[S; D]; 1] {
+    fn strain_force(&self, [r]: &[[f64; D]; 1], &[n]: &[f64; 1]) -> [[f64; D]; 1] {
         [scaled(r, n + n)]
     }
 
     #[inline]
-    fn strain_force_size(&self, [r]: &[[S; D]; 1], &[n]: &[S; 1]) -> S {
+    fn strain_force_size(&self, [r]: &[[f64; D]; 1], &[n]: &[f64; 1]) -> f64 {
         dot(r, r).sqrt() * (n + n)
     }
 
     #[inline]
-    fn strain_stiffness(&self, &[n]: &[S; 1]) -> [[S; 1]; 1] {
+    fn strain_stiffness(&self, &[n]: &[f64; 1]) -> [[f64; 1]; 1] {
         [[n + n]]
     }
 
     #[inline]
-    fn strain_sizes(&self, &strain: &[S; 1]) -> [S; 1] {
+    fn strain_sizes(&self, &strain: &[f64; 1]) -> [f64; 1] {
         strain
     }
 
     #[inline]
-    fn strain_metric(&self, &[square]: &[S; 1]) -> ([S; 1], S) {
-        ([S::one()], square)
+    fn strain_metric(&self, &[square]: &[f64; 1]) -> ([f64; 1], f64) {
+        ([1.0], square)
     }
 
     #[inline]
-    fn measures_of(&self, &[square]: &[S; 1]) -> Option<[S; 1]> {
+    fn measures_of(&self, &[square]: &[f64; 1]) -> Option<[f64; 1]> {
         is_positive(square).then(|| [square.sqrt()])
     }
 
     #[cold]
-    fn refuse(&self, element: Element, &[square]: &[S; 1]) -> StateError {
+    fn refuse(&self, element: Element, &[square]: &[f64; 1]) -> StateError {
         StateError::Path {
             element,
             quantity: "squared stretch",
-            value: square.to_f64(),
+            value: square,
             unit: "m^2",
         }
     }
 
     #[inline]
-    fn strain_slopes(&self, ends: [&[S; 1]; 2]) -> [[S; 1]; 1] {
+    fn strain_slopes(&self, ends: [&[f64; 1]; 2]) -> [[f64; 1]; 1] {
         let [old, new] = ends.map(|&[square]| square.sqrt());
         [[(old + new).recip()]]
     }
 
     // ∂²λ/∂C² = −1/4λ³
     #[inline]
-    fn strain_curvature(&self, &[square]: &[S; 1], &[force]: &[S; 1]) -> [[S; 1]; 1] {
+    fn strain_curvature(&self, &[square]: &[f64; 1], &[force]: &[f64; 1]) -> [[f64; 1]; 1] {
         let stretch = square.sqrt();
         let shrink = (stretch + stretch).recip();
         [[-(force / stretch) * shrink * shrink]]
@@ -244,13 +244,13 @@ impl<S: Real, const D: usize> QuadraticStrain<S, D> for Stretch<D> {
 /// it is infinite. In between, squares of single components may underflow: that takes at most
 /// ε/2 of Σr² per component. Both ends are constants to the compiler.
 #[inline]
-fn admissible<S: Real>() -> [S; 2] {
-    [S::MIN_POSITIVE.sqrt(), S::MAX.sqrt()]
+fn admissible() -> [f64; 2] {
+    [f64::MIN_POSITIVE.sqrt(), f64::MAX.sqrt()]
 }
 
 /// `2 r_m/(λ⁰ + λ¹)`.
 #[inline]
-fn mean_direction<S: Real, const D: usize>(ends: &Ends<Stretch<D>, S, D>) -> [S; D] {
+fn mean_direction<const D: usize>(ends: &Ends<Stretch<D>, D>) -> [f64; D] {
     let (r0, r1) = (&ends.r0[0], &ends.r1[0]);
     let shrink = (ends.measures0[0] + ends.measures1[0]).recip();
     array::from_fn(|axis| (r0[axis] + r1[axis]) * shrink)
@@ -258,6 +258,6 @@ fn mean_direction<S: Real, const D: usize>(ends: &Ends<Stretch<D>, S, D>) -> [S;
 
 /// `factor r`.
 #[inline]
-fn scaled<S: Scalar, const D: usize>(r: &[S; D], factor: S) -> [S; D] {
+fn scaled<const D: usize>(r: &[f64; D], factor: f64) -> [f64; D] {
     array::from_fn(|axis| r[axis] * factor)
 }

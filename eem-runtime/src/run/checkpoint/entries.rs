@@ -9,7 +9,7 @@ use super::error::{RestoreError, expect_count};
 use crate::element::state::Energy;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// A rule for the numbers of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,9 +27,9 @@ enum Rule {
 }
 
 /// A list of numbers of a checkpoint.
-struct Entry<'a, S> {
+struct Entry<'a> {
     name: &'static str,
-    numbers: Box<dyn Iterator<Item = S> + 'a>,
+    numbers: Box<dyn Iterator<Item = f64> + 'a>,
     rule: Rule,
     /// The number of values, if every simulation of the same scene has the same number.
     count: Option<usize>,
@@ -37,8 +37,8 @@ struct Entry<'a, S> {
     is_sealed: bool,
 }
 
-impl<'a, S: Real> Entry<'a, S> {
-    fn new(name: &'static str, rule: Rule, numbers: impl IntoIterator<Item = S> + 'a) -> Self {
+impl<'a> Entry<'a> {
+    fn new(name: &'static str, rule: Rule, numbers: impl IntoIterator<Item = f64> + 'a) -> Self {
         Self {
             name,
             numbers: Box::new(numbers.into_iter()),
@@ -48,22 +48,22 @@ impl<'a, S: Real> Entry<'a, S> {
         }
     }
 
-    fn sum(name: &'static str, Sum { value, carry }: Sum<S>) -> Self {
+    fn sum(name: &'static str, Sum { value, carry }: Sum) -> Self {
         Self::new(name, Rule::Sum, [value, carry])
     }
 
-    fn sums(name: &'static str, sums: &'a Compensated<S>) -> Self {
+    fn sums(name: &'static str, sums: &'a Compensated) -> Self {
         let pairs = sums.sums().flat_map(|(value, carry)| [value, carry]);
         Self::new(name, Rule::Sum, pairs).counted(sums.values().len())
     }
 
-    /// Counts as lists of their bytes, which every number type represents exactly.
+    /// Counts as lists of their bytes, which numbers represent exactly.
     fn counts(name: &'static str, counts: impl IntoIterator<Item = u64> + 'a) -> Self {
         let bytes = counts.into_iter().flat_map(u64::to_le_bytes);
-        Self::new(name, Rule::None, bytes.map(|byte| S::from_f64(byte.into())))
+        Self::new(name, Rule::None, bytes.map(f64::from))
     }
 
-    fn list(name: &'static str, list: &'a [S]) -> Self {
+    fn list(name: &'static str, list: &'a [f64]) -> Self {
         Self::new(name, Rule::Finite, list.iter().copied()).counted(list.len())
     }
 
@@ -99,8 +99,8 @@ impl<'a, S: Real> Entry<'a, S> {
         let same = simulation.iter().find(|other| other.name == self.name);
         let counts = self.count.zip(same.and_then(|other| other.count));
         counts.map_or(Ok(()), |(own, other)| expect_count(self.name, own, other))?;
-        let is_not_negative = |number| S::zero().at_most(number).all();
-        let half = S::from_f64(0.5) * S::EPSILON;
+        let is_not_negative = |number| number >= 0.0;
+        let half = 0.5 * f64::EPSILON;
         let mut value = None;
         for number in self.numbers {
             let (is_met, required) = match self.rule {
@@ -116,7 +116,7 @@ impl<'a, S: Real> Entry<'a, S> {
             if !is_met {
                 return Err(RestoreError::Value {
                     quantity: self.name,
-                    value: number.to_f64(),
+                    value: number,
                     required,
                 });
             }
@@ -125,11 +125,11 @@ impl<'a, S: Real> Entry<'a, S> {
                 value = Some(number);
                 continue;
             };
-            if !number.abs().at_most(half * S::abs(value)).all() {
+            if !(number.abs() <= half * f64::abs(value)) {
                 return Err(RestoreError::Carry {
                     quantity: self.name,
-                    value: S::to_f64(value),
-                    carry: number.to_f64(),
+                    value,
+                    carry: number,
                 });
             }
         }
@@ -137,9 +137,9 @@ impl<'a, S: Real> Entry<'a, S> {
     }
 }
 
-impl<S: Real> Checkpoint<S> {
+impl Checkpoint {
     /// All numbers. The order of the sealed ones is part of the format.
-    fn entries(&self) -> Vec<Entry<'_, S>> {
+    fn entries(&self) -> Vec<Entry<'_>> {
         use Rule::{Finite, FiniteNotNegative, NotNegative, Positive};
         let (state, [last, before]) = (&self.state, &self.past.forces);
         let temperatures = state.temperatures.iter().copied();
@@ -197,14 +197,14 @@ impl<S: Real> Checkpoint<S> {
             ]);
         }
         if let Some(saved) = &self.choice {
-            let numbers = saved.selection.numbers().map(S::from_f64);
+            let numbers = saved.selection.numbers();
             entries.push(Entry::new("choice of a scheme", FiniteNotNegative, numbers).sealed());
             entries.push(Entry::counts("choice of a scheme", saved.selection.counts()).sealed());
         }
         if let Some(explicit) = &self.explicit {
             let momentum = explicit.largest_momentum;
             let flags = [explicit.is_new, explicit.is_motion_first];
-            let flags = flags.map(|flag| S::from_f64(f64::from(u8::from(flag))));
+            let flags = flags.map(|flag| f64::from(u8::from(flag)));
             entries.extend(explicit.sums().map(|(name, sums)| {
                 let pairs = sums.iter().flat_map(|sum| [sum.value, sum.carry]);
                 let entry = Entry::new(name, Rule::Sum, pairs);

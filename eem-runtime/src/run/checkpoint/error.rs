@@ -257,15 +257,13 @@ pub enum FormatError {
         /// The version of the file.
         found: String,
     },
-    /// It is the checkpoint of a run with another number type.
+    /// It is the checkpoint of a run in `f32`, of an earlier version.
     #[error(
-        "the checkpoint has numbers of the type `{found}`: load it as `Checkpoint<{found}>` instead of `Checkpoint<{expected}>`"
+        "the checkpoint has numbers of the type `{found}`, which scenes no longer have: they step `f64`"
     )]
     Scalar {
         /// The number type of the file.
         found: String,
-        /// That of the checkpoint to be loaded.
-        expected: &'static str,
     },
     /// The last line is not the digest of the lines before.
     #[error(

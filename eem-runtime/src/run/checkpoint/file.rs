@@ -15,18 +15,14 @@ use super::Checkpoint;
 use super::error::{FormatError, KIND, LoadError, VERSION};
 use super::text::{Fault, Text};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 
 /// The beginning of the last line.
 const DIGEST: &str = "digest: ";
 
-impl<S: Real> Checkpoint<S> {
-    /// The name of the number type.
-    const SCALAR: &str = {
-        assert!(S::LANES == 1, "files have the numbers of one scene");
-        if S::IS_DOUBLE { "f64" } else { "f32" }
-    };
+/// The type of the numbers, as the first line names it.
+const NUMBERS: &str = "f64";
 
+impl Checkpoint {
     /// Writes the checkpoint to a file, from which [`load`](Self::load) restores every bit, in any program.
     ///
     /// The file is text, one named list of numbers per line, and ends with a digest. It is complete or absent: it is written
@@ -73,7 +69,7 @@ impl<S: Real> Checkpoint<S> {
     ///
     /// # Errors
     ///
-    /// [`LoadError`] if the file does not exist, is not a checkpoint, has another version or number type, is cut off or has
+    /// [`LoadError`] if the file does not exist, is not a checkpoint, has another version or numbers in `f32`, is cut off or has
     /// been edited.
     ///
     /// ```
@@ -102,7 +98,7 @@ impl<S: Real> Checkpoint<S> {
         let mut text = Text::new("", 0);
         _ = Self::lines(&mut text, Some(self));
         let lines = text.written();
-        let head = format!("{KIND} {VERSION} {}\n{lines}", Self::SCALAR);
+        let head = format!("{KIND} {VERSION} {NUMBERS}\n{lines}");
         let digest = digest(&head);
         format!("{head}{DIGEST}{digest}\n")
     }
@@ -111,7 +107,7 @@ impl<S: Real> Checkpoint<S> {
         let (head, _) = text.split_once('\n').ok_or(FormatError::Kind)?;
         let words = head.strip_prefix(KIND).ok_or(FormatError::Kind)?;
         let mut words = words.split_ascii_whitespace().map(str::to_owned);
-        let (version, scalar) = (words.next(), words.next());
+        let (version, numbers) = (words.next(), words.next());
         if version.as_deref() != Some(VERSION) {
             let found = version.unwrap_or_default();
             return Err(FormatError::Version { found });
@@ -124,11 +120,9 @@ impl<S: Real> Checkpoint<S> {
         if last.strip_prefix(DIGEST) != Some(&digest(lines).to_string()) {
             return Err(FormatError::Digest);
         }
-        if scalar.as_deref() != Some(Self::SCALAR) {
-            return Err(FormatError::Scalar {
-                found: scalar.unwrap_or_default(),
-                expected: Self::SCALAR,
-            });
+        if numbers.as_deref() != Some(NUMBERS) {
+            let found = numbers.unwrap_or_default();
+            return Err(FormatError::Scalar { found });
         }
         let mut rest = Text::new(&lines[head.len() + 1..], 1);
         Self::lines(&mut rest, None)

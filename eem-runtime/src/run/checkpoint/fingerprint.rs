@@ -4,7 +4,6 @@ use crate::element::layout::Shape;
 use crate::element::masses::Masses;
 use crate::run::checkpoint::error::{RestoreError, expect_count};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::Real;
 
 /// Nodes, elements and reservoirs, without their values.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,9 +48,9 @@ pub(crate) struct Numbers {
 }
 
 impl Outline {
-    pub(crate) fn new<S: Real>(
+    pub(crate) fn new(
         dimensions: usize,
-        masses: &Masses<S>,
+        masses: &Masses,
         shapes: impl Iterator<Item = Shape>,
         reservoirs: usize,
     ) -> Self {

@@ -11,9 +11,8 @@ use crate::step::control::{Controller, StepStatistics, Tolerance};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::NewtonSettings;
 use crate::step::solver::SavedPast;
-use eem_material::number::scalar::Real;
 
-impl<S: Real> Checkpoint<S> {
+impl Checkpoint {
     /// Writes or reads the whole checkpoint.
     pub(super) fn lines(text: &mut Text<'_>, own: Option<&Self>) -> Read<Self> {
         let newton = own.map(|own| own.newton);
@@ -72,7 +71,7 @@ fn numbers(text: &mut Text<'_>, own: Option<&Numbers>) -> Read<Numbers> {
     })
 }
 
-fn control<S: Real>(text: &mut Text<'_>, own: Option<&SavedControl<S>>) -> Read<SavedControl<S>> {
+fn control(text: &mut Text<'_>, own: Option<&SavedControl>) -> Read<SavedControl> {
     let tolerance = own.map(|own| {
         let tolerance = own.tolerance;
         [
@@ -176,7 +175,7 @@ fn selection(text: &mut Text<'_>, own: Option<&SchemeSelection>) -> Read<SchemeS
     })
 }
 
-fn state<S: Real>(text: &mut Text<'_>, own: Option<&State<S>>) -> Read<State<S>> {
+fn state(text: &mut Text<'_>, own: Option<&State>) -> Read<State> {
     let positions = ["positions", "compensations of positions"];
     let momenta = ["momenta", "compensations of momenta"];
     let velocities = ["velocities", "compensations of velocities"];
@@ -207,7 +206,7 @@ fn state<S: Real>(text: &mut Text<'_>, own: Option<&State<S>>) -> Read<State<S>>
     })
 }
 
-fn meters<S: Real>(text: &mut Text<'_>, own: Option<&Meters<S>>) -> Read<Meters<S>> {
+fn meters(text: &mut Text<'_>, own: Option<&Meters>) -> Read<Meters> {
     let dissipated = ["heat of dashpots", "compensations of heat of dashpots"];
     let produced = ["entropy production", "compensations of entropy production"];
     let conducted = ["conducted heat", "compensations of conducted heat"];
@@ -219,13 +218,10 @@ fn meters<S: Real>(text: &mut Text<'_>, own: Option<&Meters<S>>) -> Read<Meters<
     })
 }
 
-fn energies<S: Real>(
-    text: &mut Text<'_>,
-    own: Option<&SavedEnergies<S>>,
-) -> Read<SavedEnergies<S>> {
+fn energies(text: &mut Text<'_>, own: Option<&SavedEnergies>) -> Read<SavedEnergies> {
     let of = text.item("digest of the state", own.map(|own| own.of))?;
     let flat = own.map(|own| own.list.iter().flat_map(Energy::numbers));
-    let flat: Option<Vec<S>> = flat.map(Iterator::collect);
+    let flat: Option<Vec<f64>> = flat.map(Iterator::collect);
     let numbers = text.numbers("energies", flat.as_deref())?;
     let (energies, []) = numbers.as_chunks() else {
         return Err(text.fault("energies"));
@@ -237,7 +233,7 @@ fn energies<S: Real>(
     Ok(SavedEnergies { of, list })
 }
 
-fn loads<S: Real>(text: &mut Text<'_>, own: Option<&SavedLoads<S>>) -> Read<SavedLoads<S>> {
+fn loads(text: &mut Text<'_>, own: Option<&SavedLoads>) -> Read<SavedLoads> {
     Ok(SavedLoads {
         forced: text.items("nodes with a force", own.map(|own| &own.forced[..]))?,
         forces: text.numbers("forces on them", own.map(|own| &own.forces[..]))?,
@@ -248,7 +244,7 @@ fn loads<S: Real>(text: &mut Text<'_>, own: Option<&SavedLoads<S>>) -> Read<Save
     })
 }
 
-fn past<S: Real>(text: &mut Text<'_>, own: Option<&SavedPast<S>>) -> Read<SavedPast<S>> {
+fn past(text: &mut Text<'_>, own: Option<&SavedPast>) -> Read<SavedPast> {
     Ok(SavedPast {
         forces: [
             text.numbers("last forces", own.map(|own| &own.forces[0][..]))?,
@@ -259,10 +255,7 @@ fn past<S: Real>(text: &mut Text<'_>, own: Option<&SavedPast<S>>) -> Read<SavedP
     })
 }
 
-fn explicit<S: Real>(
-    text: &mut Text<'_>,
-    own: Option<&SavedExplicit<S>>,
-) -> Read<SavedExplicit<S>> {
+fn explicit(text: &mut Text<'_>, own: Option<&SavedExplicit>) -> Read<SavedExplicit> {
     Ok(SavedExplicit {
         is_new: text.item("new", own.map(|own| own.is_new))?,
         state: text.item("digest of the explicit state", own.map(|own| own.state))?,

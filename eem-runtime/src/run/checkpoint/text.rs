@@ -7,7 +7,6 @@ use core::fmt::{Display, Write};
 use core::str::{FromStr, Lines};
 
 use eem_material::number::compensated::{Compensated, Sum};
-use eem_material::number::scalar::Real;
 
 /// The number, from 1, of a line that is not as expected, and the name that it should have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,42 +76,36 @@ impl<'a> Text<'a> {
     }
 
     /// A list of numbers.
-    pub(super) fn numbers<S: Real>(
-        &mut self,
-        name: &'static str,
-        own: Option<&[S]>,
-    ) -> Read<Vec<S>> {
-        let show = |number: &S, text: &mut String| {
+    pub(super) fn numbers(&mut self, name: &'static str, own: Option<&[f64]>) -> Read<Vec<f64>> {
+        let show = |number: &f64, text: &mut String| {
             // Writing to a string does not fail.
-            _ = write!(text, "{:?}", number.to_f64());
+            _ = write!(text, "{number:?}");
         };
-        self.line(name, own, show, |item| {
-            Some(S::from_f64(item.parse().ok()?))
-        })
+        self.line(name, own, show, |item| item.parse().ok())
     }
 
     /// N numbers.
-    pub(super) fn array<S: Real, const N: usize>(
+    pub(super) fn array<const N: usize>(
         &mut self,
         name: &'static str,
-        own: Option<[S; N]>,
-    ) -> Read<[S; N]> {
+        own: Option<[f64; N]>,
+    ) -> Read<[f64; N]> {
         let numbers = self.numbers(name, own.as_ref().map(|own| &own[..]))?;
         numbers.try_into().map_err(|_| self.fault(name))
     }
 
     /// One number.
-    pub(super) fn number<S: Real>(&mut self, name: &'static str, own: Option<S>) -> Read<S> {
+    pub(super) fn number(&mut self, name: &'static str, own: Option<f64>) -> Read<f64> {
         let [number] = self.array(name, own.map(|own| [own]))?;
         Ok(number)
     }
 
     /// N numbers or none.
-    pub(super) fn few<S: Real, const N: usize>(
+    pub(super) fn few<const N: usize>(
         &mut self,
         name: &'static str,
-        own: Option<&Option<[S; N]>>,
-    ) -> Read<Option<[S; N]>> {
+        own: Option<&Option<[f64; N]>>,
+    ) -> Read<Option<[f64; N]>> {
         let own = own.map(|own| own.as_ref().map_or(&[][..], |own| &own[..]));
         let numbers = self.numbers(name, own)?;
         if numbers.is_empty() {
@@ -156,31 +149,27 @@ impl<'a> Text<'a> {
     }
 
     /// A sum and its compensation.
-    pub(super) fn sum<S: Real>(&mut self, name: &'static str, own: Option<Sum<S>>) -> Read<Sum<S>> {
+    pub(super) fn sum(&mut self, name: &'static str, own: Option<Sum>) -> Read<Sum> {
         let [value, carry] = self.array(name, own.map(|own| [own.value, own.carry]))?;
         Ok(Sum { value, carry })
     }
 
     /// Sums, and their compensations in the next line.
-    pub(super) fn sums<S: Real>(
+    pub(super) fn sums(
         &mut self,
         names: [&'static str; 2],
-        own: Option<&Compensated<S>>,
-    ) -> Read<Compensated<S>> {
-        let carries: Option<Vec<S>> = own.map(|own| own.sums().map(|(_, carry)| carry).collect());
+        own: Option<&Compensated>,
+    ) -> Read<Compensated> {
+        let carries: Option<Vec<f64>> = own.map(|own| own.sums().map(|(_, carry)| carry).collect());
         let values = self.numbers(names[0], own.map(Compensated::values))?;
         let carries = self.numbers(names[1], carries.as_deref())?;
         Compensated::of(values, carries).ok_or_else(|| self.fault(names[1]))
     }
 
     /// Pairs of a value and its compensation.
-    pub(super) fn pairs<S: Real>(
-        &mut self,
-        name: &'static str,
-        own: Option<&[Sum<S>]>,
-    ) -> Read<Vec<Sum<S>>> {
+    pub(super) fn pairs(&mut self, name: &'static str, own: Option<&[Sum]>) -> Read<Vec<Sum>> {
         let flat = own.map(|own| own.iter().flat_map(|sum| [sum.value, sum.carry]));
-        let flat: Option<Vec<S>> = flat.map(Iterator::collect);
+        let flat: Option<Vec<f64>> = flat.map(Iterator::collect);
         let numbers = self.numbers(name, flat.as_deref())?;
         let (pairs, []) = numbers.as_chunks::<2>() else {
             return Err(self.fault(name));

@@ -6,7 +6,6 @@ use thiserror::Error;
 
 use crate::scene::error::SceneError;
 use crate::step::error::StepError;
-use eem_material::number::scalar::Discord;
 
 /// A member of an ensemble without a result.
 #[derive(Debug, Error)]
@@ -28,10 +27,6 @@ pub enum MemberFailure {
     /// A step failed.
     #[error(transparent)]
     Step(Box<StepError>),
-    /// Members in SIMD lanes take different branches. The ensemble then runs them one by one, so
-    /// [`Ensemble::run_experiment`](crate::Ensemble::run_experiment) never returns it.
-    #[error(transparent)]
-    Discord(#[from] Discord),
     /// The ensemble was stopped before the member began.
     #[error("the ensemble was stopped before it began")]
     Stopped,

@@ -51,7 +51,7 @@ pub(super) fn balance<const D: usize>(
             }
         }
     });
-    let system = LinearSystem::<f64, 1>::new(&pattern, 1, scene.memory_limit);
+    let system = LinearSystem::<1>::new(&pattern, 1, scene.memory_limit);
     let mut system = system.map_err(|error| EquilibriumError::Scene {
         errors: vec![error.into()],
     })?;
@@ -84,7 +84,7 @@ pub(super) fn balance<const D: usize>(
     Ok(flows.fold(0.0, |most, flow| most.max(flow.heat.abs())))
 }
 
-fn has_path(conduction: &Conduction<f64>, slot: usize) -> bool {
+fn has_path(conduction: &Conduction, slot: usize) -> bool {
     conduction
         .links(slot)
         .iter()
@@ -94,7 +94,7 @@ fn has_path(conduction: &Conduction<f64>, slot: usize) -> bool {
 /// An error if an element has paths of heat, but none that leads, directly or through others, to a reservoir or a thermostat.
 fn refuse_insulated<const D: usize>(
     scene: &Scene<D>,
-    (conduction, layout): (&Conduction<f64>, &Layout),
+    (conduction, layout): (&Conduction, &Layout),
     is_fixed: &[bool],
 ) -> Result<(), EquilibriumError> {
     let mut is_linked = is_fixed.to_vec();

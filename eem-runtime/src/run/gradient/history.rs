@@ -5,7 +5,6 @@ use core::ops::ControlFlow;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Real;
 
 /// How much memory the history of a run may take, see [`Simulation::keep_history`](crate::Simulation::keep_history).
 ///
@@ -51,11 +50,11 @@ impl History {
 
 /// The states at the ends of consecutive steps: of each only the numbers on which derivatives depend.
 #[derive(Clone, Debug)]
-pub(crate) struct Kept<S> {
+pub(crate) struct Kept {
     /// The times of the states, s.
-    times: Vec<S>,
+    times: Vec<f64>,
     /// The numbers of one state after the other, in pieces of `states_per_piece` states.
-    pieces: Vec<Vec<S>>,
+    pieces: Vec<Vec<f64>>,
     states_per_piece: usize,
     /// The number of numbers of a state.
     numbers: usize,
@@ -64,11 +63,11 @@ pub(crate) struct Kept<S> {
 /// Bytes of a piece, unless a state takes more.
 const PIECE: usize = 1 << 16;
 
-impl<S: Real> Kept<S> {
+impl Kept {
     /// States from this one on; at most `most` of them will be kept.
-    pub(crate) fn new(state: &State<S>, most: usize) -> Self {
+    pub(crate) fn new(state: &State, most: usize) -> Self {
         let numbers = numbers_of(state);
-        let per_piece = PIECE / (numbers * size_of::<S>()).max(1);
+        let per_piece = PIECE / (numbers * size_of::<f64>()).max(1);
         let mut kept = Self {
             times: Vec::new(),
             pieces: Vec::new(),
@@ -80,8 +79,8 @@ impl<S: Real> Kept<S> {
     }
 
     /// The bytes of one of these states.
-    pub(crate) fn bytes_of(state: &State<S>) -> usize {
-        (numbers_of(state) + 1) * size_of::<S>()
+    pub(crate) fn bytes_of(state: &State) -> usize {
+        (numbers_of(state) + 1) * size_of::<f64>()
     }
 
     /// The number of steps.
@@ -101,7 +100,7 @@ impl<S: Real> Kept<S> {
     }
 
     /// Keeps the state after a step.
-    pub(crate) fn keep(&mut self, state: &State<S>) {
+    pub(crate) fn keep(&mut self, state: &State) {
         if self.times.len().is_multiple_of(self.states_per_piece) {
             let numbers = self.states_per_piece * self.numbers;
             self.pieces.push(Vec::with_capacity(numbers));
@@ -115,14 +114,14 @@ impl<S: Real> Kept<S> {
     }
 
     /// Sets the time of the last state, s.
-    pub(crate) fn arrive(&mut self, time: S) {
+    pub(crate) fn arrive(&mut self, time: f64) {
         if let Some(last) = self.times.last_mut() {
             *last = time;
         }
     }
 
     /// Whether the last state is this one.
-    pub(crate) fn ends_in(&self, state: &State<S>) -> bool {
+    pub(crate) fn ends_in(&self, state: &State) -> bool {
         let mut rest = self.numbers_after(self.len());
         parts(state).into_iter().all(|part| {
             let (own, others) = rest.split_at(part.len());
@@ -132,19 +131,14 @@ impl<S: Real> Kept<S> {
     }
 
     /// The numbers of the state after `steps` steps.
-    fn numbers_after(&self, steps: usize) -> &[S] {
+    fn numbers_after(&self, steps: usize) -> &[f64] {
         let piece = &self.pieces[steps / self.states_per_piece];
         let first = steps % self.states_per_piece * self.numbers;
         &piece[first..first + self.numbers]
     }
 
     /// Writes what is kept of the state after `steps` steps to `state`, which has the same scene: no entropies, energies and sums.
-    pub(crate) fn load<const D: usize>(
-        &self,
-        steps: usize,
-        masses: &Masses<S>,
-        state: &mut State<S>,
-    ) {
+    pub(crate) fn load<const D: usize>(&self, steps: usize, masses: &Masses, state: &mut State) {
         state.time = Sum::new(self.times[steps]);
         let mut rest = self.numbers_after(steps);
         let mut next = |count: usize| {
@@ -178,7 +172,7 @@ impl<S: Real> Kept<S> {
 }
 
 /// The numbers that are kept of a state. All others follow from them, or have no derivatives.
-fn parts<S: Real>(state: &State<S>) -> [&[S]; 5] {
+fn parts(state: &State) -> [&[f64]; 5] {
     let velocities = state.velocities.values();
     let moves = if velocities.is_empty() {
         state.momenta.values()
@@ -194,6 +188,6 @@ fn parts<S: Real>(state: &State<S>) -> [&[S]; 5] {
     ]
 }
 
-fn numbers_of<S: Real>(state: &State<S>) -> usize {
+fn numbers_of(state: &State) -> usize {
     parts(state).iter().map(|part| part.len()).sum()
 }

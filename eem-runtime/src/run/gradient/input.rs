@@ -10,7 +10,6 @@ use crate::element::kinematics::Shape;
 use crate::run::recorder::axis_name;
 use crate::scene::body::Body;
 use crate::scene::loads::{OfTime, ScalarOfTime};
-use eem_material::number::scalar::Real;
 
 /// An input of a run, for [`Simulation::sensitivities`](crate::Simulation::sensitivities).
 ///
@@ -22,22 +21,22 @@ use eem_material::number::scalar::Real;
 /// | [`position`](Self::position), [`velocity`](Self::velocity), [`temperature`](Self::temperature), [`viscous_stretch`](Self::viscous_stretch) | at the start |
 /// | [`force`](Self::force), [`thrust`](Self::thrust), [`motion`](Self::motion), [`thermostat`](Self::thermostat), [`oven`](Self::oven) | a parameter α of a function of time, given its derivative by α |
 #[derive(Clone)]
-pub struct Input<const D: usize, S: Real = f64> {
-    pub(crate) of: InputOf<D, S>,
+pub struct Input<const D: usize> {
+    pub(crate) of: InputOf<D>,
     /// The name and the unit that were given.
     pub(crate) named: Option<[String; 2]>,
 }
 
 /// A number as a function of time, s.
-type NumberOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
+type NumberOfTime = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// The kinds of inputs.
 #[derive(Clone)]
-pub(crate) enum InputOf<const D: usize, S: Real> {
+pub(crate) enum InputOf<const D: usize> {
     Parameter(Vec<Element>, String),
     Mass(Node),
     /// A node of the body, and the masses of pairs of nodes per density.
-    Density(Node, Vec<([usize; 2], S)>),
+    Density(Node, Vec<([usize; 2], f64)>),
     Gravity(usize),
     Conductance(HeatPath),
     Reservoir(Reservoir),
@@ -45,15 +44,15 @@ pub(crate) enum InputOf<const D: usize, S: Real> {
     Velocity(Node, usize),
     Temperature(Element),
     ViscousStretch(Element, usize),
-    Force(Node, OfTime<S, D>),
-    Thrust(Node, usize, NumberOfTime<S>),
-    Motion(Node, OfTime<S, D>),
-    Thermostat(Element, ScalarOfTime<S>),
-    Oven(Reservoir, ScalarOfTime<S>),
+    Force(Node, OfTime<D>),
+    Thrust(Node, usize, NumberOfTime),
+    Motion(Node, OfTime<D>),
+    Thermostat(Element, ScalarOfTime),
+    Oven(Reservoir, ScalarOfTime),
 }
 
-impl<const D: usize, S: Real> Input<D, S> {
-    const fn new(of: InputOf<D, S>) -> Self {
+impl<const D: usize> Input<D> {
+    const fn new(of: InputOf<D>) -> Self {
         Self { of, named: None }
     }
 
@@ -129,34 +128,38 @@ impl<const D: usize, S: Real> Input<D, S> {
     }
 
     /// A parameter α of the force on a mass, given `∂f/∂α` as a function of time.
-    pub fn force<V: Into<SVector<S, D>>>(
+    pub fn force<V: Into<SVector<f64, D>>>(
         node: Node,
-        by: impl Fn(S) -> V + Send + Sync + 'static,
+        by: impl Fn(f64) -> V + Send + Sync + 'static,
     ) -> Self {
         Self::new(InputOf::Force(node, Arc::new(move |t| by(t).into())))
     }
 
     /// A parameter of a thrust, given `∂F/∂α`. `rocket` counts the rockets of the node in the order of their creation, from 0.
-    pub fn thrust(node: Node, rocket: usize, by: impl Fn(S) -> S + Send + Sync + 'static) -> Self {
+    pub fn thrust(
+        node: Node,
+        rocket: usize,
+        by: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Self {
         Self::new(InputOf::Thrust(node, rocket, Arc::new(by)))
     }
 
     /// A parameter of the position of a moved anchor, given `∂X/∂α`. Next to a solid, its velocity at the start is an input
     /// of its own, [`velocity`](Self::velocity).
-    pub fn motion<V: Into<SVector<S, D>>>(
+    pub fn motion<V: Into<SVector<f64, D>>>(
         anchor: Node,
-        by: impl Fn(S) -> V + Send + Sync + 'static,
+        by: impl Fn(f64) -> V + Send + Sync + 'static,
     ) -> Self {
         Self::new(InputOf::Motion(anchor, Arc::new(move |t| by(t).into())))
     }
 
     /// A parameter of the temperature of a thermostat, given `∂θ/∂α`.
-    pub fn thermostat(element: Element, by: impl Fn(S) -> S + Send + Sync + 'static) -> Self {
+    pub fn thermostat(element: Element, by: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self::new(InputOf::Thermostat(element, Arc::new(by)))
     }
 
     /// A parameter of the temperature of an oven, given `∂θ/∂α`.
-    pub fn oven(oven: Reservoir, by: impl Fn(S) -> S + Send + Sync + 'static) -> Self {
+    pub fn oven(oven: Reservoir, by: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
         Self::new(InputOf::Oven(oven, Arc::new(by)))
     }
 
@@ -221,7 +224,7 @@ impl<const D: usize, S: Real> Input<D, S> {
     }
 }
 
-impl<const D: usize, S: Real> fmt::Debug for Input<D, S> {
+impl<const D: usize> fmt::Debug for Input<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("Input").field(&self.name()).finish()
     }

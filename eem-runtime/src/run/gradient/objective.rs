@@ -3,7 +3,6 @@
 use core::ops::Add;
 
 use crate::run::recorder::Quantity;
-use eem_material::number::scalar::Real;
 
 /// A number that follows from the states of a run, see [`Simulation::gradient`](crate::Simulation::gradient).
 ///
@@ -15,17 +14,17 @@ use eem_material::number::scalar::Real;
 /// | [`time`](Self::time) | the time at the end, s |
 /// | [`component`](Self::component), [`times`](Self::times), `+` | one component of a vector; a factor; sums |
 #[derive(Debug)]
-pub struct Objective<const D: usize, S: Real = f64> {
-    pub(crate) terms: Vec<Term<D, S>>,
+pub struct Objective<const D: usize> {
+    pub(crate) terms: Vec<Term<D>>,
     /// The factor of the time at the end.
     pub(crate) time: f64,
 }
 
 /// A quantity with the way in which it counts.
 #[derive(Debug)]
-pub(crate) struct Term<const D: usize, S: Real> {
+pub(crate) struct Term<const D: usize> {
     pub(crate) factor: f64,
-    pub(crate) quantity: Quantity<D, S>,
+    pub(crate) quantity: Quantity<D>,
     pub(crate) component: usize,
     pub(crate) when: When,
 }
@@ -41,8 +40,8 @@ pub(crate) enum When {
     Misfit(Vec<[f64; 3]>),
 }
 
-impl<const D: usize, S: Real> Objective<D, S> {
-    fn new(quantity: Quantity<D, S>, when: When) -> Self {
+impl<const D: usize> Objective<D> {
+    fn new(quantity: Quantity<D>, when: When) -> Self {
         let term = Term {
             factor: 1.0,
             quantity,
@@ -57,26 +56,26 @@ impl<const D: usize, S: Real> Objective<D, S> {
 
     /// A quantity at the end of the run; of a vector the first component.
     #[must_use]
-    pub fn at_end(quantity: Quantity<D, S>) -> Self {
+    pub fn at_end(quantity: Quantity<D>) -> Self {
         Self::new(quantity, When::End)
     }
 
     /// A quantity at a time at which a step ends, s.
     #[must_use]
-    pub fn at(time: f64, quantity: Quantity<D, S>) -> Self {
+    pub fn at(time: f64, quantity: Quantity<D>) -> Self {
         Self::new(quantity, When::At(time))
     }
 
     /// The integral of a quantity over the time of the history, by the trapezoidal rule over its steps.
     #[must_use]
-    pub fn integral(quantity: Quantity<D, S>) -> Self {
+    pub fn integral(quantity: Quantity<D>) -> Self {
         Self::new(quantity, When::Integral)
     }
 
     /// Half the sum of the squares of `(g(t) − d)/σ` over records (t, d, σ); steps must end at the times, s, and σ be
     /// positive.
     #[must_use]
-    pub fn misfit(quantity: Quantity<D, S>, records: impl IntoIterator<Item = [f64; 3]>) -> Self {
+    pub fn misfit(quantity: Quantity<D>, records: impl IntoIterator<Item = [f64; 3]>) -> Self {
         Self::new(quantity, When::Misfit(records.into_iter().collect()))
     }
 
@@ -128,7 +127,7 @@ impl<const D: usize, S: Real> Objective<D, S> {
     }
 }
 
-impl<const D: usize, S: Real> Add for Objective<D, S> {
+impl<const D: usize> Add for Objective<D> {
     type Output = Self;
 
     fn add(mut self, other: Self) -> Self {

@@ -17,7 +17,7 @@ use crate::run::recorder::axis_name;
 use crate::scene::body::Body;
 use crate::scene::error::SceneError;
 use crate::step::adjoint::PerVariable;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// The value of an [`Objective`](crate::Objective) and its derivatives with respect to all inputs of a run, each in the unit of
 /// the objective over that of the input.
@@ -25,34 +25,34 @@ use eem_material::number::scalar::Real;
 /// `Display` prints the value and the derivatives by the parameters of every element, a line each with the unit, and a note if
 /// derivatives grow by more than a million; [`iter`](Self::iter) has the derivatives by all inputs that are numbers.
 #[derive(Clone, Debug)]
-pub struct Gradient<const D: usize, S: Real = f64> {
+pub struct Gradient<const D: usize> {
     pub(crate) scene: Lineage,
     pub(crate) value: f64,
     /// The unit of the objective.
     pub(crate) unit: String,
     pub(crate) growth: f64,
-    pub(crate) start: PerVariable<S>,
+    pub(crate) start: PerVariable,
     /// The nodes with a mass.
     pub(crate) moving: Vec<usize>,
-    pub(crate) masses: Vec<S>,
+    pub(crate) masses: Vec<f64>,
     /// By the masses that two nodes have in common, and by those of solids at anchors, in order.
-    pub(crate) pairs: Vec<([usize; 2], S)>,
-    pub(crate) gravity: SVector<S, D>,
-    pub(crate) conductances: Vec<S>,
-    pub(crate) reservoirs: Vec<S>,
-    pub(crate) elements: Vec<OfElement<S>>,
+    pub(crate) pairs: Vec<([usize; 2], f64)>,
+    pub(crate) gravity: SVector<f64, D>,
+    pub(crate) conductances: Vec<f64>,
+    pub(crate) reservoirs: Vec<f64>,
+    pub(crate) elements: Vec<OfElement>,
     /// By the sizes of steps, with the times at their ends, s, and with the values of functions of time kept.
-    pub(crate) sizes: Vec<(S, S)>,
+    pub(crate) sizes: Vec<(f64, f64)>,
     /// The time at the start, s, and the loads that are functions of time.
-    pub(crate) started: S,
+    pub(crate) started: f64,
     pub(crate) timed: Vec<Timed>,
     /// By thrusts of rockets, and by temperatures of ovens, in the middle of each step.
-    pub(crate) thrusts: Vec<(usize, Series<S, S>)>,
-    pub(crate) ovens: Vec<(usize, Series<S, S>)>,
+    pub(crate) thrusts: Vec<(usize, Series<f64>)>,
+    pub(crate) ovens: Vec<(usize, Series<f64>)>,
     /// By forces at the middle of each step, by positions of moved anchors and by temperatures of thermostats at its ends.
-    pub(crate) forces: Vec<(usize, Series<SVector<S, D>, S>)>,
-    pub(crate) motions: Vec<(usize, Series<SVector<S, D>, S>)>,
-    pub(crate) temperatures: Vec<(usize, Series<S, S>)>,
+    pub(crate) forces: Vec<(usize, Series<SVector<f64, D>>)>,
+    pub(crate) motions: Vec<(usize, Series<SVector<f64, D>>)>,
+    pub(crate) temperatures: Vec<(usize, Series<f64>)>,
 }
 
 /// The name of an input, the derivative by it, and its unit.
@@ -63,7 +63,7 @@ const NOTED: f64 = 1e6;
 
 /// The derivatives by the parameters of an element.
 #[derive(Clone, Debug)]
-pub(crate) struct OfElement<S> {
+pub(crate) struct OfElement {
     pub(crate) element: Element,
     pub(crate) slots: Slots,
     pub(crate) dashpots: usize,
@@ -71,10 +71,10 @@ pub(crate) struct OfElement<S> {
     /// Empty for a model without units.
     pub(crate) units: &'static [&'static str],
     pub(crate) viscous_unit: &'static str,
-    pub(crate) values: Vec<S>,
+    pub(crate) values: Vec<f64>,
 }
 
-impl<const D: usize, S: Real> Gradient<D, S> {
+impl<const D: usize> Gradient<D> {
     /// The value of the objective.
     #[must_use]
     pub const fn value(&self) -> f64 {
@@ -126,8 +126,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
             .chain(self.of_elements())
     }
 
-    fn named(&self, name: String, by: S, unit: &str) -> Derivative {
-        (name, by.to_f64(), quotient(&self.unit, unit))
+    fn named(&self, name: String, by: f64, unit: &str) -> Derivative {
+        (name, by, quotient(&self.unit, unit))
     }
 
     fn parameters(&self) -> impl Iterator<Item = Derivative> + '_ {
@@ -154,7 +154,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     fn at_nodes<'a>(
         &'a self,
         what: &'a str,
-        by: &'a [S],
+        by: &'a [f64],
         unit: &'a str,
     ) -> impl Iterator<Item = Derivative> + 'a {
         by.iter().enumerate().map(move |(at, &by)| {
@@ -186,7 +186,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// [`GradientError::UnknownParameter`], [`GradientError::NoParameterDerivatives`], [`GradientError::Scene`].
-    pub fn by_parameter(&self, element: Element, name: &str) -> Result<S, GradientError> {
+    pub fn by_parameter(&self, element: Element, name: &str) -> Result<f64, GradientError> {
         let own = self.of(element)?;
         let Some(at) = own.names.iter().position(|own| *own == name) else {
             return Err(GradientError::no_parameter(&element, name, own.names));
@@ -204,7 +204,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// [`GradientError::Scene`] if the node is of another scene; the same for all below.
-    pub fn by_position(&self, node: Node) -> Result<SVector<S, D>, GradientError> {
+    pub fn by_position(&self, node: Node) -> Result<SVector<f64, D>, GradientError> {
         self.own(&node)?;
         Ok(vector(&self.start.positions, node))
     }
@@ -215,7 +215,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position).
-    pub fn by_velocity(&self, node: Node) -> Result<SVector<S, D>, GradientError> {
+    pub fn by_velocity(&self, node: Node) -> Result<SVector<f64, D>, GradientError> {
         self.own(&node)?;
         Ok(vector(&self.start.velocities, node))
     }
@@ -226,7 +226,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position).
-    pub fn by_mass(&self, node: Node) -> Result<S, GradientError> {
+    pub fn by_mass(&self, node: Node) -> Result<f64, GradientError> {
         self.own(&node)?;
         Ok(self.masses[node.index])
     }
@@ -236,14 +236,14 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position).
-    pub fn by_density<H: Shape<D>>(&self, body: &Body<H, D>) -> Result<S, GradientError> {
-        let mut sum = S::zero();
+    pub fn by_density<H: Shape<D>>(&self, body: &Body<H, D>) -> Result<f64, GradientError> {
+        let mut sum = 0.0;
         for node in body.nodes() {
             self.own(node)?;
         }
-        for (nodes, mass) in body.pair_masses::<S>() {
+        for (nodes, mass) in body.pair_masses() {
             let pair = self.pairs.binary_search_by_key(&nodes, |&(nodes, _)| nodes);
-            sum += mass * pair.map_or(S::zero(), |at| self.pairs[at].1);
+            sum += mass * pair.map_or(0.0, |at| self.pairs[at].1);
             let [i, j] = nodes;
             if i == j {
                 sum += mass * self.masses[i];
@@ -257,7 +257,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`SceneError::NotThermal`] if it has none.
-    pub fn by_temperature(&self, element: Element) -> Result<S, GradientError> {
+    pub fn by_temperature(&self, element: Element) -> Result<f64, GradientError> {
         let own = self.of(element)?;
         let Some(slot) = own.slots.thermal else {
             return Err(SceneError::NotThermal { element }.into());
@@ -270,7 +270,11 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::Component`] if there is no such dashpot.
-    pub fn by_viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, GradientError> {
+    pub fn by_viscous_stretch(
+        &self,
+        element: Element,
+        dashpot: usize,
+    ) -> Result<f64, GradientError> {
         let own = self.of(element)?;
         if dashpot >= own.dashpots {
             return Err(GradientError::Component {
@@ -287,7 +291,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position).
-    pub fn by_conductance(&self, path: HeatPath) -> Result<S, GradientError> {
+    pub fn by_conductance(&self, path: HeatPath) -> Result<f64, GradientError> {
         self.own(&path)?;
         Ok(self.conductances[path.index])
     }
@@ -297,14 +301,14 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position).
-    pub fn by_reservoir_temperature(&self, reservoir: Reservoir) -> Result<S, GradientError> {
+    pub fn by_reservoir_temperature(&self, reservoir: Reservoir) -> Result<f64, GradientError> {
         self.own(&reservoir)?;
         Ok(self.reservoirs[reservoir.index])
     }
 
     /// The derivative by the acceleration of free fall.
     #[must_use]
-    pub const fn by_gravity(&self) -> SVector<S, D> {
+    pub const fn by_gravity(&self) -> SVector<f64, D> {
         self.gravity
     }
 
@@ -314,7 +318,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if no force acts on it.
-    pub fn by_force(&self, node: Node) -> Result<&Series<SVector<S, D>, S>, GradientError> {
+    pub fn by_force(&self, node: Node) -> Result<&Series<SVector<f64, D>>, GradientError> {
         self.own(&node)?;
         series(&self.forces, node.index, || format!("{node} has no force"))
     }
@@ -325,7 +329,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if there is no such rocket.
-    pub fn by_thrust(&self, node: Node, rocket: usize) -> Result<&Series<S, S>, GradientError> {
+    pub fn by_thrust(&self, node: Node, rocket: usize) -> Result<&Series<f64>, GradientError> {
         self.own(&node)?;
         let mut own = self.thrusts.iter().filter(|(own, _)| *own == node.index);
         match own.nth(rocket) {
@@ -341,7 +345,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if the temperature is not a function of time.
-    pub fn by_oven(&self, oven: Reservoir) -> Result<&Series<S, S>, GradientError> {
+    pub fn by_oven(&self, oven: Reservoir) -> Result<&Series<f64>, GradientError> {
         self.own(&oven)?;
         series(&self.ovens, oven.index, || format!("{oven} is not an oven"))
     }
@@ -353,7 +357,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if it is not moved.
-    pub fn by_motion(&self, anchor: Node) -> Result<&Series<SVector<S, D>, S>, GradientError> {
+    pub fn by_motion(&self, anchor: Node) -> Result<&Series<SVector<f64, D>>, GradientError> {
         self.own(&anchor)?;
         series(&self.motions, anchor.index, || {
             format!("{anchor} is not moved")
@@ -365,7 +369,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] without a thermostat.
-    pub fn by_thermostat(&self, element: Element) -> Result<&Series<S, S>, GradientError> {
+    pub fn by_thermostat(&self, element: Element) -> Result<&Series<f64>, GradientError> {
         self.own(&element)?;
         series(&self.temperatures, element.index(), || {
             format!("{element} has no thermostat")
@@ -381,16 +385,8 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         let parameters = self.elements.iter().flat_map(|element| &element.values);
         let pairs = self.pairs.iter().map(|(_, by)| by);
         let sizes = self.sizes.iter().map(|(_, by)| by);
-        let others = others
-            .chain(parameters)
-            .chain(pairs)
-            .chain(sizes)
-            .map(|number| number.to_f64());
-        self.start
-            .numbers()
-            .map(Real::to_f64)
-            .chain(others)
-            .collect()
+        let others = others.chain(parameters).chain(pairs).chain(sizes);
+        self.start.numbers().chain(others.copied()).collect()
     }
 
     fn own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
@@ -401,18 +397,18 @@ impl<const D: usize, S: Real> Gradient<D, S> {
         Err(SceneError::ForeignHandle { handle })
     }
 
-    fn of(&self, element: Element) -> Result<&OfElement<S>, GradientError> {
+    fn of(&self, element: Element) -> Result<&OfElement, GradientError> {
         self.own(&element)?;
         Ok(&self.elements[element.index()])
     }
 }
 
 /// The series with this index.
-fn series<T, S>(
-    all: &[(usize, Series<T, S>)],
+fn series<T>(
+    all: &[(usize, Series<T>)],
     index: usize,
     why: impl FnOnce() -> String,
-) -> Result<&Series<T, S>, GradientError> {
+) -> Result<&Series<T>, GradientError> {
     let mut own = all.iter().filter(|(own, _)| *own == index);
     match own.next() {
         Some((_, series)) => Ok(series),
@@ -420,11 +416,11 @@ fn series<T, S>(
     }
 }
 
-fn vector<S: Real, const D: usize>(coordinates: &[S], node: Node) -> SVector<S, D> {
+fn vector<const D: usize>(coordinates: &[f64], node: Node) -> SVector<f64, D> {
     SVector::from_fn(|axis, _| coordinates[node.index * D + axis])
 }
 
-impl<const D: usize, S: Real> fmt::Display for Gradient<D, S> {
+impl<const D: usize> fmt::Display for Gradient<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = ("value".to_owned(), self.value, self.unit.clone());
         let lines: Vec<_> = [value].into_iter().chain(self.parameters()).collect();
@@ -438,7 +434,7 @@ impl<const D: usize, S: Real> fmt::Display for Gradient<D, S> {
             writeln!(f, "| {name:<width$} | {value:<22} | {unit:<unit_width$} |")?;
         }
         if self.growth > NOTED {
-            let digits = -(S::EPSILON.to_f64() * self.growth).log10();
+            let digits = -Scalar::log10(f64::EPSILON * self.growth);
             let digits = digits.floor().max(0.0);
             let growth = self.growth;
             writeln!(

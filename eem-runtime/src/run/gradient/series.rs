@@ -4,8 +4,6 @@ use core::ops::Deref;
 
 use nalgebra::SVector;
 
-use eem_material::number::scalar::Real;
-
 /// The derivatives of an objective by the values of a function of time in the steps of a run: pairs of time, s, and derivative, as a
 /// slice.
 ///
@@ -29,46 +27,49 @@ use eem_material::number::scalar::Real;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series<T, S = f64>(pub(crate) Vec<(S, T)>);
+pub struct Series<T>(pub(crate) Vec<(f64, T)>);
 
-impl<T, S> Deref for Series<T, S> {
-    type Target = [(S, T)];
+impl<T> Deref for Series<T> {
+    type Target = [(f64, T)];
 
-    fn deref(&self) -> &[(S, T)] {
+    fn deref(&self) -> &[(f64, T)] {
         &self.0
     }
 }
 
-impl<R: Real> Series<R, R> {
+impl Series<f64> {
     /// The derivative by a parameter α of a function f(t), given `∂f/∂α`: `Σ dJ/df(t) ∂f/∂α(t)`.
-    pub fn contract(&self, by: impl Fn(R) -> R) -> R {
+    pub fn contract(&self, by: impl Fn(f64) -> f64) -> f64 {
         sum(self.products(by))
     }
 
     /// The terms of this sum, with their times.
-    pub(crate) fn products(&self, by: impl Fn(R) -> R) -> impl Iterator<Item = (R, R)> {
+    pub(crate) fn products(&self, by: impl Fn(f64) -> f64) -> impl Iterator<Item = (f64, f64)> {
         let terms = self.iter();
         terms.map(move |&(time, derivative)| (time, derivative * by(time)))
     }
 }
 
-impl<S: Real, const D: usize> Series<SVector<S, D>, S> {
+impl<const D: usize> Series<SVector<f64, D>> {
     /// The derivative by a parameter α of a function f(t), given `∂f/∂α`: `Σ dJ/df(t)·∂f/∂α(t)`.
-    pub fn contract<V: Into<SVector<S, D>>>(&self, by: impl Fn(S) -> V) -> S {
+    pub fn contract<V: Into<SVector<f64, D>>>(&self, by: impl Fn(f64) -> V) -> f64 {
         sum(self.products(move |time| by(time).into()))
     }
 
     /// The terms of this sum, with their times.
-    pub(crate) fn products(&self, by: impl Fn(S) -> SVector<S, D>) -> impl Iterator<Item = (S, S)> {
+    pub(crate) fn products(
+        &self,
+        by: impl Fn(f64) -> SVector<f64, D>,
+    ) -> impl Iterator<Item = (f64, f64)> {
         self.iter().map(move |(time, derivative)| {
             let by = by(*time);
             let products = derivative.iter().zip(by.iter());
-            let product = products.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+            let product = products.fold(0.0, |sum, (&a, &b)| sum + a * b);
             (*time, product)
         })
     }
 }
 
-fn sum<S: Real>(terms: impl Iterator<Item = (S, S)>) -> S {
-    terms.fold(S::zero(), |sum, (_, term)| sum + term)
+fn sum(terms: impl Iterator<Item = (f64, f64)>) -> f64 {
+    terms.fold(0.0, |sum, (_, term)| sum + term)
 }

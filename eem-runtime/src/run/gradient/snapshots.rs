@@ -16,7 +16,6 @@ use crate::element::state::State;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::{Mask, Real};
 
 /// How often a step is made again, at most, before the pass that keeps states.
 const MOST_PASSES: usize = 3;
@@ -30,30 +29,30 @@ const FIRST_STRIDE: usize = 64;
 
 /// A state with what its next step depends on.
 #[derive(Clone, Debug)]
-pub(crate) struct Snapshot<S> {
+pub(crate) struct Snapshot {
     /// The number of steps before it.
     pub(crate) index: usize,
-    pub(crate) state: State<S>,
-    pub(crate) past: SavedPast<S>,
+    pub(crate) state: State,
+    pub(crate) past: SavedPast,
 }
 
 /// The steps since the history began.
 #[derive(Clone, Debug)]
-pub(crate) struct Record<S> {
-    sizes: Vec<S>,
+pub(crate) struct Record {
+    sizes: Vec<f64>,
     /// The first step of each scheme.
     schemes: Vec<(usize, Scheme)>,
     /// The times of states that were set to the end of a run, which the step missed by rounding.
-    arrivals: Vec<(usize, S)>,
+    arrivals: Vec<(usize, f64)>,
     /// The time after the last step.
-    time: Sum<S>,
+    time: Sum,
     /// Every `stride`-th state, in their order.
-    snapshots: Vec<Snapshot<S>>,
+    snapshots: Vec<Snapshot>,
     stride: usize,
     /// Snapshots that are kept only on the way back.
-    passing: Vec<Snapshot<S>>,
+    passing: Vec<Snapshot>,
     /// All states, while they fit.
-    all: Option<Kept<S>>,
+    all: Option<Kept>,
     /// Whether a step was not kept because it did not fit.
     is_full: bool,
     limits: Limits,
@@ -70,9 +69,9 @@ struct Limits {
 
 impl Limits {
     /// The number of states that fit besides the sizes of this many steps.
-    fn fit<S>(&self, steps: usize) -> usize {
+    fn fit(&self, steps: usize) -> usize {
         self.states.map_or(1, |[bytes, state]| {
-            bytes.saturating_sub(steps.saturating_mul(size_of::<S>())) / state
+            bytes.saturating_sub(steps.saturating_mul(size_of::<f64>())) / state
         })
     }
 }
@@ -92,7 +91,7 @@ fn reach(free: usize, passes: usize) -> usize {
     })
 }
 
-fn bytes_of_snapshot<S: Real>(state: &State<S>, past: &SavedPast<S>) -> usize {
+fn bytes_of_snapshot(state: &State, past: &SavedPast) -> usize {
     let sums = [
         &state.positions,
         &state.momenta,
@@ -105,12 +104,12 @@ fn bytes_of_snapshot<S: Real>(state: &State<S>, past: &SavedPast<S>) -> usize {
     let numbers = numbers.iter().sum::<usize>() + state.temperatures.len();
     let of_past = past.forces.iter().map(Vec::len).sum::<usize>() + past.internal.len();
     let energies = size_of_val(state.energies.as_slice());
-    size_of::<Snapshot<S>>() + energies + (numbers + of_past) * size_of::<S>()
+    size_of::<Snapshot>() + energies + (numbers + of_past) * size_of::<f64>()
 }
 
-impl<S: Real> Record<S> {
+impl Record {
     /// A history from this state on; `past` is what its next step is predicted from.
-    pub(crate) fn new(state: &State<S>, past: SavedPast<S>, limit: History) -> Self {
+    pub(crate) fn new(state: &State, past: SavedPast, limit: History) -> Self {
         let own = Kept::bytes_of(state);
         let snapshot = bytes_of_snapshot(state, &past);
         let limits = match limit.0 {
@@ -123,7 +122,7 @@ impl<S: Real> Record<S> {
                 snapshots,
             },
         };
-        let most = limits.fit::<S>(0).clamp(1, FIRST_STRIDE);
+        let most = limits.fit(0).clamp(1, FIRST_STRIDE);
         Self {
             sizes: Vec::new(),
             schemes: Vec::new(),
@@ -136,7 +135,7 @@ impl<S: Real> Record<S> {
             }],
             stride: (most / 2 + 1).next_power_of_two(),
             passing: Vec::new(),
-            all: limits.states.map(|_| Kept::new(state, limits.fit::<S>(0))),
+            all: limits.states.map(|_| Kept::new(state, limits.fit(0))),
             is_full: false,
             limits,
         }
@@ -148,28 +147,28 @@ impl<S: Real> Record<S> {
     }
 
     /// All states, if they are kept.
-    pub(crate) const fn all(&self) -> Option<&Kept<S>> {
+    pub(crate) const fn all(&self) -> Option<&Kept> {
         self.all.as_ref()
     }
 
     /// How many states to keep at a time when steps are made again from the first one on.
     pub(crate) fn block(&self) -> usize {
-        self.limits.fit::<S>(self.len()).clamp(1, FIRST_STRIDE)
+        self.limits.fit(self.len()).clamp(1, FIRST_STRIDE)
     }
 
     /// The size of a step, s.
-    pub(crate) fn size(&self, step: usize) -> S {
+    pub(crate) fn size(&self, step: usize) -> f64 {
         self.sizes[step]
     }
 
     /// The time to which the state after `steps` steps was set, s; `None` if it was not.
-    pub(crate) fn arrival(&self, steps: usize) -> Option<S> {
+    pub(crate) fn arrival(&self, steps: usize) -> Option<f64> {
         let found = self.arrivals.binary_search_by_key(&steps, |&(at, _)| at);
         found.ok().map(|place| self.arrivals[place].1)
     }
 
     /// The times of all states, s.
-    pub(crate) fn times(&self) -> impl Iterator<Item = S> + '_ {
+    pub(crate) fn times(&self) -> impl Iterator<Item = f64> + '_ {
         let mut time = self.snapshots[0].state.time;
         let later = self.sizes.iter().zip(1..).map(move |(&size, at)| {
             time = self.next_time(time, size, at);
@@ -181,25 +180,25 @@ impl<S: Real> Record<S> {
     }
 
     /// The time after a step of this size, s, which is the last of `steps` steps.
-    fn next_time(&self, mut time: Sum<S>, size: S, steps: usize) -> Sum<S> {
+    fn next_time(&self, mut time: Sum, size: f64, steps: usize) -> Sum {
         time.add(size);
         self.arrival(steps).map_or(time, Sum::new)
     }
 
     /// The schemes of the steps, with the time after the first step of each.
-    pub(crate) fn schemes(&self) -> impl Iterator<Item = (Scheme, S)> + '_ {
+    pub(crate) fn schemes(&self) -> impl Iterator<Item = (Scheme, f64)> + '_ {
         let of = |&(first, scheme): &(usize, Scheme)| (scheme, self.time_of(first + 1).value);
         self.schemes.iter().map(of)
     }
 
     /// The time at which the last sequence of steps of this scheme began, s; the end if the last step is of another scheme.
-    pub(crate) fn end_before(&self, scheme: Scheme) -> S {
+    pub(crate) fn end_before(&self, scheme: Scheme) -> f64 {
         let last = self.schemes.last().filter(|&&(_, own)| own == scheme);
         self.time_of(last.map_or(self.len(), |&(first, _)| first))
             .value
     }
 
-    fn time_of(&self, steps: usize) -> Sum<S> {
+    fn time_of(&self, steps: usize) -> Sum {
         let mut before = self.snapshots.iter().rev();
         let from = before.find(|snapshot| snapshot.index <= steps);
         let from = from.map_or((0, self.time), |snapshot| {
@@ -210,19 +209,19 @@ impl<S: Real> Record<S> {
     }
 
     /// Whether the last state is this one, judged by its time alone once not all states are kept.
-    pub(crate) fn ends_in(&self, state: &State<S>) -> bool {
+    pub(crate) fn ends_in(&self, state: &State) -> bool {
         self.time == state.time && self.all.as_ref().is_none_or(|all| all.ends_in(state))
     }
 
     /// The time of the last state, s.
-    pub(crate) const fn time(&self) -> S {
+    pub(crate) const fn time(&self) -> f64 {
         self.time.value
     }
 
     /// Forgets steps that were undone: those that end after a time.
-    pub(crate) fn return_to(&mut self, time: S) {
+    pub(crate) fn return_to(&mut self, time: f64) {
         let before = self.len();
-        while !self.sizes.is_empty() && time.less(self.time.value).all() {
+        while !self.sizes.is_empty() && time < self.time.value {
             self.sizes.pop();
             self.time = self.time_of(self.len());
         }
@@ -240,7 +239,7 @@ impl<S: Real> Record<S> {
 
     /// Keeps a step from `old` to `state`, unless the history does not end in `old`, or memory does not suffice. True if a
     /// snapshot is due.
-    pub(crate) fn keep(&mut self, size: S, scheme: Scheme, [old, state]: [&State<S>; 2]) -> bool {
+    pub(crate) fn keep(&mut self, size: f64, scheme: Scheme, [old, state]: [&State; 2]) -> bool {
         self.return_to(old.time.value);
         let steps = self.len() + 1;
         if self.is_full || !self.ends_in(old) {
@@ -256,7 +255,7 @@ impl<S: Real> Record<S> {
         self.sizes.push(size);
         self.time = state.time;
         if let Some(all) = &mut self.all {
-            if steps < self.limits.fit::<S>(steps) {
+            if steps < self.limits.fit(steps) {
                 all.keep(state);
             } else {
                 self.all = None;
@@ -266,7 +265,7 @@ impl<S: Real> Record<S> {
     }
 
     /// Keeps the present state as a snapshot if there is room, possibly after dropping every second snapshot.
-    pub(crate) fn snapshot(&mut self, state: &State<S>, past: impl FnOnce() -> SavedPast<S>) {
+    pub(crate) fn snapshot(&mut self, state: &State, past: impl FnOnce() -> SavedPast) {
         let index = self.len();
         if self.snapshots.len() > self.limits.snapshots {
             self.stride *= 2;
@@ -284,7 +283,7 @@ impl<S: Real> Record<S> {
     }
 
     /// Records that the last state, if its time is `before`, is set to another time, s.
-    pub(crate) fn arrive(&mut self, before: Sum<S>, time: S) {
+    pub(crate) fn arrive(&mut self, before: Sum, time: f64) {
         let len = self.len();
         // The last step was not kept.
         if len == 0 || self.time != before {
@@ -302,7 +301,7 @@ impl<S: Real> Record<S> {
 
     /// Whether this many steps can be reversed.
     fn is_within_reach(&self, steps: usize) -> bool {
-        let states = self.limits.fit::<S>(steps);
+        let states = self.limits.fit(steps);
         steps <= reach(self.limits.snapshots, MOST_PASSES).saturating_mul(states)
     }
 
@@ -316,20 +315,20 @@ impl<S: Real> Record<S> {
     }
 
     /// The snapshot with this index.
-    pub(crate) fn at(&self, index: usize) -> Option<&Snapshot<S>> {
+    pub(crate) fn at(&self, index: usize) -> Option<&Snapshot> {
         let mut all = self.snapshots.iter().chain(&self.passing);
         all.find(|snapshot| snapshot.index == index)
     }
 
     /// Keeps a snapshot on the way back.
-    pub(crate) fn pass(&mut self, snapshot: Snapshot<S>) {
+    pub(crate) fn pass(&mut self, snapshot: Snapshot) {
         self.passing.push(snapshot);
     }
 
     /// The next pass on the way back from the state after `end` steps, which is not the first one.
     pub(crate) fn next_pass(&mut self, end: usize) -> Pass {
         self.passing.retain(|snapshot| snapshot.index < end);
-        let states = self.limits.fit::<S>(self.len()).max(1);
+        let states = self.limits.fit(self.len()).max(1);
         loop {
             let (from, free) = self.last_before(end);
             let [start, steps] = [from, end - from];

@@ -4,7 +4,6 @@ use core::fmt;
 
 use super::input::{Input, InputOf};
 use crate::element::handle::{Element, Node, Reservoir};
-use eem_material::number::scalar::Real;
 
 /// A load that is a function of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +30,7 @@ impl fmt::Display for Timed {
 
 impl Timed {
     /// Whether an input is a parameter of this load.
-    pub(super) fn has<const D: usize, S: Real>(self, input: &Input<D, S>) -> bool {
+    pub(super) fn has<const D: usize>(self, input: &Input<D>) -> bool {
         match (self, &input.of) {
             (Self::Force(own), InputOf::Force(node, _))
             | (Self::Motion(own), InputOf::Motion(node, _)) => own.index == node.index,

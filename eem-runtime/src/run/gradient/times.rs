@@ -4,9 +4,8 @@ use super::error::GradientError;
 use super::input::{Input, InputOf};
 use super::result::Gradient;
 use super::timed::Timed;
-use eem_material::number::scalar::{Mask, Real};
 
-impl<const D: usize, S: Real> Gradient<D, S> {
+impl<const D: usize> Gradient<D> {
     /// The derivatives by the sizes of the steps, with the times at their ends, s. Where a step ends at the jump of a load, the
     /// derivative by the time of the jump is that by the size of the step before it less that by the size of the one after it.
     ///
@@ -14,7 +13,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     ///
     /// [`GradientError::NoTimeDerivative`] if the scene has a function of time; [`by_step_size_with`](Self::by_step_size_with) takes its
     /// derivative.
-    pub fn by_step_size(&self) -> Result<&[(S, S)], GradientError> {
+    pub fn by_step_size(&self) -> Result<&[(f64, f64)], GradientError> {
         match self.timed.first() {
             None => Ok(&self.sizes),
             Some(load) => Err(no_derivative(*load)),
@@ -24,7 +23,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// The derivatives by the sizes of the steps, where each step keeps its values of functions of time. No term is missing if
     /// these are constant within steps.
     #[must_use]
-    pub fn by_step_size_at_kept_loads(&self) -> &[(S, S)] {
+    pub fn by_step_size_at_kept_loads(&self) -> &[(f64, f64)] {
         &self.sizes
     }
 
@@ -33,9 +32,9 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// # Errors
     ///
     /// As [`by_step_size`](Self::by_step_size).
-    pub fn by_end_time(&self) -> Result<S, GradientError> {
+    pub fn by_end_time(&self) -> Result<f64, GradientError> {
         let last = self.by_step_size()?.last();
-        Ok(last.map_or(S::zero(), |&(_, by)| by))
+        Ok(last.map_or(0.0, |&(_, by)| by))
     }
 
     /// The derivatives by the sizes of the steps where loads are functions of time: a longer step moves all later values of a load,
@@ -65,7 +64,7 @@ impl<const D: usize, S: Real> Gradient<D, S> {
     /// assert!(sizes.iter().all(|(_, by)| (by - 1.5).abs() < 1e-14));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn by_step_size_with(&self, rates: &[Input<D, S>]) -> Result<Vec<(S, S)>, GradientError> {
+    pub fn by_step_size_with(&self, rates: &[Input<D>]) -> Result<Vec<(f64, f64)>, GradientError> {
         let mut moved = Vec::new();
         for &load in &self.timed {
             let rate = rates.iter().find(|input| load.has(input));
@@ -74,34 +73,31 @@ impl<const D: usize, S: Real> Gradient<D, S> {
             };
             self.add_moved(rate, &mut moved)?;
         }
-        moved.sort_by(|(one, _), (other, _)| one.to_f64().total_cmp(&other.to_f64()));
+        moved.sort_by(|(one, _), (other, _)| one.total_cmp(other));
         let starts = [self.started]
             .into_iter()
             .chain(self.sizes.iter().map(|&(end, _)| end));
-        let starts: Vec<S> = starts.collect();
+        let starts: Vec<f64> = starts.collect();
         let mut found = self.sizes.clone();
-        let mut later = S::zero();
+        let mut later = 0.0;
         for (&start, (end, by)) in starts.iter().zip(&mut found).rev() {
-            while let Some((_, value)) = moved.pop_if(|(time, _)| end.at_most(*time).all()) {
+            while let Some((_, value)) = moved.pop_if(|(time, _)| *end <= *time) {
                 later += value;
             }
             *by += later;
-            let within = moved
-                .iter()
-                .rev()
-                .take_while(|(time, _)| start.less(*time).all());
+            let within = moved.iter().rev().take_while(|(time, _)| start < *time);
             for &(time, value) in within {
                 *by += value * ((time - start) / (*end - start));
             }
         }
-        match found.iter().find(|(_, by)| !by.to_f64().is_finite()) {
-            Some((end, _)) => Err(GradientError::NotFinite { time: end.to_f64() }),
+        match found.iter().find(|(_, by)| !by.is_finite()) {
+            Some((end, _)) => Err(GradientError::NotFinite { time: *end }),
             None => Ok(found),
         }
     }
 
     /// Adds the derivatives of the objective by shifts in time of the values of a load, with the times of these values.
-    fn add_moved(&self, rate: &Input<D, S>, moved: &mut Vec<(S, S)>) -> Result<(), GradientError> {
+    fn add_moved(&self, rate: &Input<D>, moved: &mut Vec<(f64, f64)>) -> Result<(), GradientError> {
         match &rate.of {
             InputOf::Force(node, of) => moved.extend(self.by_force(*node)?.products(&**of)),
             InputOf::Motion(node, of) => moved.extend(self.by_motion(*node)?.products(&**of)),

@@ -5,9 +5,8 @@ use std::io;
 use std::path::Path;
 
 use super::{Column, Recorder};
-use eem_material::number::scalar::Real;
 
-impl<const D: usize, S: Real> Recorder<D, S> {
+impl<const D: usize> Recorder<D> {
     /// Writes a header with names and units, then one line per row, separated by commas (RFC 4180).
     ///
     /// Values have 17 significant digits, enough to restore a double. Newton iterations are integers.

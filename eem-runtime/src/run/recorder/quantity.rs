@@ -8,7 +8,6 @@ use crate::run::ledger::Ledger;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Real;
 
 /// A quantity of a simulation that a [`Recorder`](super::Recorder) keeps.
 ///
@@ -30,7 +29,7 @@ use eem_material::number::scalar::Real;
 /// ```
 #[derive(Debug)]
 #[non_exhaustive]
-pub enum Quantity<const D: usize, S: Real = f64> {
+pub enum Quantity<const D: usize> {
     /// The position of a node, m.
     Position(Node),
     /// The momentum of a node, kg m/s.
@@ -86,22 +85,22 @@ pub enum Quantity<const D: usize, S: Real = f64> {
     Sum(Vec<Self>),
     /// Any other field of the ledger. Its unit is unknown; use [`custom_in`](Self::custom_in) for a column with a
     /// unit.
-    Ledger(fn(&Ledger<D, S>) -> S),
+    Ledger(fn(&Ledger<D>) -> f64),
     /// Newton iterations since the previous row; 0 in the first row.
     NewtonIterations,
     /// A function of the simulation.
-    Custom(CustomQuantity<D, S>),
+    Custom(CustomQuantity<D>),
 }
 
 /// A function of the simulation as a [`Quantity`], made by [`Quantity::custom`].
-pub struct CustomQuantity<const D: usize, S: Real> {
-    function: Box<Function<D, S>>,
+pub struct CustomQuantity<const D: usize> {
+    function: Box<Function<D>>,
     unit: &'static str,
 }
 
-type Function<const D: usize, S> = dyn Fn(&Simulation<D, S>) -> S + Send + Sync;
+type Function<const D: usize> = dyn Fn(&Simulation<D>) -> f64 + Send + Sync;
 
-impl<const D: usize, S: Real> fmt::Debug for CustomQuantity<D, S> {
+impl<const D: usize> fmt::Debug for CustomQuantity<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a function")
     }
@@ -116,9 +115,9 @@ pub(crate) fn axis_name(index: usize) -> String {
     letter.map_or_else(|| index.to_string(), str::to_owned)
 }
 
-impl<const D: usize, S: Real> Quantity<D, S> {
+impl<const D: usize> Quantity<D> {
     /// A function of the simulation.
-    pub fn custom(function: impl Fn(&Simulation<D, S>) -> S + Send + Sync + 'static) -> Self {
+    pub fn custom(function: impl Fn(&Simulation<D>) -> f64 + Send + Sync + 'static) -> Self {
         Self::custom_in("", function)
     }
 
@@ -138,7 +137,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
     /// ```
     pub fn custom_in(
         unit: &'static str,
-        function: impl Fn(&Simulation<D, S>) -> S + Send + Sync + 'static,
+        function: impl Fn(&Simulation<D>) -> f64 + Send + Sync + 'static,
     ) -> Self {
         let function = Box::new(function);
         Self::Custom(CustomQuantity { function, unit })
@@ -225,7 +224,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
     }
 
     /// An error unless the simulation has this quantity. Requests the sums that it needs, and does not call custom functions.
-    pub(super) fn check(&self, run: &Simulation<D, S>) -> Result<(), SceneError> {
+    pub(super) fn check(&self, run: &Simulation<D>) -> Result<(), SceneError> {
         match self {
             Self::Custom(_) => Ok(()),
             Self::Sum(all) => {
@@ -251,7 +250,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
 
     /// Its present components.
     #[cfg(feature = "gradients")]
-    pub(crate) fn present(&self, run: &Simulation<D, S>) -> Result<Vec<f64>, SceneError> {
+    pub(crate) fn present(&self, run: &Simulation<D>) -> Result<Vec<f64>, SceneError> {
         let mut row = Vec::new();
         self.append(run, 0, &mut None, &mut [].iter(), &mut row)?;
         Ok(row)
@@ -266,7 +265,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
     }
 
     /// The sum whose change since the last row is recorded; `None` for other quantities.
-    fn metered(&self, run: &Simulation<D, S>) -> Result<Option<Sum<S>>, SceneError> {
+    fn metered(&self, run: &Simulation<D>) -> Result<Option<Sum>, SceneError> {
         match self {
             Self::Dissipation(element) => run.dissipation_sum(*element).map(Some),
             Self::DissipationOf(element, dashpot) => {
@@ -281,8 +280,8 @@ impl<const D: usize, S: Real> Quantity<D, S> {
     /// Appends the sums whose changes are recorded; for [`Quantity::Sum`] those of its terms, one by one.
     pub(super) fn add_metered(
         &self,
-        run: &Simulation<D, S>,
-        sums: &mut Vec<Sum<S>>,
+        run: &Simulation<D>,
+        sums: &mut Vec<Sum>,
     ) -> Result<(), SceneError> {
         if let Self::Sum(all) = self {
             return all.iter().try_for_each(|own| own.add_metered(run, sums));
@@ -295,15 +294,15 @@ impl<const D: usize, S: Real> Quantity<D, S> {
     /// the last row.
     pub(super) fn append(
         &self,
-        run: &Simulation<D, S>,
+        run: &Simulation<D>,
         iterations: usize,
-        ledger: &mut Option<Ledger<D, S>>,
-        last: &mut Iter<'_, Sum<S>>,
+        ledger: &mut Option<Ledger<D>>,
+        last: &mut Iter<'_, Sum>,
         row: &mut Vec<f64>,
     ) -> Result<(), SceneError> {
         if let Some(sum) = self.metered(run)? {
-            let change = last.next().map_or(S::zero(), |last| sum.change(*last));
-            row.push(change.to_f64());
+            let change = last.next().map_or(0.0, |last| sum.change(*last));
+            row.push(change);
             return Ok(());
         }
         if let Self::Sum(all) = self {
@@ -316,7 +315,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
             return Ok(());
         }
         let mut totals = || *ledger.get_or_insert_with(|| run.ledger());
-        let mut push = |components: &[S]| row.extend(components.iter().map(|x| x.to_f64()));
+        let mut push = |components: &[f64]| row.extend(components.iter());
         match self {
             Self::Position(node) => push(run.position(*node)?.as_slice()),
             Self::Momentum(node) => push(run.momentum(*node)?.as_slice()),

@@ -9,7 +9,6 @@ use crate::step::error::{StepError, StepFailure};
 use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Attempt;
-use eem_material::number::scalar::{Discord, Mask, Real};
 
 /// How often a step is halved in search of a size that succeeds.
 const HALVINGS: usize = 10;
@@ -46,9 +45,9 @@ macro_rules! explicit_view {
 }
 pub(super) use explicit_view;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// One step of this size. It is rejected if the scheme estimates its error and that is not within the demand.
-    pub(super) fn try_step(&mut self, size: S, demand: Demand<S>) -> Result<Tried<S>, StepError> {
+    pub(super) fn try_step(&mut self, size: f64, demand: Demand) -> Result<Tried, StepError> {
         self.has_stepped = false;
         self.effort.restart();
         let found = self.find_next(size, demand);
@@ -81,7 +80,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.corrections.note(outcome.correction);
         let is_worse = self.worst.is_none_or(|worst| {
             let (own, other) = (report.defect.abs(), worst.defect.abs());
-            (other * report.bound).less(own * worst.bound).any()
+            other * report.bound < own * worst.bound
         });
         if is_worse {
             self.worst = Some(report);
@@ -90,7 +89,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// One step of this size, whatever its error.
-    pub(super) fn step_by(&mut self, size: S) -> StepResult<S> {
+    pub(super) fn step_by(&mut self, size: f64) -> StepResult {
         match self.try_step(size, Demand::None)? {
             Tried::Made(report) => Ok(report),
             Tried::Rejected(_) | Tried::Unseen(_) => {
@@ -100,14 +99,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Writes the next state.
-    fn find_next(&mut self, size: S, demand: Demand<S>) -> Result<Attempt<S>, StepFailure> {
-        if self.has_diverged() {
-            // Otherwise an experiment that ignores failed steps and waits for a time or state would loop forever.
-            return Err(Discord.into());
-        }
+    fn find_next(&mut self, size: f64, demand: Demand) -> Result<Attempt, StepFailure> {
         let end = self.time() + size;
         if !end.is_finite() {
-            let value = end.to_f64();
+            let value = end;
             return Err(StepFailure::Time { value });
         }
         if self.has_loads {
@@ -143,7 +138,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The loads of a step of this size.
-    pub(super) fn evaluate_loads(&mut self, size: S) -> Result<(), StepFailure> {
+    pub(super) fn evaluate_loads(&mut self, size: f64) -> Result<(), StepFailure> {
         let span = [self.time(), size];
         match &mut self.stepper {
             Stepper::Newton(newton) if self.has_loads => {
@@ -156,16 +151,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The error with a shorter step that can be made instead, if trying finds one; the simulation is unchanged.
     #[cold]
-    pub(super) fn with_shorter(&mut self, mut error: StepError, size: S) -> StepError {
-        if S::LANES > 1 || self.control.is_some() || !error.failure.depends_on_step() {
+    pub(super) fn with_shorter(&mut self, mut error: StepError, size: f64) -> StepError {
+        if self.control.is_some() || !error.failure.depends_on_step() {
             return error;
         }
         let before = self.snapshot();
         let mut shorter = size;
         for _ in 0..HALVINGS {
-            shorter *= S::from_f64(0.5);
+            shorter *= 0.5;
             if self.step_by(shorter).is_ok() {
-                error.shorter = Some(shorter.to_f64());
+                error.shorter = Some(shorter);
                 break;
             }
         }

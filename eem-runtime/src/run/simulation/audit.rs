@@ -9,7 +9,7 @@ use crate::run::checkpoint::{Numbers, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::loads::{Course, MOTION_ROUNDINGS, extent};
 use eem_material::number::digest::Digest;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// How far from the time of a state a function of time may have been evaluated for it, in ε of that time.
 ///
@@ -17,10 +17,10 @@ use eem_material::number::scalar::{Mask, Real};
 /// sum of t and h is another ε, and a run moves its last time to the end time by at most two more.
 const TIME_ROUNDINGS: f64 = 4.0;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Digests of the numbers of the scene.
     pub(super) fn numbers(&self) -> Numbers {
-        let of_list = |numbers: &[S]| {
+        let of_list = |numbers: &[f64]| {
             Digest::of(|digest| numbers.iter().for_each(|&number| digest.number(number)))
         };
         Numbers {
@@ -31,7 +31,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }),
             masses: Digest::of(|digest| {
                 for mass in self.masses.iter() {
-                    digest.number(mass.unwrap_or(S::zero()));
+                    digest.number(mass.unwrap_or(0.0));
                 }
                 for pair in self.masses.pairs().iter().chain(self.masses.held()) {
                     let [first, second] = pair.nodes();
@@ -62,11 +62,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// An error unless the scene can be in a state, whose numbers are finite, after a step of this size, s.
-    pub(super) fn audit(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
-        if state.time.value.less(self.start).any() {
+    pub(super) fn audit(&self, state: &State, step: f64) -> Result<(), RestoreError> {
+        if state.time.value < self.start {
             return Err(RestoreError::Value {
                 quantity: "time",
-                value: state.time.value.to_f64(),
+                value: state.time.value,
                 required: "not before the start of the scene",
             });
         }
@@ -91,7 +91,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Where masses couple nodes, `p = M v` must hold, and only moved anchors may have a velocity.
-    fn audit_velocities(&self, state: &State<S>) -> Result<(), RestoreError> {
+    fn audit_velocities(&self, state: &State) -> Result<(), RestoreError> {
         let velocities: Vec<_> = state.velocities.sums().collect();
         let motions = self.loads.motions.iter();
         let moved: BTreeSet<_> = motions.map(|(node, _)| node.index).collect();
@@ -106,21 +106,23 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut expected = state.clone();
         expected.follow_velocities(D, &self.masses);
         let mut pairs = expected.momenta.values().iter().zip(state.momenta.values());
-        match pairs.find(|(expected, value)| !expected.equal(**value).all()) {
+        #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
+        let different = |(expected, value): &(&f64, &f64)| expected != value;
+        match pairs.find(different) {
             None => Ok(()),
             Some((_, value)) => Err(RestoreError::Value {
                 quantity: "momenta",
-                value: value.to_f64(),
+                value: *value,
                 required: "those of the velocities, p = M v",
             }),
         }
     }
 
     /// Anchors must be where they were created or where their motion puts them, and have no momentum but that of solids.
-    fn audit_anchors(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
+    fn audit_anchors(&self, state: &State, step: f64) -> Result<(), RestoreError> {
         let scale = extent(state.positions.values().iter());
         let (time, created) = (state.time.value, self.state.positions.values());
-        let begin = (time - step).maximum(self.start);
+        let begin = Scalar::maximum(time - step, self.start);
         let positions: Vec<_> = state.positions.sums().collect();
         let momenta: Vec<_> = state.momenta.sums().collect();
         let motions = self.loads.motions.iter();
@@ -145,18 +147,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     Course::Function(of) => Some(of),
                     Course::Constant(_) | Course::Set(_) => None,
                 });
-                let is_right = motion.map_or(
-                    value.equal(created).all() && carry.equal(S::zero()).all(),
-                    |by| follows(&|time| by(time)[axis], value, [time, begin], scale),
-                );
+                #[expect(clippy::float_cmp, reason = "nothing has moved it")]
+                let is_at_home = value == created && carry == 0.0;
+                let is_right = motion.map_or(is_at_home, |by| {
+                    follows(&|time| by(time)[axis], value, [time, begin], scale)
+                });
                 if !is_right {
                     let expected = motion.map_or(created, |by| by(time)[axis]);
                     return Err(RestoreError::Anchor {
                         node,
                         axis,
-                        checkpoint: (value + carry).to_f64(),
-                        simulation: expected.to_f64(),
-                        time: time.to_f64(),
+                        checkpoint: value + carry,
+                        simulation: expected,
+                        time,
                     });
                 }
             }
@@ -165,7 +168,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Elements with thermostats must have the prescribed temperatures.
-    fn audit_thermostats(&self, state: &State<S>) -> Result<(), RestoreError> {
+    fn audit_thermostats(&self, state: &State) -> Result<(), RestoreError> {
         let time = state.time.value;
         for (element, temperature) in &self.loads.temperatures {
             let Some(slot) = self.slots(*element).thermal else {
@@ -178,9 +181,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             if !follows(&**temperature, own, [time; 2], own) {
                 return Err(RestoreError::Thermostat {
                     element: *element,
-                    checkpoint: own.to_f64(),
-                    simulation: temperature(time).to_f64(),
-                    time: time.to_f64(),
+                    checkpoint: own,
+                    simulation: temperature(time),
+                    time,
                 });
             }
         }
@@ -189,9 +192,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 /// A sum, unless it and its compensation are zero.
-fn not_zero<S: Real>((value, carry): (S, S)) -> Option<f64> {
-    let is_zero = value.equal(S::zero()).all() && carry.equal(S::zero()).all();
-    (!is_zero).then(|| (value + carry).to_f64())
+fn not_zero((value, carry): (f64, f64)) -> Option<f64> {
+    let is_zero = value == 0.0 && carry == 0.0;
+    (!is_zero).then_some(value + carry)
 }
 
 /// Whether a value of this scale is that of a function at a time, to the rounding of both.
@@ -199,18 +202,18 @@ fn not_zero<S: Real>((value, carry): (S, S)) -> Option<f64> {
 /// The function may have been evaluated a few roundings before or after the time. Its values there are compared only if
 /// its value at the time does not explain the value. The scale of a position includes the function at the beginning of
 /// the step, because the step added the difference.
-fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, [time, begin]: [S; 2], scale: S) -> bool {
+fn follows(function: &dyn Fn(f64) -> f64, value: f64, [time, begin]: [f64; 2], scale: f64) -> bool {
     let now = function(time);
-    let roundings = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON;
-    let bound = roundings * scale.maximum(now.abs());
-    if (value - now).abs().at_most(bound).all() {
+    let roundings = MOTION_ROUNDINGS * f64::EPSILON;
+    let bound = roundings * Scalar::maximum(scale, now.abs());
+    if (value - now).abs() <= bound {
         return true;
     }
-    let distance = S::from_f64(TIME_ROUNDINGS) * S::EPSILON * time;
+    let distance = TIME_ROUNDINGS * f64::EPSILON * time;
     let ends = [time - distance, time + distance].map(function);
     let begin = function(begin);
-    let bound = bound.maximum(roundings * begin.abs());
-    let low = ends.into_iter().fold(now, S::minimum) - bound;
-    let high = ends.into_iter().fold(now, S::maximum) + bound;
-    (low.at_most(value) & value.at_most(high)).all()
+    let bound = Scalar::maximum(bound, roundings * begin.abs());
+    let low = ends.into_iter().fold(now, Scalar::minimum) - bound;
+    let high = ends.into_iter().fold(now, Scalar::maximum) + bound;
+    (low..=high).contains(&value)
 }

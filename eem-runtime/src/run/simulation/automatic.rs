@@ -8,31 +8,31 @@ use crate::element::state::Energy;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::control::Controller;
-use crate::step::error::{StepError, StepFailure};
+use crate::step::error::StepFailure;
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::SavedPast;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// The scheme in use, with its history and the energies of the elements as it evaluated them.
-pub(super) struct SchemeAtWork<S> {
+pub(super) struct SchemeAtWork {
     pub(super) scheme: Scheme,
-    past: SavedPast<S>,
-    explicit: Option<SavedExplicit<S>>,
-    energies: Vec<Energy<S>>,
+    past: SavedPast,
+    explicit: Option<SavedExplicit>,
+    energies: Vec<Energy>,
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// An accurate step by the scheme that is likely to be the cheapest; the state is unchanged if there is none.
-    pub(super) fn step_of_choice(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
+    pub(super) fn step_of_choice(&mut self, control: &mut Control, end: f64) -> StepResult {
         self.judge_trial(control);
         if self.in_use.closing() == Closing::Explicit {
             self.measure_stability(control);
         } else {
             self.try_explicit(control);
         }
-        if let Some(report) = self.try_implicit(control, end)? {
+        if let Some(report) = self.try_implicit(control, end) {
             return Ok(report);
         }
         self.step_by_some_scheme(control, end)
@@ -48,7 +48,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A step of the present scheme, or of another one if it finds none.
-    fn step_by_some_scheme(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
+    fn step_by_some_scheme(&mut self, control: &mut Control, end: f64) -> StepResult {
         let (own, usual) = (self.in_use, self.step);
         let mut failed = match self.counted_step(control, end) {
             Ok(report) => return Ok(report),
@@ -77,16 +77,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Whether a scheme suits the scene and the tolerance.
-    fn is_candidate(&self, scheme: Scheme, control: &Control<S>) -> bool {
+    fn is_candidate(&self, scheme: Scheme, control: &Control) -> bool {
         let suits = self.automatic.needs.allows(scheme);
         suits && control.memory.tolerance.check(scheme.accuracy()).is_ok()
     }
 
     /// A step of the present scheme, whose effort is counted.
-    fn counted_step(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
+    fn counted_step(&mut self, control: &mut Control, end: f64) -> StepResult {
         let before = self.stepper.evaluations();
         let found = self.find_accurate_step(control, end);
-        let time = found.as_ref().map_or(0.0, |report| report.step.to_f64());
+        let time = found.as_ref().map_or(0.0, |report| report.step);
         self.count(before, time);
         found
     }
@@ -99,7 +99,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// From time to time compares the explicit step with the limit of stability.
-    fn measure_stability(&mut self, control: &Control<S>) {
+    fn measure_stability(&mut self, control: &Control) {
         if let Stepper::Explicit(explicit) = &mut self.stepper
             && self.automatic.selection.looks()
         {
@@ -110,29 +110,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// One step of another implicit scheme, if a trial is due and the step is accurate.
-    fn try_implicit(
-        &mut self,
-        control: &mut Control<S>,
-        end: S,
-    ) -> Result<Option<StepReport<S>>, StepError> {
-        let Some((scheme, size)) = self.implicit_trial(control) else {
-            return Ok(None);
-        };
-        let size = S::from_f64(size);
-        if self.size_towards(end, size)?.is_some() {
-            return Ok(None);
+    fn try_implicit(&mut self, control: &mut Control, end: f64) -> Option<StepReport> {
+        let (scheme, size) = self.implicit_trial(control)?;
+        if self.size_towards(end, size).is_some() {
+            return None;
         }
         let (before, usual) = (self.scheme_at_work(), self.step);
         let spent = self.automatic.selection.spent;
-        if size.at_most(control.memory.largest).all() && self.switches_to(scheme, control) {
+        if size <= control.memory.largest && self.switches_to(scheme, control) {
             let tried = self.attempt(control, size);
             if let Ok(Tried::Made(report)) = tried {
-                self.count(0, report.step.to_f64());
+                self.count(0, report.step);
                 let controller = &mut control.memory.controller;
                 self.step = controller.next(size, report.error, control.accuracy);
                 self.accept(control);
                 self.record_switch(control, usual);
-                return Ok(Some(report));
+                return Some(report);
             }
             self.count(0, 0.0);
             let statistics = &mut control.memory.statistics;
@@ -144,15 +137,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             self.return_to_scheme(&before, control);
         }
         self.automatic.selection.reject_implicit(self.in_use, spent);
-        Ok(None)
+        None
     }
 
     /// The implicit scheme whose trial is due, and the size of its step, s.
-    fn implicit_trial(&mut self, control: &Control<S>) -> Option<(Scheme, f64)> {
+    fn implicit_trial(&mut self, control: &Control) -> Option<(Scheme, f64)> {
         let selection = &mut self.automatic.selection;
         let is_due = match self.in_use {
             Scheme::EemExplicit => selection.is_limited(),
-            _ => selection.has_settled(self.step.to_f64()),
+            _ => selection.has_settled(self.step),
         };
         if !is_due || !selection.may_try_implicit() {
             return None;
@@ -161,15 +154,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let others = implicit(self.in_use, tolerance, unknowns);
         let others = others.filter(|&scheme| self.is_candidate(scheme, control));
         let scheme = self.automatic.selection.next_in_turn(self.in_use, others)?;
-        let (schemes, relative) = ([self.in_use, scheme], tolerance.relative.to_f64());
+        let (schemes, relative) = ([self.in_use, scheme], tolerance.relative);
         let selection = &mut self.automatic.selection;
         let size = selection.implicit_trial(schemes, unknowns, relative)?;
         Some((scheme, size))
     }
 
     /// Switches to the explicit scheme for some steps, if a trial is due.
-    fn try_explicit(&mut self, control: &mut Control<S>) {
-        let size = self.step.to_f64();
+    fn try_explicit(&mut self, control: &mut Control) {
+        let size = self.step;
         if !self.is_candidate(Scheme::EemExplicit, control)
             || !self.automatic.selection.tries_explicit(size)
         {
@@ -181,31 +174,31 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.automatic.previous = previous;
         let size = self.automatic.selection.begin_trial(size);
-        self.step = S::from_f64(size).minimum(self.step);
+        self.step = Scalar::minimum(size, self.step);
     }
 
     /// Ends the trial of the explicit scheme, if enough is known.
-    fn judge_trial(&mut self, control: &mut Control<S>) {
-        match self.automatic.selection.judge(self.step.to_f64()) {
+    fn judge_trial(&mut self, control: &mut Control) {
+        match self.automatic.selection.judge(self.step) {
             Verdict::None => {}
             Verdict::Keep => control.memory.statistics.changes_of_scheme += 1,
             Verdict::Return(size) => {
                 // Without memory for it, the explicit scheme continues with its own steps.
                 if self.switches_to(self.automatic.previous, control) {
-                    self.step = S::from_f64(size);
+                    self.step = size;
                 }
             }
         }
     }
 
     /// Records a switch of the scheme and the previous step size.
-    fn record_switch(&mut self, control: &mut Control<S>, last: S) {
+    fn record_switch(&mut self, control: &mut Control, last: f64) {
         control.memory.statistics.changes_of_scheme += 1;
-        self.automatic.selection.change(last.to_f64());
+        self.automatic.selection.change(last);
     }
 
     /// Switches to a scheme. False, with a note in the statistics, if there is no memory for it.
-    fn switches_to(&mut self, scheme: Scheme, control: &mut Control<S>) -> bool {
+    fn switches_to(&mut self, scheme: Scheme, control: &mut Control) -> bool {
         if let Err(too_large) = self.use_scheme(scheme) {
             control.memory.statistics.too_large = Some(too_large);
             return false;
@@ -222,7 +215,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The scheme in use with its history, which [`resume_scheme`](Self::resume_scheme) restores.
-    pub(super) fn scheme_at_work(&self) -> SchemeAtWork<S> {
+    pub(super) fn scheme_at_work(&self) -> SchemeAtWork {
         let (past, explicit) = self.stepper.past(&self.state);
         SchemeAtWork {
             scheme: self.in_use,
@@ -233,14 +226,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Returns to the scheme before a trial, if there is memory for it.
-    fn return_to_scheme(&mut self, before: &SchemeAtWork<S>, control: &mut Control<S>) {
+    fn return_to_scheme(&mut self, before: &SchemeAtWork, control: &mut Control) {
         if self.in_use == before.scheme || self.switches_to(before.scheme, control) {
             self.resume_scheme(before);
         }
     }
 
     /// Restores the history of the scheme in use and its energies; the state must be that of `scheme_at_work`.
-    pub(super) fn resume_scheme(&mut self, before: &SchemeAtWork<S>) {
+    pub(super) fn resume_scheme(&mut self, before: &SchemeAtWork) {
         self.stepper.restore(&before.past, before.explicit.as_ref());
         self.state.energies.copy_from_slice(&before.energies);
     }
@@ -257,7 +250,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The choice of a scheme in a checkpoint, if it suits this scene.
     pub(super) fn choice_in(
         &self,
-        checkpoint: &Checkpoint<S>,
+        checkpoint: &Checkpoint,
     ) -> Result<Option<SavedChoice>, RestoreError> {
         let saved = checkpoint.choice.filter(|_| self.scheme == Scheme::Auto);
         let suits = |scheme| CANDIDATES.contains(&scheme) && self.automatic.needs.allows(scheme);

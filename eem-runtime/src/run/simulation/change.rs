@@ -15,9 +15,8 @@ use crate::scene::error::SceneError;
 use crate::step::automatic::SchemeSelection;
 use crate::step::control::{Controller, Tolerance};
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The same run with another scheme from here on.
     ///
     /// Time, state with its compensated rounding, sums of work and heat, loads, settings, step size and tolerance stay. Only the
@@ -46,7 +45,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!((run.ledger().energy - energy).abs() < 1e-16);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn with_scheme(mut self, scheme: Scheme) -> Result<Self, RefusedChange<D, S>> {
+    pub fn with_scheme(mut self, scheme: Scheme) -> Result<Self, RefusedChange<D>> {
         match (Functions::get().change_scheme)(&mut self, scheme) {
             Ok(()) => Ok(self),
             Err(error) => Err(RefusedChange {
@@ -71,9 +70,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             None if scheme == Scheme::Auto => Some(Self::new_control(Tolerance::default())),
             None => None,
         };
-        let checked = self.automatic.needs.check(in_use);
-        checked.inspect_err(|_| self.diverge())?;
-        self.check_control(control, (scheme, in_use))?;
+        self.automatic.needs.check(in_use)?;
+        Self::check_control(control, (scheme, in_use))?;
         self.automatic.is_motion_first = self.is_motion_first();
         if in_use != self.in_use {
             self.use_scheme(in_use)?;
@@ -159,12 +157,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 /// run.run_until(1.0)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct RefusedChange<const D: usize, S: Real = f64> {
-    run: Box<Simulation<D, S>>,
+pub struct RefusedChange<const D: usize> {
+    run: Box<Simulation<D>>,
     error: SceneError,
 }
 
-impl<const D: usize, S: Real> RefusedChange<D, S> {
+impl<const D: usize> RefusedChange<D> {
     /// Why the scheme cannot step the scene.
     #[must_use]
     pub const fn error(&self) -> &SceneError {
@@ -173,28 +171,28 @@ impl<const D: usize, S: Real> RefusedChange<D, S> {
 
     /// The run as it was.
     #[must_use]
-    pub fn into_run(self) -> Simulation<D, S> {
+    pub fn into_run(self) -> Simulation<D> {
         *self.run
     }
 }
 
-impl<const D: usize, S: Real> fmt::Display for RefusedChange<D, S> {
+impl<const D: usize> fmt::Display for RefusedChange<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.error.fmt(f)
     }
 }
 
-impl<const D: usize, S: Real> fmt::Debug for RefusedChange<D, S> {
+impl<const D: usize> fmt::Debug for RefusedChange<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut all = f.debug_struct("RefusedChange");
         all.field("error", &self.error).finish_non_exhaustive()
     }
 }
 
-impl<const D: usize, S: Real> Error for RefusedChange<D, S> {}
+impl<const D: usize> Error for RefusedChange<D> {}
 
-impl<const D: usize, S: Real> From<RefusedChange<D, S>> for SceneError {
-    fn from(refused: RefusedChange<D, S>) -> Self {
+impl<const D: usize> From<RefusedChange<D>> for SceneError {
+    fn from(refused: RefusedChange<D>) -> Self {
         refused.error
     }
 }

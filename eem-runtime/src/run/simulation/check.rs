@@ -8,7 +8,7 @@ use crate::step::automatic::FIRST;
 use crate::step::control::Tolerance;
 use crate::step::features::Feature;
 use crate::step::scheme::{Closing, Scheme};
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// The features of a scene that not every scheme can step.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub(super) struct Needs {
 
 impl Needs {
     /// The features of this scene.
-    pub(super) fn of<const D: usize, S: Real>(scene: &Scene<D, S>) -> Self {
+    pub(super) fn of<const D: usize>(scene: &Scene<D>) -> Self {
         let group = |index: usize| scene.groups.get(index);
         let has_drag = |index| group(index).is_some_and(|group| group.shape().drag);
         let drag = scene
@@ -79,10 +79,10 @@ impl Needs {
 }
 
 /// All errors of a scene, the scheme for it and the step.
-pub(super) fn check_all<const D: usize, S: Real>(
-    scene: &Scene<D, S>,
+pub(super) fn check_all<const D: usize>(
+    scene: &Scene<D>,
     (scheme, needs): (Scheme, Needs),
-    step: S,
+    step: f64,
 ) -> Vec<SceneError> {
     let mut errors = scene.check();
     errors.extend(needs.check(scheme).err());
@@ -91,18 +91,18 @@ pub(super) fn check_all<const D: usize, S: Real>(
 }
 
 /// An error unless a step is positive and finite.
-pub(super) fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
+pub(super) fn check_step(step: f64) -> Result<(), SceneError> {
     if is_positive(step) {
         Ok(())
     } else {
-        let value = step.to_f64();
+        let value = step;
         Err(SceneError::Step { value })
     }
 }
 
 /// An error unless steps of a scheme, and of the one that it uses first, can be controlled with a tolerance.
-pub(super) fn check_tolerance<S: Real>(
-    tolerance: &Tolerance<S>,
+pub(super) fn check_tolerance(
+    tolerance: &Tolerance,
     (scheme, in_use): (Scheme, Scheme),
 ) -> Result<(), SceneError> {
     if scheme.may_change_steps() {

@@ -1,8 +1,8 @@
-//! Simulations in double precision in one to three dimensions are compiled with this crate.
+//! Simulations in one to three dimensions are compiled with this crate.
 //!
 //! Generic functions are compiled again in every optimised program that calls them: a program with one material took 30
 //! CPU seconds, and takes 7 without those of `Simulation`. So the work of a simulation starts in a table of functions:
-//! that of this crate or, for other scalars and dimensions, one that is compiled where it is used.
+//! that of this crate or, for other dimensions, one that is compiled where it is used.
 
 #[cfg(not(test))]
 use core::any::Any;
@@ -19,20 +19,19 @@ use crate::step::control::Tolerance;
 use crate::step::error::StepError;
 use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
 
 /// The kind of a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Aim<S> {
+pub(super) enum Aim {
     /// To this time, s, or to an earlier one.
-    Towards(S),
+    Towards(f64),
     /// The same without a change of the scheme.
-    InSchemeTowards(S),
+    InSchemeTowards(f64),
     /// Of this size, s, after the last step has been undone.
-    Again(S),
+    Again(f64),
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Checks a scene and prepares it for steps of the size `step`, s, with `scheme`.
     ///
     /// Steps have this size unless [`control_steps`](Self::control_steps) is called. [`Scheme::Auto`] uses step
@@ -55,7 +54,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert_eq!(run.ledger().kinetic_energy, 9.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, RefusedScene<D, S>> {
+    pub fn new(scene: Scene<D>, scheme: Scheme, step: f64) -> Result<Self, RefusedScene<D>> {
         (Functions::get().new)(scene, scheme, Begin::WithStep(step))
     }
 
@@ -88,10 +87,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn with_tolerance(
-        scene: Scene<D, S>,
+        scene: Scene<D>,
         scheme: Scheme,
-        tolerance: Tolerance<S>,
-    ) -> Result<Self, RefusedScene<D, S>> {
+        tolerance: Tolerance,
+    ) -> Result<Self, RefusedScene<D>> {
         (Functions::get().new)(scene, scheme, Begin::WithTolerance(tolerance))
     }
 
@@ -112,16 +111,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert_eq!((report.time, run.position(mass)?[0]), (0.5, 1.5));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
-        self.advance(Aim::Towards(S::from_f64(f64::INFINITY)))
+    pub fn step(&mut self) -> Result<StepReport, StepError> {
+        self.advance(Aim::Towards(f64::INFINITY))
     }
 
     /// Makes one step.
-    pub(super) fn advance(&mut self, aim: Aim<S>) -> StepResult<S> {
+    pub(super) fn advance(&mut self, aim: Aim) -> StepResult {
         (Functions::get().advance)(self, aim)
     }
 
-    fn advance_here(&mut self, aim: Aim<S>) -> StepResult<S> {
+    fn advance_here(&mut self, aim: Aim) -> StepResult {
         self.begin_meters();
         let made = match aim {
             Aim::Towards(end) => self.step_towards(end, true),
@@ -138,33 +137,33 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 /// See [`end_at_event`](Simulation::end_at_event).
-type EndAtEvent<const D: usize, S> =
-    fn(&mut Simulation<D, S>, &mut [Event<'_, D, S>], StepReport<S>, S) -> StepResult<S>;
+type EndAtEvent<const D: usize> =
+    fn(&mut Simulation<D>, &mut [Event<'_, D>], StepReport, f64) -> StepResult;
 
 /// A simulation, or why its scene is rejected.
-type NewResult<const D: usize, S> = Result<Simulation<D, S>, RefusedScene<D, S>>;
+type NewResult<const D: usize> = Result<Simulation<D>, RefusedScene<D>>;
 
 /// The functions in which the work of a simulation starts.
-pub(super) struct Functions<const D: usize, S: Real> {
-    new: fn(Scene<D, S>, Scheme, Begin<S>) -> NewResult<D, S>,
-    advance: fn(&mut Simulation<D, S>, Aim<S>) -> StepResult<S>,
-    pub(super) end_at_event: EndAtEvent<D, S>,
-    pub(super) undo: fn(&mut Simulation<D, S>),
-    pub(super) checkpoint: fn(&Simulation<D, S>) -> Checkpoint<S>,
-    pub(super) restore: fn(&mut Simulation<D, S>, &Checkpoint<S>) -> Result<(), RestoreError>,
-    pub(super) change_scheme: fn(&mut Simulation<D, S>, Scheme) -> Result<(), SceneError>,
-    pub(super) ledger: fn(&Simulation<D, S>) -> Ledger<D, S>,
+pub(super) struct Functions<const D: usize> {
+    new: fn(Scene<D>, Scheme, Begin) -> NewResult<D>,
+    advance: fn(&mut Simulation<D>, Aim) -> StepResult,
+    pub(super) end_at_event: EndAtEvent<D>,
+    pub(super) undo: fn(&mut Simulation<D>),
+    pub(super) checkpoint: fn(&Simulation<D>) -> Checkpoint,
+    pub(super) restore: fn(&mut Simulation<D>, &Checkpoint) -> Result<(), RestoreError>,
+    pub(super) change_scheme: fn(&mut Simulation<D>, Scheme) -> Result<(), SceneError>,
+    pub(super) ledger: fn(&Simulation<D>) -> Ledger<D>,
 }
 
 /// Not for the unit tests of this crate, which run no simulation: everything behind a `static` is compiled, in 50 s.
 #[cfg(not(test))]
-static LINE: Functions<1, f64> = Functions::HERE;
+static LINE: Functions<1> = Functions::HERE;
 #[cfg(not(test))]
-static PLANE: Functions<2, f64> = Functions::HERE;
+static PLANE: Functions<2> = Functions::HERE;
 #[cfg(not(test))]
-static SPACE: Functions<3, f64> = Functions::HERE;
+static SPACE: Functions<3> = Functions::HERE;
 
-impl<const D: usize, S: Real> Functions<D, S> {
+impl<const D: usize> Functions<D> {
     /// Compiled where they are used.
     const HERE: Self = Self {
         new: Simulation::begin,
@@ -181,11 +180,11 @@ impl<const D: usize, S: Real> Functions<D, S> {
     #[inline]
     pub(super) fn get() -> &'static Self {
         #[cfg(not(test))]
-        if const { S::IS_DOUBLE && D == 1 } {
+        if const { D == 1 } {
             return cast(&LINE);
-        } else if const { S::IS_DOUBLE && D == 2 } {
+        } else if const { D == 2 } {
             return cast(&PLANE);
-        } else if const { S::IS_DOUBLE && D == 3 } {
+        } else if const { D == 3 } {
             return cast(&SPACE);
         }
         const { &Self::HERE }
@@ -195,8 +194,8 @@ impl<const D: usize, S: Real> Functions<D, S> {
 /// The same table by its own type.
 #[cfg(not(test))]
 #[inline]
-fn cast<const D: usize, S: Real>(functions: &'static dyn Any) -> &'static Functions<D, S> {
+fn cast<const D: usize>(functions: &'static dyn Any) -> &'static Functions<D> {
     functions
         .downcast_ref()
-        .expect("the scalar is f64, and the dimension that of the table")
+        .expect("the dimension is that of the table")
 }

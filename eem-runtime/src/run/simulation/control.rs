@@ -15,13 +15,13 @@ use crate::step::control::{AFTER_FAILURE, Controller, StepStatistics, Tolerance,
 use crate::step::error::{StepError, StepFailure, StepLimit};
 use crate::step::explicit::Demand;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::{Discord, Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// The fraction of its size with which a step that would pass over a load is tried again.
 const AFTER_PASSING: f64 = 0.5;
 
 /// # Step control
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Switches step control on: steps get the size that the tolerance requires. The present size is tried first.
     ///
     /// A step that fails, is not accurate or does not prove its laws is repeated with a smaller size.
@@ -52,21 +52,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!(run.step_statistics().is_some_and(|steps| steps.accepted > 100));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn control_steps(&mut self, tolerance: Tolerance<S>) -> Result<(), SceneError> {
+    pub fn control_steps(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
         let memory = Some(Self::new_control(tolerance));
-        self.check_control(memory, (self.scheme, self.in_use))?;
+        Self::check_control(memory, (self.scheme, self.in_use))?;
         self.set_control(memory);
         Ok(())
     }
 
     /// Finds the first step for a tolerance, and the velocities of moved anchors within it.
-    pub(super) fn find_first_step(&mut self, tolerance: &Tolerance<S>) {
+    pub(super) fn find_first_step(&mut self, tolerance: &Tolerance) {
         let step = self
             .least
             .first_step(tolerance.relative, self.in_use.accuracy());
         // Longer than the rounding of the time.
-        let least = S::from_f64(SMALLEST) * S::EPSILON * self.start.abs();
-        self.step = step.maximum(least);
+        let least = SMALLEST * f64::EPSILON * self.start.abs();
+        self.step = Scalar::maximum(step, least);
         let mut velocities = self.state.velocities.values().to_vec();
         // Those of a longer step have been found.
         let span = [self.start, self.step];
@@ -78,37 +78,35 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The history of step control before the first step.
-    pub(super) fn new_control(tolerance: Tolerance<S>) -> SavedControl<S> {
+    pub(super) fn new_control(tolerance: Tolerance) -> SavedControl {
         SavedControl {
             tolerance,
             controller: Controller::new(),
             statistics: StepStatistics::default(),
-            largest_momentum: S::zero(),
-            smallest: S::zero(),
-            largest: S::MAX,
+            largest_momentum: 0.0,
+            smallest: 0.0,
+            largest: f64::MAX,
         }
     }
 
     /// An error unless steps of a scheme, and of the one that it uses first, can be controlled with this tolerance.
     pub(super) fn check_control(
-        &self,
-        memory: Option<SavedControl<S>>,
+        memory: Option<SavedControl>,
         (scheme, in_use): (Scheme, Scheme),
     ) -> Result<(), SceneError> {
         let Some(memory) = memory else {
             return Ok(());
         };
-        let checked = check_tolerance(&memory.tolerance, (scheme, in_use));
-        checked.inspect_err(|_| self.diverge())
+        check_tolerance(&memory.tolerance, (scheme, in_use))
     }
 
     /// Continues step control from its history; `None` switches it off.
-    pub(super) fn set_control(&mut self, memory: Option<SavedControl<S>>) {
+    pub(super) fn set_control(&mut self, memory: Option<SavedControl>) {
         self.control = memory.map(|memory| Box::new(self.control_of(memory)));
     }
 
     /// Step control of the scheme in use with this history.
-    pub(super) fn control_of(&self, memory: SavedControl<S>) -> Control<S> {
+    pub(super) fn control_of(&self, memory: SavedControl) -> Control {
         let accuracy = self.in_use.accuracy();
         let accuracy = match memory.tolerance.over {
             Some(_) => accuracy.over_time(),
@@ -131,7 +129,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The tolerance of step control; `None` if it is off.
     #[must_use]
-    pub fn tolerance(&self) -> Option<Tolerance<S>> {
+    pub fn tolerance(&self) -> Option<Tolerance> {
         Some(self.control.as_ref()?.memory.tolerance)
     }
 
@@ -149,20 +147,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// [`SceneError::StepLimits`] unless both are positive and finite, the first is not above the second, and steps
     /// are [controlled](Self::control_steps). The old limits remain.
-    pub fn limit_steps(&mut self, [smallest, largest]: [S; 2]) -> Result<(), SceneError> {
-        let is_range = S::zero().less(smallest) & smallest.at_most(largest) & largest.less(S::MAX);
+    pub fn limit_steps(&mut self, [smallest, largest]: [f64; 2]) -> Result<(), SceneError> {
+        let is_range = smallest > 0.0 && smallest <= largest && largest < f64::MAX;
         match &mut self.control {
-            Some(control) if is_range.all() => {
+            Some(control) if is_range => {
                 control.memory.smallest = smallest;
                 control.memory.largest = largest;
                 Ok(())
             }
             control => {
                 let is_controlled = control.is_some();
-                self.diverge();
                 Err(SceneError::StepLimits {
-                    smallest: smallest.to_f64(),
-                    largest: largest.to_f64(),
+                    smallest,
+                    largest,
                     is_controlled,
                 })
             }
@@ -171,14 +168,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// One step by the scheme in use, not beyond `end`, of an accurate size if steps are controlled; by another scheme
     /// if that is allowed and cheaper.
-    pub(super) fn step_towards(&mut self, end: S, may_switch: bool) -> StepResult<S> {
+    pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> StepResult {
         let (horizon, mut end) = (end, end);
         if !self.loads.stops.is_empty() {
             end = self.stop_before(end);
         }
         if self.control.is_none() {
             let full = self.step;
-            let last = self.size_towards(end, full)?;
+            let last = self.size_towards(end, full);
             let size = last.unwrap_or(full);
             let made = self.step_by(size);
             let mut report = made.map_err(|error| self.with_shorter(error, size))?;
@@ -186,10 +183,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 self.arrive_at(end, &mut report);
             }
             return Ok(report);
-        }
-        if S::LANES > 1 {
-            // Each lane needs steps of its own.
-            return Err(self.refused(Discord.into()));
         }
         // A step in the scheme goes to a time within one that has looked.
         let looks = may_switch;
@@ -208,7 +201,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         });
         if found.is_err() {
             let statistics = self.step_statistics();
-            self.restore_history(history);
+            self.restore_history(&history);
             if let (Some(control), Some(statistics)) = (&mut self.control, statistics) {
                 control.memory.statistics = statistics;
             }
@@ -217,7 +210,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Calls a function with step control taken out of the simulation; it is put back even if a load panics.
-    fn with_control<T>(&mut self, act: impl FnOnce(&mut Self, Option<&mut Control<S>>) -> T) -> T {
+    fn with_control<T>(&mut self, act: impl FnOnce(&mut Self, Option<&mut Control>) -> T) -> T {
         let control = self.control.take();
         let mut guard = Guard::new((self, control), |(run, control)| {
             run.control = control.take();
@@ -227,18 +220,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// An accurate step of the scheme in use, not beyond `end`.
-    pub(super) fn find_accurate_step(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
+    pub(super) fn find_accurate_step(&mut self, control: &mut Control, end: f64) -> StepResult {
         let usual = self.step;
         loop {
             let memory = &control.memory;
-            self.step = self.step.maximum(memory.smallest).minimum(memory.largest);
+            self.step =
+                Scalar::minimum(Scalar::maximum(self.step, memory.smallest), memory.largest);
             let full = self.step;
-            let arriving = self.size_towards(end, full)?;
+            let arriving = self.size_towards(end, full);
             let size = arriving.unwrap_or(full);
             let (next, limit) = match self.attempt(control, size) {
                 Ok(Tried::Made(mut report)) => {
                     // A step that the end has shortened says nothing about the next ones.
-                    if !size.less(full).all() {
+                    if !(size < full) {
                         let controller = &mut control.memory.controller;
                         self.step = controller.next(size, report.error, control.accuracy);
                     }
@@ -251,25 +245,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 Ok(Tried::Rejected(error)) => {
                     control.memory.statistics.rejected_by_error += 1;
                     let next = size * control.accuracy.left_after(error);
-                    let error = error.to_f64();
                     let worst = None;
                     (next, StepLimit::Error { error, worst })
                 }
-                Ok(Tried::Unseen(load)) => {
-                    (S::from_f64(AFTER_PASSING) * size, StepLimit::Load { load })
-                }
+                Ok(Tried::Unseen(load)) => (AFTER_PASSING * size, StepLimit::Load { load }),
                 Err(error) => {
                     let statistics = &mut control.memory.statistics;
                     if !statistics.note_failure(&error.failure) {
                         return Err(error);
                     }
-                    let next = S::from_f64(AFTER_FAILURE) * size;
+                    let next = AFTER_FAILURE * size;
                     (next, StepLimit::Failure(Box::new(error.failure)))
                 }
             };
             let smallest = control.smallest(self.time(), usual);
             // Also if `next` is not a number.
-            if !smallest.at_most(next).all() {
+            if !(smallest <= next) {
                 return Err(self.too_small(control, [usual, size, smallest], limit));
             }
             self.step = next;
@@ -281,16 +272,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     #[cold]
     fn too_small(
         &mut self,
-        control: &mut Control<S>,
-        [usual, size, smallest]: [S; 3],
+        control: &mut Control,
+        [usual, size, smallest]: [f64; 3],
         mut limit: StepLimit,
     ) -> StepError {
         if let StepLimit::Error { worst, .. } = &mut limit {
             *worst = self.worst_error(control, size);
         }
         let failure = StepFailure::TooSmall {
-            smallest: smallest.to_f64(),
-            is_set: smallest.at_most(control.memory.smallest).all(),
+            smallest,
+            is_set: smallest <= control.memory.smallest,
             limit: Box::new(limit),
             too_large: control.memory.statistics.too_large,
         };
@@ -298,11 +289,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Counts an accepted step.
-    pub(super) fn accept(&self, control: &mut Control<S>) {
+    pub(super) fn accept(&self, control: &mut Control) {
         let memory = &mut control.memory;
         memory.statistics.accepted += 1;
         let momentum = norm(self.state.momenta.values().iter().copied());
-        memory.largest_momentum = memory.largest_momentum.maximum(momentum);
+        memory.largest_momentum = Scalar::maximum(memory.largest_momentum, momentum);
     }
 
     /// Undoes the last step.
@@ -322,7 +313,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Another step from the beginning of the one that was undone, of this size; as accurate as that one if possible.
-    pub(super) fn step_again(&mut self, size: S) -> StepResult<S> {
+    pub(super) fn step_again(&mut self, size: f64) -> StepResult {
         self.with_control(|run, control| {
             let Some(control) = control else {
                 return run.step_by(size);
@@ -338,7 +329,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The history of step control and of the choice of a scheme.
-    pub(super) fn history(&self) -> History<S> {
+    pub(super) fn history(&self) -> History {
         History {
             step: self.step,
             control: self.control.as_ref().map(|control| control.memory),
@@ -347,7 +338,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Forgets the steps since this history.
-    pub(super) fn restore_history(&mut self, history: History<S>) {
+    pub(super) fn restore_history(&mut self, history: &History) {
         self.step = history.step;
         let choice = history.choice;
         let mut too_large = None;
@@ -364,7 +355,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A copy of everything that further steps change.
-    pub(super) fn snapshot(&self) -> Snapshot<S> {
+    pub(super) fn snapshot(&self) -> Snapshot {
         Snapshot {
             state: State::clone(&self.state),
             past: self.stepper.past(&self.state),
@@ -374,9 +365,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    pub(super) fn return_to_snapshot(&mut self, snapshot: &Snapshot<S>) {
+    pub(super) fn return_to_snapshot(&mut self, snapshot: &Snapshot) {
         // First the scheme, which evaluates energies in its own way and has a history of its own.
-        self.restore_history(snapshot.history);
+        self.restore_history(&snapshot.history);
         self.state.copy_all_from(&snapshot.state);
         let (past, explicit) = &snapshot.past;
         self.stepper.restore(past, explicit.as_ref());

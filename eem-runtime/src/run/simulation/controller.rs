@@ -9,7 +9,7 @@ use crate::run::checkpoint::{RestoreError, SavedLoads};
 use crate::scene::entry::infinite;
 use crate::scene::error::SceneError;
 use crate::scene::loads::{Course, VectorCourse};
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 use nalgebra::SVector;
 
 /// # Controllers
@@ -20,7 +20,7 @@ use nalgebra::SVector;
 /// With step control, the step in which a value jumps is as small as the jump needs: 10⁻⁴ s after a force of the size of the
 /// others, 10⁻⁷ s after a temperature that rises by 1 K, for a vibration of 1 s at a tolerance of 10⁻⁶. Controllers that set values
 /// often are cheaper with fixed steps.
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Sets a force on a mass, N, in addition to its weight. It is constant until another one is set, so that the work of a
     /// step is `f·Δq`.
     ///
@@ -44,17 +44,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert_eq!((run.ledger().work, run.ledger().kinetic_energy), (4.0, 4.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn set_force(&mut self, node: Node, force: [S; D]) -> Result<(), SceneError> {
-        let checked = self.expect_mass(node, true, "a force");
-        checked.inspect_err(|_| self.diverge())?;
+    pub fn set_force(&mut self, node: Node, force: [f64; D]) -> Result<(), SceneError> {
+        self.expect_mass(node, true, "a force")?;
         if let Some((axis, value)) = infinite(&force).next() {
-            self.diverge();
             return Err(SceneError::DeadLoad { node, axis, value });
         }
         let had_none = self.loads.forces.is_empty();
         let is_new = set(&mut self.loads.forces, node, force.into());
         let Some(is_new) = is_new else {
-            return Err(self.given(&node, "force"));
+            return Err(Self::given(&node, "force"));
         };
         let rebuilt = self.reload(is_new && had_none);
         rebuilt.inspect_err(|_| {
@@ -89,17 +87,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!((ledger.energy - ledger.work).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn set_motion(&mut self, anchor: Node, velocity: [S; D]) -> Result<(), SceneError> {
-        let checked = self.expect_mass(anchor, false, "a prescribed motion");
-        checked.inspect_err(|_| self.diverge())?;
+    pub fn set_motion(&mut self, anchor: Node, velocity: [f64; D]) -> Result<(), SceneError> {
+        self.expect_mass(anchor, false, "a prescribed motion")?;
         if let Some((axis, value)) = infinite(&velocity).next() {
-            self.diverge();
             let node = anchor;
             return Err(SceneError::Velocity { node, axis, value });
         }
         let is_new = set(&mut self.loads.motions, anchor, velocity.into());
         let Some(is_new) = is_new else {
-            return Err(self.given(&anchor, "motion"));
+            return Err(Self::given(&anchor, "motion"));
         };
         let rebuilt = self.reload(is_new);
         rebuilt.inspect_err(|_| {
@@ -111,7 +107,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Remembers where an anchor is before it is moved for the first time.
     fn note_home(&mut self, anchor: usize) {
-        let positions = points::<S, D>(self.state.positions.values());
+        let positions = points::<D>(self.state.positions.values());
         let home = positions[anchor];
         self.homes.entry(anchor).or_insert(home);
     }
@@ -146,21 +142,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn set_temperature_of(
         &mut self,
         element: Element,
-        temperature: S,
+        temperature: f64,
     ) -> Result<(), SceneError> {
-        let checked = self.thermal_slot(element);
-        checked.inspect_err(|_| self.diverge())?;
+        self.thermal_slot(element)?;
         if !is_positive(temperature) {
-            self.diverge();
-            let value = temperature.to_f64();
+            let value = temperature;
             return Err(StateError::Temperature { element, value }.into());
         }
         let mut all = self.loads.temperatures.iter_mut();
         match all.find(|(own, _)| *own == element) {
             Some((_, Course::Set(own))) => *own = temperature,
-            Some(_) => return Err(self.given(&element, "temperature")),
+            Some(_) => return Err(Self::given(&element, "temperature")),
             None => {
-                self.diverge();
                 return Err(SceneError::NoThermostat { element });
             }
         }
@@ -169,8 +162,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The error of setting a load that the scene already has as a function of time or as a constant.
-    fn given(&self, handle: &dyn ToString, quantity: &'static str) -> SceneError {
-        self.diverge();
+    fn given(handle: &dyn ToString, quantity: &'static str) -> SceneError {
         let handle = handle.to_string();
         SceneError::GivenLoad { handle, quantity }
     }
@@ -216,7 +208,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// All that controllers have set.
-    pub(super) fn saved_loads(&self) -> SavedLoads<S> {
+    pub(super) fn saved_loads(&self) -> SavedLoads {
         let mut saved = SavedLoads::none();
         for (node, force) in set_ones(&self.loads.forces) {
             saved.forced.push(node.index);
@@ -236,7 +228,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Sets what controllers had set in a checkpoint, and nothing else.
-    pub(super) fn take_loads(&mut self, saved: &SavedLoads<S>) -> Result<(), RestoreError> {
+    pub(super) fn take_loads(&mut self, saved: &SavedLoads) -> Result<(), RestoreError> {
         let (old, loads) = (self.saved_loads(), &mut self.loads);
         if old == *saved {
             return Ok(());
@@ -246,13 +238,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let forces = saved.forces.as_chunks::<D>().0;
         let velocities = saved.velocities.as_chunks::<D>().0;
-        let is_valid = |nodes: &[usize], values: &[[S; D]], mass: bool| {
+        let is_valid = |nodes: &[usize], values: &[[f64; D]], mass: bool| {
             let masses = &self.masses;
             let is_one = |&node: &usize| node < masses.len() && masses.get(node).is_some() == mass;
             let all = values.as_flattened().iter();
             nodes.len() == values.len()
                 && nodes.iter().all(is_one)
-                && all.copied().all(Real::is_finite)
+                && all.copied().all(f64::is_finite)
         };
         if !is_valid(&saved.forced, forces, true)
             || !is_valid(&saved.moved, velocities, false)
@@ -293,9 +285,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 /// The values that controllers have set.
-fn set_ones<S: Real, const D: usize>(
-    all: &[(Node, VectorCourse<S, D>)],
-) -> impl Iterator<Item = (Node, &SVector<S, D>)> {
+fn set_ones<const D: usize>(
+    all: &[(Node, VectorCourse<D>)],
+) -> impl Iterator<Item = (Node, &SVector<f64, D>)> {
     all.iter().filter_map(|(node, course)| match course {
         Course::Set(value) => Some((*node, value)),
         Course::Function(_) | Course::Constant(_) => None,
@@ -303,10 +295,10 @@ fn set_ones<S: Real, const D: usize>(
 }
 
 /// Sets the value of a node. True if the node had none before; `None` if the scene gives its value.
-fn set<S: Real, const D: usize>(
-    all: &mut Vec<(Node, VectorCourse<S, D>)>,
+fn set<const D: usize>(
+    all: &mut Vec<(Node, VectorCourse<D>)>,
     node: Node,
-    value: SVector<S, D>,
+    value: SVector<f64, D>,
 ) -> Option<bool> {
     let mut own = all.iter_mut().filter(|(own, _)| *own == node);
     match own.next() {

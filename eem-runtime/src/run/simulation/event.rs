@@ -7,7 +7,6 @@ use core::error::Error;
 use core::fmt;
 
 use super::Simulation;
-use eem_material::number::scalar::Real;
 
 /// Which changes of sign count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,10 +17,10 @@ enum Sense {
 }
 
 /// The result of the function of an event: a number whose sign counts, or an error that ends the run.
-type Value<S> = Result<S, Box<dyn Error>>;
+type Value = Result<f64, Box<dyn Error>>;
 
 /// The function of an event.
-type Function<'f, const D: usize, S> = dyn FnMut(&Simulation<D, S>) -> Value<S> + 'f;
+type Function<'f, const D: usize> = dyn FnMut(&Simulation<D>) -> Value + 'f;
 
 /// An event of a run: a function of the simulation changes its sign.
 ///
@@ -46,49 +45,49 @@ type Function<'f, const D: usize, S> = dyn FnMut(&Simulation<D, S>) -> Value<S> 
 /// assert_eq!(run.run_until_event(10.0, &mut events)?, RunEnd::Reached);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Event<'f, const D: usize, S: Real = f64> {
-    function: Box<Function<'f, D, S>>,
+pub struct Event<'f, const D: usize> {
+    function: Box<Function<'f, D>>,
     sense: Sense,
-    tolerance: S,
+    tolerance: f64,
     /// The function at the beginning and at the end of the step.
-    before: S,
-    after: S,
+    before: f64,
+    after: f64,
     has_happened: bool,
 }
 
-impl<'f, const D: usize, S: Real> Event<'f, D, S> {
+impl<'f, const D: usize> Event<'f, D> {
     /// An event where the function changes its sign.
     #[must_use]
-    pub fn crossing(function: impl FnMut(&Simulation<D, S>) -> Value<S> + 'f) -> Self {
+    pub fn crossing(function: impl FnMut(&Simulation<D>) -> Value + 'f) -> Self {
         Self::new(Sense::Either, function)
     }
 
     /// An event where the function becomes positive or zero.
     #[must_use]
-    pub fn rising(function: impl FnMut(&Simulation<D, S>) -> Value<S> + 'f) -> Self {
+    pub fn rising(function: impl FnMut(&Simulation<D>) -> Value + 'f) -> Self {
         Self::new(Sense::Rising, function)
     }
 
     /// An event where the function becomes negative or zero.
     #[must_use]
-    pub fn falling(function: impl FnMut(&Simulation<D, S>) -> Value<S> + 'f) -> Self {
+    pub fn falling(function: impl FnMut(&Simulation<D>) -> Value + 'f) -> Self {
         Self::new(Sense::Falling, function)
     }
 
-    fn new(sense: Sense, function: impl FnMut(&Simulation<D, S>) -> Value<S> + 'f) -> Self {
+    fn new(sense: Sense, function: impl FnMut(&Simulation<D>) -> Value + 'f) -> Self {
         Self {
             function: Box::new(function),
             sense,
-            tolerance: S::zero(),
-            before: S::zero(),
-            after: S::zero(),
+            tolerance: 0.0,
+            before: 0.0,
+            after: 0.0,
             has_happened: false,
         }
     }
 
     /// Accepts a time up to `tolerance`, s, after the change of sign; zero by default.
     #[must_use]
-    pub fn within(mut self, tolerance: S) -> Self {
+    pub fn within(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
         self
     }
@@ -101,7 +100,7 @@ impl<'f, const D: usize, S: Real> Event<'f, D, S> {
     }
 }
 
-impl<const D: usize, S: Real> fmt::Debug for Event<'_, D, S> {
+impl<const D: usize> fmt::Debug for Event<'_, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Event")
             .field("sense", &self.sense)

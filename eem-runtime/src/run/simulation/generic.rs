@@ -8,7 +8,6 @@ use crate::element::conduction::Partner;
 use crate::element::group::{ElementGeneric, Elements, EntropySlopes};
 use crate::element::state::State;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
 
 /// The GENERIC form of a scene: the two gradients and the two matrices of `ż = L ∇E + M ∇S`.
 ///
@@ -21,21 +20,21 @@ use eem_material::number::scalar::Real;
 /// entropies (Conde Martín, Betsch & García Orden 2016) see [`generic_in_temperature`](Simulation::generic_in_temperature).
 /// With discrete derivatives in the place of ∇, `z¹ − z⁰ = h (L DE + M DS)`. Loads and thermostats are not part of the form.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Generic<S: Real> {
+pub struct Generic {
     /// `∇E` or `DE`.
-    pub energy_gradient: DVector<S>,
+    pub energy_gradient: DVector<f64>,
     /// `∇S` or `DS`.
-    pub entropy_gradient: DVector<S>,
+    pub entropy_gradient: DVector<f64>,
     /// L, the reversible part.
-    pub reversible: DMatrix<S>,
+    pub reversible: DMatrix<f64>,
     /// M, the irreversible part.
-    pub irreversible: DMatrix<S>,
+    pub irreversible: DMatrix<f64>,
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The state z of [`Generic`].
     #[must_use]
-    pub fn generic_state(&self) -> DVector<S> {
+    pub fn generic_state(&self) -> DVector<f64> {
         let state = &self.state;
         let mut z = Vec::new();
         for sums in [&state.positions, &state.momenta] {
@@ -50,17 +49,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Gradients and matrices at the present state.
-    pub fn generic(&mut self) -> Generic<S> {
+    pub fn generic(&mut self) -> Generic {
         self.generic_and_elements().0
     }
 
     /// Gradients and matrices at the present state, and the contributions of the elements.
-    pub(super) fn generic_and_elements(&mut self) -> (Generic<S>, Vec<ElementGeneric<S>>) {
+    pub(super) fn generic_and_elements(&mut self) -> (Generic, Vec<ElementGeneric>) {
         // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         let state = &self.state;
         let mut elements = Vec::new();
-        let each = |group: &mut dyn Elements<S, D>| elements.extend(group.generic_in(state));
+        let each = |group: &mut dyn Elements<D>| elements.extend(group.generic_in(state));
         self.stepper.each_mut(each);
         let velocities = self.velocities_in(&self.state);
         (self.generic_from(&elements, &velocities), elements)
@@ -69,7 +68,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Discrete gradients and matrices of the last step; `None` before the first, after a failed
     /// one, and for a scheme that is not a discrete GENERIC system.
     #[must_use]
-    pub fn generic_of_last_step(&self) -> Option<Generic<S>> {
+    pub fn generic_of_last_step(&self) -> Option<Generic> {
         let discrete = matches!(self.in_use, Scheme::EemEntropy | Scheme::EemTemperature);
         if !(discrete && self.has_stepped) {
             return None;
@@ -84,24 +83,24 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .collect();
         let [mut mean, new] = ends.map(|state| self.velocities_in(state));
         for (mean, new) in mean.iter_mut().zip(new) {
-            *mean = S::from_f64(0.5) * (*mean + new);
+            *mean = 0.5 * (*mean + new);
         }
         Some(self.generic_from(&elements, &mean))
     }
 
     /// The velocities of all nodes, m/s; zero for anchors.
-    pub(super) fn velocities_in(&self, state: &State<S>) -> Vec<S> {
-        let velocity = |(node, mass): (usize, Option<S>)| {
-            mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
+    pub(super) fn velocities_in(&self, state: &State) -> Vec<f64> {
+        let velocity = |(node, mass): (usize, Option<f64>)| {
+            mass.map_or([0.0; D], |mass| state.velocity(node, mass))
         };
         self.masses.iter().enumerate().flat_map(velocity).collect()
     }
 
-    fn generic_from(&self, elements: &[ElementGeneric<S>], velocities: &[S]) -> Generic<S> {
+    fn generic_from(&self, elements: &[ElementGeneric], velocities: &[f64]) -> Generic {
         let indices = self.generic_indices();
-        let gradient = DVector::from_element(indices.size, S::zero());
+        let gradient = DVector::from_element(indices.size, 0.0);
         let (mut energy_gradient, mut entropy_gradient) = (gradient.clone(), gradient);
-        let matrix = DMatrix::from_element(indices.size, indices.size, S::zero());
+        let matrix = DMatrix::from_element(indices.size, indices.size, 0.0);
         let (mut reversible, mut irreversible) = (matrix.clone(), matrix);
         for (coordinate, place) in indices.positions.iter().enumerate() {
             let Some(q) = *place else {
@@ -109,14 +108,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             };
             let p = q + indices.momenta;
             energy_gradient[p] = velocities[coordinate];
-            reversible[(q, p)] = S::one();
-            reversible[(p, q)] = -S::one();
+            reversible[(q, p)] = 1.0;
+            reversible[(p, q)] = -1.0;
         }
         for (slot, &theta) in self.conduction.reservoirs.iter().enumerate() {
             energy_gradient[indices.reservoirs + slot] = theta;
-            entropy_gradient[indices.reservoirs + slot] = S::one();
+            entropy_gradient[indices.reservoirs + slot] = 1.0;
         }
-        let mut temperatures = vec![S::zero(); self.layout.thermal];
+        let mut temperatures = vec![0.0; self.layout.thermal];
         for element in elements {
             for &(coordinate, force) in &element.forces {
                 if let Some(q) = indices.positions[coordinate] {
@@ -128,11 +127,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             if let Some((slot, theta)) = element.temperature {
                 energy_gradient[indices.entropies + slot] = theta;
-                entropy_gradient[indices.entropies + slot] = S::one();
+                entropy_gradient[indices.entropies + slot] = 1.0;
                 temperatures[slot] = theta;
                 for &(viscous, force, eta) in &element.dashpots {
                     let w = [
-                        (indices.viscous + viscous, S::one()),
+                        (indices.viscous + viscous, 1.0),
                         (indices.entropies + slot, force / theta),
                     ];
                     add_rank_one(&mut irreversible, theta / eta, &w);
@@ -153,7 +152,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// `κ θ_a θ_b w wᵀ` with `w = e_a/θ_a − e_b/θ_b` for every path of heat.
-    fn add_conduction(&self, indices: &Indices, temperatures: &[S], matrix: &mut DMatrix<S>) {
+    fn add_conduction(&self, indices: &Indices, temperatures: &[f64], matrix: &mut DMatrix<f64>) {
         for (slot, &theta) in temperatures.iter().enumerate() {
             for link in self.conduction.links(slot) {
                 let (partner, other) = match link.partner {
@@ -208,14 +207,14 @@ pub(super) struct Indices {
 
 impl Indices {
     /// `w` of the dashpot in parallel with a spring, `ηθ w wᵀ ∇S`: `ṗ = −η λ̇ ∂λ/∂q` and `ṡ = η λ̇²/θ`.
-    fn drag<S: Real>(
+    fn drag(
         &self,
-        by_position: &[(usize, S)],
-        velocities: &[S],
-        (slot, theta): (usize, S),
-    ) -> Vec<(usize, S)> {
+        by_position: &[(usize, f64)],
+        velocities: &[f64],
+        (slot, theta): (usize, f64),
+    ) -> Vec<(usize, f64)> {
         let mut w = Vec::with_capacity(by_position.len() + 1);
-        let mut rate = S::zero();
+        let mut rate = 0.0;
         for &(coordinate, entry) in by_position {
             if let Some(q) = self.positions[coordinate] {
                 w.push((q + self.momenta, entry));
@@ -228,7 +227,7 @@ impl Indices {
 }
 
 /// Adds `factor w wᵀ` for a `w` with these entries.
-fn add_rank_one<S: Real>(matrix: &mut DMatrix<S>, factor: S, w: &[(usize, S)]) {
+fn add_rank_one(matrix: &mut DMatrix<f64>, factor: f64, w: &[(usize, f64)]) {
     for &(row, left) in w {
         for &(column, right) in w {
             matrix[(row, column)] += factor * (left * right);
@@ -236,7 +235,7 @@ fn add_rank_one<S: Real>(matrix: &mut DMatrix<S>, factor: S, w: &[(usize, S)]) {
     }
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The GENERIC form at the present state with temperatures instead of entropies as variables (Conde Martín,
     /// Betsch & García Orden 2016, eqs. 21–23):
     ///
@@ -267,7 +266,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!((form.reversible[(1, 2)] - 3.0 * 300.0 / 2.0).abs() < 1e-9);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn generic_in_temperature(&mut self) -> Generic<S> {
+    pub fn generic_in_temperature(&mut self) -> Generic {
         let (mut form, elements) = self.generic_and_elements();
         let indices = self.generic_indices();
         for slopes in elements
@@ -280,9 +279,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-impl<S: Real> Generic<S> {
+impl Generic {
     /// Replaces the entropy of an element by its temperature.
-    fn take_temperature(&mut self, indices: &Indices, slopes: &EntropySlopes<S>) {
+    fn take_temperature(&mut self, indices: &Indices, slopes: &EntropySlopes) {
         let own = indices.entropies + slopes.slot;
         let positions = slopes.by_position.iter();
         let positions = positions.filter_map(|&(coordinate, slope)| {

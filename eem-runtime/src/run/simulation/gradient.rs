@@ -34,13 +34,12 @@ use crate::run::gradient::snapshots::Record;
 use crate::step::adjoint::{Adjoint, NoAdjoint, PastStep, PerVariable};
 use crate::step::control::norm as norm_of;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::{Mask, Real};
 use inputs::Made;
 use seeds::Seeds;
 use way::{Way, Weighted, add};
 
 /// # Gradients
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Keeps the states of all further steps for [`gradient`](Self::gradient). This costs memory, but changes no bit of the run;
     /// [`Scheme::Auto`] keeps a scheme through whose steps gradients can be taken.
     pub fn keep_history(&mut self, history: History) {
@@ -49,7 +48,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Keeps the step that was just made.
-    pub(super) fn keep_step(&mut self, size: S) {
+    pub(super) fn keep_step(&mut self, size: f64) {
         if let Some(history) = &mut self.history
             && history.keep(size, self.in_use, [&self.next, &self.state])
         {
@@ -94,10 +93,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!((gradient.by_parameter(spring, "stiffness")? - by_stiffness).abs() < 1e-7);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn gradient(
-        &mut self,
-        objective: &Objective<D, S>,
-    ) -> Result<Gradient<D, S>, GradientError> {
+    pub fn gradient(&mut self, objective: &Objective<D>) -> Result<Gradient<D>, GradientError> {
         self.on_history(|run, kept| run.gradient_of(kept, &[(1.0, objective)]))
     }
 
@@ -176,24 +172,24 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn gradient_at_event(
         &mut self,
-        objective: &Objective<D, S>,
-        event: &Objective<D, S>,
-    ) -> Result<Gradient<D, S>, GradientError> {
+        objective: &Objective<D>,
+        event: &Objective<D>,
+    ) -> Result<Gradient<D>, GradientError> {
         self.on_history(|run, kept| {
-            let mut rate = |of: &Objective<D, S>| {
+            let mut rate = |of: &Objective<D>| {
                 let way = run.go_back(kept, &[(1.0, of)], 1)?;
                 let by_size = way.found.by_end_time()?;
                 let rounding = way.last.ok_or(GradientError::NoHistory)?.rounding();
                 Ok::<_, GradientError>((by_size, rounding))
             };
             let [(of_event, rounding), (of_objective, _)] = [rate(event)?, rate(objective)?];
-            if of_event.abs().at_most(rounding).all() {
+            if of_event.abs() <= rounding {
                 return Err(GradientError::Grazing {
-                    time: kept.time().to_f64(),
-                    rate: of_event.to_f64(),
+                    time: kept.time(),
+                    rate: of_event,
                 });
             }
-            let follows = -(of_objective / of_event).to_f64();
+            let follows = -(of_objective / of_event);
             run.gradient_of(kept, &[(1.0, objective), (follows, event)])
         })
     }
@@ -201,7 +197,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Calls a function with the history, and restores everything afterwards.
     fn on_history<T>(
         &mut self,
-        act: impl FnOnce(&mut Self, &mut Record<S>) -> Result<T, GradientError>,
+        act: impl FnOnce(&mut Self, &mut Record) -> Result<T, GradientError>,
     ) -> Result<T, GradientError> {
         let taken = self.history.take();
         // Also after a panic of a user's function.
@@ -226,9 +222,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     fn gradient_of(
         &mut self,
-        kept: &mut Record<S>,
-        objectives: Weighted<'_, D, S>,
-    ) -> Result<Gradient<D, S>, GradientError> {
+        kept: &mut Record,
+        objectives: Weighted<'_, D>,
+    ) -> Result<Gradient<D>, GradientError> {
         let Way {
             mut found, adjoint, ..
         } = self.go_back(kept, objectives, usize::MAX)?;
@@ -255,10 +251,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Goes back over this many of the last steps, or over all if there are fewer.
     fn go_back(
         &mut self,
-        kept: &mut Record<S>,
-        objectives: Weighted<'_, D, S>,
+        kept: &mut Record,
+        objectives: Weighted<'_, D>,
         steps: usize,
-    ) -> Result<Way<D, S>, GradientError> {
+    ) -> Result<Way<D>, GradientError> {
         let mut seeds = Seeds::new(kept, objectives)?;
         let mut way = self.way_back()?;
         let [mut old, mut new] = [(); 2].map(|()| State::clone(&self.state));
@@ -286,7 +282,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             end = first;
         }
         if !seeds.value.is_finite() {
-            let time = kept.time().to_f64();
+            let time = kept.time();
             return Err(GradientError::NotFinite { time });
         }
         way.found.value = seeds.value;
@@ -295,7 +291,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A way back before its first step.
-    fn way_back(&mut self) -> Result<Way<D, S>, GradientError> {
+    fn way_back(&mut self) -> Result<Way<D>, GradientError> {
         let outline = self.outline();
         let layout = &outline.layout;
         let mut found = self.no_gradient(&outline);
@@ -315,41 +311,37 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             adjoint: Adjoint::new(layout, &self.masses, system, costate),
             paths: self.conduction.path_ends(),
             conduction: self.conduction.clone(),
-            by_reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
+            by_reservoirs: vec![0.0; self.conduction.reservoirs.len()],
             by_speeds: Vec::new(),
             rockets: Vec::new(),
             held: self.held(layout),
             outline,
             anchors,
-            by_size: S::zero(),
+            by_size: 0.0,
             last: None,
             found,
         })
     }
 
     /// Takes a step back: from the derivatives with respect to its new state to those with respect to its old one.
-    fn reverse(&mut self, made: Made<'_, S>, way: &mut Way<D, S>) -> Result<(), GradientError> {
+    fn reverse(&mut self, made: Made<'_>, way: &mut Way<D>) -> Result<(), GradientError> {
         self.find_loads(made, &mut way.conduction, &mut way.rockets);
         for (oven, _) in &self.loads.ovens {
             // An oven keeps no entropy: what it receives is booked as heat after the step.
-            way.adjoint.costate.reservoirs[*oven] = S::zero();
+            way.adjoint.costate.reservoirs[*oven] = 0.0;
         }
         let (adjoint, found) = (&mut way.adjoint, &mut way.found);
         let loaded = (&way.outline.layout, &way.rockets[..]);
-        let see = &mut |element: Element, values: &[S]| {
-            add(
-                &mut found.elements[element.index()].values,
-                S::one(),
-                values,
-            );
-        };
+        let see = &mut (|element: Element, values: &[f64]| {
+            add(&mut found.elements[element.index()].values, 1.0, values);
+        });
         self.differentiate(
             made,
             (&way.conduction, &way.held),
             |past, groups, system| adjoint.step_back(past, loaded, groups, system, see),
         )?;
         if !way.adjoint.costate.is_finite() {
-            let time = made.1[1].time.value.to_f64();
+            let time = made.1[1].time.value;
             return Err(GradientError::NotFinite { time });
         }
         Self::find_by_speeds(way);
@@ -362,12 +354,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Passes a step that was made, the elements and the system to its adjoint or its tangents.
     fn differentiate(
         &mut self,
-        (step, [old, new]): Made<'_, S>,
-        (conduction, held): (&Conduction<S>, &[bool]),
+        (step, [old, new]): Made<'_>,
+        (conduction, held): (&Conduction, &[bool]),
         by: impl FnOnce(
-            &PastStep<'_, S>,
-            &mut [Box<dyn Group<S, D>>],
-            &mut LinearSystem<S, 1>,
+            &PastStep<'_>,
+            &mut [Box<dyn Group<D>>],
+            &mut LinearSystem<1>,
         ) -> Result<(), NoAdjoint>,
     ) -> Result<(), GradientError> {
         self.look()?;
@@ -390,18 +382,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let found = by(&past, &mut newton.groups, newton.solver.tangent_mut());
         found.map_err(|error| match error {
             NoAdjoint::Singular => GradientError::Singular {
-                time: new.time.value.to_f64(),
+                time: new.time.value,
             },
             NoAdjoint::State(error) => error.into(),
         })
     }
 
     /// An error unless all steps of the history have an adjoint.
-    fn check_history(&self, kept: &Record<S>) -> Result<(), GradientError> {
-        if S::LANES > 1 {
-            let what = "several numbers in one";
-            return Err(GradientError::NotDifferentiable { what });
-        }
+    fn check_history(&self, kept: &Record) -> Result<(), GradientError> {
         for (scheme, time) in kept.schemes().chain([(self.in_use, self.time())]) {
             if !scheme.has_adjoint() {
                 return Err(no_adjoint(scheme, time));
@@ -409,27 +397,26 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let mut others = kept.schemes().filter(|&(scheme, _)| scheme != self.in_use);
         if others.next().is_some() {
-            let time = kept.end_before(self.in_use).to_f64();
+            let time = kept.end_before(self.in_use);
             return Err(GradientError::HistoryBroken { time });
         }
         if kept.ends_in(&self.state) {
             return Ok(());
         }
         kept.check()?;
-        let time = kept.time().to_f64();
+        let time = kept.time();
         Err(GradientError::HistoryBroken { time })
     }
 
     /// The effect of a relative change of a state on the objective, at most: `|λ_q||q| + |λ_v||v| + |λ_γ||q| + |λ_θ||θ|`.
-    fn effect(&self, costate: &PerVariable<S>, state: &State<S>) -> f64 {
-        let norm = |values: &[S]| norm_of(values.iter().copied()).to_f64();
+    fn effect(&self, costate: &PerVariable, state: &State) -> f64 {
+        let norm = |values: &[f64]| norm_of(values.iter().copied());
         let masses = self.masses.iter().enumerate();
-        let velocities = masses.flat_map(|(node, mass)| {
-            mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
-        });
+        let velocities = masses
+            .flat_map(|(node, mass)| mass.map_or([0.0; D], |mass| state.velocity(node, mass)));
         let length = norm(state.positions.values());
         norm(&costate.positions) * length
-            + norm(&costate.velocities) * norm_of(velocities).to_f64()
+            + norm(&costate.velocities) * norm_of(velocities)
             + norm(&costate.viscous) * length
             + norm(&costate.temperatures) * norm(&state.temperatures)
     }
@@ -447,7 +434,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 #[cold]
-fn no_adjoint<S: Real>(scheme: Scheme, time: S) -> GradientError {
-    let (scheme, time) = (scheme.name(), time.to_f64());
+fn no_adjoint(scheme: Scheme, time: f64) -> GradientError {
+    let scheme = scheme.name();
     GradientError::NoAdjoint { scheme, time }
 }

@@ -17,11 +17,10 @@ use crate::element::state::State;
 use crate::step::control::{Kinds, Scales};
 use crate::step::error::StepError;
 use crate::step::explicit::Demand;
-use eem_material::number::scalar::Real;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Work arrays for a whole step and for its two halves.
-    pub(super) fn new_halves(&self) -> Halves<S> {
+    pub(super) fn new_halves(&self) -> Halves {
         let (past, _) = self.stepper.past(&self.state);
         Halves {
             before: State::clone(&self.state),
@@ -35,11 +34,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A step of this size and its error; the state is unchanged if the step fails or is rejected.
-    pub(super) fn attempt(
-        &mut self,
-        control: &mut Control<S>,
-        size: S,
-    ) -> Result<Tried<S>, StepError> {
+    pub(super) fn attempt(&mut self, control: &mut Control, size: f64) -> Result<Tried, StepError> {
         if let Some(load) = self.unseen_load(control, size)? {
             return Ok(Tried::Unseen(load));
         }
@@ -52,7 +47,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let accurate = (accuracy, size);
         let least = (memory.largest_momentum, &self.least);
         let scales = Scales::new(&memory.tolerance, accurate, ends, least);
-        let share: S = accuracy.share_of_difference();
+        let share: f64 = accuracy.share_of_difference();
         report.error = share * scales.error::<D>([&halves.whole, &self.state], &halves.kinds);
         if accuracy.accepts(report.error) {
             return Ok(Tried::Made(report));
@@ -62,7 +57,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A whole step, stored in `halves`, and one in two halves. If one fails, the state is that before both.
-    pub(super) fn step_twice(&mut self, halves: &mut Halves<S>, size: S) -> StepResult<S> {
+    pub(super) fn step_twice(&mut self, halves: &mut Halves, size: f64) -> StepResult {
         halves.before.copy_all_from(&self.state);
         self.stepper.save_past_to(&mut halves.past);
         let whole = self.step_by(size)?;
@@ -74,15 +69,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Two steps of half a size. If one fails, the state is that before both.
-    pub(super) fn step_in_halves(&mut self, halves: &Halves<S>, size: S) -> StepResult<S> {
-        let half = S::from_f64(0.5) * size;
+    pub(super) fn step_in_halves(&mut self, halves: &Halves, size: f64) -> StepResult {
+        let half = 0.5 * size;
         let first = self.step_by(half)?;
         let second = or_restore(self, |run| run.return_to(halves), |run| run.step_by(half))?;
         Ok(first.and(second))
     }
 
     /// Goes back to the beginning of the step for which `halves` was filled.
-    pub(super) fn return_to(&mut self, halves: &Halves<S>) {
+    pub(super) fn return_to(&mut self, halves: &Halves) {
         self.has_stepped = false;
         self.state.copy_all_from(&halves.before);
         self.stepper.restore(&halves.past, None);

@@ -19,15 +19,15 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use eem_material::joint::{COMPONENTS, tensor};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// # The present state
 ///
 /// All functions return [`SceneError::ForeignHandle`] for a handle of another scene.
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The time, s.
     #[must_use]
-    pub fn time(&self) -> S {
+    pub fn time(&self) -> f64 {
         self.state.time.value
     }
 
@@ -55,14 +55,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The step so far with the largest `|defect|/bound`. `None` before the first step and after
     /// [`restore`](Self::restore).
     #[must_use]
-    pub const fn worst_step(&self) -> Option<&StepReport<S>> {
+    pub const fn worst_step(&self) -> Option<&StepReport> {
         self.worst.as_ref()
     }
 
     /// The energy corrections of all steps so far; zero unless the scheme is explicit. [`restore`](Self::restore)
     /// resets them.
     #[must_use]
-    pub const fn corrections(&self) -> &Corrections<S> {
+    pub const fn corrections(&self) -> &Corrections {
         &self.corrections
     }
 
@@ -71,7 +71,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle.
-    pub fn position(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+    pub fn position(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
         self.expect_own(&node)?;
         Ok(vector(self.state.positions.values(), node.index))
     }
@@ -81,7 +81,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle.
-    pub fn momentum(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+    pub fn momentum(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
         self.expect_own(&node)?;
         Ok(vector(self.state.momenta.values(), node.index))
     }
@@ -92,12 +92,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle.
-    pub fn velocity(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+    pub fn velocity(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
         self.expect_own(&node)?;
         Ok(SVector::from(self.velocity_at(node.index)))
     }
 
-    fn velocity_at(&self, node: usize) -> [S; D] {
+    fn velocity_at(&self, node: usize) -> [f64; D] {
         match self.masses.get(node) {
             Some(mass) => self.state.velocity(node, mass),
             None => point(self.state.velocities.values(), node),
@@ -109,7 +109,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle; [`SceneError::NotASpring`] for a point of a solid.
-    pub fn stretch(&self, element: Element) -> Result<S, SceneError> {
+    pub fn stretch(&self, element: Element) -> Result<f64, SceneError> {
         self.expect_spring(element, "stretch")?;
         Ok(self.view(element)?.measure)
     }
@@ -119,7 +119,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// As [`stretch`](Self::stretch).
-    pub fn force(&self, element: Element) -> Result<S, SceneError> {
+    pub fn force(&self, element: Element) -> Result<f64, SceneError> {
         self.expect_spring(element, "force")?;
         Ok(self.view(element)?.force)
     }
@@ -150,7 +150,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!((state.stress[(2, 2)] - 1_500.0).abs() < 1e-10);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn solid_state(&self, point: Element) -> Result<SolidState<S>, SceneError> {
+    pub fn solid_state(&self, point: Element) -> Result<SolidState, SceneError> {
         self.expect_own(&point)?;
         let [group, place] = self.place(point);
         let state = self.stepper.elements(group).solid_state(place, &self.state);
@@ -162,7 +162,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle.
-    pub fn internal_energy(&self, element: Element) -> Result<S, SceneError> {
+    pub fn internal_energy(&self, element: Element) -> Result<f64, SceneError> {
         Ok(self.view(element)?.internal_energy)
     }
 
@@ -171,7 +171,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
-    pub fn temperature(&self, element: Element) -> Result<S, SceneError> {
+    pub fn temperature(&self, element: Element) -> Result<f64, SceneError> {
         Ok(self.state.temperatures[self.thermal_slot(element)?])
     }
 
@@ -180,7 +180,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
-    pub fn entropy(&self, element: Element) -> Result<S, SceneError> {
+    pub fn entropy(&self, element: Element) -> Result<f64, SceneError> {
         Ok(self.state.entropies.values()[self.thermal_slot(element)?])
     }
 
@@ -212,7 +212,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!((run.entropy_production(spring)? - 1.0).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn entropy_production(&self, element: Element) -> Result<S, SceneError> {
+    pub fn entropy_production(&self, element: Element) -> Result<f64, SceneError> {
         let slot = self.thermal_slot(element)?;
         let theta = self.state.temperatures[slot];
         let velocity = |node| self.velocity_at(node);
@@ -221,8 +221,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut production = elements.dissipation(place, &self.state, &velocity) / theta;
         for link in self.conduction.links(slot) {
             let (other, share) = match link.partner {
-                Partner::Slot(far) => (self.state.temperatures[far], S::from_f64(0.5)),
-                Partner::Reservoir(far) => (self.reservoir_now(far), S::one()),
+                Partner::Slot(far) => (self.state.temperatures[far], 0.5),
+                Partner::Reservoir(far) => (self.reservoir_now(far), 1.0),
             };
             let difference = other - theta;
             production += share * link.conductance * difference * difference / (theta * other);
@@ -236,7 +236,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle; [`SceneError::NoSuchDashpot`].
-    pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
+    pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<f64, SceneError> {
         self.expect_own(&element)?;
         let dashpots = self.shape(element).scalar_dashpots();
         if dashpot >= dashpots {
@@ -283,7 +283,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert!((strain[(2, 2)] + 20.0 / 21.0).abs() < 1e-14);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn viscous_strain(&self, point: Element) -> Result<SMatrix<S, 3, 3>, SceneError> {
+    pub fn viscous_strain(&self, point: Element) -> Result<SMatrix<f64, 3, 3>, SceneError> {
         self.expect_own(&point)?;
         let shape = self.shape(point);
         if shape.viscous_strain == 0 {
@@ -291,7 +291,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let first = self.slots(point).viscous + shape.scalar_dashpots();
         let values = &self.state.viscous.values()[first..];
-        let mut components = [S::zero(); COMPONENTS];
+        let mut components = [0.0; COMPONENTS];
         components[..shape.viscous_strain].copy_from_slice(&values[..shape.viscous_strain]);
         let strain = tensor(&components);
         Ok(SMatrix::from_fn(|row, column| strain[row][column]))
@@ -302,7 +302,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle; [`SceneError::Oven`] for an [oven](crate::Scene::oven), which stores none.
-    pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<S, SceneError> {
+    pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<f64, SceneError> {
         self.expect_own(&reservoir)?;
         if self
             .loads
@@ -320,7 +320,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// As [`reservoir_entropy`](Self::reservoir_entropy).
-    pub fn reservoir_heat(&self, reservoir: Reservoir) -> Result<S, SceneError> {
+    pub fn reservoir_heat(&self, reservoir: Reservoir) -> Result<f64, SceneError> {
         let entropy = self.reservoir_entropy(reservoir)?;
         Ok(self.conduction.reservoirs[reservoir.index] * entropy)
     }
@@ -329,8 +329,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     #[doc(hidden)]
     #[must_use]
     pub fn values(&self) -> [Vec<f64>; 4] {
-        let all = |values: &[S]| values.iter().map(|value| value.to_f64()).collect();
-        let of_masses = |values: &[S]| {
+        let all = |values: &[f64]| values.to_vec();
+        let of_masses = |values: &[f64]| {
             let nodes = self.masses.iter().zip(values.chunks_exact(D));
             let moving = nodes.filter(|(mass, _)| mass.is_some());
             all(&moving
@@ -351,7 +351,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     #[doc(hidden)]
     #[must_use]
     pub fn size_of_positions(&self) -> f64 {
-        norm(self.state.positions.values().iter().copied()).to_f64()
+        norm(self.state.positions.values().iter().copied())
     }
 
     /// `|p|₂` of the masses, the largest so far if steps are controlled, kg m/s.
@@ -360,15 +360,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn largest_momentum(&self) -> f64 {
         let own = norm(self.state.momenta.values().iter().copied());
         let control = self.control.as_ref();
-        let before = control.map_or(S::zero(), |control| control.memory.largest_momentum);
-        own.maximum(before).to_f64()
+        let before = control.map_or(0.0, |control| control.memory.largest_momentum);
+        Scalar::maximum(own, before)
     }
 
     /// |q|₂ of all nodes at the start, m, and the largest `m ℓ ω`, kg m/s: what errors of nothing are compared with.
     #[doc(hidden)]
     #[must_use]
     pub fn least_sizes(&self) -> [f64; 2] {
-        self.least.sizes().map(Real::to_f64)
+        self.least.sizes()
     }
 
     /// How often the forces of all elements have been evaluated since the simulation was made, once for each
@@ -392,11 +392,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Energies, entropies and momenta, computed from the state by their definitions.
     #[must_use]
-    pub fn ledger(&self) -> Ledger<D, S> {
+    pub fn ledger(&self) -> Ledger<D> {
         (Functions::get().ledger)(self)
     }
 
-    pub(super) fn ledger_here(&self) -> Ledger<D, S> {
+    pub(super) fn ledger_here(&self) -> Ledger<D> {
         Ledger::of(
             &self.state,
             &self.masses,
@@ -415,7 +415,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Err(SceneError::NotASpring { element, quantity })
     }
 
-    fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {
+    fn view(&self, element: Element) -> Result<ElementView, SceneError> {
         self.expect_own(&element)?;
         let [group, place] = self.place(element);
         Ok(self.stepper.elements(group).inspect(place, &self.state))
@@ -488,6 +488,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 /// The coordinates of one node.
-fn vector<S: Real, const D: usize>(coordinates: &[S], node: usize) -> SVector<S, D> {
+fn vector<const D: usize>(coordinates: &[f64], node: usize) -> SVector<f64, D> {
     SVector::from_column_slice(&coordinates[node * D..(node + 1) * D])
 }

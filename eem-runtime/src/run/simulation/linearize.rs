@@ -5,22 +5,21 @@ use super::attempt::view;
 use super::stepper::{Newton, Stepper};
 use crate::element::phase::Phase;
 use crate::step::error::{StepError, StepFailure};
-use eem_material::number::scalar::Real;
 
 /// Residual and tangent of a step at a trial state.
 ///
 /// Internal variables are eliminated: their own equations determine them at the trial state, and the tangent is the
 /// total derivative.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StepTangent<S> {
+pub struct StepTangent {
     /// `R(u)`: momentum balances in N s, then `Θ − θ*` in K for elements that conduct heat to
     /// other elements.
-    pub residual: Vec<S>,
+    pub residual: Vec<f64>,
     /// `∂R/∂u`, row-major, square.
-    pub tangent: Vec<S>,
+    pub tangent: Vec<f64>,
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Residual and tangent of the next step at given unknowns.
     ///
     /// ```text
@@ -42,7 +41,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// [`StepError`] if an element has no admissible state there, or if the number of unknowns is wrong
     /// ([`StepFailure::Unknowns`]).
-    pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
+    pub fn linearize(&mut self, unknowns: &[f64]) -> Result<StepTangent, StepError> {
         // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         self.effort.restart();
@@ -50,7 +49,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         found.map_err(|failure| self.failed(self.step, failure))
     }
 
-    fn find_tangent(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepFailure> {
+    fn find_tangent(&mut self, unknowns: &[f64]) -> Result<StepTangent, StepFailure> {
         let (given, expected) = (unknowns.len(), self.unknowns());
         if given != expected {
             return Err(StepFailure::Unknowns { given, expected });

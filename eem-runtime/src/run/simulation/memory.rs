@@ -11,54 +11,54 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// The smallest step that is tried, in units in the last place of the time, and of the usual step.
 pub(super) const SMALLEST: f64 = 16.0;
 
 /// The history of steps that decides the size and the scheme of the next one.
 #[derive(Clone, Copy)]
-pub(super) struct History<S> {
-    pub(super) step: S,
-    pub(super) control: Option<SavedControl<S>>,
+pub(super) struct History {
+    pub(super) step: f64,
+    pub(super) control: Option<SavedControl>,
     pub(super) choice: Option<SavedChoice>,
 }
 
 /// Everything that further steps change, restored after trial steps.
-pub(super) struct Snapshot<S> {
-    pub(super) state: State<S>,
-    pub(super) past: (SavedPast<S>, Option<SavedExplicit<S>>),
-    pub(super) history: History<S>,
-    pub(super) worst: Option<StepReport<S>>,
-    pub(super) corrections: Corrections<S>,
+pub(super) struct Snapshot {
+    pub(super) state: State,
+    pub(super) past: (SavedPast, Option<SavedExplicit>),
+    pub(super) history: History,
+    pub(super) worst: Option<StepReport>,
+    pub(super) corrections: Corrections,
 }
 
 /// Step control: its history, and work arrays for its estimate of the error.
-pub(super) struct Control<S> {
-    pub(super) memory: SavedControl<S>,
+pub(super) struct Control {
+    pub(super) memory: SavedControl,
     pub(super) accuracy: Accuracy,
     /// The end of the run, s, for which steps look at loads before they are made; `None` if they need not.
-    pub(super) horizon: Option<S>,
+    pub(super) horizon: Option<f64>,
     /// For schemes without an estimate of their own.
-    pub(super) halves: Option<Halves<S>>,
+    pub(super) halves: Option<Halves>,
 }
 
-impl<S: Real> Control<S> {
+impl Control {
     /// The smallest step at a time after one of the usual size, s.
-    pub(super) fn smallest(&self, time: S, usual: S) -> S {
-        let rounding = S::from_f64(SMALLEST) * S::EPSILON;
-        let least = rounding * time.abs().maximum(usual);
-        self.memory.smallest.maximum(least)
+    pub(super) fn smallest(&self, time: f64, usual: f64) -> f64 {
+        let rounding = SMALLEST * f64::EPSILON;
+        let least = rounding * Scalar::maximum(time.abs(), usual);
+        Scalar::maximum(self.memory.smallest, least)
     }
 }
 
 /// Work arrays for a step that is made whole and in two halves.
-pub(super) struct Halves<S> {
+pub(super) struct Halves {
     /// The state at its beginning, and the history of Newton's method.
-    pub(super) before: State<S>,
-    pub(super) past: SavedPast<S>,
+    pub(super) before: State,
+    pub(super) past: SavedPast,
     /// The state after the whole step.
-    pub(super) whole: State<S>,
+    pub(super) whole: State,
     pub(super) kinds: Kinds,
 }
 
@@ -91,18 +91,18 @@ impl Automatic {
 
 /// The steps so far that did not resolve a relaxation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unresolved<S> {
+pub(super) struct Unresolved {
     pub(super) steps: u64,
     /// The largest of them, s, and the scheme of the last one.
-    pub(super) largest: S,
+    pub(super) largest: f64,
     pub(super) scheme: Scheme,
 }
 
-impl<S: Real> Unresolved<S> {
+impl Unresolved {
     pub(super) fn none() -> Self {
         Self {
             steps: 0,
-            largest: S::zero(),
+            largest: 0.0,
             scheme: Scheme::Auto,
         }
     }

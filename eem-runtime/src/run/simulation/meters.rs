@@ -8,12 +8,11 @@ use crate::element::meters::{Meters, total};
 use crate::run::checkpoint::RestoreError;
 use crate::scene::error::SceneError;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Real;
 
 /// # Dissipation and heat
 ///
 /// The sums begin with [`meter_heat`](Self::meter_heat), or with a [`Recorder`](crate::Recorder) of such quantities.
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Begins the sums of dissipation, entropy production and conducted heat, if they have not begun.
     ///
     /// They are exactly what the steps book, also under step control and by [`Scheme::Auto`](crate::Scheme::Auto), and part of
@@ -76,7 +75,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// An error unless a checkpoint has as many sums as this simulation.
-    pub(super) fn audit_meters(&self, meters: &Meters<S>) -> Result<(), RestoreError> {
+    pub(super) fn audit_meters(&self, meters: &Meters) -> Result<(), RestoreError> {
         let expected = if meters.are_on {
             self.meter_counts()
         } else {
@@ -99,7 +98,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The sums, if the scheme closes its balances, by which they are defined.
-    fn meters(&self) -> Result<&Meters<S>, SceneError> {
+    fn meters(&self) -> Result<&Meters, SceneError> {
         if !self.in_use.is_exact() {
             let scheme = self.in_use.name();
             return Err(SceneError::NotMetered { scheme });
@@ -114,15 +113,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// For a foreign handle; [`SceneError::NotMetered`] for a scheme without exact balances.
-    pub fn dissipation(&self, element: Element) -> Result<S, SceneError> {
+    pub fn dissipation(&self, element: Element) -> Result<f64, SceneError> {
         Ok(self.dissipation_sum(element)?.value)
     }
 
-    pub(crate) fn dissipation_sum(&self, element: Element) -> Result<Sum<S>, SceneError> {
+    pub(crate) fn dissipation_sum(&self, element: Element) -> Result<Sum, SceneError> {
         self.expect_own(&element)?;
         let meters = self.meters()?;
         if !meters.are_on {
-            return Ok(Sum::new(S::zero()));
+            return Ok(Sum::new(0.0));
         }
         let first = self.slots(element).viscous;
         let in_series = first..first + self.shape(element).dashpots;
@@ -137,7 +136,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// As [`dissipation`](Self::dissipation); [`SceneError::NoSuchDashpot`].
-    pub fn dissipation_of(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
+    pub fn dissipation_of(&self, element: Element, dashpot: usize) -> Result<f64, SceneError> {
         Ok(self.dissipation_sum_of(element, dashpot)?.value)
     }
 
@@ -145,7 +144,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         &self,
         element: Element,
         dashpot: usize,
-    ) -> Result<Sum<S>, SceneError> {
+    ) -> Result<Sum, SceneError> {
         self.expect_own(&element)?;
         let shape = self.shape(element);
         let dashpots = shape.dashpots + usize::from(shape.drag);
@@ -163,7 +162,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let meters = self.meters()?;
         let sum = meters.are_on.then(|| meters.dissipated.sum(index));
-        Ok(sum.unwrap_or(Sum::new(S::zero())))
+        Ok(sum.unwrap_or(Sum::new(0.0)))
     }
 
     /// The entropy that an element has produced since the sums began, J/K; zero before: that of its dashpots, of its paths of
@@ -172,15 +171,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// As [`dissipation`](Self::dissipation); [`SceneError::NotThermal`] if the element has no temperature.
-    pub fn produced_entropy(&self, element: Element) -> Result<S, SceneError> {
+    pub fn produced_entropy(&self, element: Element) -> Result<f64, SceneError> {
         Ok(self.produced_sum(element)?.value)
     }
 
-    pub(crate) fn produced_sum(&self, element: Element) -> Result<Sum<S>, SceneError> {
+    pub(crate) fn produced_sum(&self, element: Element) -> Result<Sum, SceneError> {
         let slot = self.thermal_slot(element)?;
         let meters = self.meters()?;
         let sum = meters.are_on.then(|| meters.produced.sum(slot));
-        Ok(sum.unwrap_or(Sum::new(S::zero())))
+        Ok(sum.unwrap_or(Sum::new(0.0)))
     }
 
     /// The heat that a path has brought to the element with which it was [made](crate::Scene::conduct), from its partner, since
@@ -189,15 +188,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// As [`dissipation`](Self::dissipation).
-    pub fn conducted_heat(&self, path: HeatPath) -> Result<S, SceneError> {
+    pub fn conducted_heat(&self, path: HeatPath) -> Result<f64, SceneError> {
         Ok(self.conducted_sum(path)?.value)
     }
 
-    pub(crate) fn conducted_sum(&self, path: HeatPath) -> Result<Sum<S>, SceneError> {
+    pub(crate) fn conducted_sum(&self, path: HeatPath) -> Result<Sum, SceneError> {
         self.expect_own(&path)?;
         let meters = self.meters()?;
         if !meters.are_on {
-            return Ok(Sum::new(S::zero()));
+            return Ok(Sum::new(0.0));
         }
         let (link, is_second) = self.conduction.path(path.index);
         let Sum { value, carry } = meters.conducted.sum(link);

@@ -7,9 +7,8 @@ use crate::element::state::State;
 use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, SavedEnergies};
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Closing;
-use eem_material::number::scalar::Real;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The present state with everything the next steps depend on.
     ///
     /// ```
@@ -28,11 +27,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn checkpoint(&self) -> Checkpoint<S> {
+    pub fn checkpoint(&self) -> Checkpoint {
         (Functions::get().checkpoint)(self)
     }
 
-    pub(super) fn checkpoint_here(&self) -> Checkpoint<S> {
+    pub(super) fn checkpoint_here(&self) -> Checkpoint {
         let (past, explicit) = self.stepper.past(&self.state);
         let shapes = self.places.iter();
         let shapes = shapes.map(|&[group, _]| self.shapes[group as usize]);
@@ -59,7 +58,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The energies of the elements. Empty for the explicit scheme, which judges steps by the sums of `SavedExplicit`.
-    fn saved_energies(&self) -> SavedEnergies<S> {
+    fn saved_energies(&self) -> SavedEnergies {
         let list = match self.in_use.closing() {
             Closing::Explicit => Vec::new(),
             _ => self.state.energies.clone(),
@@ -81,21 +80,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// unchanged then.
     ///
     /// Prescribed motions and temperatures are evaluated at the time of the checkpoint for this comparison.
-    pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
         (Functions::get().restore)(self, checkpoint)
     }
 
-    pub(super) fn restore_here(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
+    pub(super) fn restore_here(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
         let (before, loads) = (self.scheme_at_work(), self.saved_loads());
         let saved = self.choice_in(checkpoint)?;
         if let Some(saved) = saved.filter(|saved| saved.scheme != before.scheme) {
-            self.use_scheme(saved.scheme)
-                .inspect_err(|_| self.diverge())?;
+            self.use_scheme(saved.scheme)?;
         }
         let taken = self.take_loads(&checkpoint.loads);
         let restored = taken.and_then(|()| self.restore_in_scheme(checkpoint));
         if restored.is_err() {
-            self.diverge();
             if self.in_use != before.scheme {
                 self.use_scheme(before.scheme)?;
             }
@@ -106,10 +103,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Restores a checkpoint whose scheme is in use.
-    fn restore_in_scheme(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
+    fn restore_in_scheme(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
         checkpoint.check(&self.checkpoint_here())?;
         self.audit(&checkpoint.state, checkpoint.step)?;
-        self.check_control(checkpoint.control, (self.scheme, self.in_use))?;
+        Self::check_control(checkpoint.control, (self.scheme, self.in_use))?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);

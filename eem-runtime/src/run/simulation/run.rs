@@ -8,7 +8,7 @@ use super::guard::Guard;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::{Discord, Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -25,7 +25,7 @@ pub enum RunEnd {
 /// much from the sum of rounded steps, and twice that to be safe.
 const END_ROUNDINGS: f64 = 2.0;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Steps until the time `end`, s.
     ///
     /// The last step is shortened so that the time is exactly `end`; the step size for later steps does not change.
@@ -48,7 +48,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert_eq!(run.position(mass)?[0], 3.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn run_until(&mut self, end: S) -> Result<(), StepError> {
+    pub fn run_until(&mut self, end: f64) -> Result<(), StepError> {
         self.expect_finite(end)?;
         self.run_until_with(end, |_, _| ControlFlow::Continue(()))?;
         Ok(())
@@ -88,8 +88,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn run_until_with(
         &mut self,
-        end: S,
-        observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
+        end: f64,
+        observer: impl FnMut(&Self, &StepReport) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
         self.run_until_event_with(end, &mut [], observer)
     }
@@ -121,7 +121,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn run_at(
         &mut self,
-        times: impl IntoIterator<Item = S>,
+        times: impl IntoIterator<Item = f64>,
         mut observer: impl FnMut(&Self) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
         for time in times {
@@ -134,41 +134,34 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// An error if nothing would end a run until this time, s.
-    pub(super) fn expect_finite(&self, end: S) -> Result<(), StepError> {
+    pub(super) fn expect_finite(&self, end: f64) -> Result<(), StepError> {
         if end.is_finite() {
             return Ok(());
         }
-        let end = end.to_f64();
         Err(self.refused(StepFailure::End { end }))
     }
 
     /// Whether the end of a run lies ahead.
-    pub(super) fn is_before(&self, end: S) -> Result<bool, StepError> {
-        self.decide(self.time().less(end))
-    }
-
-    /// One decision for all lanes.
-    fn decide(&self, mask: S::Mask) -> Result<bool, StepError> {
-        let decided = mask.decide();
-        decided.map_err(|discord| self.refused(discord.into()))
+    pub(super) fn is_before(&self, end: f64) -> bool {
+        self.time() < end
     }
 
     /// The size of a step that ends at `end`, if one of this size would end there or beyond it.
-    pub(super) fn size_towards(&self, end: S, full: S) -> Result<Option<S>, StepError> {
+    pub(super) fn size_towards(&self, end: f64, full: f64) -> Option<f64> {
         // With the time to twice the precision.
         let Sum { value, carry } = self.state.time;
         let left = (end - value) - carry;
-        let scale = self.time().abs() + full.minimum(left);
-        let rounding = S::from_f64(END_ROUNDINGS) * S::EPSILON * scale;
-        if self.decide((full + rounding).less(left))? {
-            return Ok(None);
+        let scale = self.time().abs() + Scalar::minimum(full, left);
+        let rounding = END_ROUNDINGS * f64::EPSILON * scale;
+        if full + rounding < left {
+            return None;
         }
-        let is_full = self.decide((left - full).abs().at_most(rounding))?;
-        Ok(Some(if is_full { full } else { left }))
+        let is_full = (left - full).abs() <= rounding;
+        Some(if is_full { full } else { left })
     }
 
     /// Sets the end of the last step to this time, which it misses by rounding.
-    pub(super) fn arrive_at(&mut self, end: S, report: &mut StepReport<S>) {
+    pub(super) fn arrive_at(&mut self, end: f64, report: &mut StepReport) {
         #[cfg(feature = "gradients")]
         if let Some(history) = &mut self.history {
             history.arrive(self.state.time, end);
@@ -178,7 +171,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Runs to the last of these times, s, with the same steps as [`run_until`](Self::run_until), and calls
     /// `observer` at each of them.
     ///
@@ -213,17 +206,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn sample_at(
         &mut self,
-        times: &[S],
+        times: &[f64],
         mut observer: impl FnMut(&Self) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
-        if S::LANES > 1 {
-            // Each lane may have steps of its own.
-            return Err(self.refused(Discord.into()));
-        }
         let mut last = self.time();
         for &time in times {
-            if !(last.at_most(time).all() && time.is_finite()) {
-                let end = time.to_f64();
+            if !(last <= time && time.is_finite()) {
+                let end = time;
                 return Err(self.refused(StepFailure::End { end }));
             }
             last = time;
@@ -231,9 +220,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut left = times;
         while let [time, ..] = *left {
             let mut passed = 0;
-            if self.is_before(time)? {
+            if self.is_before(time) {
                 self.advance(Aim::Towards(last))?;
-                let is_passed = |time: &&S| time.less(self.time()).all();
+                let is_passed = |time: &&f64| **time < self.time();
                 passed = left.iter().take_while(is_passed).count();
                 if passed > 0 && self.sample(&left[..passed], &mut observer)?.is_break() {
                     return Ok(RunEnd::Stopped);
@@ -253,7 +242,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// If the observer stops the run, the run stays at that state.
     fn sample(
         &mut self,
-        times: &[S],
+        times: &[f64],
         observer: &mut impl FnMut(&Self) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, StepError> {
         let after = self.snapshot();
@@ -262,7 +251,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         run.undo();
         // One after the other, so that entropy does not fall between the times.
         for &time in times {
-            while run.is_before(time)? {
+            while run.is_before(time) {
                 run.advance(Aim::InSchemeTowards(time))?;
             }
             if observer(run).is_break() {

@@ -6,12 +6,12 @@ use super::stepper::Stepper;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The size of the next steps, s.
     #[must_use]
-    pub const fn step_size(&self) -> S {
+    pub const fn step_size(&self) -> f64 {
         self.step
     }
 
@@ -20,8 +20,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// [`SceneError::Step`] if it is not positive and finite; the old size remains.
-    pub fn set_step_size(&mut self, step: S) -> Result<(), SceneError> {
-        check_step(step).inspect_err(|_| self.diverge())?;
+    pub fn set_step_size(&mut self, step: f64) -> Result<(), SceneError> {
+        check_step(step)?;
         self.step = step;
         Ok(())
     }
@@ -51,7 +51,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The settings of Newton's method.
     #[must_use]
-    pub const fn newton_settings(&self) -> NewtonSettings<S> {
+    pub const fn newton_settings(&self) -> NewtonSettings {
         self.effort.settings
     }
 
@@ -61,16 +61,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// [`SceneError::NewtonSettings`] unless there is at least one iteration and the tolerance lies between 0 and
     /// 1; the old settings remain.
-    pub fn set_newton_settings(&mut self, settings: NewtonSettings<S>) -> Result<(), SceneError> {
+    pub fn set_newton_settings(&mut self, settings: NewtonSettings) -> Result<(), SceneError> {
         let NewtonSettings {
             max_iterations,
             tolerance,
         } = settings;
-        if max_iterations == 0 || !is_positive(tolerance) || S::one().at_most(tolerance).any() {
-            self.diverge();
+        if max_iterations == 0 || !is_positive(tolerance) || tolerance >= 1.0 {
             return Err(SceneError::NewtonSettings {
                 max_iterations,
-                tolerance: tolerance.to_f64(),
+                tolerance,
             });
         }
         self.effort.settings = settings;

@@ -17,34 +17,33 @@ use crate::scene::solid_error::SolidError;
 use crate::step::control::Tolerance;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
-use eem_material::number::scalar::Real;
 
 /// What a run begins with.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Begin<S> {
+pub(super) enum Begin {
     /// A step, s: constant, or the first one that step control tries.
-    WithStep(S),
+    WithStep(f64),
     /// A tolerance, from which the first step follows.
-    WithTolerance(Tolerance<S>),
+    WithTolerance(Tolerance),
 }
 
-impl<S: Real> Begin<S> {
+impl Begin {
     /// The step, s; 1 s before it is found.
-    pub(super) fn step(&self) -> S {
+    pub(super) fn step(&self) -> f64 {
         match self {
             Self::WithStep(step) => *step,
-            Self::WithTolerance(_) => S::one(),
+            Self::WithTolerance(_) => 1.0,
         }
     }
 }
 
 /// The initial state, without entropies: with velocities if the first step, s, is given, else at rest. Errors for motions
 /// without an initial velocity.
-pub(crate) fn initial_state<const D: usize, S: Real>(
-    scene: &Scene<D, S>,
+pub(crate) fn initial_state<const D: usize>(
+    scene: &Scene<D>,
     layout: &Layout,
-    step: Option<S>,
-) -> Result<State<S>, Vec<SceneError>> {
+    step: Option<f64>,
+) -> Result<State, Vec<SceneError>> {
     let mut errors = Vec::new();
     let coordinates = scene.nodes.len() * D;
     let mut positions = Vec::with_capacity(coordinates);
@@ -52,8 +51,8 @@ pub(crate) fn initial_state<const D: usize, S: Real>(
     let mut velocities = Vec::new();
     let is_coupled = !scene.pairs.is_empty();
     for node in &scene.nodes {
-        let mass = node.mass.unwrap_or(S::zero());
-        let still = SVector::from([S::zero(); D]);
+        let mass = node.mass.unwrap_or(0.0);
+        let still = SVector::from([0.0; D]);
         let moves = step.is_some();
         positions.extend(node.position.iter());
         let momentum = if moves {
@@ -74,8 +73,8 @@ pub(crate) fn initial_state<const D: usize, S: Real>(
     if !errors.is_empty() {
         return Err(errors);
     }
-    let zeros = |count| vec![S::zero(); count];
-    let zero = Sum::new(S::zero());
+    let zeros = |count| vec![0.0; count];
+    let zero = Sum::new(0.0);
     let mut viscous = zeros(layout.viscous);
     let mut temperatures = zeros(layout.thermal);
     for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
@@ -105,10 +104,10 @@ pub(crate) fn initial_state<const D: usize, S: Real>(
 }
 
 /// Writes the initial velocities of all motions; the errors of those that have none.
-pub(super) fn find_speeds<const D: usize, S: Real>(
-    loads: &Loads<S, D>,
-    span: [S; 2],
-    velocities: &mut [S],
+pub(super) fn find_speeds<const D: usize>(
+    loads: &Loads<D>,
+    span: [f64; 2],
+    velocities: &mut [f64],
 ) -> Vec<SceneError> {
     let mut errors = Vec::new();
     for (node, motion) in &loads.motions {
@@ -126,27 +125,20 @@ pub(super) fn find_speeds<const D: usize, S: Real>(
 }
 
 /// The initial velocity of a motion, from its positions within the first step, m/s; not a number if it has none.
-fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, [start, step]: [S; 2]) -> [S; D] {
-    let spans = shares().map(|share| S::from_f64(share) * step);
+fn first_speed<const D: usize>(motion: &OfTime<D>, [start, step]: [f64; 2]) -> [f64; D] {
+    let spans = shares().map(|share| share * step);
     let (first, places) = (motion(start), spans.map(|span| motion(start + span)));
     array::from_fn(|axis| {
-        S::pack(|lane| {
-            let spans = spans.map(|span| span.lane(lane));
-            let values = places.map(|place| place[axis].lane(lane));
-            derivative(
-                first[axis].lane(lane),
-                (spans, values),
-                S::EPSILON.lane(lane),
-            )
-        })
+        let values = places.map(|place| place[axis]);
+        derivative(first[axis], (spans, values))
     })
 }
 
 /// Finds the entropies of the initial state; all its errors if it is impossible.
-pub(super) fn find_entropies<const D: usize, S: Real>(
-    elements: &mut [&mut dyn Elements<S, D>],
-    state: &mut State<S>,
-    parts: Parts<'_, S, D>,
+pub(super) fn find_entropies<const D: usize>(
+    elements: &mut [&mut dyn Elements<D>],
+    state: &mut State,
+    parts: Parts<'_, D>,
 ) -> Result<(), Vec<SceneError>> {
     let mut errors = Vec::new();
     for group in &mut *elements {

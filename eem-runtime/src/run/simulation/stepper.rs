@@ -17,61 +17,60 @@ use crate::step::explicit::{Explicit, SavedExplicit, Site};
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::{SavedPast, Solver};
 use crate::step::systems::Systems;
-use eem_material::number::scalar::Real;
 
 /// The elements of a scene without a scheme, a set per model.
-type Models<S, const D: usize> = Vec<Box<dyn Loose<S, D>>>;
+type Models<const D: usize> = Vec<Box<dyn Loose<D>>>;
 
 /// The solver of a scheme with the elements of a scene.
-pub(super) enum Stepper<S: Real, const D: usize> {
+pub(super) enum Stepper<const D: usize> {
     /// Newton's method.
-    Newton(Box<Newton<S, D>>),
+    Newton(Box<Newton<D>>),
     /// An explicit scheme.
-    Explicit(Box<Explicit<S, D>>),
+    Explicit(Box<Explicit<D>>),
 }
 
 /// Elements, loads and solver of an implicit scheme.
-pub(super) struct Newton<S: Real, const D: usize> {
-    pub(super) groups: Vec<Box<dyn Group<S, D>>>,
-    pub(super) solver: Solver<S, D>,
+pub(super) struct Newton<const D: usize> {
+    pub(super) groups: Vec<Box<dyn Group<D>>>,
+    pub(super) solver: Solver<D>,
     /// The loads of the step.
-    pub(super) loads: StepLoads<S>,
+    pub(super) loads: StepLoads,
     /// The loads at its stages, if the scheme has several.
-    pub(super) stages: Vec<StepLoads<S>>,
+    pub(super) stages: Vec<StepLoads>,
     /// The intermediate state of the staggered scheme.
-    pub(super) intermediate: Option<State<S>>,
+    pub(super) intermediate: Option<State>,
 }
 
 /// The parts of a scene from which a stepper is made, besides its groups.
 #[derive(Clone, Copy)]
-pub(super) struct Parts<'a, S: Real, const D: usize> {
+pub(super) struct Parts<'a, const D: usize> {
     pub(super) scheme: Scheme,
-    pub(super) masses: &'a Masses<S>,
+    pub(super) masses: &'a Masses,
     pub(super) elements: &'a Ends,
     pub(super) layout: &'a Layout,
-    pub(super) conduction: &'a Conduction<S>,
-    pub(super) loads: &'a Loads<S, D>,
+    pub(super) conduction: &'a Conduction,
+    pub(super) loads: &'a Loads<D>,
 }
 
-impl<S: Real, const D: usize> Parts<'_, S, D> {
+impl<const D: usize> Parts<'_, D> {
     /// The linear systems of the scheme.
-    pub(super) fn systems(&self, limit: MemoryLimit) -> Result<Systems<S, D>, TooLarge> {
+    pub(super) fn systems(&self, limit: MemoryLimit) -> Result<Systems<D>, TooLarge> {
         let elements = (self.elements, self.layout);
         let rockets = self.loads.rocket_lines();
         Systems::new(self.scheme, elements, self.conduction, &rockets, limit)
     }
 }
 
-impl<S: Real, const D: usize> Stepper<S, D> {
+impl<const D: usize> Stepper<D> {
     /// A stepper for elements in a state. `begin` is called with the elements before memory for the solver is reserved; if it
     /// fails, the elements are returned.
     pub(super) fn new<E>(
-        elements: Models<S, D>,
-        systems: Systems<S, D>,
-        parts: Parts<'_, S, D>,
-        state: &mut State<S>,
-        begin: impl FnOnce(&mut State<S>, &mut [&mut dyn Elements<S, D>]) -> Result<(), E>,
-    ) -> Result<Self, (E, Models<S, D>)> {
+        elements: Models<D>,
+        systems: Systems<D>,
+        parts: Parts<'_, D>,
+        state: &mut State,
+        begin: impl FnOnce(&mut State, &mut [&mut dyn Elements<D>]) -> Result<(), E>,
+    ) -> Result<Self, (E, Models<D>)> {
         let placed = Placed {
             nodes: parts.elements,
             layout: parts.layout,
@@ -107,7 +106,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     }
 
     /// Takes the elements out of the stepper, which cannot step afterwards.
-    pub(super) fn take_elements(&mut self) -> Models<S, D> {
+    pub(super) fn take_elements(&mut self) -> Models<D> {
         match self {
             Self::Newton(newton) => {
                 let groups = mem::take(&mut newton.groups).into_iter();
@@ -129,7 +128,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     }
 
     /// The history on which the step from this state depends.
-    pub(super) fn past(&self, state: &State<S>) -> (SavedPast<S>, Option<SavedExplicit<S>>) {
+    pub(super) fn past(&self, state: &State) -> (SavedPast, Option<SavedExplicit>) {
         match self {
             Self::Newton(newton) => (newton.solver.past(), None),
             Self::Explicit(explicit) => (SavedPast::none(), Some(explicit.save(state))),
@@ -137,14 +136,14 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     }
 
     /// Overwrites a saved history of Newton's method.
-    pub(super) fn save_past_to(&self, past: &mut SavedPast<S>) {
+    pub(super) fn save_past_to(&self, past: &mut SavedPast) {
         if let Self::Newton(newton) = self {
             newton.solver.save_past_to(past);
         }
     }
 
     /// Continues from a saved history.
-    pub(super) fn restore(&mut self, past: &SavedPast<S>, saved: Option<&SavedExplicit<S>>) {
+    pub(super) fn restore(&mut self, past: &SavedPast, saved: Option<&SavedExplicit>) {
         match self {
             Self::Newton(newton) => newton.solver.restore(past),
             Self::Explicit(explicit) => match saved {
@@ -163,7 +162,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     }
 
     /// A group.
-    pub(super) fn elements(&self, group: usize) -> &dyn Elements<S, D> {
+    pub(super) fn elements(&self, group: usize) -> &dyn Elements<D> {
         match self {
             Self::Newton(newton) => newton.groups[group].elements(),
             Self::Explicit(explicit) => explicit.elements(group),
@@ -171,7 +170,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     }
 
     /// All groups.
-    pub(super) fn all(&self) -> impl Iterator<Item = &dyn Elements<S, D>> {
+    pub(super) fn all(&self) -> impl Iterator<Item = &dyn Elements<D>> {
         let groups = match self {
             Self::Newton(newton) => newton.groups.len(),
             Self::Explicit(explicit) => explicit.groups(),
@@ -180,7 +179,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     }
 
     /// Calls a function with each group.
-    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
+    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<D>)) {
         match self {
             Self::Newton(newton) => {
                 for group in &mut newton.groups {
@@ -192,12 +191,12 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     }
 }
 
-impl<S: Real, const D: usize> Newton<S, D> {
+impl<const D: usize> Newton<D> {
     fn new(
-        mut groups: Vec<Box<dyn Group<S, D>>>,
-        systems: Systems<S, D>,
-        parts: Parts<'_, S, D>,
-        state: &State<S>,
+        mut groups: Vec<Box<dyn Group<D>>>,
+        systems: Systems<D>,
+        parts: Parts<'_, D>,
+        state: &State,
     ) -> Self {
         let (masses, layout, conduction) = (parts.masses, parts.layout, parts.conduction);
         let (coordinates, is_coupled) = (masses.len() * D, masses.are_coupled());
@@ -220,25 +219,24 @@ impl<S: Real, const D: usize> Newton<S, D> {
     /// Evaluates the loads of the step from `time` by `step`, from the old state.
     pub(super) fn evaluate_loads(
         &mut self,
-        loads: &Loads<S, D>,
-        masses: &Masses<S>,
+        loads: &Loads<D>,
+        masses: &Masses,
         scheme: Scheme,
-        [time, step]: [S; 2],
-        old: &State<S>,
+        [time, step]: [f64; 2],
+        old: &State,
     ) -> Result<(), StepFailure> {
         let span = [time, step];
         let Some(rule) = scheme.tableau() else {
             return self.loads.evaluate(loads, masses, span, old);
         };
-        self.loads.evaluate_supports(loads, (span, S::one()), old)?;
+        self.loads.evaluate_supports(loads, (span, 1.0), old)?;
         for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
-            let time = loads.inside(span, time + S::from_f64(share) * step);
+            let time = loads.inside(span, time + share * step);
             stage.evaluate_forces_at(loads, masses, time)?;
         }
         // The paths of elements have their own times for supports.
         let supports = rule.path.map_or(rule.times, |path| path.supports.times);
         for (stage, &share) in self.stages.iter_mut().zip(supports) {
-            let share = S::from_f64(share);
             stage.evaluate_supports(loads, ([time, share * step], share), old)?;
         }
         Ok(())

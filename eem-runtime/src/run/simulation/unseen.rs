@@ -8,7 +8,7 @@ use crate::step::error::{StepError, StepFailure};
 use crate::step::load_rule::LoadRule;
 use crate::step::samples::{Grid, MOST};
 use crate::step::timed::TimedLoad;
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::{Scalar, is_positive};
 
 /// Intervals between samples from the present time to the end of a run. What lasts a hundredth of that time contains two samples
 /// or three, one of them not farther from its middle than a fifth of its duration.
@@ -25,14 +25,14 @@ const FEW: f64 = 0.5;
 const STOP_ROUNDINGS: f64 = 4.0;
 
 /// A load as a function of time.
-enum Timed<'a, S: Real, const D: usize> {
-    Vector(TimedLoad, &'a OfTime<S, D>),
-    Scalar(TimedLoad, &'a ScalarOfTime<S>),
+enum Timed<'a, const D: usize> {
+    Vector(TimedLoad, &'a OfTime<D>),
+    Scalar(TimedLoad, &'a ScalarOfTime),
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// All loads that are functions of time.
-    fn timed_loads(&self) -> impl Iterator<Item = Timed<'_, S, D>> {
+    fn timed_loads(&self) -> impl Iterator<Item = Timed<'_, D>> {
         let loads = &self.loads;
         let forces = loads.forces.iter().filter_map(|(node, course)| {
             let of = course.function()?;
@@ -64,17 +64,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Functions of time are called in the step only, at times that depend on its start, its size and that end.
     pub(super) fn unseen_load(
         &self,
-        control: &Control<S>,
-        size: S,
+        control: &Control,
+        size: f64,
     ) -> Result<Option<TimedLoad>, StepError> {
         let Some(horizon) = control.horizon.filter(|_| self.has_loads) else {
             return Ok(None);
         };
-        let of_run = (horizon - self.time()) / S::from_f64(PER_RUN);
-        let of_load = self.loads.shortest.map(|time| time / S::from_f64(PER_LOAD));
-        let longest = of_load.map_or(of_run, |of_load| of_load.minimum(of_run));
+        let of_run = (horizon - self.time()) / PER_RUN;
+        let of_load = self.loads.shortest.map(|time| time / PER_LOAD);
+        let longest = of_load.map_or(of_run, |of_load| Scalar::minimum(of_load, of_run));
         let has_ovens = !self.loads.ovens.is_empty();
-        let is_short = size.at_most(S::from_f64(FEW) * longest).all() && longest.is_finite();
+        let is_short = size <= FEW * longest && longest.is_finite();
         if is_short && !has_ovens {
             return Ok(None);
         }
@@ -86,7 +86,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let least = (memory.largest_momentum, &self.least);
         let scales = Scales::new(&memory.tolerance, accurate, [&self.state; 2], least);
         // A shorter step is cheaper than so many samples.
-        let are_too_many = (S::from_f64(f64::from(MOST)) * longest).less(size).all();
+        let are_too_many = size > f64::from(MOST) * longest;
         for timed in self.timed_loads() {
             let (Timed::Vector(load, _) | Timed::Scalar(load, _)) = timed;
             if is_short && !matches!(load, TimedLoad::Oven(_)) {
@@ -106,9 +106,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Whether a step passes over a load.
     fn passes_over(
         &self,
-        timed: &Timed<'_, S, D>,
-        (control, scales): (&Control<S>, &Scales<'_, S>),
-        grid: &Grid<S>,
+        timed: &Timed<'_, D>,
+        (control, scales): (&Control, &Scales<'_>),
+        grid: &Grid,
     ) -> Result<bool, StepFailure> {
         let tolerance = &control.memory.tolerance;
         let inside = |time| self.loads.inside(grid.span(), time);
@@ -116,14 +116,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             Timed::Vector(load, of) => {
                 let of = |time| {
                     let time = inside(time);
-                    let value: [S; D] = of(time).into();
+                    let value: [f64; D] = of(time).into();
                     match value.iter().position(|value| !value.is_finite()) {
-                        Some(axis) => Err(StepFailure::of_load(
-                            *load,
-                            axis,
-                            value[axis].to_f64(),
-                            time.to_f64(),
-                        )),
+                        Some(axis) => Err(StepFailure::of_load(*load, axis, value[axis], time)),
                         None => Ok(value),
                     }
                 };
@@ -140,12 +135,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     if is_force && value.is_finite() || is_positive(value) {
                         Ok([value])
                     } else {
-                        Err(StepFailure::of_load(
-                            *load,
-                            0,
-                            value.to_f64(),
-                            time.to_f64(),
-                        ))
+                        Err(StepFailure::of_load(*load, 0, value, time))
                     }
                 };
                 if is_force {
@@ -169,7 +159,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     ..rule
                 };
                 let [_, size] = grid.span();
-                Ok(look.differs(means, rule, [size * height, S::zero()]))
+                Ok(look.differs(means, rule, [size * height, 0.0]))
             }
         }
     }
@@ -178,8 +168,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn passes_over_force<const N: usize>(
         &self,
         load: &TimedLoad,
-        (control, scales): (&Control<S>, &Scales<'_, S>),
-        (grid, of): (&Grid<S>, &impl Fn(S) -> Result<[S; N], StepFailure>),
+        (control, scales): (&Control, &Scales<'_>),
+        (grid, of): (&Grid, &impl Fn(f64) -> Result<[f64; N], StepFailure>),
     ) -> Result<bool, StepFailure> {
         let look = grid.look(of)?;
         let (TimedLoad::Force(node) | TimedLoad::Thrust(node)) = load else {
@@ -197,14 +187,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The end of the next step that is not later than `end`, s: `end` or an earlier time at which steps end. At the beginning of
     /// a step at such a time, step control and the rates of the explicit scheme start afresh: what they know is from before.
     #[cold]
-    pub(super) fn stop_before(&mut self, end: S) -> S {
+    pub(super) fn stop_before(&mut self, end: f64) -> f64 {
         let time = self.time();
-        let near = |stop: S| {
-            let rounding = S::from_f64(STOP_ROUNDINGS) * S::EPSILON;
-            (stop - time).abs().at_most(rounding * time.abs()).all()
+        let near = |stop: f64| {
+            let rounding = STOP_ROUNDINGS * f64::EPSILON;
+            (stop - time).abs() <= rounding * time.abs()
         };
         let stops = &self.loads.stops;
-        let next = stops.partition_point(|&stop| stop.at_most(time).all() || near(stop));
+        let next = stops.partition_point(|&stop| stop <= time || near(stop));
         let is_at_one = next > 0 && near(stops[next - 1]);
         let stop = stops.get(next).copied();
         if is_at_one {
@@ -213,9 +203,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             self.forget_loads();
         }
-        let rounding = S::from_f64(STOP_ROUNDINGS) * S::EPSILON * end.abs();
+        let rounding = STOP_ROUNDINGS * f64::EPSILON * end.abs();
         match stop {
-            Some(stop) if (stop + rounding).less(end).all() => stop,
+            Some(stop) if stop + rounding < end => stop,
             _ => end,
         }
     }

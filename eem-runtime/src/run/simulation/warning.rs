@@ -8,7 +8,7 @@ use super::memory::Unresolved;
 use crate::element::handle::Element;
 use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// Steps that keep all laws, but may mislead. See [`Simulation::warning`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,11 +49,11 @@ impl fmt::Display for Warning {
     }
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Notes a step that did not resolve a relaxation.
     #[cold]
-    pub(super) fn note_unresolved(&mut self, report: &StepReport<S>) {
-        let largest = self.unresolved.largest.maximum(report.step);
+    pub(super) fn note_unresolved(&mut self, report: &StepReport) {
+        let largest = Scalar::maximum(self.unresolved.largest, report.step);
         self.unresolved = Unresolved {
             steps: self.unresolved.steps + 1,
             largest,
@@ -61,8 +61,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
     }
 
-    /// Why the result of the steps so far may mislead although every one has kept its laws; `None` if nothing speaks for it, in
-    /// lanes, and while a tolerance [controls](Self::control_steps) the steps: then their errors are known.
+    /// Why the result of the steps so far may mislead although every one has kept its laws; `None` if nothing speaks for it,
+    /// and while a tolerance [controls](Self::control_steps) the steps: then their errors are known.
     ///
     /// ```
     /// use eem::prelude::*;
@@ -113,7 +113,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Some(Warning::Unresolved {
             element,
             relaxation,
-            step: largest.to_f64(),
+            step: largest,
             steps,
             scheme,
         })
@@ -127,22 +127,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut fastest: Option<(f64, Element)> = None;
         for elements in self.stepper.all() {
             let mut place = 0;
-            elements.stiffness(&self.state, &mut |point| {
-                let element = elements.handle(place);
-                place += 1;
-                let mut rate = point.relaxation.to_f64();
-                if let Some((slot, capacity)) = point.capacity
-                    && !self.in_use.is_damped()
-                    && !held.contains(&element.index())
-                {
-                    let settling = self.conduction.settling(slot).to_f64();
-                    rate = rate.max(2.0 * settling / capacity.to_f64());
-                }
-                let time = rate.recip();
-                if time.is_finite() && fastest.is_none_or(|(least, _)| time < least) {
-                    fastest = Some((time, element));
-                }
-            });
+            elements.stiffness(
+                &self.state,
+                &mut (|point| {
+                    let element = elements.handle(place);
+                    place += 1;
+                    let mut rate = point.relaxation;
+                    if let Some((slot, capacity)) = point.capacity
+                        && !self.in_use.is_damped()
+                        && !held.contains(&element.index())
+                    {
+                        let settling = self.conduction.settling(slot);
+                        rate = rate.max(2.0 * settling / capacity);
+                    }
+                    let time = rate.recip();
+                    if time.is_finite() && fastest.is_none_or(|(least, _)| time < least) {
+                        fastest = Some((time, element));
+                    }
+                }),
+            );
         }
         fastest
     }

@@ -6,12 +6,11 @@ use super::memory::Control;
 use super::stepper::Stepper;
 use crate::step::control::{Scales, Unknown};
 use crate::step::error::WorstError;
-use eem_material::number::scalar::Real;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The unknown with the largest error in a step of this size, which was rejected; the state is unchanged.
     #[cold]
-    pub(super) fn worst_error(&mut self, control: &mut Control<S>, size: S) -> Option<WorstError> {
+    pub(super) fn worst_error(&mut self, control: &mut Control, size: f64) -> Option<WorstError> {
         let (unknown, [error, allowed]) = match (&mut control.halves, &mut self.stepper) {
             (None, Stepper::Explicit(explicit)) => {
                 self.has_stepped = false;
@@ -28,7 +27,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let states = [&halves.whole, &*self.state];
                 let worst = scales.worst::<D>(states, &halves.kinds);
                 self.return_to(halves);
-                let share: S = control.accuracy.share_of_difference();
+                let share: f64 = control.accuracy.share_of_difference();
                 worst
                     .map(|(unknown, [difference, scale])| (unknown, [share * difference, scale]))?
             }
@@ -53,8 +52,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Some(WorstError {
             of: format!("the {quantity} of {place}"),
             unit,
-            error: error.to_f64(),
-            allowed: allowed.to_f64(),
+            error,
+            allowed,
             setting,
         })
     }

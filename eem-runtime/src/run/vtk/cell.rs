@@ -8,7 +8,6 @@ use crate::element::handle::Element;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use eem_material::number::scalar::Real;
 
 /// The data of cells: names and numbers of components. Symmetric tensors have the order of the format: 11, 22, 33, 12,
 /// 23, 13.
@@ -42,31 +41,31 @@ pub(super) struct Cell {
 impl Cell {
     /// Appends its values in a state to the columns of [`DATA`]: sums of energy and production, means of all others, and
     /// NaN where a cell has no value.
-    pub(super) fn append<const D: usize, S: Real>(
+    pub(super) fn append<const D: usize>(
         &self,
-        run: &Simulation<D, S>,
+        run: &Simulation<D>,
         columns: &mut [Vec<f64>; DATA.len()],
     ) -> Result<(), SceneError> {
         let mut scalars = [f64::NAN; 8];
         let [temperature, energy, production, mechanical @ ..] = &mut scalars;
         let mut tensors = [[f64::NAN; 6]; 3];
         if !self.elements.is_empty() {
-            [*energy] = self.sum(|element| Ok([run.internal_energy(element)?.to_f64()]))?;
+            [*energy] = self.sum(|element| Ok([run.internal_energy(element)?]))?;
         }
         if self.is_thermal {
-            [*temperature] = self.mean(|element| Ok([run.temperature(element)?.to_f64()]))?;
-            [*production] = self.sum(|element| Ok([run.entropy_production(element)?.to_f64()]))?;
+            [*temperature] = self.mean(|element| Ok([run.temperature(element)?]))?;
+            [*production] = self.sum(|element| Ok([run.entropy_production(element)?]))?;
         }
         let [stretch, force, of_solid @ ..] = mechanical;
         if self.is_spring {
-            [*stretch] = self.mean(|element| Ok([run.stretch(element)?.to_f64()]))?;
-            [*force] = self.mean(|element| Ok([run.force(element)?.to_f64()]))?;
+            [*stretch] = self.mean(|element| Ok([run.stretch(element)?]))?;
+            [*force] = self.mean(|element| Ok([run.force(element)?]))?;
         } else if !self.elements.is_empty() {
             *of_solid = self.mean(|element| {
                 let state = run.solid_state(element)?;
                 let e = |axis| state.strain[(axis, axis)];
                 let trace = e(0) + e(1) + e(2);
-                Ok([trace, state.dilatation, state.von_mises()].map(Real::to_f64))
+                Ok([trace, state.dilatation, state.von_mises()])
             })?;
             tensors[0] = self.mean(|element| Ok(components(&run.solid_state(element)?.strain)))?;
             tensors[1] = self.mean(|element| Ok(components(&run.solid_state(element)?.stress)))?;
@@ -106,13 +105,13 @@ impl Cell {
 }
 
 /// The components of a symmetric tensor.
-fn components<S: Real>(tensor: &SMatrix<S, 3, 3>) -> [f64; 6] {
+fn components(tensor: &SMatrix<f64, 3, 3>) -> [f64; 6] {
     let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
-    places.map(|place| tensor[place].to_f64())
+    places.map(|place| tensor[place])
 }
 
 /// The cells of a scene in the order of creation, then the nodes that belong to none.
-pub(super) fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
+pub(super) fn cells<const D: usize>(scene: &Scene<D>) -> Vec<Cell> {
     let mut cells = Vec::new();
     let mut is_alone = vec![true; scene.nodes.len()];
     let mut next = 0;

@@ -5,34 +5,33 @@ use core::array;
 use crate::algebra::system::LinearSystem;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
-use eem_material::number::scalar::Real;
 
 /// The masses with the indices of their matrix entries.
 #[derive(Debug)]
-pub(super) struct Inertia<S, const D: usize> {
-    pub(super) nodes: Vec<Moving<S, D>>,
-    pairs: Vec<Coupling<S, D>>,
+pub(super) struct Inertia<const D: usize> {
+    pub(super) nodes: Vec<Moving<D>>,
+    pairs: Vec<Coupling<D>>,
 }
 
 /// A node that moves.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moving<S, const D: usize> {
+pub(super) struct Moving<const D: usize> {
     /// Its first coordinate and unknown, and its diagonal entries.
     pub(super) coordinate: usize,
     pub(super) unknown: usize,
     diagonal: [usize; D],
-    pub(super) mass: S,
+    pub(super) mass: f64,
 }
 
 /// The entries of a mass that couples two nodes, in both triangles.
 #[derive(Clone, Copy, Debug)]
-struct Coupling<S, const D: usize> {
+struct Coupling<const D: usize> {
     places: [[usize; D]; 2],
-    mass: S,
+    mass: f64,
 }
 
-impl<S: Real, const D: usize> Inertia<S, D> {
-    pub(super) fn new(layout: &Layout, masses: &Masses<S>, system: &LinearSystem<S, 1>) -> Self {
+impl<const D: usize> Inertia<D> {
+    pub(super) fn new(layout: &Layout, masses: &Masses, system: &LinearSystem<1>) -> Self {
         let place = |row: usize, column: usize| {
             array::from_fn(|axis| system.place(Some(row + axis), Some(column + axis)))
         };
@@ -61,9 +60,9 @@ impl<S: Real, const D: usize> Inertia<S, D> {
     }
 
     /// Adds `2M/h` to a matrix.
-    pub(super) fn add_to(&self, step: S, system: &mut LinearSystem<S, 1>) {
+    pub(super) fn add_to(&self, step: f64, system: &mut LinearSystem<1>) {
         let (values, _) = system.parts();
-        let per = S::from_f64(2.0) / step;
+        let per = 2.0 / step;
         for node in &self.nodes {
             for &place in &node.diagonal {
                 values[place] += per * node.mass;

@@ -8,42 +8,40 @@ use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
 use crate::element::state::State;
 use crate::step::line::Line;
-use eem_material::number::scalar::Real;
 
 /// A rocket in a step.
 #[derive(Clone, Debug)]
-pub(crate) struct RocketStep<S, const D: usize> {
+pub(crate) struct RocketStep<const D: usize> {
     line: PushLine,
     /// n in the middle of the step.
-    pub(crate) direction: [S; D],
+    pub(crate) direction: [f64; D],
     /// `½ h F (1 − n nᵀ)/|r|`, the derivative of its impulse with respect to the head in either state, N s/m; with
     /// respect to the tail it is the negative.
-    turning: [[S; D]; D],
+    turning: [[f64; D]; D],
 }
 
-impl<S: Real, const D: usize> RocketStep<S, D> {
+impl<const D: usize> RocketStep<D> {
     /// A rocket with the impulse `h F` in the step between two states.
-    pub(crate) fn new(line: PushLine, impulse: S, states: [&State<S>; 2]) -> Self {
-        let half = S::from_f64(0.5);
-        let arm: [S; D] = array::from_fn(|axis| {
+    pub(crate) fn new(line: PushLine, impulse: f64, states: [&State; 2]) -> Self {
+        let arm: [f64; D] = array::from_fn(|axis| {
             let arms = states.map(|state| {
-                let positions = points::<S, D>(state.positions.values());
+                let positions = points::<D>(state.positions.values());
                 positions[line.head.index][axis] - positions[line.tail.index][axis]
             });
-            half * (arms[0] + arms[1])
+            0.5 * (arms[0] + arms[1])
         });
         let along = Line::along(&arm);
         Self {
             line,
             direction: along.direction,
-            turning: along.turning(half * impulse),
+            turning: along.turning(0.5 * impulse),
         }
     }
 
     /// Tail and head, with the signs of the derivatives of the arm.
-    fn ends(&self) -> [(usize, S); 2] {
+    fn ends(&self) -> [(usize, f64); 2] {
         let PushLine { tail, head, .. } = self.line;
-        [(tail.index, -S::one()), (head.index, S::one())]
+        [(tail.index, -1.0), (head.index, 1.0)]
     }
 
     /// Subtracts the derivatives with respect to the new state from the matrix, or from the transposed one.
@@ -51,7 +49,7 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
         &self,
         layout: &Layout,
         is_transposed: bool,
-        system: &mut LinearSystem<S, 1>,
+        system: &mut LinearSystem<1>,
     ) {
         let Some(pushed) = layout.nodes[self.line.node.index] else {
             return;
@@ -75,7 +73,7 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
     }
 
     /// Adds the change of the impulse with its line, in both states, to the right-hand side of a direction.
-    pub(super) fn push(&self, layout: &Layout, direction: &mut Direction<S>) {
+    pub(super) fn push(&self, layout: &Layout, direction: &mut Direction) {
         let Some(pushed) = layout.nodes[self.line.node.index] else {
             return;
         };
@@ -95,15 +93,15 @@ impl<S: Real, const D: usize> RocketStep<S, D> {
     pub(super) fn subtract(
         &self,
         layout: &Layout,
-        by_old: &mut PerVariable<S>,
-        weights: &mut StepWeights<S>,
+        by_old: &mut PerVariable,
+        weights: &mut StepWeights,
     ) {
         let node = self.line.node.index;
-        let w: [S; D] = array::from_fn(|axis| weights.motion[node * D + axis]);
+        let w: [f64; D] = array::from_fn(|axis| weights.motion[node * D + axis]);
         for (end, sign) in self.ends() {
             for axis in 0..D {
                 let rows = self.turning.iter().zip(w);
-                let sum = rows.fold(S::zero(), |sum, (row, w)| sum + row[axis] * w);
+                let sum = rows.fold(0.0, |sum, (row, w)| sum + row[axis] * w);
                 let (at, by) = (end * D + axis, -sign * sum);
                 by_old.positions[at] -= by;
                 if layout.nodes[end].is_none() {

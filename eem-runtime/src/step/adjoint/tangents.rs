@@ -11,45 +11,44 @@ use crate::element::masses::Masses;
 use crate::step::adjoint::error::NoAdjoint;
 use crate::step::adjoint::inertia::Inertia;
 use crate::step::adjoint::rockets::RocketStep;
-use eem_material::number::scalar::Real;
 
 /// Computes the tangents of one step after the other, with a workspace for all of them.
 #[derive(Debug)]
-pub(crate) struct Tangents<S, const D: usize> {
-    inertia: Inertia<S, D>,
+pub(crate) struct Tangents<const D: usize> {
+    inertia: Inertia<D>,
     /// The interface temperatures of a step, and whether there are any.
-    interface: InterfaceTemperatures<S>,
+    interface: InterfaceTemperatures,
     is_coupled: bool,
     /// θ*, by thermal slot.
-    temperatures: Vec<S>,
+    temperatures: Vec<f64>,
     /// The slot at which each path of heat begins, and its partner.
     paths: Vec<(usize, Partner)>,
     /// `M` times velocities.
-    velocities: Vec<S>,
-    momenta: Vec<S>,
+    velocities: Vec<f64>,
+    momenta: Vec<f64>,
     rows: usize,
 }
 
 /// The changes of conductances of all paths, and of temperatures of all reservoirs; empty where none changes.
 #[derive(Clone, Debug)]
-pub(crate) struct HeatChange<S> {
-    pub(crate) conductances: Vec<S>,
-    pub(crate) reservoirs: Vec<S>,
+pub(crate) struct HeatChange {
+    pub(crate) conductances: Vec<f64>,
+    pub(crate) reservoirs: Vec<f64>,
 }
 
-impl<S: Real, const D: usize> Tangents<S, D> {
+impl<const D: usize> Tangents<D> {
     pub(crate) fn new(
         layout: &Layout,
-        masses: &Masses<S>,
-        conduction: &Conduction<S>,
-        system: &LinearSystem<S, 1>,
+        masses: &Masses,
+        conduction: &Conduction,
+        system: &LinearSystem<1>,
     ) -> Self {
-        let zeros = |count| vec![S::zero(); count];
+        let zeros = |count| vec![0.0; count];
         Self {
             inertia: Inertia::new(layout, masses, system),
             interface: InterfaceTemperatures::new(layout.thermal),
             is_coupled: layout.coupled.iter().any(Option::is_some),
-            temperatures: vec![S::one(); layout.thermal],
+            temperatures: vec![1.0; layout.thermal],
             paths: conduction.path_ends(),
             velocities: zeros(masses.len() * D),
             momenta: zeros(masses.len() * D),
@@ -60,18 +59,18 @@ impl<S: Real, const D: usize> Tangents<S, D> {
     /// A direction that begins with a change of the state.
     pub(crate) fn direction(
         &self,
-        start: PerVariable<S>,
-        parameters: Vec<Vec<S>>,
+        start: PerVariable,
+        parameters: Vec<Vec<f64>>,
         has_heat: bool,
-    ) -> Direction<S> {
+    ) -> Direction {
         let slots = self.temperatures.len();
         Direction {
             old: start.clone(),
             new: start,
-            middle: vec![S::zero(); slots],
+            middle: vec![0.0; slots],
             parameters,
-            heat: vec![[S::zero(); 2]; if has_heat { slots } else { 0 }],
-            right: vec![[S::zero()]; self.rows],
+            heat: vec![[0.0; 2]; if has_heat { slots } else { 0 }],
+            right: vec![[0.0]; self.rows],
         }
     }
 
@@ -80,11 +79,11 @@ impl<S: Real, const D: usize> Tangents<S, D> {
     /// masses and loads.
     pub(crate) fn step_forward(
         &mut self,
-        past: &PastStep<'_, S>,
-        (layout, rockets): (&Layout, &[RocketStep<S, D>]),
-        groups: &mut [Box<dyn Group<S, D>>],
-        system: &mut LinearSystem<S, 1>,
-        (directions, heats): (&mut [Direction<S>], &[HeatChange<S>]),
+        past: &PastStep<'_>,
+        (layout, rockets): (&Layout, &[RocketStep<D>]),
+        groups: &mut [Box<dyn Group<D>>],
+        system: &mut LinearSystem<1>,
+        (directions, heats): (&mut [Direction], &[HeatChange]),
     ) -> Result<(), NoAdjoint> {
         let view = &past.view;
         if self.is_coupled {
@@ -125,16 +124,11 @@ impl<S: Real, const D: usize> Tangents<S, D> {
     }
 
     /// Finds the change of heat by changes of conductances and reservoirs, at fixed temperatures of elements.
-    fn conduct(
-        &self,
-        conduction: &Conduction<S>,
-        of: &HeatChange<S>,
-        direction: &mut Direction<S>,
-    ) {
+    fn conduct(&self, conduction: &Conduction, of: &HeatChange, direction: &mut Direction) {
         if direction.heat.is_empty() {
             return;
         }
-        direction.heat.fill([S::zero(); 2]);
+        direction.heat.fill([0.0; 2]);
         for (&by, &(slot, partner)) in of.conductances.iter().zip(&self.paths) {
             match partner {
                 Partner::Slot(other) => {
@@ -152,14 +146,14 @@ impl<S: Real, const D: usize> Tangents<S, D> {
             for link in conduction.links(slot) {
                 if let Partner::Reservoir(at) = link.partner {
                     let warmer = of.reservoirs.get(at).copied();
-                    heat[0] += link.conductance * warmer.unwrap_or(S::zero());
+                    heat[0] += link.conductance * warmer.unwrap_or(0.0);
                 }
             }
         }
     }
 
     /// Adds the known terms of `M Δv = (2/h) M Δq − 2 M v⁰` to the right-hand side; the velocities of anchors are given.
-    fn push_inertia(&mut self, masses: &Masses<S>, direction: &mut Direction<S>) {
+    fn push_inertia(&mut self, masses: &Masses, direction: &mut Direction) {
         let Direction {
             old, new, right, ..
         } = direction;
@@ -188,11 +182,11 @@ impl<S: Real, const D: usize> Tangents<S, D> {
     }
 
     /// Sets `q¹` and `v¹ = (2/h) Δq − v⁰` of masses.
-    fn move_on(&self, step: S, direction: &mut Direction<S>) {
+    fn move_on(&self, step: f64, direction: &mut Direction) {
         let Direction {
             old, new, right, ..
         } = direction;
-        let per = S::from_f64(2.0) / step;
+        let per = 2.0 / step;
         for node in &self.inertia.nodes {
             for axis in 0..D {
                 let at = node.coordinate + axis;
@@ -204,18 +198,12 @@ impl<S: Real, const D: usize> Tangents<S, D> {
     }
 
     /// Adds the changes of the entropies of reservoirs, `Δσ = (h/θ_r) Σ κ (θ* − θ_r)`.
-    fn book(
-        &self,
-        step: S,
-        conduction: &Conduction<S>,
-        of: &HeatChange<S>,
-        direction: &mut Direction<S>,
-    ) {
+    fn book(&self, step: f64, conduction: &Conduction, of: &HeatChange, direction: &mut Direction) {
         for (slot, &theta) in self.temperatures.iter().enumerate() {
             for link in conduction.links(slot) {
                 if let Partner::Reservoir(at) = link.partner {
                     let outer = conduction.reservoirs[at];
-                    let warmer = of.reservoirs.get(at).copied().unwrap_or(S::zero());
+                    let warmer = of.reservoirs.get(at).copied().unwrap_or(0.0);
                     let change = direction.middle[slot] - warmer * (theta / outer);
                     direction.new.reservoirs[at] += step * link.conductance * change / outer;
                 }

@@ -1,7 +1,7 @@
 //! The error of a step as a function of its size, and the size of the next step from the errors of the last ones.
 
 use crate::step::control::norm::ROUNDINGS;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// The error that a step aims at, in units of the tolerance.
 const AIM: f64 = 0.8;
@@ -48,8 +48,8 @@ impl Accuracy {
     }
 
     /// The error of two halves as a share of their difference from the whole step, `1/(2ᵖ − 1)` with the least p.
-    pub(crate) fn share_of_difference<S: Real>(self) -> S {
-        S::from_f64(f64::from(self.least_order).exp2() - 1.0).recip()
+    pub(crate) fn share_of_difference(self) -> f64 {
+        (f64::from(self.least_order).exp2() - 1.0).recip()
     }
 
     /// The order, if errors are found from the step in two halves.
@@ -63,41 +63,44 @@ impl Accuracy {
     }
 
     /// The relative tolerance of one step, which takes the fraction `part` of the time that the tolerance is for.
-    pub(crate) fn of_step<S: Real>(self, relative: S, part: S) -> S {
+    pub(crate) fn of_step(self, relative: f64, part: f64) -> f64 {
         match self.estimate {
-            Estimate::Halves => relative.powf(S::from_f64(1.0 + 1.0 / self.order())),
+            Estimate::Halves => Scalar::powf(relative, 1.0 + 1.0 / self.order()),
             Estimate::HalvesOverTime => relative * part,
             Estimate::Embedded => relative,
         }
     }
 
     /// The smallest relative tolerance whose errors are above rounding.
-    pub(super) fn floor<S: Real>(self) -> f64 {
-        let rounding = ROUNDINGS * S::EPSILON.to_f64();
+    pub(super) fn floor(self) -> f64 {
+        let rounding = ROUNDINGS * f64::EPSILON;
         match self.estimate {
             Estimate::Halves | Estimate::HalvesOverTime => {
-                rounding.powf(self.order() / (self.order() + 1.0))
+                Scalar::powf(rounding, self.order() / (self.order() + 1.0))
             }
             Estimate::Embedded => rounding,
         }
     }
 
     /// Whether a step with this error, in units of the tolerance, is accepted.
-    pub(crate) fn accepts<S: Real>(self, error: S) -> bool {
+    pub(crate) fn accepts(self, error: f64) -> bool {
         let most = match self.estimate {
             Estimate::Halves | Estimate::HalvesOverTime => MOST,
             Estimate::Embedded => 1.0,
         };
-        error.at_most(S::from_f64(most)).all()
+        error <= most
     }
 
     /// The fraction of its size with which a rejected step is tried again.
-    pub(crate) fn left_after<S: Real>(self, error: S) -> S {
-        let power = S::from_f64(-1.0 / self.order_of_estimate());
-        let left = S::from_f64(AIM) * error.powf(power);
-        let least = S::from_f64(LEAST_AFTER_ERROR);
-        // NaN if the error is NaN.
-        if least.less(left).all() { left } else { least }
+    pub(crate) fn left_after(self, error: f64) -> f64 {
+        let power = -1.0 / self.order_of_estimate();
+        let left = AIM * Scalar::powf(error, power);
+        // Not NaN if the error is NaN.
+        if left > LEAST_AFTER_ERROR {
+            left
+        } else {
+            LEAST_AFTER_ERROR
+        }
     }
 
     /// The power of the step size to which its estimated error, in units of the tolerance, is proportional.
@@ -150,21 +153,21 @@ const FIRST_GROWTH: f64 = 1e4;
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct Controller<S> {
+pub(crate) struct Controller {
     /// The error and the size of the last accepted step; none before the first.
-    pub(crate) last: Option<[S; 2]>,
+    pub(crate) last: Option<[f64; 2]>,
 }
 
-impl<S: Real> Controller<S> {
+impl Controller {
     pub(crate) const fn new() -> Self {
         Self { last: None }
     }
 
     /// The size of the next step after one of this size and with this error, in units of the tolerance.
-    pub(crate) fn next(&mut self, size: S, error: S, accuracy: Accuracy) -> S {
+    pub(crate) fn next(&mut self, size: f64, error: f64, accuracy: Accuracy) -> f64 {
         let last = self.last.replace([error, size]);
         let order = accuracy.order_of_estimate();
-        let is_known = S::zero().less(error).all();
+        let is_known = error > 0.0;
         if last.is_none() && is_known && accuracy.has_halves() {
             return size * first_growth(error, order);
         }
@@ -178,36 +181,35 @@ impl<S: Real> Controller<S> {
 }
 
 /// The factor on the size of the first step.
-fn first_growth<S: Real>(error: S, order: f64) -> S {
-    let error = error.maximum(S::from_f64(LEAST_ERROR));
-    let factor = (S::from_f64(AIM) / error).powf(S::from_f64(1.0 / order));
-    factor.minimum(S::from_f64(FIRST_GROWTH))
+fn first_growth(error: f64, order: f64) -> f64 {
+    let error = Scalar::maximum(error, LEAST_ERROR);
+    let factor = Scalar::powf(AIM / error, 1.0 / order);
+    Scalar::minimum(factor, FIRST_GROWTH)
 }
 
 /// The factor on the step size by the filter.
-fn filtered<S: Real>([size, error]: [S; 2], [last_error, last_size]: [S; 2], order: f64) -> S {
-    let share = |error: S| {
-        let error = error.maximum(S::from_f64(LEAST_ERROR));
-        (S::from_f64(AIM) / error).powf(S::from_f64(1.0 / (MEMORY * order)))
+fn filtered([size, error]: [f64; 2], [last_error, last_size]: [f64; 2], order: f64) -> f64 {
+    let share = |error: f64| {
+        let error = Scalar::maximum(error, LEAST_ERROR);
+        Scalar::powf(AIM / error, 1.0 / (MEMORY * order))
     };
-    let memory = (size / last_size).powf(S::from_f64(-1.0 / MEMORY));
+    let memory = Scalar::powf(size / last_size, -1.0 / MEMORY);
     limited(share(error) * share(last_error) * memory)
 }
 
 /// The factor on the step size for an embedded estimate.
-fn proportional<S: Real>(error: S, [last_error, _]: [S; 2], order: f64) -> S {
-    let error = error.maximum(S::from_f64(LEAST_ERROR));
-    let last_error = last_error.maximum(S::from_f64(LEAST_REMEMBERED));
-    let factor = S::from_f64(AIM)
-        * error.powf(S::from_f64(FORGETTING - 1.0 / order))
-        * last_error.powf(S::from_f64(REMEMBERING));
-    let [least, most] = CHANGES.map(S::from_f64);
-    factor.maximum(least).minimum(most)
+fn proportional(error: f64, [last_error, _]: [f64; 2], order: f64) -> f64 {
+    let error = Scalar::maximum(error, LEAST_ERROR);
+    let last_error = Scalar::maximum(last_error, LEAST_REMEMBERED);
+    let factor =
+        AIM * Scalar::powf(error, FORGETTING - 1.0 / order) * Scalar::powf(last_error, REMEMBERING);
+    let [least, most] = CHANGES;
+    Scalar::minimum(Scalar::maximum(factor, least), most)
 }
 
 /// `1 + arctan(f − 1)`
-fn limited<S: Real>(factor: S) -> S {
-    S::one() + (factor - S::one()).atan()
+fn limited(factor: f64) -> f64 {
+    1.0 + Scalar::atan(factor - 1.0)
 }
 
 #[cfg(test)]

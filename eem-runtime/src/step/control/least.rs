@@ -6,7 +6,7 @@ use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::step::control::controller::Accuracy;
 use crate::step::control::norm::{ROUNDINGS, norm};
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// A momentum that grows counts for at most this multiple of itself.
 const MOST_AHEAD: f64 = 8.0;
@@ -27,92 +27,100 @@ const MOST_AHEAD: f64 = 8.0;
 /// While |p|₂ grows beyond all that it has been, the scale is what it becomes in a period `2π/ω` if it goes on to grow like
 /// this, at most 8 times as much: the errors of a period add up to the tolerance of what the momentum is at its end.
 #[derive(Clone, Debug)]
-pub(crate) struct LeastScales<S> {
+pub(crate) struct LeastScales {
     /// |q|₂ at the start, m; 1 m if all nodes are at the origin, where the scene has no length.
-    size: S,
+    size: f64,
     /// The fastest of all vibrations, dampers and paths of heat, 1/s.
-    rate: S,
-    nodes: Box<[AtNode<S>]>,
+    rate: f64,
+    nodes: Box<[AtNode]>,
     /// The largest entries of all nodes.
-    most: AtNode<S>,
+    most: AtNode,
 }
 
 /// What is around a mass.
 #[derive(Clone, Copy, Debug)]
-struct AtNode<S> {
+struct AtNode {
     /// `2π/ω`, s; infinite where nothing holds the mass.
-    period: S,
+    period: f64,
     /// m ℓ ω, kg m/s.
-    bound: S,
+    bound: f64,
     /// m ℓ where nothing holds the mass, else zero, kg m.
-    free: S,
+    free: f64,
     /// The terms of the forces, N.
-    force: S,
+    force: f64,
 }
 
-impl<S: Real> LeastScales<S> {
+impl LeastScales {
     /// Of elements in a state.
     pub(crate) fn new<'a, const D: usize>(
-        groups: impl Iterator<Item = &'a dyn Elements<S, D>>,
-        (masses, conduction): (&Masses<S>, &Conduction<S>),
-        state: &State<S>,
+        groups: impl Iterator<Item = &'a dyn Elements<D>>,
+        (masses, conduction): (&Masses, &Conduction),
+        state: &State,
     ) -> Self {
-        let zero = S::zero();
         let size = norm(state.positions.values().iter().copied());
-        let size = S::select(zero.less(size), size, S::one());
+        let size = if size > 0.0 { size } else { 1.0 };
         // Stiffness, damping, shortest length and terms of forces at each node.
-        let mut around = vec![([zero; 3], S::MAX); masses.len()];
-        let mut rate = zero;
+        let mut around = vec![([0.0; 3], f64::MAX); masses.len()];
+        let mut rate = 0.0;
         for group in groups {
-            group.stiffness(state, &mut |point| {
-                rate = rate.maximum(point.relaxation);
-                if let Some((slot, capacity)) = point.capacity {
-                    let links = conduction.links(slot).iter();
-                    let flow = links.fold(zero, |sum, link| sum + link.conductance);
-                    rate = rate.maximum(flow / capacity);
-                }
-                for &node in point.nodes {
-                    let (sums, length) = &mut around[node as usize];
-                    let terms = [point.elastic, point.damping, point.force];
-                    for (sum, term) in sums.iter_mut().zip(terms) {
-                        *sum += term;
+            group.stiffness(
+                state,
+                &mut (|point| {
+                    rate = Scalar::maximum(rate, point.relaxation);
+                    if let Some((slot, capacity)) = point.capacity {
+                        let links = conduction.links(slot).iter();
+                        let flow = links.fold(0.0, |sum, link| sum + link.conductance);
+                        rate = Scalar::maximum(rate, flow / capacity);
                     }
-                    *length = length.minimum(point.length);
-                }
-            });
+                    for &node in point.nodes {
+                        let (sums, length) = &mut around[node as usize];
+                        let terms = [point.elastic, point.damping, point.force];
+                        for (sum, term) in sums.iter_mut().zip(terms) {
+                            *sum += term;
+                        }
+                        *length = Scalar::minimum(*length, point.length);
+                    }
+                }),
+            );
         }
         // Anchors have momenta next to solids.
         let nodes = masses.iter().zip(masses.weights()).zip(around);
         let nodes: Box<[_]> = nodes
             .map(|((own, held), ([stiffness, damping, force], length))| {
                 let mass = own.unwrap_or(held);
-                let is_mass = zero.less(own.unwrap_or(zero));
-                let fastest = (stiffness / mass).sqrt().maximum(damping / mass);
-                rate = rate.maximum(S::select(is_mass, fastest, zero));
-                let length = S::select(length.less(S::MAX), length, size);
+                let is_mass = own.unwrap_or(0.0) > 0.0;
+                let fastest = Scalar::maximum((stiffness / mass).sqrt(), damping / mass);
+                rate = Scalar::maximum(rate, if is_mass { fastest } else { 0.0 });
+                let length = if length < f64::MAX { length } else { size };
                 // m ω = √(k m), times ω m/d at most.
                 let root = (stiffness * mass).sqrt();
-                let is_slow = root.less(damping);
-                let bound = S::select(is_slow, root * (root / damping), root);
-                let is_free = stiffness.equal(zero);
-                let period = S::from_f64(core::f64::consts::TAU) * mass / bound;
-                let has_period = zero.less(bound) & zero.less(mass);
+                let is_slow = root < damping;
+                let bound = if is_slow {
+                    root * (root / damping)
+                } else {
+                    root
+                };
+                let is_free = stiffness == 0.0;
+                let period = core::f64::consts::TAU * mass / bound;
+                let has_period = bound > 0.0 && mass > 0.0;
                 AtNode {
-                    period: S::select(has_period, period, S::MAX),
+                    period: if has_period { period } else { f64::MAX },
                     bound: length * bound,
-                    free: S::select(is_free, mass * length, zero),
+                    free: if is_free { mass * length } else { 0.0 },
                     force,
                 }
             })
             .collect();
-        let largest = |of: &dyn Fn(&AtNode<S>) -> S| {
-            nodes.iter().fold(zero, |most, node| most.maximum(of(node)))
+        let largest = |of: &dyn Fn(&AtNode) -> f64| {
+            nodes
+                .iter()
+                .fold(0.0, |most, node| Scalar::maximum(most, of(node)))
         };
         Self {
             size,
             rate,
             most: AtNode {
-                period: zero,
+                period: 0.0,
                 bound: largest(&|node| node.bound),
                 free: largest(&|node| node.free),
                 force: largest(&|node| node.force),
@@ -123,54 +131,54 @@ impl<S: Real> LeastScales<S> {
 
     /// The first step that is tried, s: in the time of the fastest motion, `1/ω`, the errors of `r^(−1/p)` steps add up to
     /// the tolerance. 1 s where nothing in the scene has a time of its own.
-    pub(crate) fn first_step(&self, relative: S, accuracy: Accuracy) -> S {
-        let has_rate = S::zero().less(self.rate) & self.rate.less(S::MAX);
-        let time = S::select(has_rate, self.rate.recip(), S::one());
-        time * relative.powf(S::from_f64(accuracy.order().recip()))
+    pub(crate) fn first_step(&self, relative: f64, accuracy: Accuracy) -> f64 {
+        let has_rate = self.rate > 0.0 && self.rate < f64::MAX;
+        let time = if has_rate { self.rate.recip() } else { 1.0 };
+        time * Scalar::powf(relative, accuracy.order().recip())
     }
 
     /// The least scale of positions, `r |q|₂` of the start: they, too, may all be zero, m.
-    pub(crate) fn position(&self, relative: S) -> S {
+    pub(crate) fn position(&self, relative: f64) -> f64 {
         relative * self.size
     }
 
     /// The sizes that are multiplied by r for positions, m, and by r² for momenta, kg m/s.
-    pub(crate) fn sizes(&self) -> [S; 2] {
+    pub(crate) fn sizes(&self) -> [f64; 2] {
         [self.size, self.most.bound]
     }
 
     /// The scale of the momentum of a node in a step of this size, given that of all, kg m/s.
-    pub(crate) fn momentum(&self, node: usize, all: S, step: Step<S>) -> S {
+    pub(crate) fn momentum(&self, node: usize, all: f64, step: Step) -> f64 {
         self.nodes[node].scale(all, step)
     }
 
     /// Whether the scale of all momenta is that of every node.
-    pub(crate) fn are_below(&self, all: S, step: Step<S>) -> bool {
-        self.most.scale(all, step).at_most(all).all()
+    pub(crate) fn are_below(&self, all: f64, step: Step) -> bool {
+        self.most.scale(all, step) <= all
     }
 }
 
 /// A step and its tolerance.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Step<S> {
+pub(crate) struct Step {
     /// h, s.
-    pub(crate) size: S,
+    pub(crate) size: f64,
     /// The relative tolerance r.
-    pub(crate) relative: S,
+    pub(crate) relative: f64,
     /// The relative tolerance of this step alone.
-    pub(crate) own: S,
+    pub(crate) own: f64,
     /// The relative rate at which |p|₂ has grown in it beyond all that it has been, 1/s.
-    pub(crate) growth: S,
+    pub(crate) growth: f64,
 }
 
-impl<S: Real> AtNode<S> {
+impl AtNode {
     /// The scale of the momentum, given that of all: at least that of the smallest vibration, and so large that an error within
     /// the tolerance is no rounding.
-    fn scale(&self, all: S, step: Step<S>) -> S {
+    fn scale(&self, all: f64, step: Step) -> f64 {
         let part = step.relative * step.relative;
         let unseen = part * (self.bound + self.free / step.size);
-        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON * step.size * self.force;
-        let ahead = (S::one() + step.growth * self.period).minimum(S::from_f64(MOST_AHEAD));
-        (all.maximum(unseen) * ahead).maximum(rounding / step.own)
+        let rounding = ROUNDINGS * f64::EPSILON * step.size * self.force;
+        let ahead = Scalar::minimum(1.0 + step.growth * self.period, MOST_AHEAD);
+        Scalar::maximum(Scalar::maximum(all, unseen) * ahead, rounding / step.own)
     }
 }

@@ -1,20 +1,22 @@
 //! Sizes of vectors, and of their rounding.
 
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// Errors of fewer roundings of their own terms cannot be distinguished from rounding.
 pub(super) const ROUNDINGS: f64 = 16.0;
 
 /// `|x|₂`, scaled where squares would under- or overflow.
-pub(crate) fn norm<S: Real>(x: impl Iterator<Item = S> + Clone) -> S {
-    let sum = x.clone().fold(S::zero(), |sum, x| sum + x * x);
-    let is_normal = S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX);
-    if is_normal.all() {
+pub(crate) fn norm(x: impl Iterator<Item = f64> + Clone) -> f64 {
+    let sum = x.clone().fold(0.0, |sum, x| sum + x * x);
+    if sum > f64::MIN_POSITIVE && sum <= f64::MAX {
         return sum.sqrt();
     }
-    let most = x.clone().fold(S::zero(), |most, x| most.maximum(x.abs()));
+    let most = x
+        .clone()
+        .fold(0.0, |most, x| Scalar::maximum(most, x.abs()));
+    if most == 0.0 {
+        return most;
+    }
     let scaled = x.map(|x| x / most);
-    let scaled = most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt();
-    let has_none = most.equal(S::zero());
-    S::select(is_normal, sum.sqrt(), S::select(has_none, most, scaled))
+    most * scaled.fold(0.0, |sum, x| sum + x * x).sqrt()
 }

@@ -6,10 +6,7 @@ use crate::step::control::controller::Accuracy;
 use crate::step::control::least::{LeastScales, Step};
 use crate::step::control::norm::{ROUNDINGS, norm};
 use crate::step::control::worst::{Unknown, Worst};
-use eem_material::number::scalar::{Mask, Real, is_positive};
-
-/// The ε that separates double and single precision.
-const SINGLE: f64 = 1e-12;
+use eem_material::number::scalar::{Scalar, is_positive};
 
 /// The tolerance of step control.
 ///
@@ -54,36 +51,35 @@ const SINGLE: f64 = 1e-12;
     serde(deny_unknown_fields)
 )]
 #[non_exhaustive]
-pub struct Tolerance<S = f64> {
+pub struct Tolerance {
     /// The relative tolerance r.
-    pub relative: S,
+    pub relative: f64,
     /// The absolute tolerance `a_q` of positions and viscous stretches, m.
-    pub position: S,
+    pub position: f64,
     /// The absolute tolerance `a_p` of momenta, kg m/s.
-    pub momentum: S,
+    pub momentum: f64,
     /// The absolute tolerance `a_θ` of temperatures, K.
-    pub temperature: S,
+    pub temperature: f64,
     /// The time in which the errors of all steps may add up to the tolerance, s; without one, the time scale of the motion.
-    pub over: Option<S>,
+    pub over: Option<f64>,
 }
 
-/// A relative tolerance of 1e-6, in single precision of 1e-3.
-impl<S: Real> Default for Tolerance<S> {
+/// A relative tolerance of 1e-6.
+impl Default for Tolerance {
     fn default() -> Self {
-        let is_double = S::EPSILON.to_f64() < SINGLE;
-        Self::new(S::from_f64(if is_double { 1e-6 } else { 1e-3 }))
+        Self::new(1e-6)
     }
 }
 
-impl<S: Real> Tolerance<S> {
+impl Tolerance {
     /// A relative tolerance, without absolute ones.
     #[must_use]
-    pub fn new(relative: S) -> Self {
+    pub fn new(relative: f64) -> Self {
         Self {
             relative,
-            position: S::zero(),
-            momentum: S::zero(),
-            temperature: S::zero(),
+            position: 0.0,
+            momentum: 0.0,
+            temperature: 0.0,
             over: None,
         }
     }
@@ -111,26 +107,26 @@ impl<S: Real> Tolerance<S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn over(self, time: S) -> Self {
+    pub fn over(self, time: f64) -> Self {
         let over = Some(time);
         Self { over, ..self }
     }
 
     /// Sets the absolute tolerance of positions and viscous stretches, m.
     #[must_use]
-    pub fn with_position(self, position: S) -> Self {
+    pub fn with_position(self, position: f64) -> Self {
         Self { position, ..self }
     }
 
     /// Sets the absolute tolerance of momenta, kg m/s.
     #[must_use]
-    pub fn with_momentum(self, momentum: S) -> Self {
+    pub fn with_momentum(self, momentum: f64) -> Self {
         Self { momentum, ..self }
     }
 
     /// Sets the absolute tolerance of temperatures, K.
     #[must_use]
-    pub fn with_temperature(self, temperature: S) -> Self {
+    pub fn with_temperature(self, temperature: f64) -> Self {
         Self {
             temperature,
             ..self
@@ -139,8 +135,8 @@ impl<S: Real> Tolerance<S> {
 
     /// An error unless a scheme of this accuracy can satisfy it.
     pub(crate) fn check(&self, accuracy: Accuracy) -> Result<(), SceneError> {
-        let floor = accuracy.floor::<S>();
-        let relative = self.relative.to_f64();
+        let floor = accuracy.floor();
+        let relative = self.relative;
         if !(relative >= floor && relative < 1.0) {
             return Err(SceneError::Tolerance { relative, floor });
         }
@@ -150,12 +146,10 @@ impl<S: Real> Tolerance<S> {
             ("temperatures", self.temperature, "K"),
         ];
         if let Some(time) = self.over.filter(|&time| !is_positive(time)) {
-            let time = time.to_f64();
             return Err(SceneError::ToleranceTime { time });
         }
         for (quantity, value, unit) in absolute {
-            if !(is_positive(value) || value.equal(S::zero()).all()) {
-                let value = value.to_f64();
+            if !(is_positive(value) || value == 0.0) {
                 return Err(SceneError::AbsoluteTolerance {
                     quantity,
                     value,
@@ -179,45 +173,49 @@ pub(crate) struct Kinds {
 
 /// The scales of the errors of a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scales<'a, S> {
+pub(crate) struct Scales<'a> {
     /// Of a coordinate, m, and of a viscous strain.
-    position: S,
-    strain: S,
+    position: f64,
+    strain: f64,
     /// Relative and absolute tolerance of momenta, their size, and the least scales.
-    momentum: [S; 2],
-    momenta: S,
-    least: &'a LeastScales<S>,
-    step: Step<S>,
+    momentum: [f64; 2],
+    momenta: f64,
+    least: &'a LeastScales,
+    step: Step,
     /// The relative and the absolute tolerance of temperatures.
-    temperature: [S; 2],
+    temperature: [f64; 2],
 }
 
-impl<'a, S: Real> Scales<'a, S> {
+impl<'a> Scales<'a> {
     /// For a step of this size between two states, given the largest momentum so far, kg m/s.
     pub(crate) fn new(
-        tolerance: &Tolerance<S>,
-        (accuracy, step): (Accuracy, S),
-        [old, new]: [&State<S>; 2],
-        (largest_momentum, least): (S, &'a LeastScales<S>),
+        tolerance: &Tolerance,
+        (accuracy, step): (Accuracy, f64),
+        [old, new]: [&State; 2],
+        (largest_momentum, least): (f64, &'a LeastScales),
     ) -> Self {
-        let part = tolerance.over.map_or(S::one(), |time| step / time);
+        let part = tolerance.over.map_or(1.0, |time| step / time);
         let relative = accuracy.of_step(tolerance.relative, part);
-        let relative = relative.maximum(S::from_f64(ROUNDINGS) * S::EPSILON);
+        let relative = Scalar::maximum(relative, ROUNDINGS * f64::EPSILON);
         let share = relative / tolerance.relative;
-        let of = |size: S, absolute: S| relative * size + share * absolute;
-        let size = |of: &dyn Fn(&State<S>) -> S| of(old).maximum(of(new));
+        let of = |size: f64, absolute: f64| relative * size + share * absolute;
+        let size = |of: &dyn Fn(&State) -> f64| Scalar::maximum(of(old), of(new));
         let positions = size(&|state| norm(state.positions.values().iter().copied()));
         let [start, end] = [old, new].map(|state| norm(state.momenta.values().iter().copied()));
-        let before = start.maximum(largest_momentum);
-        let momenta = end.maximum(before);
-        let grows = before.less(end);
-        let growth = S::select(grows, (end - start) / (step * end), S::zero());
+        let before = Scalar::maximum(start, largest_momentum);
+        let momenta = Scalar::maximum(end, before);
+        let grows = before < end;
+        let growth = if grows {
+            (end - start) / (step * end)
+        } else {
+            0.0
+        };
         Self {
             position: of(
-                positions.maximum(least.position(tolerance.relative)),
+                Scalar::maximum(positions, least.position(tolerance.relative)),
                 tolerance.position,
             ),
-            strain: of(S::one(), tolerance.position),
+            strain: of(1.0, tolerance.position),
             momentum: [relative, share * tolerance.momentum],
             momenta,
             least,
@@ -232,25 +230,25 @@ impl<'a, S: Real> Scales<'a, S> {
     }
 
     /// What the tolerance allows a momentum of this node, kg m/s.
-    pub(crate) fn momentum(&self, node: usize) -> S {
+    pub(crate) fn momentum(&self, node: usize) -> f64 {
         let [relative, absolute] = self.momentum;
         let momentum = self.least.momentum(node, self.momenta, self.step);
         relative * momentum + absolute
     }
 
     /// What the tolerance of the state, not of this step, allows a position, m.
-    pub(crate) fn height(&self) -> S {
+    pub(crate) fn height(&self) -> f64 {
         self.position * (self.step.relative / self.step.own)
     }
 
     /// The largest difference between two states, in units of the tolerance.
-    pub(crate) fn error<const D: usize>(&self, states: [&State<S>; 2], kinds: &Kinds) -> S {
-        let mut largest = S::zero();
+    pub(crate) fn error<const D: usize>(&self, states: [&State; 2], kinds: &Kinds) -> f64 {
+        let mut largest = 0.0;
         self.each_difference::<D>(states, kinds, |_, difference, scale| {
             let error = difference / scale;
             // No difference is no error, even at scale zero.
-            let is_equal = difference.equal(S::zero());
-            largest = largest.maximum(S::select(is_equal, S::zero(), error));
+            let is_equal = difference == 0.0;
+            largest = Scalar::maximum(largest, if is_equal { 0.0 } else { error });
         });
         largest
     }
@@ -259,9 +257,9 @@ impl<'a, S: Real> Scales<'a, S> {
     #[cold]
     pub(crate) fn worst<const D: usize>(
         &self,
-        states: [&State<S>; 2],
+        states: [&State; 2],
         kinds: &Kinds,
-    ) -> Option<(Unknown, [S; 2])> {
+    ) -> Option<(Unknown, [f64; 2])> {
         let mut worst = Worst::none();
         self.each_difference::<D>(states, kinds, |unknown, difference, scale| {
             worst.see(unknown, [difference, scale]);
@@ -272,16 +270,17 @@ impl<'a, S: Real> Scales<'a, S> {
     #[inline]
     fn each_difference<const D: usize>(
         &self,
-        [a, b]: [&State<S>; 2],
+        [a, b]: [&State; 2],
         kinds: &Kinds,
-        mut see: impl FnMut(Unknown, S, S),
+        mut see: impl FnMut(Unknown, f64, f64),
     ) {
-        let mut each =
-            |values: [&[S]; 2], unknown: fn(usize) -> Unknown, scale: &dyn Fn(usize, S) -> S| {
-                for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
-                    see(unknown(index), (a - b).abs(), scale(index, b));
-                }
-            };
+        let mut each = |values: [&[f64]; 2],
+                        unknown: fn(usize) -> Unknown,
+                        scale: &dyn Fn(usize, f64) -> f64| {
+            for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
+                see(unknown(index), (a - b).abs(), scale(index, b));
+            }
+        };
         each(
             [a.positions.values(), b.positions.values()],
             Unknown::Position,
@@ -290,13 +289,13 @@ impl<'a, S: Real> Scales<'a, S> {
         each(
             [a.momenta.values(), b.momenta.values()],
             Unknown::Momentum,
-            &|index, _| {
+            &(|index, _| {
                 if kinds.are_given.get(index) == Some(&true) {
-                    S::MAX
+                    f64::MAX
                 } else {
                     self.momentum(index / D)
                 }
-            },
+            }),
         );
         each(
             [a.viscous.values(), b.viscous.values()],
@@ -334,7 +333,7 @@ mod tests {
         assert!((step / 1e-9 - 1.0).abs() < 1e-12);
         let step: f64 = accuracy(2).over_time().of_step(1e-6, 0.5);
         assert_eq!(step.to_bits(), 5e-7_f64.to_bits());
-        assert!(accuracy(4).floor::<f64>() < accuracy(2).floor::<f64>());
+        assert!(accuracy(4).floor() < accuracy(2).floor());
     }
 
     #[test]

@@ -6,17 +6,16 @@ use super::{Explicit, ExplicitView};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use crate::step::outcome::{Attempt, Outcome};
-use eem_material::number::scalar::{Mask, Real};
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Writes the state after a step to `next`, from the state of the last accepted step or, after
     /// [`forget`](Self::forget), from any state. The outcome is `None` if the error exceeds the demand.
     pub(crate) fn step(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
-        demand: Demand<S>,
-        next: &mut State<S>,
-    ) -> Result<Attempt<S>, StepFailure> {
+        view: &ExplicitView<'_, D>,
+        demand: Demand,
+        next: &mut State,
+    ) -> Result<Attempt, StepFailure> {
         self.was_ready = self.is_ready;
         let attempt = self.attempt(view, demand, next);
         let is_made = matches!(&attempt, Ok(attempt) if attempt.outcome.is_some());
@@ -31,10 +30,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     fn attempt(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
-        demand: Demand<S>,
-        next: &mut State<S>,
-    ) -> Result<Attempt<S>, StepFailure> {
+        view: &ExplicitView<'_, D>,
+        demand: Demand,
+        next: &mut State,
+    ) -> Result<Attempt, StepFailure> {
         let [start, h] = [view.state.time.value, view.step];
         let time = start + h;
         if self.is_driven {
@@ -45,10 +44,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.go_through_stages(view)?;
         let scales = self.scales(time)?;
         let error = match demand {
-            Demand::None => S::zero(),
+            Demand::None => 0.0,
             Demand::Within(tolerance) => self.estimate(view, &tolerance, scales),
         };
-        if !error.at_most(S::one()).all() {
+        if !(error <= 1.0) {
             let outcome = None;
             return Ok(Attempt { error, outcome });
         }
@@ -61,7 +60,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.finish()?;
         self.store(next);
         self.books.largest_momentum = scales.momentum;
-        let outcome: Outcome<S> = self.prove(correction, (view.state, time))?;
+        let outcome: Outcome = self.prove(correction, (view.state, time))?;
         let outcome = Some(outcome);
         Ok(Attempt { error, outcome })
     }
@@ -80,35 +79,39 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// The largest defect of all components before closing; an error unless it is small, or rounding.
     fn correction(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
-        demand: Demand<S>,
-        time: S,
-    ) -> Result<S, StepFailure> {
-        let mut largest = S::zero();
+        view: &ExplicitView<'_, D>,
+        demand: Demand,
+        time: f64,
+    ) -> Result<f64, StepFailure> {
+        let mut largest = 0.0_f64;
         let limit = demand.largest_correction();
         for index in 0..self.scratch.progress.len() {
             let progress = &self.scratch.progress[index];
             let (mut own, scale) = (progress.correction, progress.scale);
-            if !own.abs().at_most(limit).all() {
+            if !(own.abs() <= limit) {
                 let explained = self.explained(index, scale, view);
-                let is_rounding = (own * scale).abs().at_most(explained);
-                own = S::select(is_rounding, S::zero(), own);
+                let is_rounding = (own * scale).abs() <= explained;
+                if is_rounding {
+                    own = 0.0;
+                }
             }
-            let is_larger = largest.abs().less(own.abs());
-            largest = S::select(is_larger, own, largest);
+            let is_larger = largest.abs() < own.abs();
+            if is_larger {
+                largest = own;
+            }
         }
-        if largest.abs().at_most(limit).all() {
+        if largest.abs() <= limit {
             return Ok(largest);
         }
         Err(StepFailure::Correction {
-            correction: largest.abs().to_f64(),
-            limit: limit.to_f64(),
-            time: time.to_f64(),
+            correction: largest.abs(),
+            limit,
+            time,
         })
     }
 
     /// Writes the closed state.
-    fn store(&mut self, next: &mut State<S>) {
+    fn store(&mut self, next: &mut State) {
         let masses = &self.stage.places[..self.components.masses];
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             next.positions.set_point(node as usize, place.q());

@@ -7,11 +7,11 @@ use super::vector::{add, dot};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
 use crate::element::state::State;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Entropies, books and targets at the end of the step, before it is closed.
-    pub(super) fn book(&mut self, view: &ExplicitView<'_, S, D>, next: &mut State<S>) {
+    pub(super) fn book(&mut self, view: &ExplicitView<'_, D>, next: &mut State) {
         next.copy_books(view.state);
         next.time.add(view.step);
         next.entropies.copy_from(&view.state.entropies);
@@ -26,7 +26,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Moves the exchanged entropy of each path from its second end to its first one, and adds its production to the
     /// second.
-    fn book_paths(&mut self, h: S, next: &mut State<S>) {
+    fn book_paths(&mut self, h: f64, next: &mut State) {
         let (stage, scratch) = (&mut self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
         for (path, kept) in self.components.paths.iter().zip(&mut scratch.paths) {
@@ -40,7 +40,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 for (end, temperatures) in [(a, [near, far]), (b, [far, near])] {
                     if stage.is_held(end) {
                         let thermostat = &mut stage.thermostats[end];
-                        shift_weights(thermostat, &shift, path.conductance, temperatures);
+                        shift_weights(thermostat, shift, path.conductance, temperatures);
                     }
                 }
             }
@@ -53,7 +53,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             } else {
                 &mut scratch.least
             };
-            *least = least.minimum(production);
+            *least = Scalar::minimum(*least, production);
             next.entropies.add(a, flow);
             // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
             for change in [-flow, production] {
@@ -68,7 +68,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    fn book_dashpots(&mut self, h: S, next: &mut State<S>) {
+    fn book_dashpots(&mut self, h: f64, next: &mut State) {
         let scratch = &mut self.scratch;
         let integrals = self.stage.productions.iter();
         for (integral, dashpot) in integrals.zip(&self.components.dashpots) {
@@ -85,13 +85,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.entropies.add(slot, production);
             scratch.produced[slot] += production;
             progress.production.add(production);
-            progress.least = progress.least.minimum(production);
+            progress.least = Scalar::minimum(progress.least, production);
         }
     }
 
     /// Adds the heat and the entropy production of dashpots and paths of heat in the step to the meters, with the factor by
     /// which the closing has scaled all productions of a component.
-    pub(super) fn meter(&self, h: S, next: &mut State<S>) {
+    pub(super) fn meter(&self, h: f64, next: &mut State) {
         let (stage, components) = (&self.stage, &self.components);
         let slots = self.scratch.produced.len();
         let progress = |component: u32| &self.scratch.progress[component as usize];
@@ -109,7 +109,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let progress = progress(path.component);
             let is_fixed = |end: usize| end >= slots || stage.is_held(end);
             let scale = if is_fixed(a) && is_fixed(b) {
-                S::one()
+                1.0
             } else {
                 progress.factor
             };
@@ -126,7 +126,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    fn book_loads(&mut self, h: S, next: &mut State<S>) {
+    fn book_loads(&mut self, h: f64, next: &mut State) {
         let targets = self.books.targets.iter_mut().zip(&self.load_sums);
         for ((target, sums), component) in targets.zip(&self.components.all) {
             let masses = &self.stage.places[component.masses.clone()];
@@ -136,7 +136,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 // would have an error that nothing can close.
                 let impulse = sums.impulse.map(|sum| h * sum);
                 let mut mean = mass.past.start[1];
-                add(&mut mean, S::from_f64(0.5), &impulse);
+                add(&mut mean, 0.5, &impulse);
                 work = dot(&impulse, &mean) * mass.per_mass;
             }
             target.energy.add(work);
@@ -162,15 +162,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 if takes {
                     scratch.capacities[end][0]
                 } else {
-                    S::zero()
+                    0.0
                 }
             });
             let all = capacities[0] + capacities[1];
-            if all.at_most(S::zero()).all() {
+            if all <= 0.0 {
                 continue;
             }
             for (end, capacity) in ends.into_iter().zip(capacities) {
-                if S::zero().less(capacity).all() {
+                if capacity > 0.0 {
                     scratch.produced[end] += production * (capacity / all);
                 }
             }

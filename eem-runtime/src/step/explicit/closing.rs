@@ -22,10 +22,9 @@ mod shape;
 use super::demand::{Demand, Scales};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::ClosingView;
+use crate::element::group::{ClosingView, ComponentEnergy};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
-use eem_material::number::scalar::Real;
 
 /// Corrections of a component after which its closing fails.
 const MOST_ITERATIONS: usize = 10;
@@ -46,13 +45,13 @@ enum Status {
     Failed,
 }
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Closes all components.
     pub(super) fn close(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
-        (demand, scales): (Demand<S>, Scales<S>),
-        next: &mut State<S>,
+        view: &ExplicitView<'_, D>,
+        (demand, scales): (Demand, Scales),
+        next: &mut State,
     ) -> Result<(), StepFailure> {
         for index in 0..self.components.all.len() {
             self.restore_momenta(index);
@@ -81,7 +80,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 self.find_forces(view);
                 for index in 0..self.components.all.len() {
                     if self.scratch.needs_forces[index] {
-                        let status = self.reshape(index, view, next)?;
+                        let status = self.reshape(index, view, next);
                         self.scratch.open[index] = status == Status::Changed;
                         if status == Status::Failed {
                             self.turn_rigidly(index, (view, demand, scales), next)?;
@@ -99,19 +98,17 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Finds temperatures and energies of the elements of open components, and the heat of their thermostats.
     fn find_energies(
         &mut self,
-        explicit: &ExplicitView<'_, S, D>,
-        next: &mut State<S>,
+        explicit: &ExplicitView<'_, D>,
+        next: &mut State,
     ) -> Result<(), StateError> {
         let scratch = &mut self.scratch;
-        let open = scratch.open.iter().zip(&scratch.inactive);
-        for (energy, (&is_open, &inactive)) in scratch.energies.iter_mut().zip(open) {
+        for (energy, &is_open) in scratch.energies.iter_mut().zip(&scratch.open) {
             if is_open {
-                energy.clear(inactive);
+                *energy = ComponentEnergy::none();
             }
         }
         let mut view = ClosingView {
             open: &scratch.open,
-            inactive: &scratch.inactive,
             stage: &mut self.stage,
             capacities: &mut scratch.capacities,
             unkept: &mut scratch.unkept,
@@ -129,9 +126,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Finds the forces of elements and weights in the components that need them: the negative gradient of the energy.
-    fn find_forces(&mut self, view: &ExplicitView<'_, S, D>) {
+    fn find_forces(&mut self, view: &ExplicitView<'_, D>) {
         let scratch = &mut self.scratch;
-        let gravity: [S; D] = view.loads.gravity.into();
+        let gravity: [f64; D] = view.loads.gravity.into();
         for (force, place) in scratch.forces.iter_mut().zip(&self.stage.places) {
             *force = gravity.map(|g| place.mass * g);
         }

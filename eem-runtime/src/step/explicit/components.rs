@@ -12,7 +12,6 @@ use crate::element::ends::Ends;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::Real;
 
 /// The anchors of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +26,7 @@ pub(super) enum Support {
 
 /// A connected component.
 #[derive(Clone, Debug)]
-pub(super) struct Component<S> {
+pub(super) struct Component {
     /// Its masses among the [places](Components::nodes), its thermal slots and its paths of heat in the
     /// lists of [`Components`].
     pub(super) masses: Range<usize>,
@@ -37,20 +36,20 @@ pub(super) struct Component<S> {
     pub(super) shares: Range<usize>,
     pub(super) support: Support,
     /// The mass of all its masses, kg.
-    pub(super) mass: S,
+    pub(super) mass: f64,
 }
 
-impl<S: Real> Component<S> {
+impl Component {
     /// The velocity of the centre of mass for a linear momentum, m/s; zero with an anchor.
-    pub(super) fn velocity<const D: usize>(&self, linear: &[S; D]) -> [S; D] {
+    pub(super) fn velocity<const D: usize>(&self, linear: &[f64; D]) -> [f64; D] {
         let is_free = self.support == Support::Free;
-        linear.map(|p| if is_free { p / self.mass } else { S::zero() })
+        linear.map(|p| if is_free { p / self.mass } else { 0.0 })
     }
 }
 
 /// A path of heat.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Path<S> {
+pub(super) struct Path {
     /// The thermal slots at both ends; reservoirs are numbered after all thermal slots.
     pub(super) ends: [u32; 2],
     pub(super) component: u32,
@@ -59,9 +58,9 @@ pub(super) struct Path<S> {
     /// For a reservoir, which of the [shares](Components::shares) receives its entropy.
     pub(super) share: Option<u32>,
     /// κ, W/K.
-    pub(super) conductance: S,
+    pub(super) conductance: f64,
     /// The temperatures of both ends at the stages with weights, K.
-    pub(super) temperatures: [PerWeight<S>; 2],
+    pub(super) temperatures: [PerWeight; 2],
 }
 
 /// The entropy that a reservoir receives from a component.
@@ -73,8 +72,8 @@ pub(super) struct Share {
 
 /// All components of a scene; in each list, the entries of one component are consecutive.
 #[derive(Clone, Debug)]
-pub(super) struct Components<S> {
-    pub(super) all: Vec<Component<S>>,
+pub(super) struct Components {
+    pub(super) all: Vec<Component>,
     /// The node of the scene at each place: first the masses of the first component, then those of the next; after all
     /// masses the anchors, once per component that they hold.
     pub(super) nodes: Vec<u32>,
@@ -83,7 +82,7 @@ pub(super) struct Components<S> {
     /// Number of masses.
     pub(super) masses: usize,
     pub(super) slots: Vec<u32>,
-    pub(super) paths: Vec<Path<S>>,
+    pub(super) paths: Vec<Path>,
     pub(super) shares: Vec<Share>,
     /// The component of each element.
     pub(super) of_element: Vec<u32>,
@@ -119,13 +118,13 @@ impl Sets {
     }
 }
 
-impl<S: Real> Components<S> {
+impl Components {
     /// The components of a scene.
     pub(super) fn new(
-        masses: &Masses<S>,
+        masses: &Masses,
         elements: &Ends,
         layout: &Layout,
-        conduction: &Conduction<S>,
+        conduction: &Conduction,
     ) -> Self {
         let nodes = masses.len();
         let mut slot_elements = vec![0; layout.thermal];
@@ -171,7 +170,7 @@ impl<S: Real> Components<S> {
     }
 
     /// A function that finds the place of a node from a component and the node.
-    pub(super) fn place_of(&self) -> impl Fn(u32, u32) -> u32 + use<S> {
+    pub(super) fn place_of(&self) -> impl Fn(u32, u32) -> u32 + use<> {
         let owners = self
             .of_place
             .iter()
@@ -182,9 +181,9 @@ impl<S: Real> Components<S> {
     }
 
     /// The mass at each place, zero for anchors, kg.
-    pub(super) fn masses_of(&self, masses: &Masses<S>) -> impl Iterator<Item = S> {
+    pub(super) fn masses_of(&self, masses: &Masses) -> impl Iterator<Item = f64> {
         let nodes = self.nodes.iter();
-        nodes.map(|&node| masses.get(node as usize).unwrap_or(S::zero()))
+        nodes.map(|&node| masses.get(node as usize).unwrap_or(0.0))
     }
 
     /// Whether an element with a dashpot has no temperature, so that the heat leaves the scene.
@@ -199,7 +198,7 @@ impl<S: Real> Components<S> {
     }
 
     /// Gives the masses their places, component after component.
-    fn place_masses(&mut self, numbers: &[u32], count: usize, masses: &Masses<S>) {
+    fn place_masses(&mut self, numbers: &[u32], count: usize, masses: &Masses) {
         let mut own = vec![Vec::new(); count];
         for (node, mass) in masses.iter().enumerate() {
             if let Some(mass) = mass {
@@ -208,7 +207,7 @@ impl<S: Real> Components<S> {
         }
         for (component, own) in own.into_iter().enumerate() {
             let start = self.nodes.len();
-            let mut mass = S::zero();
+            let mut mass = 0.0;
             for (node, own) in own {
                 self.nodes.push(node);
                 self.of_place.push(compact(component));
@@ -227,7 +226,7 @@ impl<S: Real> Components<S> {
     }
 
     /// Lists thermal slots and paths of heat, component after component.
-    fn fill(&mut self, conduction: &Conduction<S>) {
+    fn fill(&mut self, conduction: &Conduction) {
         let mut own = vec![Vec::new(); self.all.len()];
         for (slot, &element) in self.elements.iter().enumerate() {
             own[self.of_element[element as usize] as usize].push(compact(slot));
@@ -245,7 +244,7 @@ impl<S: Real> Components<S> {
     }
 
     /// Gives each anchor a place for every component that it holds.
-    fn place_anchors(&mut self, masses: &Masses<S>, elements: &Ends) {
+    fn place_anchors(&mut self, masses: &Masses, elements: &Ends) {
         let mut places = BTreeMap::new();
         for (element, ends) in elements.iter().enumerate() {
             let component = self.of_element[element];
@@ -269,7 +268,7 @@ impl<S: Real> Components<S> {
     }
 
     /// Adds the paths that begin at a slot; each is linked at both ends, and added at the first one.
-    fn add_paths(&mut self, component: usize, slot: u32, conduction: &Conduction<S>) {
+    fn add_paths(&mut self, component: usize, slot: u32, conduction: &Conduction) {
         let links = conduction.links(slot as usize).iter();
         for (link, place) in links.zip(conduction.first_link(slot as usize)..) {
             let (far, share) = match link.partner {
@@ -286,7 +285,7 @@ impl<S: Real> Components<S> {
                 ends: [slot, compact(far)],
                 share,
                 conductance: link.conductance,
-                temperatures: [[S::one(); _]; 2],
+                temperatures: [[1.0; _]; 2],
             });
         }
     }
@@ -306,7 +305,7 @@ impl<S: Real> Components<S> {
 }
 
 /// Numbers the components in the order of their first members. Returns the number of each member, and their count.
-fn numbered<S: Real>(sets: &mut Sets, masses: &Masses<S>, nodes: usize) -> (Vec<u32>, usize) {
+fn numbered(sets: &mut Sets, masses: &Masses, nodes: usize) -> (Vec<u32>, usize) {
     let mut numbers = vec![0; sets.0.len()];
     let mut count = 0;
     for member in 0..sets.0.len() {

@@ -1,15 +1,14 @@
 //! The required accuracy of a step, and the magnitudes to which its errors are relative.
 
 use crate::step::control::Tolerance;
-use eem_material::number::scalar::Real;
 
 /// The required accuracy of a step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Demand<S> {
+pub(crate) enum Demand {
     /// None: the step has a fixed size.
     None,
     /// Its error is within this tolerance.
-    Within(Tolerance<S>),
+    Within(Tolerance),
 }
 
 /// The largest correction of a fixed step that counts as truncation. A vibration at half of the limit of stability
@@ -22,29 +21,29 @@ const LARGEST_FIXED_TURN: f64 = 1e-7;
 /// The fraction of the tolerance by which a rigid rotation may differ from the stages.
 const TURN_SHARE: f64 = 0.1;
 
-impl<S: Real> Demand<S> {
+impl Demand {
     /// The largest energy defect before closing, relative to the terms of the energy.
-    pub(super) fn largest_correction(self) -> S {
+    pub(super) fn largest_correction(self) -> f64 {
         match self {
-            Self::None => S::from_f64(LARGEST_FIXED_CORRECTION),
+            Self::None => LARGEST_FIXED_CORRECTION,
             Self::Within(tolerance) => tolerance.relative,
         }
     }
 
     /// The largest relative difference of a rigid rotation from the stages.
-    pub(super) fn largest_turn(self) -> S {
+    pub(super) fn largest_turn(self) -> f64 {
         match self {
-            Self::None => S::from_f64(LARGEST_FIXED_TURN),
-            Self::Within(tolerance) => S::from_f64(TURN_SHARE) * tolerance.relative,
+            Self::None => LARGEST_FIXED_TURN,
+            Self::Within(tolerance) => TURN_SHARE * tolerance.relative,
         }
     }
 }
 
 /// The magnitudes of positions and momenta.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scales<S> {
+pub(super) struct Scales {
     /// |q|₂ of all masses, m.
-    pub(super) position: S,
+    pub(super) position: f64,
     /// |p|₂, the largest so far, kg m/s.
-    pub(super) momentum: S,
+    pub(super) momentum: f64,
 }

@@ -7,17 +7,17 @@ use super::{Explicit, ExplicitView};
 use crate::element::state::State;
 use crate::step::control::{Step, Tolerance, Unknown, Worst, norm};
 use crate::step::error::StepFailure;
-use eem_material::number::scalar::{Mask, Real, Scalar};
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// The magnitudes of positions and momenta before the step is closed; an error unless all are finite.
-    pub(super) fn scales(&self, time: S) -> Result<Scales<S>, StepFailure> {
+    pub(super) fn scales(&self, time: f64) -> Result<Scales, StepFailure> {
         if !time.is_finite() {
-            let value = time.to_f64();
+            let value = time;
             return Err(StepFailure::Time { value });
         }
         let masses = &self.stage.places[..self.components.masses];
-        let mut squares = [S::zero(); 3];
+        let mut squares = [0.0; 3];
         for place in masses {
             let parts = [&place.past.start[0], place.q(), place.p()];
             for (square, part) in squares.iter_mut().zip(parts) {
@@ -25,8 +25,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
         }
         let mut sizes = squares.map(Scalar::sqrt);
-        let are_normal = squares.map(|sum| S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX));
-        if !are_normal.into_iter().all(Mask::all) {
+        let are_normal = squares.map(|sum| sum > f64::MIN_POSITIVE && sum <= f64::MAX);
+        if !are_normal.into_iter().all(|is_normal| is_normal) {
             self.expect_finite()?;
             sizes = [
                 norm(masses.iter().flat_map(|place| place.past.start[0])),
@@ -36,8 +36,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let [start, end, momentum] = sizes;
         Ok(Scales {
-            position: start.maximum(end),
-            momentum: momentum.maximum(self.books.largest_momentum),
+            position: Scalar::maximum(start, end),
+            momentum: Scalar::maximum(momentum, self.books.largest_momentum),
         })
     }
 
@@ -51,7 +51,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                         node: node as usize,
                         axis,
                         quantity,
-                        value: vector[axis].to_f64(),
+                        value: vector[axis],
                     });
                 }
             }
@@ -69,11 +69,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// does not vanish where no mass moves; the largest |p| so far for momenta, and θ.
     pub(super) fn estimate(
         &self,
-        view: &ExplicitView<'_, S, D>,
-        tolerance: &Tolerance<S>,
-        scales: Scales<S>,
-    ) -> S {
-        let mut sums = [S::zero(); 2];
+        view: &ExplicitView<'_, D>,
+        tolerance: &Tolerance,
+        scales: Scales,
+    ) -> f64 {
+        let mut sums = [0.0; 2];
         self.each_error(view, tolerance, scales, |_, errors, per_scale| {
             for (sum, error) in sums.iter_mut().zip(errors) {
                 let error = view.step * error * per_scale;
@@ -81,20 +81,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
         });
         let [five, three] = sums;
-        if five.at_most(S::zero()).all() {
-            return S::zero();
+        if five <= 0.0 {
+            return 0.0;
         }
-        five / (five + S::from_f64(0.01) * three).sqrt()
+        five / (five + 0.01 * three).sqrt()
     }
 
     /// The unknown with the largest error in a step, with its error and what the tolerance allows.
     #[cold]
     pub(crate) fn worst_error(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
-        tolerance: &Tolerance<S>,
-        next: &mut State<S>,
-    ) -> Result<Option<(Unknown, [S; 2])>, StepFailure> {
+        view: &ExplicitView<'_, D>,
+        tolerance: &Tolerance,
+        next: &mut State,
+    ) -> Result<Option<(Unknown, [f64; 2])>, StepFailure> {
         let (time, was_ready) = (view.state.time.value + view.step, self.is_ready);
         let tried = self.begin(view, next).and_then(|()| {
             self.go_through_stages(view)?;
@@ -114,29 +114,29 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     #[inline]
     fn each_error(
         &self,
-        view: &ExplicitView<'_, S, D>,
-        tolerance: &Tolerance<S>,
-        scales: Scales<S>,
-        mut see: impl FnMut(Unknown, [S; 2], S),
+        view: &ExplicitView<'_, D>,
+        tolerance: &Tolerance,
+        scales: Scales,
+        mut see: impl FnMut(Unknown, [f64; 2], f64),
     ) {
-        let per_scale = |size: S, absolute: S| {
+        let per_scale = |size: f64, absolute: f64| {
             let scale = tolerance.relative * size + absolute;
             // Where the scale is zero nothing moves.
-            let has_scale = S::zero().less(scale).all();
-            if has_scale { scale.recip() } else { S::zero() }
+            let has_scale = scale > 0.0;
+            if has_scale { scale.recip() } else { 0.0 }
         };
         let masses = &self.stage.places[..self.components.masses];
         let of_all = norm(view.state.positions.values().iter().copied());
         let least = view.least;
-        let positions = scales.position.maximum(of_all);
-        let positions = positions.maximum(least.position(tolerance.relative));
+        let positions = Scalar::maximum(scales.position, of_all);
+        let positions = Scalar::maximum(positions, least.position(tolerance.relative));
         let position = per_scale(positions, tolerance.position);
         let step = Step {
             size: view.step,
             relative: tolerance.relative,
             own: tolerance.relative,
             // Its estimate is careful enough.
-            growth: S::zero(),
+            growth: 0.0,
         };
         let momentum = per_scale(scales.momentum, tolerance.momentum);
         let are_alike = least.are_below(scales.momentum, step);

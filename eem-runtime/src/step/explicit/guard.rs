@@ -5,63 +5,60 @@
 //! the result is zero.
 
 use super::tableau::{POSITIVE_WEIGHTS, WEIGHTED, WEIGHTS};
-use eem_material::number::scalar::{Mask, Real};
 
 /// A number for each stage that has weights.
-pub(super) type PerWeight<S> = [S; WEIGHTED.len()];
+pub(super) type PerWeight = [f64; WEIGHTED.len()];
 
 /// The flow of entropy along a path of heat, and its entropy production, at the stages that have weights, W/K.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PathRates<S> {
+pub(super) struct PathRates {
     /// `X/θ_a` and `X (θ_b − θ_a)/(θ_a θ_b)` with `X = κ (θ_b − θ_a)`.
-    flows: PerWeight<S>,
-    productions: PerWeight<S>,
+    flows: PerWeight,
+    productions: PerWeight,
 }
 
 /// By how much of the way from the usual weights to the positive ones the guard has gone: zero where it did nothing.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shift<S>(S);
+pub(super) struct Shift(f64);
 
-impl<S: Real> Shift<S> {
+impl Shift {
     fn none() -> Self {
-        Self(S::zero())
+        Self(0.0)
     }
 
     /// Whether the guard did nothing.
     #[inline]
-    pub(super) fn is_none(&self) -> bool {
-        self.0.equal(S::zero()).all()
+    pub(super) fn is_none(self) -> bool {
+        self.0 == 0.0
     }
 
     /// The change of the integral of some rates.
-    pub(super) fn of(&self, rates: &PerWeight<S>) -> S {
+    pub(super) fn of(self, rates: &PerWeight) -> f64 {
         self.0 * (integral(&POSITIVE_WEIGHTS, rates) - integral(&WEIGHTS, rates))
     }
 }
 
 /// `Σ w x`.
 #[inline]
-fn integral<S: Real>(weights: &[f64; WEIGHTED.len()], rates: &PerWeight<S>) -> S {
+fn integral(weights: &[f64; WEIGHTED.len()], rates: &PerWeight) -> f64 {
     let terms = weights.iter().zip(rates);
-    terms.fold(S::zero(), |sum, (&weight, &rate)| {
-        sum + S::from_f64(weight) * rate
-    })
+    terms.fold(0.0, |sum, (&weight, &rate)| sum + weight * rate)
 }
 
 /// `∫ (x_b − x_a)` in units of the step.
-pub(super) fn mean_drop<S: Real>([a, b]: [&PerWeight<S>; 2]) -> S {
-    let mut drops = [S::zero(); _];
+pub(super) fn mean_drop([a, b]: [&PerWeight; 2]) -> f64 {
+    let mut drops = [0.0; _];
     for (drop, (&a, &b)) in drops.iter_mut().zip(a.iter().zip(b)) {
         *drop = b - a;
     }
     integral(&WEIGHTS, &drops)
 }
 
-impl<S: Real> PathRates<S> {
+impl PathRates {
     /// Of a path of this conductance, W/K, between two temperatures, K.
     #[inline]
-    pub(super) fn new(conductance: S, [a, b]: [&PerWeight<S>; 2]) -> Self {
-        let (mut flows, mut productions) = ([S::zero(); _], [S::zero(); _]);
+    pub(super) fn new(conductance: f64, [a, b]: [&PerWeight; 2]) -> Self {
+        let (mut flows, mut productions) = ([0.0; _], [0.0; _]);
         for stage in 0..WEIGHTED.len() {
             let drop = b[stage] - a[stage];
             flows[stage] = conductance * drop * a[stage].recip();
@@ -72,9 +69,9 @@ impl<S: Real> PathRates<S> {
 
     /// The flow and the guarded production in a step of the size h, J/K, and how far the guard has shifted weights.
     #[inline]
-    pub(super) fn guarded(&self, h: S) -> ([S; 2], Shift<S>) {
+    pub(super) fn guarded(&self, h: f64) -> ([f64; 2], Shift) {
         let usual = self.integrals(&WEIGHTS);
-        let (counting, shift) = if usual[1].less(S::zero()).any() {
+        let (counting, shift) = if usual[1] < 0.0 {
             mixed(usual, self.integrals(&POSITIVE_WEIGHTS))
         } else {
             (usual, Shift::none())
@@ -83,33 +80,32 @@ impl<S: Real> PathRates<S> {
     }
 
     #[inline]
-    fn integrals(&self, weights: &[f64; WEIGHTED.len()]) -> [S; 2] {
+    fn integrals(&self, weights: &[f64; WEIGHTED.len()]) -> [f64; 2] {
         [&self.flows, &self.productions].map(|rates| integral(weights, rates))
     }
 }
 
 /// Flow and production, combined with the positive sums so that a negative production becomes zero.
 #[cold]
-fn mixed<S: Real>([flow, production]: [S; 2], positive: [S; 2]) -> ([S; 2], Shift<S>) {
-    let zero = S::zero();
-    let is_negative = production.less(zero);
+fn mixed([flow, production]: [f64; 2], positive: [f64; 2]) -> ([f64; 2], Shift) {
+    let is_negative = production < 0.0;
     // φ with Π + φ (Π⁺ − Π) = 0
     let all = positive[1] - production;
-    let has_positive = zero.less(positive[1]);
-    let share = S::select(has_positive, -production / all, S::one());
+    let has_positive = positive[1] > 0.0;
+    let share = if has_positive { -production / all } else { 1.0 };
     let mixed = flow + share * (positive[0] - flow);
     let guarded = [
-        S::select(is_negative, mixed, flow),
-        S::select(is_negative, zero, production),
+        if is_negative { mixed } else { flow },
+        if is_negative { 0.0 } else { production },
     ];
-    (guarded, Shift(S::select(is_negative, share, zero)))
+    (guarded, Shift(if is_negative { share } else { 0.0 }))
 }
 
 /// The guarded production of a dashpot, J/K, or its heat, J.
 #[inline]
-pub(super) fn guarded<S: Real>(production: S) -> S {
-    let is_negative = production.less(S::zero());
-    S::select(is_negative, S::zero(), production)
+pub(super) fn guarded(production: f64) -> f64 {
+    let is_negative = production < 0.0;
+    if is_negative { 0.0 } else { production }
 }
 
 #[cfg(test)]
@@ -117,12 +113,12 @@ mod tests {
     use super::*;
 
     /// A path between two temperatures, K, at each weighted stage.
-    fn path(stages: [[f64; 2]; 8]) -> PathRates<f64> {
+    fn path(stages: [[f64; 2]; 8]) -> PathRates {
         PathRates::new(1.0, [&stages.map(|[a, _]| a), &stages.map(|[_, b]| b)])
     }
 
     /// Flow and production by both weights.
-    fn sums(path: &PathRates<f64>) -> [[f64; 2]; 2] {
+    fn sums(path: &PathRates) -> [[f64; 2]; 2] {
         [&WEIGHTS, &POSITIVE_WEIGHTS].map(|weights| path.integrals(weights))
     }
 

@@ -14,99 +14,80 @@ mod principal;
 pub(super) mod turning;
 
 use super::vector::{dot, length};
-use crate::algebra::bivector::{Bivector, planes};
-use eem_material::number::scalar::{Mask, Real};
+use crate::algebra::bivector::Bivector;
 
 pub(super) use moments::{Moments, WEAK};
 pub(super) use principal::Principal;
 
 /// The inertia of a body.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Inertia<S, const D: usize> {
+pub(super) enum Inertia<const D: usize> {
     /// In the plane, or of masses that are all at their centre: `Σ m r²`.
-    Single(S),
+    Single(f64),
     /// One arm by construction, a single mass on an anchor or a free pair: its direction and `Σ m r²`.
-    Line { along: [S; D], moment: S },
+    Line { along: [f64; D], moment: f64 },
     /// In space.
-    Space(Inverse<S>),
+    Space(Inverse),
     /// Nearly on a line, or in more than three dimensions.
     Principal(Principal<D>),
-    /// Of several lanes, whose bodies differ in shape.
-    Lanes(Moments<S, D>),
 }
 
-impl<S: Real, const D: usize> Inertia<S, D> {
+impl<const D: usize> Inertia<D> {
     /// Of a body with more than one arm.
-    pub(super) fn of_body(moments: Moments<S, D>) -> Self {
+    pub(super) fn of_body(moments: Moments<D>) -> Self {
         if D < 3 {
             return Self::Single(moments.trace());
-        }
-        if S::LANES > 1 {
-            return Self::Lanes(moments);
         }
         if D == 3
             && let Some(inverse) = Inverse::of(&moments)
         {
             return Self::Space(inverse);
         }
-        Self::Principal(Principal::of(&moments.lane(0)))
+        Self::Principal(Principal::of(&moments))
     }
 
     /// Of a body with one arm, given the arm of one of its masses and `Σ m r²`.
     #[inline]
-    pub(super) fn of_line(arm: &[S; D], moment: S) -> Self {
+    pub(super) fn of_line(arm: &[f64; D], moment: f64) -> Self {
         if D < 3 {
             return Self::Single(moment);
         }
         let far = length(arm);
-        let has_length = S::zero().less(far);
-        let along = arm.map(|component| S::select(has_length, component / far, S::zero()));
+        let has_length = far > 0.0;
+        let along = arm.map(|component| if has_length { component / far } else { 0.0 });
         Self::Line { along, moment }
     }
 
     /// The slowest rotation with an angular momentum; none in planes without inertia.
     #[inline]
-    pub(super) fn solve(&self, momentum: &Bivector<S, D>) -> Bivector<S, D> {
+    pub(super) fn solve(&self, momentum: &Bivector<f64, D>) -> Bivector<f64, D> {
         match self {
             Self::Single(moment) => {
-                let is_none = moment.at_most(S::zero());
-                momentum.map(S::zero(), |j| S::select(is_none, S::zero(), j / *moment))
+                let is_none = *moment <= 0.0;
+                momentum.map(0.0, |j| if is_none { 0.0 } else { j / *moment })
             }
             Self::Line { along, moment } => {
-                let is_none = moment.at_most(S::zero());
+                let is_none = *moment <= 0.0;
                 let turning = momentum.turn(along);
-                let speed = turning.map(|w| S::select(is_none, S::zero(), w / *moment));
+                let speed = turning.map(|w| if is_none { 0.0 } else { w / *moment });
                 Bivector::wedge(along, &speed)
             }
             Self::Space(inverse) => inverse.solve(momentum),
-            Self::Principal(principal) => {
-                let omega = principal.solve(&momentum.map(0.0, |j| j.lane(0)));
-                omega.map(S::zero(), S::from_f64)
-            }
-            Self::Lanes(moments) => {
-                let mut omega = Bivector::zero();
-                for plane in planes::<D>() {
-                    *omega.at_mut(plane) = S::pack(|lane| {
-                        let own = Inertia::of_body(moments.lane(lane));
-                        own.solve(&momentum.map(0.0, |j| j.lane(lane))).at(plane)
-                    });
-                }
-                omega
-            }
+            Self::Principal(principal) => principal.solve(momentum),
         }
     }
 }
 
 /// The inverse of the inertia tensor `I = tr M − M` of a body in space: its cofactors over its determinant.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Inverse<S> {
-    cofactors: [[S; 3]; 3],
-    determinant: S,
+pub(super) struct Inverse {
+    cofactors: [[f64; 3]; 3],
+    determinant: f64,
 }
 
-impl<S: Real> Inverse<S> {
+impl Inverse {
     /// `None` if the inertia about an axis is weak.
-    fn of<const D: usize>(moments: &Moments<S, D>) -> Option<Self> {
+    fn of<const D: usize>(moments: &Moments<D>) -> Option<Self> {
         let m = &moments.0;
         let [a, b, c] = [m[1][1] + m[2][2], m[0][0] + m[2][2], m[0][0] + m[1][1]];
         let [d, e, f] = [-m[0][1], -m[0][2], -m[1][2]];
@@ -114,8 +95,8 @@ impl<S: Real> Inverse<S> {
         let [xy, xz, yz] = [e * f - d * c, d * f - e * b, d * e - a * f];
         let determinant = a * xx + d * xy + e * xz;
         // About the weakest axis the inertia is nearly the determinant over the sum of principal minors.
-        let least = S::from_f64(WEAK) * moments.trace() * (xx + yy + zz);
-        least.less(determinant).all().then_some(Self {
+        let least = WEAK * moments.trace() * (xx + yy + zz);
+        (least < determinant).then_some(Self {
             cofactors: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
             determinant,
         })
@@ -123,7 +104,7 @@ impl<S: Real> Inverse<S> {
 
     /// The rotation about the axes (1, 2), (2, 0) and (0, 1).
     #[inline]
-    fn solve<const D: usize>(&self, momentum: &Bivector<S, D>) -> Bivector<S, D> {
+    fn solve<const D: usize>(&self, momentum: &Bivector<f64, D>) -> Bivector<f64, D> {
         let right = [
             momentum.at([1, 2]),
             -momentum.at([0, 2]),
@@ -144,12 +125,13 @@ impl<S: Real> Inverse<S> {
 mod tests {
     use super::super::vector::difference;
     use super::*;
+    use crate::algebra::bivector::planes;
 
     /// The angular momentum of masses 1, 2, … that turn, and their moments.
     fn turning<const D: usize>(
         arms: &[[f64; D]],
         omega: &Bivector<f64, D>,
-    ) -> (Bivector<f64, D>, Moments<f64, D>) {
+    ) -> (Bivector<f64, D>, Moments<D>) {
         let (mut momentum, mut moments) = (Bivector::zero(), Moments::none());
         for (mass, arm) in (1..).zip(arms) {
             let mass = f64::from(mass);

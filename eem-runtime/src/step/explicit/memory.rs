@@ -3,52 +3,51 @@
 use crate::algebra::bivector::{Bivector, planes};
 use crate::step::explicit::components::Components;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Real;
 
 /// Work and impulses of the loads on a component in a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LoadSums<S, const D: usize> {
+pub(super) struct LoadSums<const D: usize> {
     /// J.
-    pub(super) work: S,
+    pub(super) work: f64,
     /// N s.
-    pub(super) impulse: [S; D],
+    pub(super) impulse: [f64; D],
     /// N m s.
-    pub(super) torque: Bivector<S, D>,
+    pub(super) torque: Bivector<f64, D>,
 }
 
 /// The targets of energy and momenta of a component, to twice the precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Target<S, const D: usize> {
+pub(super) struct Target<const D: usize> {
     /// E, with the heat that reservoirs have received and that dashpots have lost, J.
-    pub(super) energy: Sum<S>,
+    pub(super) energy: Sum,
     /// L, kg m/s.
-    pub(super) linear: [Sum<S>; D],
+    pub(super) linear: [Sum; D],
     /// J about the anchor, or about the centre of mass where there is none, kg m²/s.
-    pub(super) angular: Bivector<Sum<S>, D>,
+    pub(super) angular: Bivector<Sum, D>,
     /// Heat of dashpots in elements without temperature, J.
-    pub(super) lost: Sum<S>,
+    pub(super) lost: Sum,
 }
 
 /// Values accumulated over the steps.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Books<S, const D: usize> {
+pub(super) struct Books<const D: usize> {
     /// Per component.
-    pub(super) targets: Vec<Target<S, D>>,
+    pub(super) targets: Vec<Target<D>>,
     /// The entropy that each reservoir has received from each component, J/K.
-    pub(super) shares: Vec<Sum<S>>,
+    pub(super) shares: Vec<Sum>,
     /// The largest |p|₂ of all states so far, kg m/s.
-    pub(super) largest_momentum: S,
+    pub(super) largest_momentum: f64,
     /// E less its targets, of all components, J.
-    pub(super) residue: S,
+    pub(super) residue: f64,
     /// The contribution of this state to the bound of a step, and the terms of its energies, J; `None` unless a step
     /// has led to it.
-    pub(super) terms: Option<[S; 2]>,
+    pub(super) terms: Option<[f64; 2]>,
 }
 
-impl<S: Real, const D: usize> Target<S, D> {
+impl<const D: usize> Target<D> {
     /// Zero.
     pub(super) fn none() -> Self {
-        let zero = Sum::new(S::zero());
+        let zero = Sum::new(0.0);
         Self {
             energy: zero,
             linear: [zero; D],
@@ -58,7 +57,7 @@ impl<S: Real, const D: usize> Target<S, D> {
     }
 
     /// Calls a function for each of its sums, in the order in which they are saved.
-    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut Sum<S>)) {
+    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut Sum)) {
         visit(&mut self.energy);
         visit(&mut self.lost);
         self.linear.iter_mut().for_each(&mut visit);
@@ -68,13 +67,13 @@ impl<S: Real, const D: usize> Target<S, D> {
     }
 }
 
-impl<S: Real, const D: usize> Books<S, D> {
-    pub(super) fn new(components: &Components<S>) -> Self {
+impl<const D: usize> Books<D> {
+    pub(super) fn new(components: &Components) -> Self {
         Self {
             targets: vec![Target::none(); components.all.len()],
-            shares: vec![Sum::new(S::zero()); components.shares.len()],
-            largest_momentum: S::zero(),
-            residue: S::zero(),
+            shares: vec![Sum::new(0.0); components.shares.len()],
+            largest_momentum: 0.0,
+            residue: 0.0,
             terms: None,
         }
     }
@@ -82,8 +81,8 @@ impl<S: Real, const D: usize> Books<S, D> {
     /// Sets all sums to zero.
     pub(super) fn clear(&mut self) {
         self.targets.fill(Target::none());
-        self.shares.fill(Sum::new(S::zero()));
-        (self.largest_momentum, self.residue) = (S::zero(), S::zero());
+        self.shares.fill(Sum::new(0.0));
+        (self.largest_momentum, self.residue) = (0.0, 0.0);
         self.terms = None;
     }
 
@@ -100,11 +99,11 @@ impl<S: Real, const D: usize> Books<S, D> {
     }
 }
 
-impl<S: Real, const D: usize> LoadSums<S, D> {
+impl<const D: usize> LoadSums<D> {
     pub(super) fn none() -> Self {
         Self {
-            work: S::zero(),
-            impulse: [S::zero(); D],
+            work: 0.0,
+            impulse: [0.0; D],
             torque: Bivector::zero(),
         }
     }

@@ -7,9 +7,8 @@ use super::tableau::WEIGHTS;
 use super::vector::{add, dot};
 use crate::algebra::bivector::Bivector;
 use crate::element::loads::StepLoads;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Sets moved anchors and thermostats to their values at a stage.
     pub(super) fn move_to(&mut self, stage: usize) {
         for held in &self.prescribed.held {
@@ -19,7 +18,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             for &place in &moved.places {
                 let place = &mut self.stage.places[place];
                 place.now[0] = moved.positions[stage];
-                place.rates = [moved.velocities[stage], [S::zero(); D]];
+                place.rates = [moved.velocities[stage], [0.0; D]];
             }
         }
     }
@@ -37,7 +36,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     pub(super) fn begin_outside(&mut self) {
         copy_loads(&mut self.start_loads, &self.loads);
         self.load_sums.fill(LoadSums::none());
-        self.stage.weight = S::from_f64(WEIGHTS[0]);
+        self.stage.weight = WEIGHTS[0];
         self.begin_thermostats();
         for place in &mut self.stage.places[self.components.masses..self.kept_places] {
             place.past.rates[0] = place.rates;
@@ -52,7 +51,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let component = &self.components.all[index];
             let sums = &mut self.load_sums[index];
             let origin = Self::origin(&self.stage.places, component);
-            let mut momentum = [S::zero(); D];
+            let mut momentum = [0.0; D];
             for at in component.masses.clone() {
                 let place = &self.stage.places[at];
                 let arm = origin.arm(place.q());
@@ -64,7 +63,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 let is_free = component.support == Support::Free;
                 let turning = if is_free { force } else { load };
                 sums.torque.add(weight, &Bivector::wedge(&arm, &turning));
-                add(&mut momentum, S::one(), place.p());
+                add(&mut momentum, 1.0, place.p());
             }
             if let Support::Anchor(anchor) = component.support {
                 // The angular momentum is about the anchor, wherever it goes.
@@ -82,7 +81,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 }
 
 /// Copies the forces of other loads.
-pub(super) fn copy_loads<S: Real>(own: &mut StepLoads<S>, other: &StepLoads<S>) {
+pub(super) fn copy_loads(own: &mut StepLoads, other: &StepLoads) {
     own.total_force.copy_from_slice(&other.total_force);
     own.force.copy_from_slice(&other.force);
 }

@@ -11,26 +11,26 @@ use eem_material::number::digest::Digest;
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct SavedExplicit<S> {
+pub(crate) struct SavedExplicit {
     /// Whether the next step takes rates and targets from the state instead of what follows.
     pub(crate) is_new: bool,
     /// The digest of the state that it belongs to.
     pub(crate) state: Digest,
     pub(crate) is_motion_first: bool,
     /// All sums of the targets of each component.
-    pub(crate) targets: Vec<Sum<S>>,
-    pub(crate) shares: Vec<Sum<S>>,
-    pub(crate) largest_momentum: S,
-    pub(crate) residue: S,
+    pub(crate) targets: Vec<Sum>,
+    pub(crate) shares: Vec<Sum>,
+    pub(crate) largest_momentum: f64,
+    pub(crate) residue: f64,
     /// The rates of the stage vector, of dashpots and of thermostats.
-    pub(crate) rates: Vec<S>,
+    pub(crate) rates: Vec<f64>,
     /// The loads with weights, then without them.
-    pub(crate) loads: Vec<S>,
+    pub(crate) loads: Vec<f64>,
 }
 
-impl<S> SavedExplicit<S> {
+impl SavedExplicit {
     /// All sums with their names.
-    pub(crate) fn sums(&self) -> [(&'static str, &[Sum<S>]); 2] {
+    pub(crate) fn sums(&self) -> [(&'static str, &[Sum]); 2] {
         [
             ("targets", &self.targets),
             ("shares of reservoirs", &self.shares),
@@ -38,7 +38,7 @@ impl<S> SavedExplicit<S> {
     }
 
     /// All lists with their names.
-    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 2] {
+    pub(crate) fn lists(&self) -> [(&'static str, &[f64]); 2] {
         [("rates", &self.rates), ("loads", &self.loads)]
     }
 }

@@ -14,27 +14,27 @@ use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::tableau::{STAGES, TIMES};
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::{Scalar, is_positive};
 
 /// Number of points of a step at which motions are evaluated, one more than the degree.
 const POINTS: usize = 11;
 
 /// The weights that give positions and velocities at the stages from positions at the points, which include both ends.
 #[derive(Clone, Debug)]
-struct Interpolation<S> {
+struct Interpolation {
     /// The times of the points, as fractions of the step.
-    points: [S; POINTS],
-    values: [[S; POINTS]; STAGES],
-    slopes: [[S; POINTS]; STAGES],
+    points: [f64; POINTS],
+    values: [[f64; POINTS]; STAGES],
+    slopes: [[f64; POINTS]; STAGES],
 }
 
-impl<S: Real> Interpolation<S> {
+impl Interpolation {
     fn new() -> Self {
         let index = |m: usize| f64::from(u8::try_from(m).unwrap_or(0));
         let degree = index(POINTS - 1);
         let at: [f64; POINTS] =
-            core::array::from_fn(|m| 0.5 - 0.5 * (PI * index(m) / degree).cos());
-        let mut values = [[S::zero(); POINTS]; STAGES];
+            core::array::from_fn(|m| 0.5 - 0.5 * Scalar::cos(PI * index(m) / degree));
+        let mut values = [[0.0; POINTS]; STAGES];
         let mut slopes = values;
         for (stage, &time) in TIMES.iter().enumerate() {
             for m in 0..POINTS {
@@ -46,12 +46,12 @@ impl<S: Real> Interpolation<S> {
                 };
                 let others = (0..POINTS).filter(|&k| k != m);
                 let slope: f64 = others.map(|k| product(k) / (at[m] - at[k])).sum();
-                values[stage][m] = S::from_f64(product(m));
-                slopes[stage][m] = S::from_f64(slope);
+                values[stage][m] = product(m);
+                slopes[stage][m] = slope;
             }
         }
         Self {
-            points: at.map(S::from_f64),
+            points: at,
             values,
             slopes,
         }
@@ -60,52 +60,52 @@ impl<S: Real> Interpolation<S> {
 
 /// An anchor that is moved.
 #[derive(Clone, Debug)]
-pub(super) struct Moved<S, const D: usize> {
+pub(super) struct Moved<const D: usize> {
     pub(super) node: Node,
     /// Its places in the stage vector.
     pub(super) places: Vec<usize>,
     /// The index of its motion in the scene.
     motion: usize,
     /// At the stages, m and m/s.
-    pub(super) positions: [[S; D]; STAGES],
-    pub(super) velocities: [[S; D]; STAGES],
+    pub(super) positions: [[f64; D]; STAGES],
+    pub(super) velocities: [[f64; D]; STAGES],
 }
 
 /// An element with a thermostat.
 #[derive(Clone, Debug)]
-pub(super) struct Held<S> {
+pub(super) struct Held {
     element: Element,
     pub(super) slot: usize,
     /// The index of its temperature in the scene.
     temperature: usize,
     /// At the stages, K.
-    pub(super) temperatures: [S; STAGES],
+    pub(super) temperatures: [f64; STAGES],
 }
 
 /// All that is prescribed in a scene.
 #[derive(Clone, Debug)]
-pub(super) struct Prescribed<S, const D: usize> {
+pub(super) struct Prescribed<const D: usize> {
     /// `None` if no anchor is moved.
-    interpolation: Option<Interpolation<S>>,
-    pub(super) moved: Vec<Moved<S, D>>,
-    pub(super) held: Vec<Held<S>>,
+    interpolation: Option<Interpolation>,
+    pub(super) moved: Vec<Moved<D>>,
+    pub(super) held: Vec<Held>,
 }
 
-impl<S: Real, const D: usize> Prescribed<S, D> {
-    pub(super) fn new(loads: &Loads<S, D>, layout: &Layout, components: &Components<S>) -> Self {
+impl<const D: usize> Prescribed<D> {
+    pub(super) fn new(loads: &Loads<D>, layout: &Layout, components: &Components) -> Self {
         // Of several motions of one anchor the last one counts, as in the implicit schemes.
-        let mut moved: Vec<Moved<S, D>> = Vec::new();
+        let mut moved: Vec<Moved<D>> = Vec::new();
         for (motion, (node, _)) in loads.motions.iter().enumerate() {
             moved.retain(|moved| moved.node != *node);
             moved.push(Moved {
                 node: *node,
                 places: components.anchors_of(node.index).collect(),
                 motion,
-                positions: [[S::zero(); D]; STAGES],
-                velocities: [[S::zero(); D]; STAGES],
+                positions: [[0.0; D]; STAGES],
+                velocities: [[0.0; D]; STAGES],
             });
         }
-        let mut held: Vec<Held<S>> = Vec::new();
+        let mut held: Vec<Held> = Vec::new();
         for (temperature, (element, _)) in loads.temperatures.iter().enumerate() {
             let Some(slot) = layout.elements[element.index()].thermal else {
                 continue;
@@ -115,7 +115,7 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
                 element: *element,
                 slot,
                 temperature,
-                temperatures: [S::one(); STAGES],
+                temperatures: [1.0; STAGES],
             });
         }
         Self {
@@ -128,26 +128,26 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
     /// Evaluates all motions and temperatures at the stages of a step of size `step` that begins at `time`.
     pub(super) fn evaluate(
         &mut self,
-        loads: &Loads<S, D>,
-        [time, step]: [S; 2],
-        old: &State<S>,
+        loads: &Loads<D>,
+        [time, step]: [f64; 2],
+        old: &State,
     ) -> Result<(), StepFailure> {
         if let Some(interpolation) = &self.interpolation {
             for moved in &mut self.moved {
-                let from = points::<S, D>(old.positions.values())[moved.node.index];
+                let from = points::<D>(old.positions.values())[moved.node.index];
                 moved.evaluate(interpolation, loads, ([time, step], &from))?;
             }
         }
         for held in &mut self.held {
             for (stage, &share) in TIMES.iter().enumerate() {
-                let at = time + S::from_f64(share) * step;
+                let at = time + share * step;
                 let (_, course) = &loads.temperatures[held.temperature];
-                let theta = course.at(at, old.temperatures[held.slot], S::from_f64(share));
+                let theta = course.at(at, old.temperatures[held.slot], share);
                 if !is_positive(theta) {
                     return Err(StepFailure::PrescribedTemperature {
                         element: held.element,
-                        value: theta.to_f64(),
-                        time: at.to_f64(),
+                        value: theta,
+                        time: at,
                     });
                 }
                 held.temperatures[stage] = theta;
@@ -157,14 +157,14 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
     }
 }
 
-impl<S: Real, const D: usize> Moved<S, D> {
+impl<const D: usize> Moved<D> {
     fn evaluate(
         &mut self,
-        interpolation: &Interpolation<S>,
-        loads: &Loads<S, D>,
-        ([time, step], from): ([S; 2], &[S; D]),
+        interpolation: &Interpolation,
+        loads: &Loads<D>,
+        ([time, step], from): ([f64; 2], &[f64; D]),
     ) -> Result<(), StepFailure> {
-        let mut positions = [[S::zero(); D]; POINTS];
+        let mut positions = [[0.0; D]; POINTS];
         for (position, &share) in positions.iter_mut().zip(&interpolation.points) {
             let at = time + share * step;
             let found = loads.motions[self.motion]
@@ -176,8 +176,8 @@ impl<S: Real, const D: usize> Moved<S, D> {
                     return Err(StepFailure::Motion {
                         node: self.node,
                         axis,
-                        value: found[axis].to_f64(),
-                        time: at.to_f64(),
+                        value: found[axis],
+                        time: at,
                     });
                 }
             }
@@ -187,8 +187,8 @@ impl<S: Real, const D: usize> Moved<S, D> {
             for axis in 0..D {
                 // Differences do not lose digits to the distance from the origin.
                 let from_start = |m: usize| positions[m][axis] - start[axis];
-                let sum = |row: &[S; POINTS]| {
-                    (1..POINTS).fold(S::zero(), |sum, m| sum + row[m] * from_start(m))
+                let sum = |row: &[f64; POINTS]| {
+                    (1..POINTS).fold(0.0, |sum, m| sum + row[m] * from_start(m))
                 };
                 self.positions[stage][axis] = start[axis] + sum(&interpolation.values[stage]);
                 self.velocities[stage][axis] = sum(&interpolation.slopes[stage]) / step;
@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn polynomials_of_the_degree_are_exact() {
-        let interpolation = Interpolation::<f64>::new();
+        let interpolation = Interpolation::new();
         let points = interpolation.points;
         for power in 0..=10 {
             for (stage, &time) in TIMES.iter().enumerate() {

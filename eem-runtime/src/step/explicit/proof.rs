@@ -11,40 +11,38 @@ use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use crate::step::outcome::Outcome;
 use eem_material::number::compensated::Total;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// Roundings of the magnitude of the energy that a step may be off by, as in the certificate.
 const ROUNDINGS: f64 = 64.0;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// An error unless all defects, from the energies of the state, are rounding.
     pub(super) fn prove(
         &mut self,
-        correction: S,
-        (start, time): (&State<S>, S),
-    ) -> Result<Outcome<S>, StepFailure> {
+        correction: f64,
+        (start, time): (&State, f64),
+    ) -> Result<Outcome, StepFailure> {
         if let Some(UnkeptEntropy { element, sizes }) = self.scratch.unkept {
-            let sizes = sizes.map(S::from_f64);
             return Err(Law::KeptEntropy.not_kept(sizes, Some(element), time));
         }
-        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let rounding = ROUNDINGS * f64::EPSILON;
         let known = self.books.terms;
         let [old, mut terms] = known.unwrap_or_else(|| self.terms_at_start(start));
-        let [mut residue, mut counted, mut own, mut forgiven] = [S::zero(); 4];
+        let [mut residue, mut counted, mut own, mut forgiven] = [0.0; 4];
         for index in 0..self.components.all.len() {
             let present = self.scratch.progress[index].present;
             let [defect, magnitude] = present.unwrap_or_else(|| self.defect_of(index));
             let granularity = self.scratch.progress[index].granularity;
-            let magnitude = magnitude + S::from_f64(FROZEN / ROUNDINGS) * granularity;
+            let magnitude = magnitude + FROZEN / ROUNDINGS * granularity;
             expect(Law::Energy, [-defect, rounding * magnitude], time)?;
             self.prove_momenta(index, time)?;
             residue -= defect;
             let is_forgiven = self.scratch.progress[index].is_forgiven;
-            if self.is_driven && is_forgiven.any() {
+            if self.is_driven && is_forgiven {
                 // The rounding of this step is not that of later ones.
-                let debt = S::select(is_forgiven, defect, S::zero());
-                self.books.targets[index].energy.add(-debt);
-                forgiven += debt;
+                self.books.targets[index].energy.add(-defect);
+                forgiven += defect;
             }
             let energy = &self.scratch.energies[index];
             counted += magnitude + energy.excess;
@@ -61,16 +59,19 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let (mut production, mut least) = (Total::default(), self.scratch.least);
         for progress in &self.scratch.progress {
             production.add_total(progress.production);
-            let has_produced = progress.least.less(S::MAX);
+            let has_produced = progress.least < f64::MAX;
             // The factor is rounded to ε of what was produced before the closing.
-            let closed = (progress.least * progress.factor).minimum(progress.production.value());
-            least = least.minimum(S::select(has_produced, closed, S::MAX));
+            let closed = Scalar::minimum(
+                progress.least * progress.factor,
+                progress.production.value(),
+            );
+            least = Scalar::minimum(least, if has_produced { closed } else { f64::MAX });
         }
-        let has_produced = least.less(S::MAX);
-        let least_production = S::select(has_produced, least, S::zero());
+        let has_produced = least < f64::MAX;
+        let least_production = if has_produced { least } else { 0.0 };
         expect(
             Law::Production,
-            [least_production.minimum(S::zero()), S::zero()],
+            [Scalar::minimum(least_production, 0.0), 0.0],
             time,
         )?;
         Ok(Outcome {
@@ -86,16 +87,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// An error unless the conserved momenta of a component are their targets, in all planes.
-    fn prove_momenta(&self, index: usize, time: S) -> Result<(), StepFailure> {
+    fn prove_momenta(&self, index: usize, time: f64) -> Result<(), StepFailure> {
         let support = self.components.all[index].support;
         if support == Support::Several {
             return Ok(());
         }
-        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let rounding = ROUNDINGS * f64::EPSILON;
         let (linear, angular) = self.missing_momenta(index);
         // Sums of magnitudes are at most √D times a length.
         let [momenta, moments] = self.scratch.motions[index].terms;
-        let dimension = (0..D).fold(S::zero(), |sum, _| sum + S::one());
+        let dimension = (0..D).fold(0.0, |sum, _| sum + 1.0);
         if support == Support::Free {
             let bound = rounding * (momenta / dimension.sqrt());
             expect(Law::LinearMomentum, [largest(&linear), bound], time)?;
@@ -106,8 +107,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 }
 
 /// An error if the defect of a law exceeds its bound or is NaN.
-fn expect<S: Real>(law: Law, [defect, bound]: [S; 2], time: S) -> Result<(), StepFailure> {
-    if defect.abs().at_most(bound).all() {
+fn expect(law: Law, [defect, bound]: [f64; 2], time: f64) -> Result<(), StepFailure> {
+    if defect.abs() <= bound {
         return Ok(());
     }
     Err(law.not_kept([defect, bound], None, time))

@@ -5,11 +5,10 @@ use super::memory::Books;
 use super::past::SavedExplicit;
 use crate::element::state::State;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Everything besides the state that the next step depends on.
-    pub(crate) fn save(&self, state: &State<S>) -> SavedExplicit<S> {
+    pub(crate) fn save(&self, state: &State) -> SavedExplicit {
         let mut books = self.books.clone();
         let (mut rates, mut loads) = (Vec::new(), Vec::new());
         for [start, now] in self.stage.rates(self.kept_places) {
@@ -25,8 +24,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         loads.extend(own.total_force.iter().chain(&own.force));
         if !self.is_ready {
             books.clear();
-            rates.fill(S::zero());
-            loads.fill(S::zero());
+            rates.fill(0.0);
+            loads.fill(0.0);
         }
         SavedExplicit {
             is_new: !self.is_ready,
@@ -42,7 +41,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Continues from a checkpoint of the same scene.
-    pub(crate) fn restore(&mut self, saved: &SavedExplicit<S>) {
+    pub(crate) fn restore(&mut self, saved: &SavedExplicit) {
         self.is_ready = !saved.is_new;
         self.has_left = true;
         self.is_motion_first = saved.is_motion_first;
@@ -72,7 +71,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 }
 
-fn sums_of<S: Real, const D: usize>(books: &mut Books<S, D>) -> Vec<Sum<S>> {
+fn sums_of<const D: usize>(books: &mut Books<D>) -> Vec<Sum> {
     let mut sums = Vec::new();
     for target in &mut books.targets {
         target.each_mut(|sum| sums.push(*sum));

@@ -6,71 +6,74 @@ use crate::element::layout::Layout;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::vector::{add, dot, size};
 use eem_material::number::compensated::Total;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// The progress of the closing of a component.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Progress<S: Real> {
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a question of its own about the closing"
+)]
+pub(super) struct Progress {
     /// Number of corrections so far.
     pub(super) iterations: usize,
     /// Whether heat has been among them.
-    pub(super) has_heated: S::Mask,
+    pub(super) has_heated: bool,
     /// The defect of the energy, J.
-    pub(super) defect: S,
+    pub(super) defect: f64,
     /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
-    pub(super) present: Option<[S; 2]>,
+    pub(super) present: Option<[f64; 2]>,
     /// The magnitude of the terms of the energy where the closing began; zero before, J.
-    pub(super) scale: S,
+    pub(super) scale: f64,
     /// The first defect over the scale.
-    pub(super) correction: S,
+    pub(super) correction: f64,
     /// Heat that dashpots without temperature have lost in this step, J.
-    pub(super) lost: S,
-    /// The total entropy production, and the smallest one before the closing, `S::MAX` without any, J/K.
-    pub(super) production: Total<S>,
-    pub(super) least: S,
+    pub(super) lost: f64,
+    /// The total entropy production, and the smallest one before the closing, `f64::MAX` without any, J/K.
+    pub(super) production: Total,
+    pub(super) least: f64,
     /// The factor by which the closing has changed every production.
-    pub(super) factor: S,
+    pub(super) factor: f64,
     /// Terms whose rounding explains the defect if no correction of the energy was possible, see
     /// [`rounding`](super::closing); zero otherwise, J.
-    pub(super) granularity: S,
+    pub(super) granularity: f64,
     /// Whether these are terms that do not vanish with the energy.
-    pub(super) is_forgiven: S::Mask,
-    /// Whether the energy is within tolerance, and whether a correction needs forces.
-    pub(super) is_closed: S::Mask,
-    pub(super) needs_forces: S::Mask,
+    pub(super) is_forgiven: bool,
+    /// Whether the energy is within tolerance.
+    pub(super) is_closed: bool,
     /// Whether the component was rotated rigidly because no correction was possible.
     pub(super) is_rigid: bool,
 }
 
 /// Sums over the masses of a component.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motion<S, const D: usize> {
+pub(super) struct Motion<const D: usize> {
     /// L, kg m/s, and J about the origin of the component, kg m²/s.
-    pub(super) linear: [S; D],
-    pub(super) angular: Bivector<S, D>,
+    pub(super) linear: [f64; D],
+    pub(super) angular: Bivector<f64, D>,
     /// `Σ |p|` and `Σ |q||p|` by sums of magnitudes, with coordinates q or arms about the origin, whichever are larger:
     /// positions are rounded to ε of their coordinates.
-    pub(super) terms: [S; 2],
+    pub(super) terms: [f64; 2],
     /// Kinetic energy and that of weights, and the magnitude of its terms, J.
-    pub(super) energy: Total<S>,
-    pub(super) magnitude: S,
-    pub(super) kinetic: S,
+    pub(super) energy: Total,
+    pub(super) magnitude: f64,
+    pub(super) kinetic: f64,
 }
 
 /// What an element with a thermostat receives in a step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct HeldBalance<S> {
+pub(super) struct HeldBalance {
     /// Entropy from dashpots and paths, and from the thermostat, J/K.
-    pub(super) received: S,
-    pub(super) given: S,
+    pub(super) received: f64,
+    pub(super) given: f64,
     /// Heat from the thermostat, and the part of it that the entropy does not tell, J.
-    pub(super) heat: S,
-    pub(super) by_course: S,
+    pub(super) heat: f64,
+    pub(super) by_course: f64,
 }
 
-impl<S: Real> HeldBalance<S> {
+impl HeldBalance {
     pub(super) fn none() -> Self {
-        let [received, given, heat, by_course] = [S::zero(); 4];
+        let [received, given, heat, by_course] = [0.0; 4];
         Self {
             received,
             given,
@@ -82,98 +85,95 @@ impl<S: Real> HeldBalance<S> {
 
 /// Sums of rows of matrices, which bound the fastest motion.
 #[derive(Clone, Debug)]
-pub(super) struct RowSums<S> {
+pub(super) struct RowSums {
     /// `ω²` per node of the scene, 1/s².
-    pub(super) squares: Vec<S>,
+    pub(super) squares: Vec<f64>,
     /// c per thermal slot, J/K, and its share of conduction, 1/s.
-    pub(super) capacities: Vec<S>,
-    pub(super) flows: Vec<S>,
+    pub(super) capacities: Vec<f64>,
+    pub(super) flows: Vec<f64>,
 }
 
 /// Working memory of the closing of a step.
 #[derive(Clone, Debug)]
-pub(super) struct Scratch<S: Real, const D: usize> {
+pub(super) struct Scratch<const D: usize> {
     /// Per component.
-    pub(super) progress: Vec<Progress<S>>,
-    pub(super) motions: Vec<Motion<S, D>>,
-    pub(super) energies: Vec<ComponentEnergy<S>>,
+    pub(super) progress: Vec<Progress>,
+    pub(super) motions: Vec<Motion<D>>,
+    pub(super) energies: Vec<ComponentEnergy>,
     /// Whether a component has to be evaluated, and whether its forces are needed.
     pub(super) open: Vec<bool>,
     pub(super) needs_forces: Vec<bool>,
-    /// Lanes that have not changed and are inactive while the others are evaluated.
-    pub(super) inactive: Vec<S::Mask>,
     /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
-    pub(super) capacities: Vec<[S; 2]>,
-    pub(super) produced: Vec<S>,
+    pub(super) capacities: Vec<[f64; 2]>,
+    pub(super) produced: Vec<f64>,
     /// An element whose stored entropy does not match its temperature after the closing, if there is one.
     pub(super) unkept: Option<UnkeptEntropy>,
     /// Per thermal slot.
-    pub(super) held: Vec<HeldBalance<S>>,
+    pub(super) held: Vec<HeldBalance>,
     /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are needed, N, m/s and W.
-    pub(super) forces: Vec<[S; D]>,
-    pub(super) creep: Vec<[S; 2]>,
+    pub(super) forces: Vec<[f64; D]>,
+    pub(super) creep: Vec<[f64; 2]>,
     /// The production Π of each path of heat, J/K.
-    pub(super) paths: Vec<S>,
-    /// The smallest production of paths of heat between thermostats and reservoirs; `S::MAX` without any, J/K.
-    pub(super) least: S,
-    pub(super) stability: RowSums<S>,
+    pub(super) paths: Vec<f64>,
+    /// The smallest production of paths of heat between thermostats and reservoirs; `f64::MAX` without any, J/K.
+    pub(super) least: f64,
+    pub(super) stability: RowSums,
     /// The sum of the stiffnesses of elements at each node of the scene, N/m, and whether it is known in this step.
-    pub(super) stiffnesses: Vec<S>,
+    pub(super) stiffnesses: Vec<f64>,
     pub(super) has_stiffnesses: bool,
 }
 
-impl<S: Real> Progress<S> {
+impl Progress {
     pub(super) fn none() -> Self {
         Self {
             iterations: 0,
-            has_heated: S::Mask::none(),
-            defect: S::zero(),
+            has_heated: false,
+            defect: 0.0,
             present: None,
-            scale: S::zero(),
-            correction: S::zero(),
-            lost: S::zero(),
+            scale: 0.0,
+            correction: 0.0,
+            lost: 0.0,
             production: Total::default(),
-            least: S::MAX,
-            factor: S::one(),
-            granularity: S::zero(),
-            is_forgiven: S::Mask::none(),
-            is_closed: S::Mask::none(),
-            needs_forces: S::Mask::none(),
+            least: f64::MAX,
+            factor: 1.0,
+            granularity: 0.0,
+            is_forgiven: false,
+            is_closed: false,
             is_rigid: false,
         }
     }
 }
 
-impl<S: Real, const D: usize> Motion<S, D> {
+impl<const D: usize> Motion<D> {
     /// Of no masses.
     pub(super) fn none() -> Self {
         Self {
-            linear: [S::zero(); D],
+            linear: [0.0; D],
             angular: Bivector::zero(),
-            terms: [S::zero(); 2],
+            terms: [0.0; 2],
             energy: Total::default(),
-            magnitude: S::zero(),
-            kinetic: S::zero(),
+            magnitude: 0.0,
+            kinetic: 0.0,
         }
     }
 
     /// Adds the momenta of a mass at the end of an arm.
     #[inline]
-    pub(super) fn add_momenta(&mut self, place: &Place<S, D>, arm: &[S; D]) {
+    pub(super) fn add_momenta(&mut self, place: &Place<D>, arm: &[f64; D]) {
         let p = place.p();
-        add(&mut self.linear, S::one(), p);
-        self.angular.add(S::one(), &Bivector::wedge(arm, p));
+        add(&mut self.linear, 1.0, p);
+        self.angular.add(1.0, &Bivector::wedge(arm, p));
         let momentum = size(p);
         self.terms[0] += momentum;
-        self.terms[1] += size(arm).maximum(size(place.q())) * momentum;
+        self.terms[1] += Scalar::maximum(size(arm), size(place.q())) * momentum;
     }
 
     /// Adds momenta and energy of a mass at the end of an arm.
     #[inline]
-    pub(super) fn add(&mut self, place: &Place<S, D>, arm: &[S; D], gravity: Option<&[S; D]>) {
+    pub(super) fn add(&mut self, place: &Place<D>, arm: &[f64; D], gravity: Option<&[f64; D]>) {
         self.add_momenta(place, arm);
         let (q, p) = (place.q(), place.p());
-        let kinetic = S::from_f64(0.5) * dot(p, p) * place.per_mass;
+        let kinetic = 0.5 * dot(p, p) * place.per_mass;
         self.energy.add(kinetic);
         self.kinetic += kinetic;
         self.magnitude += kinetic;
@@ -185,9 +185,9 @@ impl<S: Real, const D: usize> Motion<S, D> {
     }
 }
 
-impl<S: Real, const D: usize> Scratch<S, D> {
+impl<const D: usize> Scratch<D> {
     /// A workspace for a scene with this many nodes.
-    pub(super) fn new(components: &Components<S>, layout: &Layout, nodes: usize) -> Self {
+    pub(super) fn new(components: &Components, layout: &Layout, nodes: usize) -> Self {
         let (count, thermal) = (components.all.len(), layout.thermal);
         Self {
             progress: vec![Progress::none(); count],
@@ -195,21 +195,20 @@ impl<S: Real, const D: usize> Scratch<S, D> {
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
             needs_forces: vec![false; count],
-            inactive: vec![S::Mask::none(); count],
-            capacities: vec![[S::zero(); 2]; thermal],
-            produced: vec![S::zero(); thermal],
+            capacities: vec![[0.0; 2]; thermal],
+            produced: vec![0.0; thermal],
             unkept: None,
             held: vec![HeldBalance::none(); thermal],
-            forces: vec![[S::zero(); D]; components.nodes.len()],
-            creep: vec![[S::zero(); 2]; layout.viscous],
-            paths: vec![S::zero(); components.paths.len()],
-            least: S::MAX,
+            forces: vec![[0.0; D]; components.nodes.len()],
+            creep: vec![[0.0; 2]; layout.viscous],
+            paths: vec![0.0; components.paths.len()],
+            least: f64::MAX,
             stability: RowSums {
-                squares: vec![S::zero(); nodes],
-                capacities: vec![S::zero(); thermal],
-                flows: vec![S::zero(); thermal],
+                squares: vec![0.0; nodes],
+                capacities: vec![0.0; thermal],
+                flows: vec![0.0; thermal],
             },
-            stiffnesses: vec![S::zero(); nodes],
+            stiffnesses: vec![0.0; nodes],
             has_stiffnesses: false,
         }
     }
@@ -217,11 +216,10 @@ impl<S: Real, const D: usize> Scratch<S, D> {
     /// Clears the workspace for the closing of a step.
     pub(super) fn clear(&mut self) {
         self.progress.fill(Progress::none());
-        self.inactive.fill(S::Mask::none());
-        self.produced.fill(S::zero());
+        self.produced.fill(0.0);
         self.held.fill(HeldBalance::none());
         self.unkept = None;
         self.has_stiffnesses = false;
-        self.least = S::MAX;
+        self.least = f64::MAX;
     }
 }

@@ -5,7 +5,7 @@ use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// Up to these products with the step the stability function of DOP853 is at most 1: on the imaginary axis,
 /// vibrations, and on the real one, conduction and dashpots.
@@ -18,13 +18,13 @@ const LIMITS: [f64; 3] = [IMAGINARY_LIMIT, REAL_LIMIT, REAL_LIMIT];
 /// The index of the dashpot among them.
 const DASHPOT: usize = 2;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// The reason behind a failure, if the step is too long to be stable.
     #[cold]
     pub(crate) fn explain(
         &mut self,
         failure: StepFailure,
-        view: &ExplicitView<'_, S, D>,
+        view: &ExplicitView<'_, D>,
     ) -> StepFailure {
         let may_be_unstable = matches!(
             failure,
@@ -47,7 +47,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     #[cold]
     pub(super) fn expect_stable_dashpots(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
+        view: &ExplicitView<'_, D>,
     ) -> Result<(), StepFailure> {
         if self.components.dashpots.is_empty() {
             return Ok(());
@@ -56,9 +56,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The error of a step that is too long for one of the processes from this one on.
-    fn unstable(&mut self, view: &ExplicitView<'_, S, D>, first: usize) -> Option<StepFailure> {
-        let time = (view.state.time.value + view.step).to_f64();
-        let h = view.step.to_f64();
+    fn unstable(&mut self, view: &ExplicitView<'_, D>, first: usize) -> Option<StepFailure> {
+        let time = view.state.time.value + view.step;
+        let h = view.step;
         let rates = self.fastest(view);
         let limits = ["ωh", "κh/c", "kh/η"].into_iter().zip(LIMITS);
         let mut processes = limits.zip(rates).skip(first);
@@ -75,52 +75,55 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The step as a fraction of the longest stable one.
-    pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, S, D>) -> f64 {
+    pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, D>) -> f64 {
         let rates = self.fastest(view).into_iter();
         let shares = rates.zip(LIMITS).map(|(rate, limit)| rate / limit);
-        view.step.to_f64() * shares.fold(0.0, f64::max)
+        view.step * shares.fold(0.0, f64::max)
     }
 
     /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the
     /// matrices that are symmetric in `√m q` and `√c θ`, 1/s.
-    fn fastest(&mut self, view: &ExplicitView<'_, S, D>) -> [f64; 3] {
+    fn fastest(&mut self, view: &ExplicitView<'_, D>) -> [f64; 3] {
         let RowSums {
             squares,
             capacities,
             flows,
         } = &mut self.scratch.stability;
         for rows in [&mut *squares, &mut *capacities, &mut *flows] {
-            rows.fill(S::zero());
+            rows.fill(0.0);
         }
         let per_root = |node: usize| {
             let mass = view.masses.get(node);
-            mass.map_or(S::zero(), |mass| mass.sqrt().recip())
+            mass.map_or(0.0, |mass| mass.sqrt().recip())
         };
-        let mut relaxation = S::zero();
+        let mut relaxation = 0.0;
         for group in &self.groups {
-            group.elements().stiffness(view.state, &mut |element| {
-                let [a, b] = element.ends();
-                let [by_a, by_b] = [a, b].map(per_root);
-                let both = by_a + by_b;
-                let held = |slot: usize| self.stage.is_held(slot);
-                let stiffness = match element.capacity {
-                    Some((slot, _)) if held(slot) => element.isothermal,
-                    _ => element.elastic,
-                };
-                squares[a] += stiffness * by_a * both;
-                squares[b] += stiffness * by_b * both;
-                relaxation = relaxation.maximum(element.relaxation);
-                if let Some((slot, capacity)) = element.capacity {
-                    // A thermostat keeps the temperature as a body of any size would.
-                    capacities[slot] = if held(slot) { S::MAX } else { capacity };
-                }
-            });
+            group.elements().stiffness(
+                view.state,
+                &mut (|element| {
+                    let [a, b] = element.ends();
+                    let [by_a, by_b] = [a, b].map(per_root);
+                    let both = by_a + by_b;
+                    let held = |slot: usize| self.stage.is_held(slot);
+                    let stiffness = match element.capacity {
+                        Some((slot, _)) if held(slot) => element.isothermal,
+                        _ => element.elastic,
+                    };
+                    squares[a] += stiffness * by_a * both;
+                    squares[b] += stiffness * by_b * both;
+                    relaxation = Scalar::maximum(relaxation, element.relaxation);
+                    if let Some((slot, capacity)) = element.capacity {
+                        // A thermostat keeps the temperature as a body of any size would.
+                        capacities[slot] = if held(slot) { f64::MAX } else { capacity };
+                    }
+                }),
+            );
         }
         for path in &self.components.paths {
             let ends = path.ends.map(|end| end as usize);
             let per_root = |end: usize| {
                 let capacity = capacities.get(end).copied();
-                capacity.map_or(S::zero(), |capacity| capacity.sqrt().recip())
+                capacity.map_or(0.0, |capacity| capacity.sqrt().recip())
             };
             let both = per_root(ends[0]) + per_root(ends[1]);
             for end in ends {
@@ -129,17 +132,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 }
             }
         }
-        let largest = |values: &[S]| values.iter().fold(S::zero(), |most, &x| most.maximum(x));
+        let largest = |values: &[f64]| values.iter().fold(0.0, |most, &x| Scalar::maximum(most, x));
         let vibration = largest(squares).sqrt();
-        [vibration, largest(flows), relaxation].map(Real::to_f64)
+        [vibration, largest(flows), relaxation]
     }
 
     /// The element without an admissible temperature, as it was at the start of the step.
-    fn too_cold(
-        &self,
-        failure: &StepFailure,
-        view: &ExplicitView<'_, S, D>,
-    ) -> Option<StepFailure> {
+    fn too_cold(&self, failure: &StepFailure, view: &ExplicitView<'_, D>) -> Option<StepFailure> {
         let StepFailure::State(
             StateError::Temperature { element, .. }
             | StateError::HeatCapacity { element, .. }
@@ -150,7 +149,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         };
         let mut elements = self.components.elements.iter();
         let slot = elements.position(|&own| own as usize == element.index())?;
-        let mut heat_capacity = S::zero();
+        let mut heat_capacity = 0.0;
         for group in &self.groups {
             group.elements().stiffness(view.state, &mut |found| {
                 if let Some((own, capacity)) = found.capacity
@@ -160,13 +159,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 }
             });
         }
-        let is_known = S::zero().less(heat_capacity).all();
+        let is_known = heat_capacity > 0.0;
         is_known.then(|| StepFailure::TooCold {
             element: *element,
-            heat_capacity: heat_capacity.to_f64(),
-            temperature: view.state.temperatures[slot].to_f64(),
+            heat_capacity,
+            temperature: view.state.temperatures[slot],
             scheme: Scheme::EemEntropy.name(),
-            time: (view.state.time.value + view.step).to_f64(),
+            time: view.state.time.value + view.step,
         })
     }
 }

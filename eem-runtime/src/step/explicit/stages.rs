@@ -8,7 +8,6 @@ use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::element::group::{Apart, Past};
 use crate::step::error::StepFailure;
-use eem_material::number::scalar::Real;
 
 /// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and the last two
 /// stages reuse their rows.
@@ -37,20 +36,18 @@ pub(super) enum From {
 
 /// `Σ E k` of both estimates.
 #[inline]
-pub(super) fn errors<S: Real, const N: usize, const P: usize>(
-    past: &Past<S, N, P>,
-) -> [[[S; N]; P]; 2] {
+pub(super) fn errors<const N: usize, const P: usize>(past: &Past<N, P>) -> [[[f64; N]; P]; 2] {
     [
         past.combined(WEIGHTED_ROWS, &ERROR_5),
         past.combined(WEIGHTED_ROWS, &ERROR_3),
     ]
 }
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Goes through all stages to the end of the step, before it is closed.
     pub(super) fn go_through_stages(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
+        view: &ExplicitView<'_, D>,
     ) -> Result<(), StepFailure> {
         self.stage::<1, _>(view, [0], &ROW_1)?;
         self.stage::<2, _>(view, [0, 1], &ROW_2)?;
@@ -78,14 +75,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     )]
     fn stage<const STAGE: usize, const T: usize>(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
+        view: &ExplicitView<'_, D>,
         rows: [usize; T],
         a: &[f64; T],
     ) -> Result<(), StepFailure> {
         self.combine(STAGE - 1, view.step, rows, a);
         if self.is_driven {
             self.move_to(STAGE);
-            let share = S::from_f64(TIMES[STAGE]);
+            let share = TIMES[STAGE];
             self.evaluate_loads(view, view.state.time.value + share * view.step)?;
         }
         self.find_rates(From::Model, WEIGHT_OF[STAGE])?;
@@ -96,7 +93,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// rates there.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
-    fn combine<const T: usize>(&mut self, last: usize, h: S, rows: [usize; T], a: &[f64; T]) {
+    fn combine<const T: usize>(&mut self, last: usize, h: f64, rows: [usize; T], a: &[f64; T]) {
         for place in &mut self.stage.places[..self.components.masses] {
             if last == 0 {
                 place.past.start = place.now;
@@ -113,15 +110,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
             past.rates[ROWS[last]] = [rates.map(|rate| rate.0)];
             [*now] = past.after(h, rows, a);
-            *rates = [Apart(S::zero()); 2];
+            *rates = [Apart(0.0); 2];
         }
     }
 
     /// Evaluates loads and weights at a time.
     pub(super) fn evaluate_loads(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
-        time: S,
+        view: &ExplicitView<'_, D>,
+        time: f64,
     ) -> Result<(), StepFailure> {
         if !self.loads.has_total_force() {
             return Ok(());
@@ -149,7 +146,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         from: From,
         weight: Option<usize>,
     ) -> Result<(), StateError> {
-        self.stage.weight = weight.map_or(S::zero(), |at| S::from_f64(WEIGHTS[at]));
+        self.stage.weight = weight.map_or(0.0, |at| WEIGHTS[at]);
         let first = self.stage.temperatures;
         let (inner, rates) = (&self.stage.inner[..], &mut self.stage.inner_rates[..]);
         for path in &mut self.components.paths {
@@ -186,7 +183,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for place in &mut self.stage.places[..self.components.masses] {
             place.begin_rates();
         }
-        self.stage.inner_rates.fill(Apart(S::zero()));
+        self.stage.inner_rates.fill(Apart(0.0));
         if self.loads.has_total_force() {
             self.apply_loads();
         }

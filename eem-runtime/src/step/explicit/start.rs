@@ -11,14 +11,13 @@ use crate::element::group::{Apart, ComponentEnergy, Place, points};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Sets the stage and the sums to the start of a step, and begins its integrals.
     pub(super) fn begin(
         &mut self,
-        view: &ExplicitView<'_, S, D>,
-        next: &mut State<S>,
+        view: &ExplicitView<'_, D>,
+        next: &mut State,
     ) -> Result<(), StepFailure> {
         if self.has_left || !self.is_ready {
             // Steps write only variables that change; all others are equal in both states from now on.
@@ -32,7 +31,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         self.old_books.copy_from(&self.books, self.is_driven);
         for production in &mut self.stage.productions {
-            production.begin(S::from_f64(WEIGHTS[0]));
+            production.begin(WEIGHTS[0]);
         }
         if view.state.meters.are_on {
             self.begin_heats();
@@ -52,24 +51,22 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Begins the sums of the heat of each dashpot, with the contribution of the start.
     fn begin_heats(&mut self) {
         let stage = &mut self.stage;
-        stage.heats.resize(stage.productions.len(), S::zero());
+        stage.heats.resize(stage.productions.len(), 0.0);
         stage.has_heats = true;
         let dashpots = self.components.dashpots.iter().enumerate();
         for (index, dashpot) in dashpots {
-            let theta = dashpot
-                .slot
-                .map_or(S::one(), |slot| stage.theta(slot as usize));
+            let theta = dashpot.slot.map_or(1.0, |slot| stage.theta(slot as usize));
             let power = stage.productions[index].start * theta;
-            stage.heats[index] = S::from_f64(WEIGHTS[0]) * power;
+            stage.heats[index] = WEIGHTS[0] * power;
         }
     }
 
     /// Takes the variables of a state.
     #[cold]
-    fn load(&mut self, view: &ExplicitView<'_, S, D>) {
+    fn load(&mut self, view: &ExplicitView<'_, D>) {
         let (state, stage) = (view.state, &mut self.stage);
-        let positions = points::<S, D>(state.positions.values());
-        let momenta = points::<S, D>(state.momenta.values());
+        let positions = points::<D>(state.positions.values());
+        let momenta = points::<D>(state.momenta.values());
         for (place, &node) in stage.places.iter_mut().zip(&self.components.nodes) {
             place.now = [positions[node as usize], momenta[node as usize]];
             place.begin_rates();
@@ -82,12 +79,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for (own, &value) in stage.inner.iter_mut().zip(inner) {
             *own = value;
         }
-        stage.inner_rates.fill(Apart(S::zero()));
+        stage.inner_rates.fill(Apart(0.0));
     }
 
     /// Finds rates and targets.
     #[cold]
-    fn prepare(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
+    fn prepare(&mut self, view: &ExplicitView<'_, D>) -> Result<(), StepFailure> {
         self.start_anchors();
         self.evaluate_loads(view, view.state.time.value)?;
         self.find_rates(From::Model, None)?;
@@ -107,7 +104,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Sums the energies of the elements of a state.
-    fn sum_energies(&mut self, state: &State<S>) {
+    fn sum_energies(&mut self, state: &State) {
         self.scratch.energies.fill(ComponentEnergy::none());
         let elements = self.components.of_element.iter().zip(&state.energies);
         for (&component, energy) in elements {
@@ -118,7 +115,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Takes energy and momenta of this state as the conserved targets.
-    fn set_targets(&mut self, state: &State<S>) {
+    fn set_targets(&mut self, state: &State) {
         self.books.clear();
         self.sum_energies(state);
         for index in 0..self.components.all.len() {
@@ -127,7 +124,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let mut target = Target::none();
             if self.components.all[index].support != Support::Several {
                 target.linear = motion.linear.map(Sum::new);
-                target.angular = motion.angular.map(Sum::new(S::zero()), Sum::new);
+                target.angular = motion.angular.map(Sum::new(0.0), Sum::new);
             }
             let [energy, _] = self.energy_of(index);
             target.energy = Sum::new(energy);
@@ -137,14 +134,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The point about which the angular momentum of a component is conserved: its anchor or its centre of mass; the
     /// origin with several anchors, where none is.
-    pub(super) fn origin(places: &[Place<S, D>], component: &Component<S>) -> Origin<S, D> {
+    pub(super) fn origin(places: &[Place<D>], component: &Component) -> Origin<D> {
         match component.support {
             Support::Free => {
                 let masses = places[component.masses.clone()].iter();
                 Origin::center(masses.map(|place| (place.mass, place.q())), component.mass)
             }
             Support::Anchor(place) => Origin::at(places[place].q()),
-            Support::Several => Origin::at(&[S::zero(); D]),
+            Support::Several => Origin::at(&[0.0; D]),
         }
     }
 }

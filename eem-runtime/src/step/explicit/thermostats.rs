@@ -6,9 +6,8 @@ use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::group::Thermostat;
 use crate::element::state::State;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Begins the integrals of thermostats at the start of a step.
     pub(super) fn begin_thermostats(&mut self) {
         if !self.stage.has_thermostats {
@@ -30,7 +29,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The entropy that held elements have received from dashpots and paths, and the part of the heat of thermostats that
     /// follows from the course of their temperature.
-    pub(super) fn book_course(&mut self, view: &ExplicitView<'_, S, D>, next: &State<S>) {
+    pub(super) fn book_course(&mut self, view: &ExplicitView<'_, D>, next: &State) {
         let old = view.state;
         for held in &self.prescribed.held {
             let slot = held.slot;
@@ -44,7 +43,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Books the heat of thermostats in open components, given the entropies of their elements.
-    pub(super) fn book_thermostats(&mut self, view: &ExplicitView<'_, S, D>, next: &State<S>) {
+    pub(super) fn book_thermostats(&mut self, view: &ExplicitView<'_, D>, next: &State) {
         for at in 0..self.prescribed.held.len() {
             let slot = self.prescribed.held[at].slot;
             if self.scratch.open[self.component_of(slot)] {
@@ -57,7 +56,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Lets the dashpots of a held element produce more entropy, which its thermostat takes.
-    pub(super) fn warm_held(&mut self, slot: usize, entropy: S) {
+    pub(super) fn warm_held(&mut self, slot: usize, entropy: f64) {
         let balance = &mut self.scratch.held[slot];
         balance.received += entropy;
         balance.given -= entropy;
@@ -70,12 +69,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let balance = &mut self.scratch.held[slot];
         let heat = self.stage.thermostats[slot].last * balance.given + balance.by_course;
         // The same heat again leaves the bits of the target.
-        let is_same = heat.equal(balance.heat);
-        let target = &mut self.books.targets[component].energy;
-        for change in [-balance.heat, heat] {
-            target.add(S::select(is_same, S::zero(), change));
+        #[expect(clippy::float_cmp, reason = "the same heat, not nearly the same")]
+        if heat != balance.heat {
+            let target = &mut self.books.targets[component].energy;
+            for change in [-balance.heat, heat] {
+                target.add(change);
+            }
+            balance.heat = heat;
         }
-        balance.heat = heat;
     }
 
     fn component_of(&self, slot: usize) -> usize {
@@ -84,7 +85,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Books what thermostats have given, once the state is closed.
-    pub(super) fn conclude_thermostats(&self, next: &mut State<S>) {
+    pub(super) fn conclude_thermostats(&self, next: &mut State) {
         for held in &self.prescribed.held {
             let balance = &self.scratch.held[held.slot];
             next.book_thermostat(balance.heat, balance.given);
@@ -95,13 +96,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 /// Weighs the heat that a held element receives along a path like the flow of its entropy, after the guard has shifted
 /// weights; the temperatures are its own and those of the other end.
 #[cold]
-pub(super) fn shift_weights<S: Real>(
-    thermostat: &mut Thermostat<S>,
-    shift: &Shift<S>,
-    conductance: S,
-    [own, other]: [&PerWeight<S>; 2],
+pub(super) fn shift_weights(
+    thermostat: &mut Thermostat,
+    shift: Shift,
+    conductance: f64,
+    [own, other]: [&PerWeight; 2],
 ) {
-    let mut heat = [S::zero(); _];
+    let mut heat = [0.0; _];
     for (heat, (&own, &other)) in heat.iter_mut().zip(own.iter().zip(other)) {
         *heat = thermostat.excess(own) * conductance * (other - own);
     }

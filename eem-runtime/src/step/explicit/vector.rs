@@ -1,53 +1,56 @@
 //! Vectors of positions and momenta, and points from which arms are counted.
 
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 #[inline]
-pub(super) fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
-    a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+pub(super) fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum, (&a, &b)| sum + a * b)
 }
 
 /// `|a|`, where squares may over- or underflow too.
-pub(super) fn length<S: Real, const D: usize>(a: &[S; D]) -> S {
-    a.iter().fold(S::zero(), |length, &x| length.hypot(x))
+pub(super) fn length<const D: usize>(a: &[f64; D]) -> f64 {
+    a.iter().fold(0.0, |length, &x| Scalar::hypot(length, x))
 }
 
 /// `Σ |a_i|`, no less than `|a|`.
 #[inline]
-pub(super) fn size<S: Real, const D: usize>(a: &[S; D]) -> S {
-    a.iter().fold(S::zero(), |size, &x| size + x.abs())
+pub(super) fn size<const D: usize>(a: &[f64; D]) -> f64 {
+    a.iter().fold(0.0, |size, &x| size + x.abs())
 }
 
 /// `sum += factor a`.
 #[inline]
-pub(super) fn add<S: Real, const D: usize>(sum: &mut [S; D], factor: S, a: &[S; D]) {
+pub(super) fn add<const D: usize>(sum: &mut [f64; D], factor: f64, a: &[f64; D]) {
     for (sum, &a) in sum.iter_mut().zip(a) {
         *sum += factor * a;
     }
 }
 
 #[inline]
-pub(super) fn difference<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; D] {
+pub(super) fn difference<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {
     core::array::from_fn(|axis| a[axis] - b[axis])
 }
 
 /// A point from which arms are counted: an anchor, or a centre of mass by its distance from one of the masses, so that
 /// arms of a body far from the origin lose no digits.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Origin<S, const D: usize> {
-    base: [S; D],
-    offset: [S; D],
+pub(super) struct Origin<const D: usize> {
+    base: [f64; D],
+    offset: [f64; D],
 }
 
-impl<S: Real, const D: usize> Origin<S, D> {
-    pub(super) fn at(point: &[S; D]) -> Self {
-        let (base, offset) = (*point, [S::zero(); D]);
+impl<const D: usize> Origin<D> {
+    pub(super) fn at(point: &[f64; D]) -> Self {
+        let (base, offset) = (*point, [0.0; D]);
         Self { base, offset }
     }
 
     /// The centre of some masses with this sum.
-    pub(super) fn center<'a>(mut masses: impl Iterator<Item = (S, &'a [S; D])>, mass: S) -> Self {
-        let mut sum = [S::zero(); D];
+    pub(super) fn center<'a>(
+        mut masses: impl Iterator<Item = (f64, &'a [f64; D])>,
+        mass: f64,
+    ) -> Self {
+        let mut sum = [0.0; D];
         let base = masses.next().map_or(sum, |(_, &first)| first);
         for (mass, position) in masses {
             add(&mut sum, mass, &difference(position, &base));
@@ -57,17 +60,17 @@ impl<S: Real, const D: usize> Origin<S, D> {
     }
 
     #[inline]
-    pub(super) fn arm(&self, position: &[S; D]) -> [S; D] {
+    pub(super) fn arm(&self, position: &[f64; D]) -> [f64; D] {
         core::array::from_fn(|axis| (position[axis] - self.base[axis]) - self.offset[axis])
     }
 
     /// `self + by`.
-    pub(super) fn moved(&self, by: &[S; D]) -> [S; D] {
+    pub(super) fn moved(&self, by: &[f64; D]) -> [f64; D] {
         core::array::from_fn(|axis| self.base[axis] + (self.offset[axis] + by[axis]))
     }
 }
 
 /// The largest `|a_i|`.
-pub(super) fn largest<S: Real, const D: usize>(a: &[S; D]) -> S {
-    a.iter().fold(S::zero(), |most, x| most.maximum(x.abs()))
+pub(super) fn largest<const D: usize>(a: &[f64; D]) -> f64 {
+    a.iter().fold(0.0, |most, x| Scalar::maximum(most, x.abs()))
 }

@@ -6,72 +6,71 @@ use super::places::MovingNode;
 use crate::element::group::{StepView, Trial, points};
 use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Speeds;
-use eem_material::number::scalar::Real;
 
 /// A moving node in Newton's method, during one step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Balance<S, const D: usize> {
-    pub(super) place: MovingNode<S, D>,
+pub(super) struct Balance<const D: usize> {
+    pub(super) place: MovingNode<D>,
     /// `c (h/m) p⁰`, the displacement of free flight up to the stage, m; zero while nothing moves.
-    pub(super) flight: [S; D],
+    pub(super) flight: [f64; D],
     /// 2m/h, or m/(ch) for a stage, kg/s.
-    inertia: S,
+    inertia: f64,
     /// The reciprocal of the length of its shortest element in the old state, 1/m; 1 without elements.
-    pub(super) per_length: S,
+    pub(super) per_length: f64,
     /// `−h F⁰` with the part F⁰ of the force that depends on the old state and the loads only, N s; zero while nothing
     /// moves.
-    pub(super) push: [S; D],
+    pub(super) push: [f64; D],
 }
 
-impl<S: Real, const D: usize> Balance<S, D> {
-    pub(super) fn new(place: MovingNode<S, D>) -> Self {
+impl<const D: usize> Balance<D> {
+    pub(super) fn new(place: MovingNode<D>) -> Self {
         Self {
             place,
-            flight: [S::zero(); D],
-            inertia: S::zero(),
-            per_length: S::one(),
-            push: [S::zero(); D],
+            flight: [0.0; D],
+            inertia: 0.0,
+            per_length: 1.0,
+            push: [0.0; D],
         }
     }
 
     /// `c h v⁰`, m.
     #[inline]
-    fn flight_in(&self, view: &StepView<'_, S>, time: S) -> [S; D] {
+    fn flight_in(&self, view: &StepView<'_>, time: f64) -> [f64; D] {
         let at = self.place.node();
-        let velocities = points::<S, D>(view.state.velocities.values());
+        let velocities = points::<D>(view.state.velocities.values());
         if let Some(velocity) = velocities.get(at) {
             return velocity.map(|velocity| time * view.step * velocity);
         }
         let mobility = time * view.step * self.place.per_mass;
-        points::<S, D>(view.state.momenta.values())[at].map(|momentum| mobility * momentum)
+        points::<D>(view.state.momenta.values())[at].map(|momentum| mobility * momentum)
     }
 
     /// Sets inertia, flight and push for a step, its set of unknowns and F⁰.
     #[inline]
-    pub(super) fn weigh(&mut self, view: &StepView<'_, S>, set: &UnknownSet, force: [S; D]) {
-        let time = S::from_f64(set.time);
-        self.inertia = self.place.mass * (S::from_f64(set.inertia) * view.per_step);
+    pub(super) fn weigh(&mut self, view: &StepView<'_>, set: &UnknownSet, force: [f64; D]) {
+        let time = set.time;
+        self.inertia = self.place.mass * (set.inertia * view.per_step);
         if view.phase.moves() {
             self.flight = self.flight_in(view, time);
             self.push = force.map(|force| -view.step * force);
         } else {
-            (self.flight, self.push) = ([S::zero(); D], [S::zero(); D]);
+            (self.flight, self.push) = ([0.0; D], [0.0; D]);
         }
     }
 
     /// `Δq` at a trial, m.
-    pub(super) fn displacement(&self, trial: &Trial<S, D>) -> [S; D] {
+    pub(super) fn displacement(&self, trial: &Trial<D>) -> [f64; D] {
         trial.displacements[self.place.in_trial()]
     }
 
     /// `Δq − h v⁰` at a trial, m.
-    pub(super) fn change(&self, trial: &Trial<S, D>) -> [S; D] {
+    pub(super) fn change(&self, trial: &Trial<D>) -> [f64; D] {
         let at = self.place.in_trial();
         self.beyond_flight([&trial.displacements[at], &trial.carries[at]])
     }
 
     #[inline]
-    fn beyond_flight(&self, [displacement, rest]: [&[S; D]; 2]) -> [S; D] {
+    fn beyond_flight(&self, [displacement, rest]: [&[f64; D]; 2]) -> [f64; D] {
         array::from_fn(|axis| (displacement[axis] - self.flight[axis]) + rest[axis])
     }
 
@@ -79,11 +78,11 @@ impl<S: Real, const D: usize> Balance<S, D> {
     #[inline]
     pub(super) fn speeds(
         &self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        twice_per_step: S,
-    ) -> Speeds<S, D> {
-        match points::<S, D>(view.state.velocities.values()).get(self.place.node()) {
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        twice_per_step: f64,
+    ) -> Speeds<D> {
+        match points::<D>(view.state.velocities.values()).get(self.place.node()) {
             None => Speeds::OfMass(self.place.per_mass),
             Some(&old) => Speeds::Given {
                 old,
@@ -96,7 +95,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
     ///
     /// It is accurate relative to Δp even where Δp is small compared with p, and relative to Δq where `Δp ≈ −2p⁰`.
     #[inline]
-    pub(super) fn impulse(&self, displacement: [&[S; D]; 2]) -> [[S; D]; 2] {
+    pub(super) fn impulse(&self, displacement: [&[f64; D]; 2]) -> [[f64; D]; 2] {
         [
             self.beyond_flight(displacement)
                 .map(|change| self.inertia * change),
@@ -114,9 +113,9 @@ impl<S: Real, const D: usize> Balance<S, D> {
     #[inline]
     pub(super) fn balance(
         &self,
-        displacement: [&[S; D]; 2],
-        values: &mut [S],
-        right: &mut [[S; 1]],
+        displacement: [&[f64; D]; 2],
+        values: &mut [f64],
+        right: &mut [[f64; 1]],
     ) {
         for place in self.place.diagonal() {
             values[place] = self.inertia;

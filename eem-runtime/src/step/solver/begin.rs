@@ -16,7 +16,6 @@ use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use crate::step::solver::past::SavedPast;
-use eem_material::number::scalar::{Mask, Real};
 
 /// The initial guess of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,18 +28,18 @@ pub(super) enum Start {
     Rest,
 }
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     /// Starts at the old state, or at a predicted motion if the scheme uses one.
     pub(super) fn begin(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
         start: Start,
     ) -> Result<(), StepFailure> {
         for (node, force) in self.old_force.iter_mut().enumerate() {
-            *force = view.loads.total_force(node).map(|load: S| -load);
+            *force = view.loads.total_force(node).map(|load: f64| -load);
         }
-        self.lengths.fill(S::MAX);
+        self.lengths.fill(f64::MAX);
         let mut old = Old {
             force: &mut self.old_force,
             lengths: &mut self.lengths,
@@ -61,7 +60,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Sets inertia and impulses that do not change during the step.
-    pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
+    pub(super) fn weigh(&mut self, view: &StepView<'_>) {
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
             let force = force_of_set(rule, &node.place, (&self.old_force, view.stages));
@@ -80,48 +79,47 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// The nodes of a set of unknowns.
-    pub(super) fn nodes_of_set(&self, set: usize) -> &[Balance<S, D>] {
+    pub(super) fn nodes_of_set(&self, set: usize) -> &[Balance<D>] {
         &self.nodes[self.range_of_set(set)]
     }
 
     /// The inertia of 1 kg in the rows of each set: 2/h with one set, 1/s.
     #[inline]
-    pub(super) fn inertias(&self, view: &StepView<'_, S>) -> [S; MOST_SETS] {
-        let mut inertias = [S::zero(); MOST_SETS];
+    pub(super) fn inertias(&self, view: &StepView<'_>) -> [f64; MOST_SETS] {
+        let mut inertias = [0.0; MOST_SETS];
         for (inertia, set) in inertias.iter_mut().zip(&self.sets) {
-            *inertia = S::from_f64(set.inertia) * view.per_step;
+            *inertia = set.inertia * view.per_step;
         }
         inertias
     }
 
     /// Sets moved anchors to their positions at the end of the step, or at the stage of each set.
-    fn place_moved_anchors(&mut self, view: &StepView<'_, S>) {
+    fn place_moved_anchors(&mut self, view: &StepView<'_>) {
         for set in 0..self.sets.len() {
             let first = self.trial.first_of_set(set);
             for &node in &view.loads.moved {
                 self.trial.displacements[first + node] = if view.phase.moves() {
                     motion_in_set(self.scheme, set, node, view)
                 } else {
-                    [S::zero(); D]
+                    [0.0; D]
                 };
             }
         }
     }
 
     /// Sets moving nodes to their predicted positions, and interface temperatures to the old ones.
-    fn start(&mut self, view: &StepView<'_, S>, start: Start) {
-        self.trial.settled = S::Mask::none();
+    fn start(&mut self, view: &StepView<'_>, start: Start) {
         let is_coupled = !self.coupling.is_none();
-        let momenta = points::<S, D>(view.state.momenta.values());
+        let momenta = points::<D>(view.state.momenta.values());
         let (values, right, solution) = self.tangent.renew();
         for interface in &self.interfaces {
             let theta = view.state.temperatures[interface.slot];
             self.trial.interface.set(interface.in_trial, theta);
-            (right[interface.row], solution[interface.row]) = ([S::zero()], [S::zero()]);
+            (right[interface.row], solution[interface.row]) = ([0.0], [0.0]);
         }
         let is_predicted =
             start != Start::Rest && view.phase.moves() && self.scheme.predicts_its_start();
-        let half_step = S::from_f64(0.5) * view.step;
+        let half_step = 0.5 * view.step;
         let predictor = self.past.predictor();
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
@@ -130,11 +128,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let force = force_of_set(rule, &node.place, (&self.old_force, view.stages));
             node.weigh(view, set, force);
             node.per_length = inverse_length(self.lengths[at]);
-            let mut displacement = [S::zero(); D];
+            let mut displacement = [0.0; D];
             if is_predicted && is_coupled {
                 displacement = node.flight;
             } else if is_predicted {
-                let mobility = S::from_f64(set.time) * view.step * node.place.per_mass;
+                let mobility = set.time * view.step * node.place.per_mass;
                 let force = predictor.of(at);
                 displacement =
                     array::from_fn(|axis| mobility * (momenta[at][axis] + half_step * force[axis]));
@@ -142,22 +140,22 @@ impl<S: Real, const D: usize> Solver<S, D> {
             // The displacement from the old state is the first correction.
             *node.place.rows_mut(solution) = displacement;
             self.trial.displacements[trial] = displacement;
-            self.trial.carries[trial] = [S::zero(); D];
-            node.balance([&displacement, &[S::zero(); D]], values, right);
+            self.trial.carries[trial] = [0.0; D];
+            node.balance([&displacement, &[0.0; D]], values, right);
         }
         self.couple(view);
     }
 
     /// Adds the inertia of masses that couple nodes to the system of an iteration.
     #[inline]
-    pub(super) fn couple(&mut self, view: &StepView<'_, S>) {
+    pub(super) fn couple(&mut self, view: &StepView<'_>) {
         if !self.coupling.is_none() {
             self.couple_sets(view);
         }
     }
 
     #[inline(never)]
-    fn couple_sets(&mut self, view: &StepView<'_, S>) {
+    fn couple_sets(&mut self, view: &StepView<'_>) {
         let inertia = self.inertias(view);
         let (values, right) = self.tangent.parts();
         for (set, nodes) in self
@@ -179,7 +177,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// The history on which the initial guess of the next step depends.
-    pub(crate) fn past(&self) -> SavedPast<S> {
+    pub(crate) fn past(&self) -> SavedPast {
         match self.stages {
             None => self.past.save(),
             Some(_) => SavedPast::none(),
@@ -187,47 +185,48 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Saves the history into an earlier one, without allocation.
-    pub(crate) fn save_past_to(&self, past: &mut SavedPast<S>) {
+    pub(crate) fn save_past_to(&self, past: &mut SavedPast) {
         if self.stages.is_none() {
             self.past.save_to(past);
         }
     }
 
     /// Restores a saved history.
-    pub(crate) fn restore(&mut self, past: &SavedPast<S>) {
+    pub(crate) fn restore(&mut self, past: &SavedPast) {
         if self.stages.is_none() {
             self.past.restore(past);
         }
     }
 }
 
-/// The reciprocal of a unit of length, 1/m; 1 for a node without elements, whose unit is given as `S::MAX`.
+/// The reciprocal of a unit of length, 1/m; 1 for a node without elements, whose unit is given as `f64::MAX`.
 #[inline]
-pub(super) fn inverse_length<S: Real>(length: S) -> S {
-    if length.equal(S::MAX).all() {
-        S::one()
+pub(super) fn inverse_length(length: f64) -> f64 {
+    #[expect(clippy::float_cmp, reason = "a mark, not a length")]
+    if length == f64::MAX {
+        1.0
     } else {
         length.recip()
     }
 }
 
 /// The displacement of a moved anchor from the old state to the stage of a set, m.
-fn motion_in_set<S: Real, const D: usize>(
+fn motion_in_set<const D: usize>(
     scheme: Scheme,
     set: usize,
     node: usize,
-    view: &StepView<'_, S>,
-) -> [S; D] {
+    view: &StepView<'_>,
+) -> [f64; D] {
     let Some(rule) = scheme.tableau() else {
         return view.loads.motion(node);
     };
     let Some(path) = rule.path else {
         return view.stages[rule.stage_of(set)].motion(node);
     };
-    let mut motion = [S::zero(); D];
+    let mut motion = [0.0; D];
     for (&share, support) in path.supports.to_stages[set].iter().zip(view.stages) {
         for (sum, moved) in motion.iter_mut().zip(support.motion::<D>(node)) {
-            *sum += S::from_f64(share) * moved;
+            *sum += share * moved;
         }
     }
     motion
@@ -235,19 +234,19 @@ fn motion_in_set<S: Real, const D: usize>(
 
 /// The part of the force on a node that does not change during a step, in the rows of its set of unknowns.
 #[inline]
-fn force_of_set<S: Real, const D: usize>(
+fn force_of_set<const D: usize>(
     rule: Option<&Tableau>,
-    place: &MovingNode<S, D>,
-    (old, stages): (&[[S; D]], &[StepLoads<S>]),
-) -> [S; D] {
+    place: &MovingNode<D>,
+    (old, stages): (&[[f64; D]], &[StepLoads]),
+) -> [f64; D] {
     let Some(rule) = rule else {
         return old_force(old, place.node());
     };
-    let mut force = [S::zero(); D];
+    let mut force = [0.0; D];
     for (&weight, loads) in rule.positions[place.set()].iter().zip(stages) {
         let load = loads.total_force::<D>(place.node());
         for (force, load) in force.iter_mut().zip(load) {
-            *force -= S::from_f64(weight) * load;
+            *force -= weight * load;
         }
     }
     force
@@ -255,6 +254,6 @@ fn force_of_set<S: Real, const D: usize>(
 
 /// The part of the force on a node that depends on the old state and the loads only, N.
 #[inline]
-pub(super) fn old_force<S: Real, const D: usize>(forces: &[[S; D]], node: usize) -> [S; D] {
-    forces.get(node).copied().unwrap_or([S::zero(); D])
+pub(super) fn old_force<const D: usize>(forces: &[[f64; D]], node: usize) -> [f64; D] {
+    forces.get(node).copied().unwrap_or([0.0; D])
 }

@@ -15,25 +15,22 @@ use crate::element::tally::{Care, Reevaluation, Tally};
 use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Closing;
-use eem_material::number::scalar::{Mask, Real};
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and finds its
     /// certificate. It may be called again at another trial.
     pub(super) fn close(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-    ) -> Result<Certificate<S>, StepFailure> {
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        next: &mut State,
+    ) -> Result<Certificate, StepFailure> {
         let mut certificate = self.close_with(Care::Quick, groups, view, next)?;
         if !self.scheme.is_exact() {
             return Ok(certificate);
         }
-        let is_enough = certificate.is_enough();
-        if !is_enough.all() {
-            let thorough = self.close_thoroughly(groups, view, next)?;
-            certificate = certificate.or(is_enough, &thorough);
+        if !certificate.is_enough() {
+            certificate = certificate.sharpened_by(self.close_thoroughly(groups, view, next)?);
         }
         Ok(certificate.with_terms_of(groups, [view.state, next]))
     }
@@ -43,12 +40,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
     #[cold]
     fn close_thoroughly(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-    ) -> Result<Certificate<S>, StepFailure> {
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        next: &mut State,
+    ) -> Result<Certificate, StepFailure> {
         let certificate = self.close_with(Care::Thorough, groups, view, next)?;
-        if certificate.has_enough_energy().all() {
+        if certificate.has_enough_energy() {
             return Ok(certificate);
         }
         let mut reevaluation = Reevaluation::new();
@@ -62,10 +59,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn close_with(
         &mut self,
         care: Care,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-    ) -> Result<Certificate<S>, StepFailure> {
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        next: &mut State,
+    ) -> Result<Certificate, StepFailure> {
         next.copy_books(view.state);
         if view.phase.heats() {
             next.time.add(view.step);
@@ -73,7 +70,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut tally = Tally::new(care);
         let mut motion = Motion::new(self.kept(view));
         if self.stages.is_none() {
-            self.final_residual = S::zero();
+            self.final_residual = 0.0;
         }
         if self.scheme.closing() == Closing::Stages {
             self.forget_magnitudes(care);
@@ -95,7 +92,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// The momenta that the scene conserves and the scheme proves.
-    fn kept(&self, view: &StepView<'_, S>) -> Kept<S, D> {
+    fn kept(&self, view: &StepView<'_>) -> Kept<D> {
         if !view.loads.moved.is_empty() || !self.scheme.is_exact() {
             return Kept::None;
         }
@@ -109,8 +106,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Finds impulses, and displacements where these follow from impulses.
     pub(super) fn find_motion(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
         care: Care,
     ) {
         self.forget_magnitudes(care);
@@ -136,17 +133,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn forget_magnitudes(&mut self, care: Care) {
         self.magnitudes.clear();
         if care == Care::Thorough {
-            self.magnitudes.resize(self.lengths.len(), S::zero());
+            self.magnitudes.resize(self.lengths.len(), 0.0);
         }
     }
 
     /// Sets the new positions of moved anchors, and adds the work of their supports.
-    fn move_anchors(
-        &mut self,
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-        motion: &mut Motion<S, D>,
-    ) {
+    fn move_anchors(&mut self, view: &StepView<'_>, next: &mut State, motion: &mut Motion<D>) {
         let old = &view.state.positions;
         let mut impulses = self.past.impulses();
         for &node in &view.loads.moved {
@@ -171,8 +163,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Sets the impulses to `−h F`, with the forces F at the trial.
     fn find_impulse(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
         along: Along,
     ) {
         let mut impulses = self.past.impulses();
@@ -188,17 +180,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// `Δq = (h/m)(p⁰ − ½h F⁰)`, `Δp = −½h (F⁰ + F¹)`, where F¹ acts along the gradient at q¹.
-    fn move_from_start(&mut self, groups: &mut [Box<dyn Group<S, D>>], view: &StepView<'_, S>) {
-        let half = S::from_f64(0.5);
-        let p0 = points::<S, D>(view.state.momenta.values());
+    fn move_from_start(&mut self, groups: &mut [Box<dyn Group<D>>], view: &StepView<'_>) {
+        let p0 = points::<D>(view.state.momenta.values());
         let mut impulses = self.past.impulses();
         for node in &self.nodes {
             let at = node.place.node();
-            self.trial.carries[at] = [S::zero(); D];
+            self.trial.carries[at] = [0.0; D];
             let mobility = view.step * node.place.per_mass;
             let impulse = impulses.of(at);
             let displacement =
-                array::from_fn(|axis| mobility * (p0[at][axis] + half * impulse[axis]));
+                array::from_fn(|axis| mobility * (p0[at][axis] + 0.5 * impulse[axis]));
             self.trial.displacements[at] = displacement;
         }
         for group in groups.iter_mut() {
@@ -206,24 +197,24 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         for (node, impulse) in impulses.iter_mut().enumerate() {
             let force = old_force(&self.old_force, node);
-            *impulse = array::from_fn(|axis| half * (impulse[axis] - view.step * force[axis]));
+            *impulse = array::from_fn(|axis| 0.5 * (impulse[axis] - view.step * force[axis]));
         }
     }
 }
 
 /// Adds the mass of a solid at a moved anchor to the certificate; returns the work `v̄·Δp` of the support on it, J.
-fn carry<S: Real, const D: usize>(
+fn carry<const D: usize>(
     node: usize,
-    displacement: &[S; D],
-    view: &StepView<'_, S>,
-    next: &State<S>,
-    motion: &mut Motion<S, D>,
-) -> S {
-    let momentum = points::<S, D>(view.state.momenta.values())[node];
-    let end = points::<S, D>(next.momenta.values())[node];
+    displacement: &[f64; D],
+    view: &StepView<'_>,
+    next: &State,
+    motion: &mut Motion<D>,
+) -> f64 {
+    let momentum = points::<D>(view.state.momenta.values())[node];
+    let end = points::<D>(next.momenta.values())[node];
     let impulse = array::from_fn(|axis| end[axis] - momentum[axis]);
     let change = view.change_of_speed(node);
-    let old = points::<S, D>(view.state.velocities.values())[node];
+    let old = points::<D>(view.state.velocities.values())[node];
     let load = view
         .loads
         .has_total_force()

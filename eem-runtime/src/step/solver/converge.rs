@@ -9,22 +9,22 @@ use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use crate::step::newton::is_last;
-use eem_material::number::scalar::{Mask, Real, natural_power};
+use eem_material::number::scalar::natural_power;
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
 
-impl<S: Real, const D: usize> Solver<S, D> {
-    /// Newton's method from the trial state. Lanes that have converged keep their values until all have.
+impl<const D: usize> Solver<D> {
+    /// Newton's method from the trial state.
     ///
     /// A step ends at a trial at which the elements have been evaluated, if the last update is small and the step
     /// closed from there proves its laws. Otherwise the iteration continues until rounding stops it.
     pub(super) fn converge(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        effort: &mut Effort<S>,
-        target: &mut Target<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        effort: &mut Effort,
+        target: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
         let max_iterations = effort.settings.max_iterations;
         let tolerance = target.tolerance(effort.settings.tolerance);
@@ -33,8 +33,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut purpose = Purpose::Iterate;
         let mut progress = Progress::new();
         self.factors.renew();
-        // Lanes that have converged, and lanes that converge with the next evaluation.
-        let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
         for left in (0..=max_iterations).rev() {
             let is_full = self.advance(groups, view, purpose)?;
             if is_full && purpose == Purpose::Close {
@@ -44,36 +42,28 @@ impl<S: Real, const D: usize> Solver<S, D> {
                         return Ok(());
                     }
                     Conclusion::Refused(failure) => return Err(failure),
-                    Conclusion::Open(is_enough) => {
-                        settled = self.settle(is_enough);
-                        last = S::Mask::none();
+                    Conclusion::Open => {
                         before = effort.history.last().map(|last| last.update);
                         self.linearize_again(groups, view)?;
                     }
                 }
             }
-            settled = self.settle(settled | last);
             if left == 0 {
                 break;
             }
-            let update = self.iterate(groups, view, effort, settled)?;
+            let update = self.iterate(groups, view, effort)?;
             if !update.is_finite() {
                 break;
             }
             let previous = before.replace(update).filter(|_| is_full);
             purpose = Purpose::Iterate;
-            let ends = is_last(update, previous, self.factors.tolerance(tolerance)) & !settled;
+            let ends = is_last(update, previous, self.factors.tolerance(tolerance));
             self.factors.judge(update, previous);
-            let is_stuck = self.is_stuck(&mut progress, update, previous, settled);
-            if S::LANES > 1 && is_stuck {
-                // Run alone, some lanes might take another branch from here.
-                break;
-            }
+            let is_stuck = self.is_stuck(&mut progress, update, previous);
             if self.has_other_starts && progress.is_hopeless() {
                 break;
             }
-            last = ends;
-            if is_stuck || (ends.any() && (settled | last).all()) {
+            if is_stuck || ends {
                 purpose = Purpose::Close;
             }
         }
@@ -83,22 +73,22 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Closes the step at a trial where the elements have been evaluated, and judges it.
     pub(super) fn conclude(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        target: &mut Target<'_, S>,
-        progress: &mut Progress<S>,
-    ) -> Conclusion<S> {
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        target: &mut Target<'_>,
+        progress: &mut Progress,
+    ) -> Conclusion {
         let Target::State(next) = target else {
             return Conclusion::Found;
         };
         let certificate = match self.close(groups, view, next) {
             Ok(certificate) => certificate,
             Err(failure) => {
-                progress.note_rejected(S::MAX);
-                if !self.scheme.is_exact() || S::LANES > 1 || progress.is_over() {
+                progress.note_rejected(f64::MAX);
+                if !self.scheme.is_exact() || progress.is_over() {
                     return Conclusion::Refused(failure);
                 }
-                return Conclusion::Open(S::Mask::none());
+                return Conclusion::Open;
             }
         };
         if !self.scheme.is_exact() {
@@ -107,24 +97,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 Err(failure) => Conclusion::Refused(failure),
             };
         }
-        if certificate.is_enough().all() {
+        if certificate.is_enough() {
             return self.found(certificate);
         }
-        if S::LANES > 1 {
-            progress.retries += 1;
-            if !progress.is_over() {
-                return Conclusion::Open(certificate.is_enough());
-            }
-        } else {
-            progress.note_rejected(self.final_residual);
-            let is_settled = progress.has_stopped() && certificate.is_lawful();
-            if !is_settled && !progress.is_over() {
-                return Conclusion::Open(S::Mask::none());
-            }
+        progress.note_rejected(self.final_residual);
+        let is_settled = progress.has_stopped() && certificate.is_lawful();
+        if !is_settled && !progress.is_over() {
+            return Conclusion::Open;
         }
-        if !certificate.is_balanced() || S::LANES > 1 {
+        if !certificate.is_balanced() {
             return Conclusion::Refused(StepFailure::NotConverged {
-                update: progress.last.to_f64(),
+                update: progress.last,
             });
         }
         match certificate.unexplained_law() {
@@ -137,7 +120,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    fn found(&mut self, certificate: Certificate<S>) -> Conclusion<S> {
+    fn found(&mut self, certificate: Certificate) -> Conclusion {
         self.certificate = Some(certificate);
         Conclusion::Found
     }
@@ -146,8 +129,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
     #[cold]
     pub(super) fn linearize_again(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
     ) -> Result<(), StepFailure> {
         self.factors.renew();
         self.balance(view);
@@ -156,25 +139,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Whether the last update may be no smaller than the one before because of rounding.
-    fn is_stuck(
-        &self,
-        progress: &mut Progress<S>,
-        update: S,
-        before: Option<S>,
-        settled: S::Mask,
-    ) -> bool {
+    fn is_stuck(&self, progress: &mut Progress, update: f64, before: Option<f64>) -> bool {
         self.scheme.is_exact()
-            && progress.is_stuck(update, before, settled)
+            && progress.is_stuck(update, before)
             && self.coupling.may_be_rounding(update)
     }
 
     /// The error of a failed iteration: the one that kept the last update from being applied in full, or its size.
     #[cold]
-    fn not_converged(&mut self, update: Option<S>) -> StepFailure {
+    fn not_converged(&mut self, update: Option<f64>) -> StepFailure {
         match self.obstacle.take() {
             Some(obstacle) => obstacle.into(),
             None => StepFailure::NotConverged {
-                update: update.map_or(f64::NAN, Real::to_f64),
+                update: update.unwrap_or(f64::NAN),
             },
         }
     }
@@ -183,27 +160,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
     #[inline]
     fn iterate(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        effort: &mut Effort<S>,
-        settled: S::Mask,
-    ) -> Result<S, StepFailure> {
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        effort: &mut Effort,
+    ) -> Result<f64, StepFailure> {
         self.final_residual = self.residual();
         let solved = self.factors.solve(&mut self.tangent);
         solved.map_err(|_| StepFailure::SingularTangent)?;
         let update = self.correct(groups, view);
-        effort.note(self.final_residual, update, settled);
+        effort.note(self.final_residual, update);
         Ok(update)
-    }
-
-    /// Marks in the trial the lanes that have converged while others have not.
-    #[inline]
-    fn settle(&mut self, settled: S::Mask) -> S::Mask {
-        if S::LANES == 1 {
-            return S::Mask::none();
-        }
-        self.trial.settled = settled;
-        settled
     }
 
     /// Evaluates the elements at the trial state, to which the last correction has been applied, and takes parts of the
@@ -211,38 +177,36 @@ impl<S: Real, const D: usize> Solver<S, D> {
     #[inline]
     pub(super) fn advance(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
         purpose: Purpose,
     ) -> Result<bool, StepFailure> {
         if self.obstacle.is_some() {
             self.obstacle = None;
         }
-        let (mut share, mut goes_on) = (S::one(), purpose == Purpose::Iterate);
+        let (mut share, mut goes_on) = (1.0, purpose == Purpose::Iterate);
         while let Err(error) = self.evaluate(groups, view, goes_on) {
             share = self.retreat(groups, view, share, error)?;
             goes_on = true;
         }
-        Ok(share.equal(S::one()).all())
+        Ok(share >= 1.0)
     }
 
-    /// Applies half the fraction of the correction that failed. Not with several lanes, some of which need not have
-    /// failed.
+    /// Applies half the fraction of the correction that failed.
     #[cold]
     #[inline(never)]
     fn retreat(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        share: S,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        share: f64,
         error: StateError,
-    ) -> Result<S, StepFailure> {
-        let half = S::from_f64(0.5);
-        if S::LANES > 1 || share.at_most(natural_power(half, HALVINGS)).all() {
+    ) -> Result<f64, StepFailure> {
+        if share <= natural_power(0.5, HALVINGS) {
             return Err(error.into());
         }
         self.obstacle = Some(error);
-        let share = half * share;
+        let share = 0.5 * share;
         // The part that is taken back is as large as the part that stays.
         self.take_back(view, share);
         for group in groups {
@@ -256,8 +220,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
     #[inline]
     pub(super) fn evaluate(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
         goes_on: bool,
     ) -> Result<(), StateError> {
         self.evaluations += 1;

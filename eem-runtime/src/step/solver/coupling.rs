@@ -15,58 +15,58 @@ use crate::element::group::{Sites, StepView, Trial};
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// The masses that couple nodes of a scene, with the indices of their matrix entries.
 #[derive(Debug)]
-pub(super) struct Coupling<S, const D: usize> {
+pub(super) struct Coupling<const D: usize> {
     /// The pairs of moving nodes, set after set.
-    pairs: Vec<CoupledPair<S, D>>,
+    pairs: Vec<CoupledPair<D>>,
     sets: usize,
     /// The pairs of a moving node and a moved anchor.
-    driven: Vec<DrivenPair<S>>,
+    driven: Vec<DrivenPair>,
     /// One per moving node that is coupled to moved anchors.
-    drives: Vec<Drive<S, D>>,
+    drives: Vec<Drive<D>>,
     /// `Δp` of the moving nodes, and the magnitude of its terms, N s; empty unless masses couple nodes.
-    impulses: Vec<[[S; D]; 2]>,
+    impulses: Vec<[[f64; D]; 2]>,
 }
 
 /// `Σ_m M_am Δv_m` of a moving node a that is coupled to moved anchors m, and the magnitude of its terms, N s.
 #[derive(Clone, Copy, Debug)]
-struct Drive<S, const D: usize> {
+struct Drive<const D: usize> {
     /// The index of the node among the moving nodes.
     node: u32,
     /// In the rows of each set of unknowns.
-    of_sets: [[[S; D]; 2]; MOST_SETS],
+    of_sets: [[[f64; D]; 2]; MOST_SETS],
     /// In the whole step.
-    of_step: [[S; D]; 2],
+    of_step: [[f64; D]; 2],
 }
 
 /// Two coupled moving nodes, by their indices among the moving nodes.
 #[derive(Clone, Copy, Debug)]
-struct CoupledPair<S, const D: usize> {
+struct CoupledPair<const D: usize> {
     nodes: [u32; 2],
     /// kg.
-    mass: S,
+    mass: f64,
     /// The entries of the tangent: rows of the first node, then rows of the second.
     places: [[u32; D]; 2],
 }
 
 /// A moving node, by its index among the moving nodes, and a moved anchor that a mass couples to it.
 #[derive(Clone, Copy, Debug)]
-struct DrivenPair<S> {
+struct DrivenPair {
     node: u32,
     moved: u32,
     /// kg.
-    mass: S,
+    mass: f64,
 }
 
-impl<S: Real, const D: usize> Coupling<S, D> {
+impl<const D: usize> Coupling<D> {
     /// The coupling of a scene with this number of sets of unknowns.
     pub(super) fn new(
-        masses: &Masses<S>,
+        masses: &Masses,
         moved: &[usize],
-        (sites, sets): (&Sites<'_, S, D>, usize),
+        (sites, sets): (&Sites<'_, D>, usize),
     ) -> Self {
         let first = |node: usize| sites.layout.nodes[node];
         let mut pairs = Vec::with_capacity(sets * masses.pairs().len());
@@ -87,14 +87,14 @@ impl<S: Real, const D: usize> Coupling<S, D> {
                 })
             }));
         }
-        let driven: Vec<_> = driven::<S, D>(masses, moved, &first).collect();
+        let driven: Vec<_> = driven::<D>(masses, moved, &first).collect();
         let moving = if pairs.is_empty() && driven.is_empty() {
             0
         } else {
             masses.iter().flatten().count()
         };
         let nodes: BTreeSet<_> = driven.iter().map(|pair| pair.node).collect();
-        let still = [[S::zero(); D]; 2];
+        let still = [[0.0; D]; 2];
         Self {
             pairs,
             sets,
@@ -105,7 +105,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     }
 
     /// Finds the impulses of moved anchors on the nodes coupled to them in a step.
-    pub(super) fn drive(&mut self, rule: Option<&Tableau>, view: &StepView<'_, S>) {
+    pub(super) fn drive(&mut self, rule: Option<&Tableau>, view: &StepView<'_>) {
         for drive in &mut self.drives {
             *drive = Drive::none(drive.node);
         }
@@ -121,9 +121,9 @@ impl<S: Real, const D: usize> Coupling<S, D> {
             };
             let changes = changes_at_stages(&path, moved, view);
             for (set, rates) in rule.rates.iter().enumerate() {
-                let per_time = S::from_f64(rule.times[set].recip());
+                let per_time = rule.times[set].recip();
                 for (&rate, change) in rates.iter().zip(&changes) {
-                    let share = pair.mass * (S::from_f64(rate) * per_time);
+                    let share = pair.mass * (rate * per_time);
                     add_to(&mut drive.of_sets[set], share, change);
                 }
             }
@@ -139,23 +139,23 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     ///
     /// The forces of a stiff body are `(ωh)²` times its inertia, and so enlarge the error u² that an update u leaves; the
     /// result has to be below ε. With `u = ε^¾`, `(ωh)²` may be ε^−½.
-    pub(super) fn tolerance(&self, usual: S) -> S {
+    pub(super) fn tolerance(&self, usual: f64) -> f64 {
         if self.is_none() {
             return usual;
         }
-        let root = S::EPSILON.sqrt();
-        usual.minimum(root * root.sqrt())
+        let root = f64::EPSILON.sqrt();
+        Scalar::minimum(usual, root * root.sqrt())
     }
 
     /// Whether an update may have stopped falling because of rounding. With coupled masses it must be at most ε^⅝:
     /// momenta are judged relative to the impulses, which in a stiff body would hide the error of a larger update.
-    pub(super) fn may_be_rounding(&self, update: S) -> bool {
-        let root = S::EPSILON.sqrt();
-        self.is_none() || update.at_most(root * root.sqrt().sqrt()).all()
+    pub(super) fn may_be_rounding(&self, update: f64) -> bool {
+        let root = f64::EPSILON.sqrt();
+        self.is_none() || update <= root * root.sqrt().sqrt()
     }
 
     /// The pairs of a set of unknowns.
-    fn of_set(&self, set: usize) -> &[CoupledPair<S, D>] {
+    fn of_set(&self, set: usize) -> &[CoupledPair<D>] {
         let count = self.pairs.len() / self.sets;
         &self.pairs[set * count..][..count]
     }
@@ -164,10 +164,10 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     pub(super) fn balance(
         &self,
         set: usize,
-        (nodes, trial): (&[Balance<S, D>], &Trial<S, D>),
-        inertia_per_mass: S,
-        values: &mut [S],
-        right: &mut [[S; 1]],
+        (nodes, trial): (&[Balance<D>], &Trial<D>),
+        inertia_per_mass: f64,
+        values: &mut [f64],
+        right: &mut [[f64; 1]],
     ) {
         for pair in self.of_set(set) {
             let [a, b] = pair.nodes.map(|node| node as usize);
@@ -195,11 +195,11 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     pub(super) fn find_impulses(
         &mut self,
         set: usize,
-        (nodes, trial): (&[Balance<S, D>], &Trial<S, D>),
-        inertia_per_mass: S,
+        (nodes, trial): (&[Balance<D>], &Trial<D>),
+        inertia_per_mass: f64,
     ) {
         self.multiply(nodes, inertia_per_mass, |node| {
-            [node.change(trial), node.displacement(trial).map(S::abs)]
+            [node.change(trial), node.displacement(trial).map(f64::abs)]
         });
         for drive in &self.drives {
             add_all(&mut self.impulses[drive.node as usize], &drive.of_sets[set]);
@@ -209,12 +209,12 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     /// Finds `Δp` of all nodes from the changes of their velocities in a step, m/s, if masses couple them.
     pub(super) fn find_impulses_of_step(
         &mut self,
-        nodes: &[Balance<S, D>],
-        change: impl Fn(&Balance<S, D>) -> [S; D],
+        nodes: &[Balance<D>],
+        change: impl Fn(&Balance<D>) -> [f64; D],
     ) {
-        self.multiply(nodes, S::one(), |node| {
+        self.multiply(nodes, 1.0, |node| {
             let change = change(node);
-            [change, change.map(S::abs)]
+            [change, change.map(f64::abs)]
         });
         for drive in &self.drives {
             add_all(&mut self.impulses[drive.node as usize], &drive.of_step);
@@ -225,9 +225,9 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     /// `vector` returns its entries and their magnitudes. Does nothing unless masses couple nodes.
     fn multiply(
         &mut self,
-        nodes: &[Balance<S, D>],
-        factor: S,
-        vector: impl Fn(&Balance<S, D>) -> [[S; D]; 2],
+        nodes: &[Balance<D>],
+        factor: f64,
+        vector: impl Fn(&Balance<D>) -> [[f64; D]; 2],
     ) {
         for (node, impulse) in nodes.iter().zip(&mut self.impulses) {
             let inertia = node.place.mass * factor;
@@ -250,7 +250,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     }
 
     /// `Δp` of a moving node as last found, and the magnitude of its terms, N s; `None` unless masses couple nodes.
-    pub(super) fn found(&self, moving: usize) -> Option<&[[S; D]; 2]> {
+    pub(super) fn found(&self, moving: usize) -> Option<&[[f64; D]; 2]> {
         self.impulses.get(moving)
     }
 
@@ -258,9 +258,9 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     #[inline]
     pub(super) fn impulse(
         &self,
-        (moving, node): (usize, &Balance<S, D>),
-        trial: &Trial<S, D>,
-    ) -> [[S; D]; 2] {
+        (moving, node): (usize, &Balance<D>),
+        trial: &Trial<D>,
+    ) -> [[f64; D]; 2] {
         if let Some(found) = self.found(moving) {
             return *found;
         }
@@ -270,11 +270,11 @@ impl<S: Real, const D: usize> Coupling<S, D> {
 }
 
 /// The pairs of a moving node and a moved anchor. `moved` is sorted; `first` gives the first unknown of a node.
-fn driven<S: Real, const D: usize>(
-    masses: &Masses<S>,
+fn driven<const D: usize>(
+    masses: &Masses,
     moved: &[usize],
     first: &impl Fn(usize) -> Option<usize>,
-) -> impl Iterator<Item = DrivenPair<S>> {
+) -> impl Iterator<Item = DrivenPair> {
     let held = masses.held().iter().flat_map(|pair| {
         let [a, b] = pair.nodes();
         [([a, b], pair.mass), ([b, a], pair.mass)]
@@ -289,9 +289,9 @@ fn driven<S: Real, const D: usize>(
         })
 }
 
-impl<S: Real, const D: usize> Drive<S, D> {
+impl<const D: usize> Drive<D> {
     fn none(node: u32) -> Self {
-        let still = [[S::zero(); D]; 2];
+        let still = [[0.0; D]; 2];
         Self {
             node,
             of_sets: [still; MOST_SETS],
@@ -301,7 +301,7 @@ impl<S: Real, const D: usize> Drive<S, D> {
 }
 
 /// Adds an impulse and the magnitude of its terms.
-fn add_all<S: Real, const D: usize>(sums: &mut [[S; D]; 2], more: &[[S; D]; 2]) {
+fn add_all<const D: usize>(sums: &mut [[f64; D]; 2], more: &[[f64; D]; 2]) {
     let sums = sums.as_flattened_mut().iter_mut();
     for (sum, &more) in sums.zip(more.as_flattened()) {
         *sum += more;
@@ -309,7 +309,7 @@ fn add_all<S: Real, const D: usize>(sums: &mut [[S; D]; 2], more: &[[S; D]; 2]) 
 }
 
 /// Adds the impulse of a mass, kg, whose velocity changes, m/s, and the magnitude of its terms.
-fn add_to<S: Real, const D: usize>([sum, terms]: &mut [[S; D]; 2], mass: S, change: &[S; D]) {
+fn add_to<const D: usize>([sum, terms]: &mut [[f64; D]; 2], mass: f64, change: &[f64; D]) {
     for axis in 0..D {
         sum[axis] += mass * change[axis];
         terms[axis] += (mass * change[axis]).abs();
@@ -318,18 +318,18 @@ fn add_to<S: Real, const D: usize>([sum, terms]: &mut [[S; D]; 2], mass: S, chan
 
 /// The change of the velocity of a moved anchor from the old state to each stage, m/s, from its velocities at the
 /// supports of a path.
-pub(super) fn changes_at_stages<S: Real, const D: usize>(
+pub(super) fn changes_at_stages<const D: usize>(
     path: &Path,
     node: usize,
-    view: &StepView<'_, S>,
-) -> [[S; D]; MOST_STAGES] {
+    view: &StepView<'_>,
+) -> [[f64; D]; MOST_STAGES] {
     let [old, _] = view.state.velocities.point::<D>(node);
-    let mut changes = [[S::zero(); D]; MOST_STAGES];
+    let mut changes = [[0.0; D]; MOST_STAGES];
     for (change, shares) in changes.iter_mut().zip(path.supports.to_stages) {
         for (&share, support) in shares.iter().zip(view.stages) {
             let speed = support.speed::<D>(node);
             for axis in 0..D {
-                change[axis] += S::from_f64(share) * (speed[axis] - old[axis]);
+                change[axis] += share * (speed[axis] - old[axis]);
             }
         }
     }

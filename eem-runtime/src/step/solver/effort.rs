@@ -1,7 +1,7 @@
 //! The effort of a step: its limits and its iterations.
 
 use crate::step::newton::{NewtonIteration, NewtonSettings};
-use eem_material::number::scalar::{Mask, Real, unless};
+use eem_material::number::scalar::Scalar;
 
 /// Number of parts of a step through which the solution is continued if Newton's method fails.
 pub(super) const CONTINUATION_STEPS: u8 = 8;
@@ -11,73 +11,43 @@ const LONGEST_HISTORY: usize = 4096;
 
 /// The effort of a step: its limits and its iterations.
 #[derive(Debug)]
-pub(crate) struct Effort<S> {
-    pub(crate) settings: NewtonSettings<S>,
+pub(crate) struct Effort {
+    pub(crate) settings: NewtonSettings,
     /// The iterations of the last step.
-    pub(crate) history: Vec<Iteration<S>>,
+    pub(crate) history: Vec<NewtonIteration>,
     /// The largest residual and the largest last update of the phases of the last step.
-    pub(crate) end: Iteration<S>,
+    pub(crate) end: NewtonIteration,
 }
 
-/// One iteration of Newton's method.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Iteration<S> {
-    /// The largest momentum residual before the update, N s.
-    pub(crate) residual: S,
-    /// The largest scaled update.
-    pub(crate) update: S,
-}
+/// No iteration.
+const NONE: NewtonIteration = NewtonIteration {
+    residual: 0.0,
+    update: 0.0,
+};
 
-impl<S: Real> Iteration<S> {
-    /// No iteration.
-    fn none() -> Self {
-        Self {
-            residual: S::zero(),
-            update: S::zero(),
-        }
-    }
-
-    /// The same in double precision.
-    pub(crate) fn to_f64(self) -> NewtonIteration {
-        NewtonIteration {
-            residual: self.residual.to_f64(),
-            update: self.update.to_f64(),
-        }
-    }
-}
-
-impl<S: Real> Effort<S> {
+impl Effort {
     /// The usual settings, before the first step.
     pub(crate) fn new() -> Self {
         Self {
             settings: NewtonSettings::default(),
             history: Vec::new(),
-            end: Iteration::none(),
+            end: NONE,
         }
     }
 
-    /// Records an iteration; lanes that had converged before keep their last one.
+    /// Records an iteration.
     #[inline]
-    pub(crate) fn note(&mut self, residual: S, update: S, settled: S::Mask) {
-        if S::LANES > 1
-            && settled.any()
-            && let Some(last) = self.history.last()
-        {
-            let residual = unless(settled, last.residual, residual);
-            let update = unless(settled, last.update, update);
-            self.history.push(Iteration { residual, update });
-        } else {
-            self.history.push(Iteration { residual, update });
-        }
+    pub(crate) fn note(&mut self, residual: f64, update: f64) {
+        self.history.push(NewtonIteration { residual, update });
     }
 
     /// Ends a phase of the step, with this residual after the last update.
     #[inline]
-    pub(crate) fn conclude(&mut self, residual: S) {
-        let update = self.history.last().map_or(S::zero(), |last| last.update);
-        self.end = Iteration {
-            residual: self.end.residual.maximum(residual),
-            update: self.end.update.maximum(update),
+    pub(crate) fn conclude(&mut self, residual: f64) {
+        let update = self.history.last().map_or(0.0, |last| last.update);
+        self.end = NewtonIteration {
+            residual: Scalar::maximum(self.end.residual, residual),
+            update: Scalar::maximum(self.end.update, update),
         };
     }
 
@@ -86,7 +56,7 @@ impl<S: Real> Effort<S> {
         // At worst, two phases of a staggered step, each from two starts and through all continuation steps.
         let parts = 2 * usize::from(CONTINUATION_STEPS + 2);
         let most = self.settings.max_iterations.saturating_mul(parts);
-        self.end = Iteration::none();
+        self.end = NONE;
         self.history.clear();
         self.history.reserve(most.min(LONGEST_HISTORY));
     }

@@ -7,16 +7,16 @@ use crate::element::group::{Group, StepView};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
 use crate::step::solver::converge::Purpose;
-use crate::step::solver::effort::{Effort, Iteration};
+use crate::step::solver::effort::Effort;
 use eem_material::number::compensated::correct;
-use eem_material::number::scalar::{Mask, Real, unless};
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     /// Starts the system of an iteration at the trial state.
-    pub(super) fn balance(&mut self, view: &StepView<'_, S>) {
+    pub(super) fn balance(&mut self, view: &StepView<'_>) {
         let (values, right, _) = self.tangent.renew();
         for interface in &self.interfaces {
-            right[interface.row] = [S::zero()];
+            right[interface.row] = [0.0];
         }
         for node in &self.nodes {
             let at = node.place.in_trial();
@@ -28,7 +28,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// The largest entry of R.
     #[inline]
-    pub(super) fn residual(&self) -> S {
+    pub(super) fn residual(&self) -> f64 {
         let mut largest = Largest::none();
         for node in &self.nodes {
             for &row in node.place.rows(self.tangent.right()) {
@@ -41,14 +41,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Applies the solution and the local corrections that follow from it to the trial state, and starts the next system
     /// there. Returns the largest scaled update.
     #[inline]
-    pub(super) fn correct(
-        &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-    ) -> S {
+    pub(super) fn correct(&mut self, groups: &mut [Box<dyn Group<D>>], view: &StepView<'_>) -> f64 {
         let (values, right, solution) = self.tangent.renew();
         let trial = &mut self.trial;
-        let settled = trial.settled;
         let mut largest = Largest::none();
         for node in &self.nodes {
             let at = node.place.in_trial();
@@ -57,8 +52,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             // Entry by entry, as the solution was stored: a wider load would stall.
             for axis in 0..D {
                 let change = change[axis];
-                let applied = unless(settled, S::zero(), change);
-                correct(&mut displacement[axis], &mut rest[axis], applied);
+                correct(&mut displacement[axis], &mut rest[axis], change);
                 largest.see(change * node.per_length);
             }
             (trial.displacements[at], trial.carries[at]) = (displacement, rest);
@@ -66,21 +60,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         for &Interface { in_trial, row, .. } in &self.interfaces {
             let change = solution[row][0];
-            right[row] = [S::zero()];
+            right[row] = [0.0];
             largest.see(change / trial.interface.values()[in_trial]);
-            trial
-                .interface
-                .add(in_trial, unless(settled, S::zero(), change));
+            trial.interface.add(in_trial, change);
         }
         self.couple(view);
         for group in groups.iter_mut() {
-            largest.see(group.correct(self.tangent.solution(), settled));
+            largest.see(group.correct(self.tangent.solution()));
         }
-        unless(settled, S::zero(), largest.found())
+        largest.found()
     }
 
     /// Takes a fraction of the last correction back, and starts the next system there.
-    pub(super) fn take_back(&mut self, view: &StepView<'_, S>, share: S) {
+    pub(super) fn take_back(&mut self, view: &StepView<'_>, share: f64) {
         let trial = &mut self.trial;
         let solution = self.tangent.solution();
         for node in &self.nodes {
@@ -99,12 +91,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Multiplies displacements by a factor, as a correction; all other unknowns stay.
     pub(super) fn extrapolate(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        factor: S,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        factor: f64,
     ) {
         self.weigh(view);
-        let growth = factor - S::one();
+        let growth = factor - 1.0;
         let solution = self.tangent.solution_mut();
         for node in &self.nodes {
             let at = node.place.in_trial();
@@ -115,7 +107,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
         }
         for interface in &self.interfaces {
-            solution[interface.row] = [S::zero()];
+            solution[interface.row] = [0.0];
         }
         for group in groups {
             group.hold();
@@ -126,15 +118,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Residual and tangent at given global unknowns, with the local ones solved for.
     pub(crate) fn linearize(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        unknowns: &[S],
-        effort: &mut Effort<S>,
-    ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        unknowns: &[f64],
+        effort: &mut Effort,
+    ) -> Result<(Vec<f64>, Vec<f64>), StepFailure> {
         self.begin(groups, view, Start::Predicted)?;
         let given = unknowns.as_chunks::<1>().0;
         for node in &self.nodes {
-            self.trial.carries[node.place.in_trial()] = [S::zero(); D];
+            self.trial.carries[node.place.in_trial()] = [0.0; D];
             self.trial.displacements[node.place.in_trial()] = *node.place.rows(given);
         }
         for interface in &self.interfaces {
@@ -143,26 +135,24 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 .set(interface.in_trial, unknowns[interface.row]);
         }
         // With a zero solution, a correction that is taken back does not change the global unknowns.
-        self.tangent.solution_mut().fill([S::zero()]);
-        let mut before = S::MAX;
+        self.tangent.solution_mut().fill([0.0]);
+        let mut before = f64::MAX;
         loop {
             self.balance(view);
             self.advance(groups, view, Purpose::Iterate)?;
             let residual = self.residual();
-            if before.at_most(S::EPSILON).decide()? {
+            if before <= f64::EPSILON {
                 break;
             }
             let updates = groups.iter_mut();
-            let updates =
-                updates.map(|group| group.correct(self.tangent.solution(), S::Mask::none()));
-            let update = updates.fold(S::zero(), S::maximum);
-            effort.history.push(Iteration { residual, update });
-            let stagnated = before.at_most(update);
+            let updates = updates.map(|group| group.correct(self.tangent.solution()));
+            let update = updates.fold(0.0, Scalar::maximum);
+            effort.note(residual, update);
+            let stagnated = before <= update;
             if !update.is_finite() || effort.history.len() > effort.settings.max_iterations {
-                let update = update.to_f64();
                 return Err(StepFailure::NotConverged { update });
             }
-            if (stagnated & update.at_most(effort.settings.tolerance)).decide()? {
+            if stagnated && update <= effort.settings.tolerance {
                 break;
             }
             before = update;

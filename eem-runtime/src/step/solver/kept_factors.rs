@@ -3,7 +3,7 @@
 use crate::algebra::lu::Singular;
 use crate::algebra::system::LinearSystem;
 use crate::step::newton::CONTRACTION;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// Whether the factors of an earlier tangent of the same step can still be used.
 ///
@@ -21,7 +21,7 @@ pub(super) struct KeptFactors {
 
 impl KeptFactors {
     /// Of a scene with this tangent.
-    pub(super) fn new<S: Real>(tangent: &LinearSystem<S, 1>) -> Self {
+    pub(super) fn new(tangent: &LinearSystem<1>) -> Self {
         Self {
             is_worthwhile: tangent.keeps_factors(),
             are_near: false,
@@ -35,10 +35,7 @@ impl KeptFactors {
         reason = "two unknowns are solved in fewer instructions than the call takes"
     )]
     #[inline(always)]
-    pub(super) fn solve<S: Real>(
-        &mut self,
-        tangent: &mut LinearSystem<S, 1>,
-    ) -> Result<(), Singular> {
+    pub(super) fn solve(&mut self, tangent: &mut LinearSystem<1>) -> Result<(), Singular> {
         if self.is_worthwhile {
             self.solve_with_kept(tangent)
         } else {
@@ -46,10 +43,7 @@ impl KeptFactors {
         }
     }
 
-    fn solve_with_kept<S: Real>(
-        &mut self,
-        tangent: &mut LinearSystem<S, 1>,
-    ) -> Result<(), Singular> {
+    fn solve_with_kept(&mut self, tangent: &mut LinearSystem<1>) -> Result<(), Singular> {
         self.have_served = self.are_near && tangent.solve_with_last_factors();
         if !self.have_served {
             tangent.solve()?;
@@ -66,9 +60,9 @@ impl KeptFactors {
     /// The bound for the last update: `tolerance` with new factors, at most ε^¾ with kept ones, of which an error of a
     /// tenth is left.
     #[inline]
-    pub(super) fn tolerance<S: Real>(self, tolerance: S) -> S {
+    pub(super) fn tolerance(self, tolerance: f64) -> f64 {
         if self.have_served {
-            tolerance.minimum(S::EPSILON.powf(S::from_f64(0.75)))
+            Scalar::minimum(tolerance, Scalar::powf(f64::EPSILON, 0.75))
         } else {
             tolerance
         }
@@ -76,8 +70,8 @@ impl KeptFactors {
 
     /// Judges the factors by an update and the one before.
     #[inline]
-    pub(super) fn judge<S: Real>(&mut self, update: S, before: Option<S>) {
-        let shrinks = |before: S| update.at_most(S::from_f64(CONTRACTION) * before).all();
+    pub(super) fn judge(&mut self, update: f64, before: Option<f64>) {
+        let shrinks = |before: f64| update <= CONTRACTION * before;
         if self.is_worthwhile && !before.is_none_or(shrinks) {
             self.renew();
         }

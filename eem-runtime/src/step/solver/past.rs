@@ -5,28 +5,27 @@ use core::array;
 
 use crate::element::group::Before;
 use crate::element::impulse::{Impulses, PLACES};
-use eem_material::number::scalar::{Mask, Real};
 
 /// The factor by which the error of a predictor decays in each step. Any value that averages over several steps will do.
 const MEMORY: f64 = 0.875;
 
 /// The forces of the last two steps, and the errors of their predictions.
 #[derive(Debug)]
-pub(super) struct Past<S, const D: usize> {
+pub(super) struct Past<const D: usize> {
     /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the step that is being
     /// closed, N s. Per node; for an anchor only the impulse is meaningful.
-    forces: Vec<[[S; D]; PLACES]>,
+    forces: Vec<[[f64; D]; PLACES]>,
     /// The row of [`TURNS`] that holds the index of each of these three.
     turn: usize,
     /// The error of each predictor, `Σ |ΔF/m|²`, with decreasing weights of earlier steps.
-    errors: [S; 3],
+    errors: [f64; 3],
     /// `errors` before the last step.
-    errors_before: [S; 3],
+    errors_before: [f64; 3],
     /// `errors` after the step that is being closed.
-    errors_after: [S; 3],
+    errors_after: [f64; 3],
     /// Viscous stretches and temperatures at the start of the last step, and its size; the same of the one before. Empty
     /// for a scheme that does not predict them.
-    internal: [Vec<S>; 2],
+    internal: [Vec<f64>; 2],
     /// How many of them are viscous stretches.
     viscous: usize,
 }
@@ -36,16 +35,16 @@ const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
 /// The predictor of the forces of the next step.
 #[derive(Debug)]
-pub(super) struct Predictor<'a, S, const D: usize> {
-    forces: &'a [[[S; D]; PLACES]],
+pub(super) struct Predictor<'a, const D: usize> {
+    forces: &'a [[[f64; D]; PLACES]],
     turn: [usize; PLACES],
-    weights: [S; 2],
+    weights: [f64; 2],
 }
 
-impl<S: Real, const D: usize> Predictor<'_, S, D> {
+impl<const D: usize> Predictor<'_, D> {
     /// The predicted force on a node, N.
     #[inline]
-    pub(super) fn of(&self, node: usize) -> [S; D] {
+    pub(super) fn of(&self, node: usize) -> [f64; D] {
         let [last, before, _] = self.turn.map(|step| &self.forces[node][step]);
         let [by_last, by_before] = self.weights;
         array::from_fn(|axis| by_last * last[axis] + by_before * before[axis])
@@ -54,11 +53,11 @@ impl<S: Real, const D: usize> Predictor<'_, S, D> {
 
 /// Replaces the impulses of a step by its forces, node by node.
 #[derive(Debug)]
-pub(super) struct Remembering<'a, S, const D: usize> {
-    forces: &'a mut [[[S; D]; PLACES]],
+pub(super) struct Remembering<'a, const D: usize> {
+    forces: &'a mut [[[f64; D]; PLACES]],
     turn: [usize; PLACES],
-    errors: [S; 3],
-    found: &'a mut [S; 3],
+    errors: [f64; 3],
+    found: &'a mut [f64; 3],
 }
 
 /// The history in a checkpoint. Forces are per coordinate, N; those of anchors are meaningless.
@@ -68,19 +67,19 @@ pub(super) struct Remembering<'a, S, const D: usize> {
     derive(serde::Serialize, serde::Deserialize),
     serde(deny_unknown_fields)
 )]
-pub(crate) struct SavedPast<S> {
-    pub(crate) forces: [Vec<S>; 2],
-    pub(crate) errors: [S; 3],
+pub(crate) struct SavedPast {
+    pub(crate) forces: [Vec<f64>; 2],
+    pub(crate) errors: [f64; 3],
     /// Viscous stretches, m, and temperatures, K, at the start of the last step, and its size, s.
-    pub(crate) internal: Vec<S>,
+    pub(crate) internal: Vec<f64>,
 }
 
-impl<S: Real> SavedPast<S> {
+impl SavedPast {
     /// The history of a scheme without a predictor.
     pub(crate) fn none() -> Self {
         Self {
             forces: [Vec::new(), Vec::new()],
-            errors: [S::zero(); 3],
+            errors: [0.0; 3],
             internal: Vec::new(),
         }
     }
@@ -91,7 +90,7 @@ impl<S: Real> SavedPast<S> {
 /// Zero, which is free flight; the last force; linear extrapolation.
 const PREDICTORS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
 
-impl<S: Real, const D: usize> Past<S, D> {
+impl<const D: usize> Past<D> {
     /// An empty history for these numbers of nodes, viscous stretches and temperatures.
     pub(super) fn none(nodes: usize, [viscous, temperatures]: [usize; 2]) -> Self {
         let size = match viscous + temperatures {
@@ -99,26 +98,26 @@ impl<S: Real, const D: usize> Past<S, D> {
             variables => variables + 1,
         };
         Self {
-            internal: [(); 2].map(|()| vec![S::zero(); size]),
+            internal: [(); 2].map(|()| vec![0.0; size]),
             viscous,
-            forces: vec![[[S::zero(); D]; PLACES]; nodes],
+            forces: vec![[[0.0; D]; PLACES]; nodes],
             turn: 0,
-            errors: [S::zero(); 3],
-            errors_before: [S::zero(); 3],
-            errors_after: [S::zero(); 3],
+            errors: [0.0; 3],
+            errors_before: [0.0; 3],
+            errors_after: [0.0; 3],
         }
     }
 
     /// The predictor with the smallest error so far.
     #[inline]
-    pub(super) fn predictor(&self) -> Predictor<'_, S, D> {
+    pub(super) fn predictor(&self) -> Predictor<'_, D> {
         let [nothing, constant, linear] = self.errors;
-        let is_linear = linear.less(constant) & linear.less(nothing);
-        let is_constant = constant.less(nothing);
+        let is_linear = linear < constant && linear < nothing;
+        let is_constant = constant < nothing;
         let weights = array::from_fn(|k| {
-            let [nothing, constant, linear] = PREDICTORS.map(|weights| S::from_f64(weights[k]));
-            let other = S::select(is_constant, constant, nothing);
-            S::select(is_linear, linear, other)
+            let [nothing, constant, linear] = PREDICTORS.map(|weights| weights[k]);
+            let other = if is_constant { constant } else { nothing };
+            if is_linear { linear } else { other }
         });
         Predictor {
             forces: &self.forces,
@@ -129,18 +128,18 @@ impl<S: Real, const D: usize> Past<S, D> {
 
     /// The impulses of the step that is being closed.
     #[inline]
-    pub(super) fn impulses(&mut self) -> Impulses<'_, S, D> {
+    pub(super) fn impulses(&mut self) -> Impulses<'_, D> {
         let [_, _, next] = TURNS[self.turn];
         Impulses::new(&mut self.forces, next)
     }
 
     /// Begins to record the forces of a step, which enters the history only with [`keep`](Self::keep).
     #[inline]
-    pub(super) fn remember(&mut self) -> Remembering<'_, S, D> {
+    pub(super) fn remember(&mut self) -> Remembering<'_, D> {
         Remembering {
             forces: &mut self.forces,
             turn: TURNS[self.turn],
-            errors: self.errors.map(|error| S::from_f64(MEMORY) * error),
+            errors: self.errors.map(|error| MEMORY * error),
             found: &mut self.errors_after,
         }
     }
@@ -148,12 +147,12 @@ impl<S: Real, const D: usize> Past<S, D> {
     /// The internal variables before the last step, for a step of this size; `None` before the first one, or if not
     /// predicted.
     #[inline]
-    pub(super) fn before(&self, step: S) -> Option<Before<'_, S>> {
+    pub(super) fn before(&self, step: f64) -> Option<Before<'_>> {
         let [variables @ .., last] = &self.internal[0][..] else {
             return None;
         };
         let (viscous, temperatures) = variables.split_at(self.viscous);
-        S::zero().less(*last).all().then(|| Before {
+        (*last > 0.0).then(|| Before {
             viscous,
             temperatures,
             ratio: step / *last,
@@ -163,7 +162,7 @@ impl<S: Real, const D: usize> Past<S, D> {
     /// Commits the step of this size: its forces, and the viscous stretches and temperatures where it started, become
     /// the history of the predictors.
     #[inline]
-    pub(super) fn keep(&mut self, [viscous, temperatures]: [&[S]; 2], step: S) {
+    pub(super) fn keep(&mut self, [viscous, temperatures]: [&[f64]; 2], step: f64) {
         self.internal.swap(0, 1);
         if let [variables @ .., last] = &mut self.internal[0][..] {
             let (kept, own) = (variables.iter_mut(), viscous.iter().chain(temperatures));
@@ -189,7 +188,7 @@ impl<S: Real, const D: usize> Past<S, D> {
     }
 
     /// The history for a checkpoint.
-    pub(super) fn save(&self) -> SavedPast<S> {
+    pub(super) fn save(&self) -> SavedPast {
         let [last, before, _] = TURNS[self.turn];
         let of = |step: usize| self.forces.iter().flat_map(|forces| forces[step]).collect();
         SavedPast {
@@ -200,7 +199,7 @@ impl<S: Real, const D: usize> Past<S, D> {
     }
 
     /// Saves the history into an earlier one of the same scene, without allocation.
-    pub(super) fn save_to(&self, saved: &mut SavedPast<S>) {
+    pub(super) fn save_to(&self, saved: &mut SavedPast) {
         let [last, before, _] = TURNS[self.turn];
         for (step, saved) in [last, before].into_iter().zip(&mut saved.forces) {
             for (own, saved) in self.forces.iter().zip(saved.as_chunks_mut().0) {
@@ -214,7 +213,7 @@ impl<S: Real, const D: usize> Past<S, D> {
     }
 
     /// Continues from a saved history of as many nodes.
-    pub(super) fn restore(&mut self, saved: &SavedPast<S>) {
+    pub(super) fn restore(&mut self, saved: &SavedPast) {
         let [last, before, _] = TURNS[self.turn];
         for (step, saved) in [last, before].into_iter().zip(&saved.forces) {
             for (own, saved) in self.forces.iter_mut().zip(saved.as_chunks().0) {
@@ -228,24 +227,24 @@ impl<S: Real, const D: usize> Past<S, D> {
     }
 }
 
-impl<S: Real, const D: usize> Remembering<'_, S, D> {
+impl<const D: usize> Remembering<'_, D> {
     /// The impulse of a node, N s.
     #[inline]
-    pub(super) fn impulse(&self, node: usize) -> &[S; D] {
+    pub(super) fn impulse(&self, node: usize) -> &[f64; D] {
         let [_, _, next] = self.turn;
         &self.forces[node][next]
     }
 
     /// The impulse of a node, mutable, N s.
     #[inline]
-    pub(super) fn impulse_mut(&mut self, node: usize) -> &mut [S; D] {
+    pub(super) fn impulse_mut(&mut self, node: usize) -> &mut [f64; D] {
         let [_, _, next] = self.turn;
         &mut self.forces[node][next]
     }
 
     /// Multiplies the impulse of a node by 1/h, which makes it a force, and adds its prediction errors, as accelerations.
     #[inline]
-    pub(super) fn take(&mut self, node: usize, per_step: S, per_mass: S) {
+    pub(super) fn take(&mut self, node: usize, per_step: f64, per_mass: f64) {
         let [last, before, next] = self.turn;
         let forces = &mut self.forces[node];
         let (last, before) = (forces[last], forces[before]);
@@ -271,7 +270,7 @@ impl<S: Real, const D: usize> Remembering<'_, S, D> {
 mod tests {
     use super::*;
 
-    fn go_on(past: &mut Past<f64, 1>, force: f64) {
+    fn go_on(past: &mut Past<1>, force: f64) {
         *past.impulses().of(0) = [0.5 * force];
         let mut remembering = past.remember();
         remembering.take(0, 2.0, 0.5);
@@ -279,7 +278,7 @@ mod tests {
         past.keep([&[force], &[]], 2.0);
     }
 
-    fn after(forces: [f64; 3]) -> Past<f64, 1> {
+    fn after(forces: [f64; 3]) -> Past<1> {
         let mut past = Past::none(1, [1, 0]);
         for force in forces {
             go_on(&mut past, force);

@@ -5,14 +5,13 @@ use core::array;
 use crate::element::group::Sites;
 use crate::element::masses::Masses;
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::Real;
 
 /// A node that moves.
 ///
 /// Moving nodes come first among the unknowns of a set, in their order: node `i` of them has the rows `D i`
 /// to `D i + D − 1` of the set in the tangent and row `i` of the secant matrix.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct MovingNode<S, const D: usize> {
+pub(super) struct MovingNode<const D: usize> {
     node: u32,
     trial: u32,
     set: u32,
@@ -23,11 +22,11 @@ pub(super) struct MovingNode<S, const D: usize> {
     /// Its diagonal entry in the secant matrix, if there is one.
     secant_diagonal: u32,
     /// m, kg, and 1/m.
-    pub(super) mass: S,
-    pub(super) per_mass: S,
+    pub(super) mass: f64,
+    pub(super) per_mass: f64,
 }
 
-impl<S, const D: usize> MovingNode<S, D> {
+impl<const D: usize> MovingNode<D> {
     #[inline]
     pub(super) fn node(&self) -> usize {
         self.node as usize
@@ -47,19 +46,19 @@ impl<S, const D: usize> MovingNode<S, D> {
 
     /// Its rows of a vector of the tangent.
     #[inline]
-    pub(super) fn rows<'a>(&self, vector: &'a [[S; 1]]) -> &'a [S; D] {
+    pub(super) fn rows<'a>(&self, vector: &'a [[f64; 1]]) -> &'a [f64; D] {
         let from = self.row as usize;
         let rows = vector.as_flattened().get(from..from + D);
-        rows.and_then(<[S]>::as_array)
+        rows.and_then(<[f64]>::as_array)
             .unwrap_or_else(|| no_such_row())
     }
 
     /// The same, mutable.
     #[inline]
-    pub(super) fn rows_mut<'a>(&self, vector: &'a mut [[S; 1]]) -> &'a mut [S; D] {
+    pub(super) fn rows_mut<'a>(&self, vector: &'a mut [[f64; 1]]) -> &'a mut [f64; D] {
         let from = self.row as usize;
         let rows = vector.as_flattened_mut().get_mut(from..from + D);
-        rows.and_then(<[S]>::as_mut_array)
+        rows.and_then(<[f64]>::as_mut_array)
             .unwrap_or_else(|| no_such_row())
     }
 
@@ -91,10 +90,7 @@ pub(super) struct Interface {
 }
 
 /// The moving nodes, which are those with a mass, for a set of unknowns.
-pub(super) fn moving<S: Real, const D: usize>(
-    masses: &Masses<S>,
-    sites: &Sites<'_, S, D>,
-) -> Vec<MovingNode<S, D>> {
+pub(super) fn moving<const D: usize>(masses: &Masses, sites: &Sites<'_, D>) -> Vec<MovingNode<D>> {
     let [set, _] = sites.sets;
     let nodes = masses.iter().zip(&sites.layout.nodes).enumerate();
     let moving = nodes.filter_map(|(node, (mass, first))| Some((node, mass?, (*first)?)));
@@ -118,7 +114,7 @@ pub(super) fn moving<S: Real, const D: usize>(
 }
 
 /// The coupled interface temperatures.
-pub(super) fn interfaces<S: Real, const D: usize>(sites: &Sites<'_, S, D>) -> Vec<Interface> {
+pub(super) fn interfaces<const D: usize>(sites: &Sites<'_, D>) -> Vec<Interface> {
     let first = sites.sets[0] * sites.layout.thermal;
     let coupled = sites.layout.coupled.iter().enumerate();
     let interface = coupled.filter(|(_, unknown)| unknown.is_some());

@@ -3,7 +3,7 @@
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use crate::step::newton::{CONTRACTION, STAGNATION};
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// Extra iterations after stagnation while the certificate fails; each changes the rounding errors.
 const MOST_RETRIES: u32 = 3;
@@ -12,21 +12,21 @@ const MOST_RETRIES: u32 = 3;
 const SLOWEST: f64 = 0.75;
 
 /// The aim of an iteration.
-pub(super) enum Target<'a, S> {
+pub(super) enum Target<'a> {
     /// A trial, as the initial guess for another iteration.
     Trial,
     /// Such a trial, converged as far as rounding allows.
     SharpTrial,
     /// A new state.
-    State(&'a mut State<S>),
+    State(&'a mut State),
 }
 
 /// The result of closing a trial.
-pub(super) enum Conclusion<S: Real> {
+pub(super) enum Conclusion {
     /// The step ends there.
     Found,
-    /// Another iteration is needed, except in the lanes of the mask.
-    Open(S::Mask),
+    /// Another iteration is needed.
+    Open,
     /// No iteration will help.
     Refused(StepFailure),
 }
@@ -37,39 +37,39 @@ const PATIENCE: usize = 10;
 
 /// Whether Newton's method converges, and how often rounding has stopped it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Progress<S> {
+pub(super) struct Progress {
     /// Iterations of this attempt.
     iterations: usize,
     /// The last update, and the smallest so far.
-    pub(super) last: S,
-    smallest: S,
+    pub(super) last: f64,
+    smallest: f64,
     /// Consecutive updates that did not fall.
     stuck: u32,
     /// Rejected states at rounding level since the residual last fell, and that residual, N s.
-    pub(super) retries: u32,
-    residual: S,
+    retries: u32,
+    residual: f64,
 }
 
-impl<S: Real> Target<'_, S> {
+impl Target<'_> {
     /// The largest update that may be the last one.
-    pub(super) fn tolerance(&self, usual: S) -> S {
+    pub(super) fn tolerance(&self, usual: f64) -> f64 {
         match self {
             Self::Trial | Self::State(_) => usual,
-            Self::SharpTrial => S::EPSILON,
+            Self::SharpTrial => f64::EPSILON,
         }
     }
 }
 
-impl<S: Real> Progress<S> {
+impl Progress {
     /// Before the first iteration.
     pub(super) fn new() -> Self {
         Self {
             iterations: 0,
-            last: S::MAX,
-            smallest: S::MAX,
+            last: f64::MAX,
+            smallest: f64::MAX,
             stuck: 0,
             retries: 0,
-            residual: S::MAX,
+            residual: f64::MAX,
         }
     }
 
@@ -77,16 +77,16 @@ impl<S: Real> Progress<S> {
     ///
     /// The smallest possible update depends on the conditioning, so that its size does not decide: the balances are
     /// checked wherever an update does not fall.
-    pub(super) fn is_stuck(&mut self, update: S, before: Option<S>, settled: S::Mask) -> bool {
+    pub(super) fn is_stuck(&mut self, update: f64, before: Option<f64>) -> bool {
         self.iterations += 1;
         self.last = update;
-        self.smallest = self.smallest.minimum(update);
+        self.smallest = Scalar::minimum(self.smallest, update);
         let Some(before) = before else {
             return false;
         };
-        let stagnates = (S::from_f64(STAGNATION) * before).at_most(update);
-        let is_small = update.less(S::from_f64(CONTRACTION));
-        self.stuck = if (stagnates & is_small & !settled).any() {
+        let stagnates = STAGNATION * before <= update;
+        let is_small = update < CONTRACTION;
+        self.stuck = if stagnates && is_small {
             self.stuck + 1
         } else {
             0
@@ -96,13 +96,13 @@ impl<S: Real> Progress<S> {
 
     /// Whether no update has been small in [`PATIENCE`] or more iterations.
     pub(super) fn is_hopeless(&self) -> bool {
-        self.iterations >= PATIENCE && S::from_f64(CONTRACTION).less(self.smallest).all()
+        self.iterations >= PATIENCE && CONTRACTION < self.smallest
     }
 
     /// Counts a rejected state with this residual. A clearly smaller residual restarts the count: iterating helps then,
     /// however slowly.
-    pub(super) fn note_rejected(&mut self, residual: S) {
-        if residual.less(S::from_f64(SLOWEST) * self.residual).all() {
+    pub(super) fn note_rejected(&mut self, residual: f64) {
+        if residual < SLOWEST * self.residual {
             self.retries = 0;
             self.residual = residual;
         } else {

@@ -48,10 +48,10 @@ const FRICTION_STEPS: usize = 10;
 
 /// The iteration for a state at rest.
 pub(crate) struct AtRest<'a, const D: usize> {
-    solver: &'a mut Solver<f64, D>,
-    groups: &'a mut [Box<dyn Group<f64, D>>],
-    view: &'a StepView<'a, f64>,
-    settings: NewtonSettings<f64>,
+    solver: &'a mut Solver<D>,
+    groups: &'a mut [Box<dyn Group<D>>],
+    view: &'a StepView<'a>,
+    settings: NewtonSettings,
     /// The end nodes of the arms of all elements: the edges from their first nodes.
     arms: Vec<[usize; 2]>,
     /// R(q⁰), N.
@@ -86,10 +86,10 @@ type Place<const D: usize> = (Vec<[f64; D]>, Vec<[f64; D]>);
 impl<'a, const D: usize> AtRest<'a, D> {
     /// Starts at the state of a view whose step is [`LONG`], given the end nodes of the arms of elements.
     pub(crate) fn new(
-        solver: &'a mut Solver<f64, D>,
-        groups: &'a mut [Box<dyn Group<f64, D>>],
-        view: &'a StepView<'a, f64>,
-        (settings, arms): (NewtonSettings<f64>, Vec<[usize; 2]>),
+        solver: &'a mut Solver<D>,
+        groups: &'a mut [Box<dyn Group<D>>],
+        view: &'a StepView<'a>,
+        (settings, arms): (NewtonSettings, Vec<[usize; 2]>),
     ) -> Result<Self, StepFailure> {
         let mut rest = Self {
             solver,
@@ -138,7 +138,7 @@ impl<'a, const D: usize> AtRest<'a, D> {
     }
 
     /// Writes the state that was found.
-    pub(crate) fn close(&mut self, next: &mut State<f64>) -> Result<(), StepFailure> {
+    pub(crate) fn close(&mut self, next: &mut State) -> Result<(), StepFailure> {
         let (moved, carries) = self.place();
         for (node, (moved, carries)) in moved.iter().zip(&carries).enumerate() {
             for axis in 0..D {

@@ -15,16 +15,16 @@ use crate::element::loads::{Push, PushLine, StepLoads};
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::line::Line;
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::{Scalar, is_positive};
 
 /// The rockets of a scene.
 #[derive(Debug)]
-pub(super) struct Rockets<S, const D: usize> {
+pub(super) struct Rockets<const D: usize> {
     all: Vec<Rocket<D>>,
     /// The stages of the scheme; without stages, rockets push along their line in the middle of the step.
     rule: Option<&'static Tableau>,
     /// The forces last found at a trial, per coordinate, stage after stage, N; empty without rockets.
-    forces: Vec<S>,
+    forces: Vec<f64>,
 }
 
 /// A rocket, with the indices of its rows and matrix entries.
@@ -38,19 +38,19 @@ struct Rocket<const D: usize> {
     places: [[[[[u32; D]; D]; 2]; MOST_SETS]; MOST_SETS],
 }
 
-impl<S: Real, const D: usize> Rockets<S, D> {
+impl<const D: usize> Rockets<D> {
     /// The rockets of a scene, for a scheme with these stages.
     pub(super) fn new(
         rule: Option<&'static Tableau>,
-        loads: &StepLoads<S>,
+        loads: &StepLoads,
         nodes: usize,
-        sites: &Sites<'_, S, D>,
+        sites: &Sites<'_, D>,
     ) -> Self {
         let sets = rule.map_or(1, Tableau::sets);
         let unknown = |node: usize, axis: usize| sites.layout.nodes[node].map(|first| first + axis);
         let rockets = loads.pushes.iter().map(|push| {
             let PushLine { node, tail, head } = push.line;
-            let place = |sites: &Sites<'_, S, D>, end: usize| {
+            let place = |sites: &Sites<'_, D>, end: usize| {
                 array::from_fn(|row| {
                     array::from_fn(|column| {
                         compact(sites.place(unknown(node.index, row), unknown(end, column)))
@@ -76,7 +76,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
         Self {
             all,
             rule,
-            forces: vec![S::zero(); stages * coordinates],
+            forces: vec![0.0; stages * coordinates],
         }
     }
 
@@ -86,7 +86,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
     }
 
     /// The forces at a stage, per node, N.
-    fn of_stage(&self, stage: usize) -> &[[S; D]] {
+    fn of_stage(&self, stage: usize) -> &[[f64; D]] {
         let stages = self.rule.map_or(1, Tableau::stages);
         let forces = self.forces.as_chunks::<D>().0;
         let nodes = forces.len() / stages;
@@ -95,7 +95,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
 
     /// Adds the forces of rockets last found at a stage to a load on a node, N.
     #[inline]
-    pub(super) fn add_to(&self, load: [S; D], [stage, node]: [usize; 2]) -> [S; D] {
+    pub(super) fn add_to(&self, load: [f64; D], [stage, node]: [usize; 2]) -> [f64; D] {
         if self.are_none() {
             return load;
         }
@@ -107,9 +107,9 @@ impl<S: Real, const D: usize> Rockets<S, D> {
     #[inline]
     pub(super) fn evaluate(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: Option<&mut LinearSystem<S, 1>>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
         if self.are_none() || !view.phase.moves() {
             return Ok(());
@@ -119,19 +119,19 @@ impl<S: Real, const D: usize> Rockets<S, D> {
 
     fn evaluate_all(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        mut system: Option<&mut LinearSystem<S, 1>>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        mut system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        self.forces.fill(S::zero());
+        self.forces.fill(0.0);
         let stages = self.rule.map_or(1, Tableau::stages);
         let forces = self.forces.as_chunks_mut::<D>().0;
         let nodes = forces.len() / stages;
         for (stage, forces) in forces.chunks_mut(nodes).enumerate() {
             let (loads, share) = match self.rule {
-                None if view.phase.is_at_rest() => (view.loads, S::one()),
-                None => (view.loads, S::from_f64(0.5)),
-                Some(_) => (&view.stages[stage], S::one()),
+                None if view.phase.is_at_rest() => (view.loads, 1.0),
+                None => (view.loads, 0.5),
+                Some(_) => (&view.stages[stage], 1.0),
             };
             for (rocket, &Push { thrust, .. }) in self.all.iter().zip(&loads.pushes) {
                 let line = rocket.line_at(view, trial.displacements_of_set(stage), share)?;
@@ -144,7 +144,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
                 };
                 for set in 0..trial.sets {
                     let weight = self.rule.map_or(1.0, |rule| rule.positions[set][stage]);
-                    let impulse = S::from_f64(weight) * (view.step * thrust);
+                    let impulse = weight * (view.step * thrust);
                     let turning = line.turning(share * impulse);
                     rocket.add_to(
                         [set, stage],
@@ -161,9 +161,9 @@ impl<S: Real, const D: usize> Rockets<S, D> {
     #[inline]
     pub(super) fn add_impulses(
         &self,
-        (stage, step): (usize, S),
-        impulses: &mut Impulses<'_, S, D>,
-        magnitudes: &mut [S],
+        (stage, step): (usize, f64),
+        impulses: &mut Impulses<'_, D>,
+        magnitudes: &mut [f64],
     ) {
         if self.are_none() {
             return;
@@ -181,27 +181,27 @@ impl<S: Real, const D: usize> Rockets<S, D> {
 
 impl<const D: usize> Rocket<D> {
     /// The line of the rocket after this fraction of the displacements.
-    fn line_at<S: Real>(
+    fn line_at(
         &self,
-        view: &StepView<'_, S>,
-        moved: &[[S; D]],
-        share: S,
-    ) -> Result<Line<S, D>, StateError> {
+        view: &StepView<'_>,
+        moved: &[[f64; D]],
+        share: f64,
+    ) -> Result<Line<D>, StateError> {
         let PushLine { node, tail, head } = self.line;
         let [from, to] = [tail.index, head.index];
-        let positions = points::<S, D>(view.state.positions.values());
-        let arm: [S; D] = array::from_fn(|axis| {
+        let positions = points::<D>(view.state.positions.values());
+        let arm: [f64; D] = array::from_fn(|axis| {
             let turned = moved[to][axis] - moved[from][axis];
             (positions[to][axis] - positions[from][axis]) + share * turned
         });
         let line = Line::along(&arm);
         if !is_positive(line.length) {
-            let length = arm.iter().fold(S::zero(), |length, &r| length.hypot(r));
+            let length = arm.iter().fold(0.0, |length, &r| Scalar::hypot(length, r));
             return Err(StateError::NoDirection {
                 node,
                 tail,
                 head,
-                value: length.to_f64(),
+                value: length,
             });
         }
         Ok(line)
@@ -209,11 +209,11 @@ impl<const D: usize> Rocket<D> {
 
     /// Adds an impulse to the right-hand side of the rows of a set, and its negative derivative with respect to the nodes
     /// in another set to the tangent.
-    fn add_to<S: Real>(
+    fn add_to(
         &self,
         [rows, columns]: [usize; 2],
-        system: &mut LinearSystem<S, 1>,
-        (impulse, turning): (&[S; D], &[[S; D]; D]),
+        system: &mut LinearSystem<1>,
+        (impulse, turning): (&[f64; D], &[[f64; D]; D]),
     ) {
         let (values, right) = system.parts();
         let places = &self.places[rows][columns];

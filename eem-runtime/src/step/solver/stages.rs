@@ -3,46 +3,45 @@
 use crate::algebra::system::LinearSystem;
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use eem_material::number::scalar::Real;
 
 /// Workspace of a scheme with stages.
 #[derive(Debug)]
-pub(super) struct Stages<S, const D: usize> {
+pub(super) struct Stages<const D: usize> {
     pub(super) rule: &'static Tableau,
     /// The system of a stage whose displacements depend on its own force.
-    pub(super) secant: Option<LinearSystem<S, D>>,
+    pub(super) secant: Option<LinearSystem<D>>,
     /// `h` times (loads − forces of the elements), per node and stage, N s.
-    pub(super) impulses: Vec<[[S; D]; MOST_STAGES]>,
+    pub(super) impulses: Vec<[[f64; D]; MOST_STAGES]>,
     /// Displacements of all nodes at the end of the step, m.
-    pub(super) ends: Vec<[S; D]>,
+    pub(super) ends: Vec<[f64; D]>,
     /// The changes of the velocities of all nodes in the step, m/s; empty unless masses couple nodes.
-    pub(super) changes: Vec<[S; D]>,
+    pub(super) changes: Vec<[f64; D]>,
 }
 
-impl<S: Real, const D: usize> Stages<S, D> {
+impl<const D: usize> Stages<D> {
     /// Memory for a scene with these masses.
     pub(super) fn new(
         rule: &'static Tableau,
-        secant: Option<LinearSystem<S, D>>,
-        masses: &Masses<S>,
+        secant: Option<LinearSystem<D>>,
+        masses: &Masses,
     ) -> Self {
         let nodes = masses.len();
         let coupled = if masses.are_coupled() { nodes } else { 0 };
         Self {
             rule,
             secant,
-            impulses: vec![[[S::zero(); D]; MOST_STAGES]; nodes],
-            ends: vec![[S::zero(); D]; nodes],
-            changes: vec![[S::zero(); D]; coupled],
+            impulses: vec![[[0.0; D]; MOST_STAGES]; nodes],
+            ends: vec![[0.0; D]; nodes],
+            changes: vec![[0.0; D]; coupled],
         }
     }
 
     /// `Σ_i weight_i impulse_i` on a node, N s.
-    pub(super) fn combined(&self, node: usize, weights: &[f64]) -> [S; D] {
-        let mut sum = [S::zero(); D];
+    pub(super) fn combined(&self, node: usize, weights: &[f64]) -> [f64; D] {
+        let mut sum = [0.0; D];
         for (&weight, impulse) in weights.iter().zip(&self.impulses[node]) {
             for (sum, &impulse) in sum.iter_mut().zip(impulse) {
-                *sum += S::from_f64(weight) * impulse;
+                *sum += weight * impulse;
             }
         }
         sum

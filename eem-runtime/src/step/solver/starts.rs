@@ -8,25 +8,23 @@ use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
 use crate::step::solver::effort::{CONTINUATION_STEPS, Effort};
 use crate::step::solver::progress::Target;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     /// Finds the state after the step, or after the phase of it that the view names; returns its certificate.
     ///
-    /// If Newton's method fails from the usual initial guess, all but the classical schemes try others. With several lanes
-    /// they do not, as some of the lanes need not have failed.
+    /// If Newton's method fails from the usual initial guess, all but the classical schemes try others.
     pub(crate) fn solve(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        effort: &mut Effort<S>,
-        next: &mut State<S>,
-    ) -> Result<Certificate<S>, StepFailure> {
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        effort: &mut Effort,
+        next: &mut State,
+    ) -> Result<Certificate, StepFailure> {
         let mut closing = Target::State(next);
-        self.has_other_starts = S::LANES == 1 && self.scheme.is_exact();
+        self.has_other_starts = self.scheme.is_exact();
         let found = self.start_and_converge(groups, view, effort, (Start::Predicted, &mut closing));
         let failure = match found {
-            Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
+            Err(failure) if self.scheme.follows_its_solution() => failure,
             done => {
                 done?;
                 return self.kept_by(view);
@@ -38,7 +36,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Commits the step: it becomes the history of the predictors.
-    fn kept_by(&mut self, view: &StepView<'_, S>) -> Result<Certificate<S>, StepFailure> {
+    fn kept_by(&mut self, view: &StepView<'_>) -> Result<Certificate, StepFailure> {
         if view.phase.heats() && self.scheme.predicts_its_start() {
             let variables = [view.state.viscous.values(), &view.state.temperatures];
             self.past.keep(variables, view.step);
@@ -53,10 +51,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
     #[cold]
     fn try_other_starts(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        effort: &mut Effort<S>,
-        closing: &mut Target<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        effort: &mut Effort,
+        closing: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
         if self.scheme.is_exact() {
             for start in [Start::Motion, Start::Rest] {
@@ -83,10 +81,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// From the solution for the starting form of the scheme.
     fn start_by_another_form(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        effort: &mut Effort<S>,
-        closing: &mut Target<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        effort: &mut Effort,
+        closing: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
         let start = (Start::Motion, &mut Target::SharpTrial);
         self.trial.is_start = true;
@@ -101,10 +99,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     fn start_and_converge(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        effort: &mut Effort<S>,
-        (start, target): (Start, &mut Target<'_, S>),
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        effort: &mut Effort,
+        (start, target): (Start, &mut Target<'_>),
     ) -> Result<(), StepFailure> {
         self.begin(groups, view, start)?;
         self.converge(groups, view, effort, target)
@@ -114,12 +112,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
     #[cold]
     fn follow(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        effort: &mut Effort<S>,
-        closing: &mut Target<'_, S>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        effort: &mut Effort,
+        closing: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
-        let number = |part: u8| S::from_f64(f64::from(part));
+        let number = |part: u8| f64::from(part);
         for part in 1..=CONTINUATION_STEPS {
             let step = view.step * number(part) / number(CONTINUATION_STEPS);
             let shorter = StepView {

@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-/// Digests of all schemes on small scenes, for f64, f32 and lanes, with one and four threads.
+/// Digests of all schemes on small scenes, with one and four threads.
 #[derive(Debug, Parser)]
 struct Options {
     /// Write the table as CSV.

@@ -1,8 +1,8 @@
 //! Scenes in the plane.
 
-use eem::Real;
+use eem::Scalar;
 use eem::prelude::*;
-use eem_studies::build::{Build, vector};
+use eem_studies::build::Build;
 use eem_studies::models::{Elastic, Thermoelastic, TwoDashpots, Voigt};
 use eem_studies::pendulums::{LOGARITHMIC, SPRING, single};
 
@@ -73,7 +73,7 @@ pub(crate) const PLANAR: [Entry<Planar>; 18] = [
     entry("event", Planar::Single, 0.05, Drive::Event(2.0)),
 ];
 
-/// Too large for lanes.
+/// With sparse elimination.
 pub(crate) const LARGE: [Entry<Planar>; 1] = [entry(
     "long-chain",
     Planar::LongChain,
@@ -82,11 +82,11 @@ pub(crate) const LARGE: [Entry<Planar>; 1] = [entry(
 )];
 
 impl Case<2> for Planar {
-    fn build<S: Real>(self, factor: S) -> Build<2, S> {
-        let mut build = Build::new(factor);
+    fn build(self) -> Build<2> {
+        let mut build = Build::new();
         let scene = &mut build;
         match self {
-            Self::Single => return single(factor),
+            Self::Single => return single(),
             Self::Elastic => {
                 let ends = pendulum(scene);
                 scene.spring(ELASTIC, ends);
@@ -113,7 +113,7 @@ impl Case<2> for Planar {
                 for ends in row(scene, 3, 1.1) {
                     scene.spring(ELASTIC, ends);
                 }
-                scene.scene.set_gravity(vector([1.0, -9.81]));
+                scene.scene.set_gravity([1.0, -9.81]);
             }
             Self::Loads => loads(scene),
             Self::Thermostat => thermostat(scene),
@@ -124,11 +124,9 @@ impl Case<2> for Planar {
             }
             Self::Rockets => {
                 let [first, second, third] = triangle(scene);
-                let thrust = |time: S| S::from_f64(4.0) * (S::from_f64(2.0) * time).cos();
+                let thrust = |time: f64| 4.0 * Scalar::cos(2.0 * time);
                 scene.scene.rocket(first, [second, third], thrust);
-                scene
-                    .scene
-                    .rocket(third, [third, first], |_| S::from_f64(2.5));
+                scene.scene.rocket(third, [third, first], |_| 2.5);
             }
             Self::Chain => chain(scene, 12),
             Self::LongChain => chain(scene, 600),
@@ -164,61 +162,56 @@ const VOIGT: Voigt = Voigt {
     activation: 800.0,
 };
 /// The ends of the spring of a pendulum that swings.
-fn pendulum<S: Real>(scene: &mut Build<2, S>) -> [Node; 2] {
+fn pendulum(scene: &mut Build<2>) -> [Node; 2] {
     let pivot = scene.anchor([0.0, 0.0]);
     [pivot, scene.mass(1.0, [1.5, 0.2], [0.2, 1.0])]
 }
 
 /// An anchor and masses in a row, so many metres apart: the ends of springs between them.
-fn row<S: Real>(scene: &mut Build<2, S>, masses: u32, distance: f64) -> Vec<[Node; 2]> {
+fn row(scene: &mut Build<2>, masses: u32, distance: f64) -> Vec<[Node; 2]> {
     let mut last = scene.anchor([0.0, 0.0]);
     (1..=masses)
         .map(|index| {
             let x = distance * f64::from(index);
-            let mass = scene.mass(1.0, [x, 0.0], [0.1 * x.sin(), x.cos()]);
+            let mass = scene.mass(1.0, [x, 0.0], [0.1 * Scalar::sin(x), Scalar::cos(x)]);
             [std::mem::replace(&mut last, mass), mass]
         })
         .collect()
 }
 
 /// A constant force, and one that changes in time.
-fn loads<S: Real>(scene: &mut Build<2, S>) {
+fn loads(scene: &mut Build<2>) {
     let ends = row(scene, 2, 1.1);
     for &ends in &ends {
         scene.warm(SPRING, ends, 320.0);
     }
     let [first, last] = ends[1];
-    scene.scene.dead_load(last, vector([3.0, -2.0]));
-    let force = |time: S| [(S::from_f64(5.0) * time).sin(), S::one()];
+    scene.scene.dead_load(last, [3.0, -2.0]);
+    let force = |time: f64| [Scalar::sin(5.0 * time), 1.0];
     scene.scene.force(first, force);
 }
 
 /// One spring is kept at a temperature, and warms the other.
-fn thermostat<S: Real>(scene: &mut Build<2, S>) {
+fn thermostat(scene: &mut Build<2>) {
     let springs: Vec<_> = row(scene, 2, 1.1)
         .into_iter()
         .map(|ends| scene.warm(THERMOELASTIC, ends, 300.0))
         .collect();
     scene.conduct(springs[0], springs[1], 5.0);
-    let rising = |time: S| S::from_f64(300.0) + S::from_f64(20.0) * time;
+    let rising = |time: f64| 300.0 + 20.0 * time;
     scene.scene.prescribe_temperature(springs[1], rising);
 }
 
 /// A pendulum on a pivot that is shaken.
-fn moved_anchor<S: Real>(scene: &mut Build<2, S>) {
+fn moved_anchor(scene: &mut Build<2>) {
     let ends = pendulum(scene);
     scene.warm(SPRING, ends, 310.0);
-    let motion = |time: S| {
-        [
-            S::from_f64(0.1) * (S::from_f64(3.0) * time).sin(),
-            S::zero(),
-        ]
-    };
+    let motion = |time: f64| [0.1 * Scalar::sin(3.0 * time), 0.0];
     scene.scene.move_anchor(ends[0], motion);
 }
 
 /// Two masses that fly and turn.
-fn free_pair<S: Real>(scene: &mut Build<2, S>) {
+fn free_pair(scene: &mut Build<2>) {
     let ends = [
         scene.mass(1.0, [0.1, 0.2], [0.5, -1.0]),
         scene.mass(3.0, [1.1, 0.5], [-0.5, 2.0]),
@@ -227,7 +220,7 @@ fn free_pair<S: Real>(scene: &mut Build<2, S>) {
 }
 
 /// A free triangle of springs of different kinds.
-fn triangle<S: Real>(scene: &mut Build<2, S>) -> [Node; 3] {
+fn triangle(scene: &mut Build<2>) -> [Node; 3] {
     let places = [[0.0, 0.0], [1.3, 0.1], [0.4, 1.1]];
     let velocities = [[0.2, 0.0], [0.1, 0.6], [-0.4, 0.1]];
     let [a, b, c] = [0, 1, 2].map(|i| scene.mass(1.5, places[i], velocities[i]));
@@ -239,7 +232,7 @@ fn triangle<S: Real>(scene: &mut Build<2, S>) -> [Node; 3] {
 }
 
 /// Springs in a row, each in contact with the next.
-fn chain<S: Real>(scene: &mut Build<2, S>, springs: u32) {
+fn chain(scene: &mut Build<2>, springs: u32) {
     let mut before = None;
     for (ends, warmth) in row(scene, springs, 2.0).into_iter().zip((0..7).cycle()) {
         let spring = scene.warm(LOGARITHMIC, ends, 300.0 + f64::from(warmth));

@@ -1,8 +1,9 @@
-//! Solids, elastic ones and warm ones. They are not for lanes, so that nothing of them is compiled for lanes.
+//! Solids, elastic ones and warm ones.
 
+use eem::Scalar;
 use eem::kinematics::{Hex8, Quad4, Shape};
 use eem::prelude::*;
-use eem::{FreeEnergy, Real, StrainEnergy};
+use eem::{FreeEnergy, StrainEnergy};
 use eem_studies::build::Build;
 use eem_studies::models::{Solid, WarmSolid};
 
@@ -56,10 +57,10 @@ const RUBBER: WarmSolid = WarmSolid {
 };
 
 impl Case<2> for Sheet {
-    fn build<S: Real>(self, factor: S) -> Build<2, S> {
-        let mut build = Build::new(factor);
+    fn build(self) -> Build<2> {
+        let mut build = Build::new();
         let mesh = made(Mesh::<Quad4, 2>::block([9, 5], [[0.0, 9.0], [0.0, 5.0]]));
-        let speed = |[x, y]: [f64; 2]| [(0.7 * x + y).sin(), (x - 0.3 * y).cos()];
+        let speed = |[x, y]: [f64; 2]| [Scalar::sin(0.7 * x + y), Scalar::cos(x - 0.3 * y)];
         match self {
             Self::Elastic => elastic(&mut build, &mesh, speed),
             Self::Warm => warm(&mut build, &mesh, speed),
@@ -69,13 +70,14 @@ impl Case<2> for Sheet {
 }
 
 impl Case<3> for Block {
-    fn build<S: Real>(self, factor: S) -> Build<3, S> {
-        let mut build = Build::new(factor);
+    fn build(self) -> Build<3> {
+        let mut build = Build::new();
         let mesh = made(Mesh::<Hex8, 3>::block(
             [3, 2, 2],
             [[0.0, 3.0], [0.0, 2.0], [0.0, 2.0]],
         ));
-        let speed = |[x, y, z]: [f64; 3]| [(0.7 * x + y).sin(), (x - 0.3 * z).cos(), 0.2 * y];
+        let speed =
+            |[x, y, z]: [f64; 3]| [Scalar::sin(0.7 * x + y), Scalar::cos(x - 0.3 * z), 0.2 * y];
         match self {
             Self::Elastic => elastic(&mut build, &mesh, speed),
             Self::Warm => warm(&mut build, &mesh, speed),
@@ -90,18 +92,18 @@ fn made<T>(mesh: Result<T, eem::MeshError>) -> T {
 }
 
 /// A free solid that moves; its points.
-fn solid<S: Real, H: Shape<D>, M, const D: usize, const N: usize>(
-    build: &mut Build<D, S>,
-    (model, bulk): (M, &Bulk<D, S>),
+fn solid<H: Shape<D>, M, const D: usize, const N: usize>(
+    build: &mut Build<D>,
+    (model, bulk): (M, &Bulk<D>),
     mesh: &Mesh<H, D>,
     speed: impl Fn([f64; D]) -> [f64; D],
 ) -> Vec<Element>
 where
-    M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
+    M: FreeEnergy<f64> + StrainEnergy<N> + Send + Sync + 'static,
 {
     let body = build.scene.solid(model, mesh, bulk);
     for (&node, &place) in body.nodes().iter().zip(mesh.nodes()) {
-        let velocity = build.scaled(speed(place));
+        let velocity = speed(place);
         build.scene.set_velocity(node, velocity);
     }
     build.handles.nodes.extend(body.nodes());
@@ -109,25 +111,25 @@ where
     body.points().to_vec()
 }
 
-fn elastic<S: Real, H: Shape<D>, const D: usize>(
-    build: &mut Build<D, S>,
+fn elastic<H: Shape<D>, const D: usize>(
+    build: &mut Build<D>,
     mesh: &Mesh<H, D>,
     speed: impl Fn([f64; D]) -> [f64; D],
 ) {
-    let bulk = Bulk::new(S::from_f64(10.0));
+    let bulk = Bulk::new(10.0);
     solid(build, (SOLID, &bulk), mesh, speed);
 }
 
 /// With conduction, and temperatures that differ.
-fn warm<S: Real, H: Shape<D>, const D: usize>(
-    build: &mut Build<D, S>,
+fn warm<H: Shape<D>, const D: usize>(
+    build: &mut Build<D>,
     mesh: &Mesh<H, D>,
     speed: impl Fn([f64; D]) -> [f64; D],
 ) {
-    let bulk = Bulk::new(S::from_f64(10.0)).conductivity(20.0);
+    let bulk = Bulk::new(10.0).conductivity(20.0);
     let points = solid(build, (RUBBER, &bulk), mesh, speed);
     for (point, warmth) in points.into_iter().zip((0..11).cycle()) {
-        let temperature = S::from_f64(300.0 + f64::from(warmth));
+        let temperature = 300.0 + f64::from(warmth);
         build.scene.set_temperature(point, temperature);
     }
 }

@@ -1,6 +1,5 @@
 //! Scenes in space.
 
-use eem::Real;
 use eem_studies::build::Build;
 use eem_studies::models::Elastic;
 use eem_studies::pendulums::{Double, LOGARITHMIC, SPRING};
@@ -48,13 +47,13 @@ const HOOKE: Elastic = Elastic {
 };
 
 impl Case<3> for Spatial {
-    fn build<S: Real>(self, factor: S) -> Build<3, S> {
-        let mut build = Build::new(factor);
+    fn build(self) -> Build<3> {
+        let mut build = Build::new();
         let scene = &mut build;
         match self {
-            Self::Romero => return Double::ROMERO.build(factor),
-            Self::Krueger => return Double::KRUEGER.build(factor),
-            Self::Log => return Double::LOG.build(factor),
+            Self::Romero => return Double::ROMERO.build(),
+            Self::Krueger => return Double::KRUEGER.build(),
+            Self::Log => return Double::LOG.build(),
             Self::FreePair => {
                 let ends = [
                     scene.mass(1.0, [0.1, 0.2, 0.3], [0.5, -1.0, 0.2]),
@@ -75,7 +74,7 @@ impl Case<3> for Spatial {
 }
 
 /// Four free masses and six springs of three kinds, two of them in contact.
-fn tetrahedron<S: Real>(scene: &mut Build<3, S>) {
+fn tetrahedron(scene: &mut Build<3>) {
     let places = [
         [1.1, 0.0, 0.0],
         [-0.5, 0.9, 0.0],

@@ -7,6 +7,9 @@ use std::path::Path;
 
 const HEADER: &str = "scene,scheme,scalar,threads,steps,iterations,digest";
 
+/// The type of the numbers; former tables also have rows of others.
+const SCALAR: &str = "f64";
+
 /// How many columns say which run it is.
 const KEY: usize = 4;
 
@@ -14,7 +17,6 @@ const KEY: usize = 4;
 pub(crate) struct Row {
     pub(crate) scene: &'static str,
     pub(crate) scheme: &'static str,
-    pub(crate) scalar: &'static str,
     pub(crate) threads: usize,
     pub(crate) steps: usize,
     pub(crate) iterations: usize,
@@ -27,13 +29,12 @@ impl Row {
         let Self {
             scene,
             scheme,
-            scalar,
             threads,
             steps,
             iterations,
             digest,
         } = self;
-        format!("{scene},{scheme},{scalar},{threads},{steps},{iterations},{digest}")
+        format!("{scene},{scheme},{SCALAR},{threads},{steps},{iterations},{digest}")
     }
 }
 
@@ -52,7 +53,7 @@ fn said_of(file: &Path, error: &Error) -> Error {
     Error::new(error.kind(), format!("{}: {error}", file.display()))
 }
 
-/// The lines of a former table, of scenes whose names contain `scene`.
+/// The lines of a former table, of scenes whose names contain `scene` and runs in `f64`.
 pub(crate) fn read(file: &Path, scene: &str) -> Result<Vec<String>, Error> {
     let text = fs::read_to_string(file).map_err(|error| said_of(file, &error))?;
     let mut lines = text.lines();
@@ -61,9 +62,8 @@ pub(crate) fn read(file: &Path, scene: &str) -> Result<Vec<String>, Error> {
         return Err(said_of(file, &error));
     }
     let of_scene = lines.filter(|line| {
-        line.split(',')
-            .next()
-            .is_some_and(|name| name.contains(scene))
+        let columns: Vec<_> = line.split(',').take(KEY).collect();
+        columns[0].contains(scene) && columns.get(2) == Some(&SCALAR)
     });
     Ok(of_scene.map(str::to_owned).collect())
 }

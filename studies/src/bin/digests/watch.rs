@@ -1,7 +1,7 @@
 //! Runs a scene as it is to be run, and digests how it ends.
 
+use eem::MemberFailure;
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
 use eem_studies::build::{Build, Handles};
 use xxhash_rust::xxh3::xxh3_64;
 
@@ -16,13 +16,12 @@ pub(crate) enum Drive {
     Event(f64),
 }
 
-/// A scene whose initial velocities are multiplied by a factor.
+/// A scene.
 pub(crate) trait Case<const D: usize>: Copy + Sync {
-    fn build<S: Real>(self, factor: S) -> Build<D, S>;
+    fn build(self) -> Build<D>;
 }
 
 /// How a run ended.
-#[derive(Clone)]
 pub(crate) struct Seen {
     pub(crate) steps: usize,
     pub(crate) iterations: usize,
@@ -45,7 +44,7 @@ pub(crate) fn digest(numbers: impl Iterator<Item = u64>) -> u64 {
 }
 
 /// All numbers of the present state, and of its ledger.
-fn numbers<const D: usize, S: Real>(run: &Simulation<D, S>, handles: &Handles) -> Vec<S> {
+fn numbers<const D: usize>(run: &Simulation<D>, handles: &Handles) -> Vec<f64> {
     let mut numbers = vec![run.time(), run.step_size()];
     for &node in &handles.nodes {
         let vectors = [run.position(node), run.momentum(node), run.velocity(node)];
@@ -88,29 +87,29 @@ fn numbers<const D: usize, S: Real>(run: &Simulation<D, S>, handles: &Handles) -
 }
 
 /// Steps a simulation; how many steps and iterations were made is counted also if one fails.
-fn drive<const D: usize, S: Real>(
-    run: &mut Simulation<D, S>,
+fn drive<const D: usize>(
+    run: &mut Simulation<D>,
     drive: Drive,
     last: Option<Node>,
     [steps, iterations]: [&mut usize; 2],
 ) -> Result<(), MemberFailure> {
-    let mut count = |report: &StepReport<S>| {
+    let mut count = |report: &StepReport| {
         *steps += 1;
         *iterations += report.iterations;
     };
     match (drive, last) {
         (Drive::Event(end), Some(node)) => {
-            let mut events = [Event::crossing(move |run: &Simulation<D, S>| {
+            let mut events = [Event::crossing(move |run: &Simulation<D>| {
                 Ok(run.position(node)?[0])
             })];
-            run.run_until_event_with(S::from_f64(end), &mut events, |_, report| {
+            run.run_until_event_with(end, &mut events, |_, report| {
                 count(report);
                 ControlFlow::Continue(())
             })?;
         }
         (Drive::Steps(steps) | Drive::Controlled(_, steps), _) => {
             if let Drive::Controlled(tolerance, _) = drive {
-                run.control_steps(Tolerance::new(S::from_f64(tolerance)))?;
+                run.control_steps(Tolerance::new(tolerance))?;
             }
             for _ in 0..steps {
                 count(&run.step()?);
@@ -121,58 +120,25 @@ fn drive<const D: usize, S: Real>(
     Ok(())
 }
 
-/// Runs a scene; all numbers of its last state, and how it ended but for their digest.
-///
-/// Members that move together fail together: then the error is returned, so that they are run one by one.
-pub(crate) fn watch<const D: usize, S: Real>(
-    run: &mut Simulation<D, S>,
+/// Runs a scene; how it ended.
+pub(crate) fn watch<const D: usize>(
+    run: &mut Simulation<D>,
     handles: &Handles,
     how: Drive,
-) -> Result<(Vec<S>, Seen), MemberFailure> {
+) -> Seen {
     let (mut steps, mut iterations) = (0, 0);
     let last = handles.nodes.last().copied();
     let error = match drive(run, how, last, [&mut steps, &mut iterations]) {
         Ok(()) => String::new(),
-        Err(failure) if S::LANES > 1 => return Err(failure),
         Err(MemberFailure::Step(error)) => name_of(&error.failure),
         Err(MemberFailure::Scene(error)) => name_of(&error),
         Err(other) => name_of(&other),
     };
-    let seen = Seen {
+    let numbers = numbers(run, handles);
+    Seen {
         steps,
         iterations,
         error,
-        digest: 0,
-    };
-    Ok((numbers(run, handles), seen))
-}
-
-/// A case as an experiment, whose inputs are the factors.
-pub(crate) struct Watched<C> {
-    pub(crate) case: C,
-    pub(crate) drive: Drive,
-}
-
-impl<const D: usize, C: Case<D>> Experiment<D> for Watched<C> {
-    type Input = f64;
-    type Handles = Handles;
-    type Output = Seen;
-
-    fn build<S: Real>(&self, members: Members<'_, f64, S>) -> (Scene<D, S>, Handles) {
-        let build = self.case.build(members.number(|&factor| factor));
-        (build.scene, build.handles)
-    }
-
-    fn observe<S: Real>(
-        &self,
-        run: &mut Simulation<D, S>,
-        handles: Handles,
-        members: Members<'_, f64, S>,
-    ) -> Result<Outputs<Seen>, MemberFailure> {
-        let (numbers, seen) = watch(run, &handles, self.drive)?;
-        Ok(members.outputs(|_, of| Seen {
-            digest: digest(numbers.iter().map(|&number| of(number).to_bits())),
-            ..seen.clone()
-        }))
+        digest: digest(numbers.iter().map(|number| number.to_bits())),
     }
 }

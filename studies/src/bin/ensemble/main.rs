@@ -45,8 +45,7 @@
 //! members reach the end, the energy of each is constant to rounding, no step of any member loses
 //! entropy, and members have the bits that they have when they run alone.
 //!
-//! All cores and the lanes of each work with
-//! `cargo run --release --features parallel,lanes -p eem-studies --bin ensemble`.
+//! All cores work with `cargo run --release --features parallel -p eem-studies --bin ensemble`.
 
 use std::error::Error;
 use std::num::NonZeroUsize;

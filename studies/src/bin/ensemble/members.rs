@@ -28,13 +28,13 @@ impl Sample {
     pub(crate) fn run(scheme: Scheme, grid: TimeGrid, threads: usize, springs: &[Spring]) -> Self {
         let mut progress = Progress::new(scheme.name(), springs.len() * grid.steps);
         let start = Instant::now();
-        let ends = Ensemble::new(scheme, grid.step)
+        let ensemble = Ensemble::new(scheme, grid.step)
             .threads(threads)
             .watch(|done, _| {
                 progress.advance(done * grid.steps);
                 ControlFlow::Continue(())
-            })
-            .run_experiment(&Pendulum { steps: grid.steps }, springs);
+            });
+        let ends = Pendulum { steps: grid.steps }.run(ensemble, springs);
         let elapsed = start.elapsed();
         Self {
             scheme,
@@ -68,7 +68,7 @@ impl Sample {
         };
         springs.iter().zip(&self.ends).all(|(spring, end)| {
             let alone = Ensemble::new(self.scheme, self.grid.step).threads(1);
-            let alone = alone.run_experiment(&pendulum, std::slice::from_ref(spring));
+            let alone = pendulum.run(alone, std::slice::from_ref(spring));
             matches!((alone.as_slice(), end), ([Ok(alone)], Ok(end)) if alone == end)
         })
     }

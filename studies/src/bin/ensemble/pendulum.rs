@@ -1,15 +1,15 @@
 //! The pendulum of a member: a spring whose numbers are drawn at random, and what is kept of its run.
 
+use eem::Scalar;
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem::{MemberError, MemberFailure};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
 /// Any number would do; the same one draws the same springs.
 const SEED: u64 = 2012;
 
-/// Nonlinear in length and temperature, viscous, softening when hot. What differs between members is a
-/// number of the scene.
+/// Nonlinear in length and temperature, viscous, softening when hot.
 #[derive(Clone, Debug, FreeEnergy)]
 #[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
     let strain = ln(lambda / natural_length);
@@ -22,17 +22,17 @@ const SEED: u64 = 2012;
         - viscous_coupling * gamma * diff(elastic, lambda)
 })]
 #[viscosity(gamma = eta0 * exp(a * (1 / theta - 1 / theta_ref)))]
-struct CreepingSpring<S> {
+struct CreepingSpring {
     natural_length: f64,
     theta_ref: f64,
-    k0: S,
+    k0: f64,
     k1: f64,
     thermal_coupling: f64,
     capacity: f64,
     viscous_coupling: f64,
     mu0: f64,
     mu1: f64,
-    eta0: S,
+    eta0: f64,
     a: f64,
 }
 
@@ -90,18 +90,13 @@ pub(crate) struct Pendulum {
     pub(crate) steps: usize,
 }
 
-impl Experiment<2> for Pendulum {
-    type Input = Spring;
-    type Handles = Element;
-    type Output = End;
-
-    fn build<S: Real>(&self, members: Members<'_, Spring, S>) -> (Scene<2, S>, Element) {
-        let value = |unknown: usize| members.number(|spring| spring.values[unknown]);
-        let [k0, eta0, conductance, temperature, speed] = [0, 1, 2, 3, 4].map(value);
-        let (zero, number) = (S::zero(), S::from_f64);
-        let mut scene = Scene::<2, S>::default();
-        let pivot = scene.anchor([zero; 2]);
-        let bob = scene.mass(number(1.0), [number(3.0), zero], [zero, speed]);
+impl Pendulum {
+    /// The scene of a member, and its spring.
+    pub(crate) fn build(spring: &Spring) -> (Scene<2>, Element) {
+        let [k0, eta0, conductance, temperature, speed] = spring.values;
+        let mut scene = Scene::<2>::new();
+        let pivot = scene.anchor([0.0; 2]);
+        let bob = scene.mass(1.0, [3.0, 0.0], [0.0, speed]);
         let law = CreepingSpring {
             natural_length: 1.0,
             theta_ref: SURROUNDINGS,
@@ -117,40 +112,51 @@ impl Experiment<2> for Pendulum {
         };
         let spring = scene.spring(law, [pivot, bob]);
         scene.set_temperature(spring, temperature);
-        let surroundings = scene.reservoir(number(SURROUNDINGS));
+        let surroundings = scene.reservoir(SURROUNDINGS);
         scene.conduct(spring, surroundings, conductance);
         (scene, spring)
     }
 
-    fn observe<S: Real>(
+    /// Runs a member; what is kept of it.
+    pub(crate) fn observe(
         &self,
-        run: &mut Simulation<2, S>,
+        run: &mut Simulation<2>,
         spring: Element,
-        members: Members<'_, Spring, S>,
-    ) -> Result<Outputs<End>, MemberFailure> {
+    ) -> Result<End, MemberFailure> {
         let start = run.ledger();
         let mut entropy = start.entropy;
-        let mut energy_defect = S::zero();
-        let mut entropy_loss = S::from_f64(f64::NEG_INFINITY);
+        let mut energy_defect = 0.0;
+        let mut entropy_loss = f64::NEG_INFINITY;
         let last_quarter = self.steps - self.steps.div_ceil(4);
-        let mut temperatures = S::zero();
+        let mut temperatures = 0.0;
         for step in 0..self.steps {
             run.step()?;
             let ledger = run.ledger();
             let defect = (ledger.energy - start.energy).abs() / start.energy.abs();
-            energy_defect = energy_defect.maximum(defect);
-            entropy_loss = entropy_loss.maximum(entropy - ledger.entropy);
+            energy_defect = Scalar::maximum(energy_defect, defect);
+            entropy_loss = Scalar::maximum(entropy_loss, entropy - ledger.entropy);
             entropy = ledger.entropy;
             if step >= last_quarter {
                 temperatures += run.temperature(spring)?;
             }
         }
-        Ok(members.outputs(|_, of| End {
-            temperature: of(temperatures) / counted(self.steps - last_quarter),
-            entropy: of(entropy - start.entropy),
-            energy_defect: of(energy_defect),
-            entropy_loss: of(entropy_loss),
-        }))
+        Ok(End {
+            temperature: temperatures / counted(self.steps - last_quarter),
+            entropy: entropy - start.entropy,
+            energy_defect,
+            entropy_loss,
+        })
+    }
+
+    /// Runs members in an ensemble.
+    pub(crate) fn run(
+        &self,
+        ensemble: Ensemble<'_>,
+        springs: &[Spring],
+    ) -> Vec<Result<End, MemberError>> {
+        ensemble.run(springs, Self::build, |run, spring, _| {
+            self.observe(run, spring)
+        })
     }
 }
 

@@ -32,5 +32,8 @@ fn spring(row: Row<'_>) -> Result<Spring, InputError> {
 
 /// The sweep whose members make so many steps.
 pub(crate) fn sweep(plan: Plan, steps: usize) -> Sweep<'static> {
-    plan.experiment(Pendulum { steps }, spring)
+    let pendulum = Pendulum { steps };
+    plan.closures(spring, Pendulum::build, move |run, spring, _| {
+        pendulum.observe(run, spring)
+    })
 }

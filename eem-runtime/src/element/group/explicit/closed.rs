@@ -2,33 +2,32 @@
 
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use eem_material::free_energy::{Array, FreeEnergy, Rates};
-use eem_material::number::scalar::{Mask, Real, unless};
 
 /// The values from which the rates of a point follow.
-pub(super) struct Found<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
-    pub(super) theta: S,
+pub(super) struct Found<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> {
+    pub(super) theta: f64,
     pub(super) rates: Rates<M::Variables>,
     pub(super) viscosities: M::Viscosities,
-    pub(super) gradient: Gradient<K, S, D>,
+    pub(super) gradient: Gradient<K, D>,
 }
 
 /// The last evaluation of a point in a closing.
 #[derive(Clone, Copy)]
-pub(super) struct Closed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
+pub(super) struct Closed<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> {
     /// The temperature at which the model was evaluated, K.
-    pub(super) theta: S,
+    pub(super) theta: f64,
     pub(super) rates: Rates<M::Variables>,
     /// η and dη/dθ.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
-    pub(super) gradient: Gradient<K, S, D>,
-    pub(super) values: Values<S>,
+    pub(super) gradient: Gradient<K, D>,
+    pub(super) values: Values,
 }
 
 /// The magnitude of the terms of ψ, and that of the terms of the energy at the same evaluation, J.
 #[derive(Clone, Copy)]
-pub(super) struct Values<S> {
-    magnitude: S,
-    terms: S,
+pub(super) struct Values {
+    magnitude: f64,
+    terms: f64,
 }
 
 /// The magnitude of ψ is evaluated again when the terms of the energy have changed by this factor.
@@ -38,79 +37,45 @@ const CHANGE: f64 = 2.0;
 /// 8 ε of it are below 64 ε of the terms.
 const UNIMPORTANT: f64 = 8.0;
 
-impl<S: Real> Values<S> {
+impl Values {
     /// Evaluates the magnitude of ψ where it may matter, given the terms of the energy; otherwise keeps the last one.
     #[inline]
-    pub(super) fn update(&mut self, terms: S, magnitude: impl FnOnce() -> S) -> S {
-        let change = S::from_f64(CHANGE);
-        let is_near = terms.at_most(change * self.terms) & self.terms.at_most(change * terms);
-        let is_small = self.magnitude.at_most(S::from_f64(UNIMPORTANT) * terms);
-        let is_known = is_near & is_small;
-        if !is_known.all() {
-            self.magnitude = unless(is_known, self.magnitude, magnitude());
-            self.terms = unless(is_known, self.terms, terms);
+    pub(super) fn update(&mut self, terms: f64, magnitude: impl FnOnce() -> f64) -> f64 {
+        let is_near = terms <= CHANGE * self.terms && self.terms <= CHANGE * terms;
+        let is_small = self.magnitude <= UNIMPORTANT * terms;
+        if !(is_near && is_small) {
+            self.magnitude = magnitude();
+            self.terms = terms;
         }
         self.magnitude
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M, K, D> {
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> Closed<M, K, D> {
     /// Nothing yet.
     pub(super) fn none() -> Self {
-        let zeros = M::Variables::filled(S::zero());
-        let viscosities = M::Viscosities::filled(S::one());
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let zeros = M::Variables::filled(0.0);
+        let viscosities = M::Viscosities::filled(1.0);
+        let nowhere = Arms::<K, D>::filled([0.0; D]);
         Self {
-            theta: S::zero(),
+            theta: 0.0,
             rates: Rates {
                 forces: zeros,
                 slopes: zeros,
             },
             viscosities: (viscosities, viscosities),
-            gradient: Gradient::<K, S, D>::filled(nowhere),
+            gradient: Gradient::<K, D>::filled(nowhere),
             values: Values {
-                magnitude: S::zero(),
-                terms: S::zero(),
+                magnitude: 0.0,
+                terms: 0.0,
             },
-        }
-    }
-
-    /// Stores a new evaluation; inactive lanes keep the old one.
-    #[inline]
-    pub(super) fn replace(&mut self, inactive: S::Mask, mut found: Self) {
-        if S::LANES > 1 && inactive.any() {
-            found.keep(inactive, self);
-        }
-        *self = found;
-    }
-
-    fn keep(&mut self, inactive: S::Mask, old: &Self) {
-        let keep = |new: &mut S, old: S| *new = S::select(inactive, old, *new);
-        keep(&mut self.theta, old.theta);
-        keep(&mut self.values.magnitude, old.values.magnitude);
-        keep(&mut self.values.terms, old.values.terms);
-        for index in 0..M::Variables::LEN {
-            keep(&mut self.rates.forces[index], old.rates.forces[index]);
-            keep(&mut self.rates.slopes[index], old.rates.slopes[index]);
-        }
-        for k in 0..M::DASHPOTS {
-            keep(&mut self.viscosities.0[k], old.viscosities.0[k]);
-            keep(&mut self.viscosities.1[k], old.viscosities.1[k]);
-        }
-        for a in 0..M::MEASURES {
-            let arms = self.gradient[a].as_mut().iter_mut();
-            for (arm, old) in arms.zip(old.gradient[a].as_ref()) {
-                for axis in 0..D {
-                    keep(&mut arm[axis], old[axis]);
-                }
-            }
         }
     }
 
     /// Forces and viscosities at a temperature that is nearly that of the evaluation:
     /// `∂f/∂θ = −∂s/∂λ`, `∂g/∂θ = ∂s/∂γ`.
     #[inline]
-    pub(super) fn at(&self, theta: S) -> Found<S, M, K, D> {
+    pub(super) fn at(&self, theta: f64) -> Found<M, K, D> {
         let change = theta - self.theta;
         let (mut rates, (mut viscosities, slopes)) = (self.rates, self.viscosities);
         for a in 0..M::MEASURES {

@@ -14,15 +14,14 @@ use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::{Real, unless};
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::close`](super::ExplicitGroup::close).
-    pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError> {
+    pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError> {
         let members = self.elements.members.iter().zip(&self.places);
         for ((member, &(component, ref nodes)), closed) in members.zip(&mut self.closed) {
             if view.open[component as usize] {
-                let r = arms_of::<K, S, D>(nodes, &view.stage.places, Place::q);
+                let r = arms_of::<K, D>(nodes, &view.stage.places, Place::q);
                 member.only().close_at(&r, component, view, closed)?;
             }
         }
@@ -33,18 +32,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitEleme
     pub(super) fn pull_all(
         &self,
         components: &[bool],
-        forces: &mut [[S; D]],
-        creep: &mut [[S; 2]],
+        forces: &mut [[f64; D]],
+        creep: &mut [[f64; 2]],
     ) {
         let members = self.elements.members.iter().zip(&self.places);
         for ((member, (component, nodes)), closed) in members.zip(&self.closed) {
             if !components[*component as usize] {
                 continue;
             }
-            let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
+            let mut pull = Arms::<K, D>::filled([0.0; D]);
             for a in 0..M::MEASURES {
                 let force = closed.rates.forces[a];
-                add_scaled::<K, S, D>(&mut pull, force, &closed.gradient[a]);
+                add_scaled::<K, D>(&mut pull, force, &closed.gradient[a]);
             }
             for (index, arm) in pull.as_ref().iter().enumerate() {
                 for (axis, &pull) in arm.iter().enumerate() {
@@ -61,10 +60,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitEleme
     }
 
     /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
-    pub(super) fn finish_all(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+    pub(super) fn finish_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
         for ((point, nodes), closed) in self.placed().zip(&self.closed) {
             if !point.write_rates(nodes, &closed.at(point.temperature_in(stage)), stage) {
-                let r = arms_of::<K, S, D>(&nodes, &stage.places, Place::q);
+                let r = arms_of::<K, D>(&nodes, &stage.places, Place::q);
                 return Err(point.refuse(&r, stage));
             }
         }
@@ -72,21 +71,20 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitEleme
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
     /// Finds temperature and energy with these arms.
     #[inline]
     fn close_at(
         &self,
-        r: &Arms<K, S, D>,
+        r: &Arms<K, D>,
         component: u32,
-        view: &mut ClosingView<'_, S, D>,
-        closed: &mut Closed<S, M, K, D>,
+        view: &mut ClosingView<'_, D>,
+        closed: &mut Closed<M, K, D>,
     ) -> Result<(), StateError> {
         let measures = self.kinematics.measure(r);
         if !self.kinematics.is_admissible(r, &measures) {
             return Err(self.kinematics.refusal(self.element, r));
         }
-        let inactive = view.inactive[component as usize];
         let theta = self.temperature_in(view.stage);
         let x = self.variables_at(&measures, view.stage, theta);
         let at = self.model.rates_at(x);
@@ -111,11 +109,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         self.unless_infinite(psi)?;
         let mut energy = Energy::without_temperature(psi);
         if let Some(slot) = thermal {
-            let mut kept = view.next.entropies.values()[slot];
             if free.is_none() {
-                kept = unless(inactive, kept, entropy);
-                view.next.entropies.set(slot, kept);
+                view.next.entropies.set(slot, entropy);
             }
+            let kept = view.next.entropies.values()[slot];
             let capacity = rates.forces[Self::TEMPERATURE];
             Infeasible::unless_stable(capacity, theta)
                 .map_err(|infeasible| infeasible.of(self.element))?;
@@ -124,16 +121,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             let heat = theta * (kept.abs() + capacity);
             energy.magnitude = energy.value.abs() + heat;
             energy.terms += heat;
-            let theta = view.stage.theta_mut(slot);
-            *theta = unless(inactive, *theta, recovered.corrected);
-            let own = &mut view.capacities[slot];
-            *own = [
-                unless(inactive, own[0], capacity),
-                unless(inactive, own[1], recovered.bend),
-            ];
+            *view.stage.theta_mut(slot) = recovered.corrected;
+            view.capacities[slot] = [capacity, recovered.bend];
         }
         self.add_bounds_of(r, x, &mut found, &mut energy);
-        closed.replace(inactive, found);
+        *closed = found;
         self.write_energy(component, &energy, view);
         Ok(())
     }
@@ -142,10 +134,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
     #[inline]
     fn add_bounds_of(
         &self,
-        r: &Arms<K, S, D>,
+        r: &Arms<K, D>,
         mut x: M::Variables,
-        found: &mut Closed<S, M, K, D>,
-        energy: &mut Energy<S>,
+        found: &mut Closed<M, K, D>,
+        energy: &mut Energy,
     ) {
         energy.add_forces(self.work_of(&found.rates.forces, r, &x));
         let theta = found.theta;
@@ -157,15 +149,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         }));
     }
 
-    /// Writes the energy in a new state and adds it to that of the component, except in inactive lanes.
+    /// Writes the energy in a new state and adds it to that of the component.
     #[inline]
-    fn write_energy(&self, component: u32, energy: &Energy<S>, view: &mut ClosingView<'_, S, D>) {
-        let inactive = view.inactive[component as usize];
-        view.energies[component as usize].add(inactive, energy);
+    fn write_energy(&self, component: u32, energy: &Energy, view: &mut ClosingView<'_, D>) {
+        view.energies[component as usize].add(energy);
         let stored = &mut view.next.energies[self.element.index()];
-        stored.value = unless(inactive, stored.value, energy.value);
-        stored.magnitude = unless(inactive, stored.magnitude, energy.magnitude);
-        stored.terms = unless(inactive, stored.terms, energy.terms);
-        stored.excess = unless(inactive, stored.excess, energy.excess);
+        stored.value = energy.value;
+        stored.magnitude = energy.magnitude;
+        stored.terms = energy.terms;
+        stored.excess = energy.excess;
     }
 }

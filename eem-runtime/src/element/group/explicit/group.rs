@@ -12,20 +12,19 @@ use crate::element::group::point::Point;
 use crate::element::group::view::Placed;
 use crate::element::kinematics::{Kinematics, QuadraticStrain};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
-pub(crate) struct ExplicitElements<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> {
+pub(crate) struct ExplicitElements<M: Material, K: Kinematics<D>, const D: usize> {
     /// The elements in a state.
-    pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
+    pub(super) elements: ElementGroup<M, K, PointRule, D>,
     /// Per element: its component, and the indices of its nodes among the places of a stage.
     pub(super) places: Vec<(u32, K::PerNode<u32>)>,
     /// Per element: its last evaluation in a closing.
-    pub(super) closed: Vec<Closed<S, M, K, D>>,
+    pub(super) closed: Vec<Closed<M, K, D>>,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
-    pub(crate) fn new(elements: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
+    pub(crate) fn new(elements: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
         let elements = ElementGroup::new(PointRule::Variational, elements, placed);
         let count = elements.members.len();
         Self {
@@ -39,24 +38,24 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitEleme
     #[inline]
     pub(super) fn placed(
         &self,
-    ) -> impl Iterator<Item = (&Point<S, M, K, PointRule, D>, K::PerNode<u32>)> {
+    ) -> impl Iterator<Item = (&Point<M, K, PointRule, D>, K::PerNode<u32>)> {
         let members = self.elements.members.iter().zip(&self.places);
         members.map(|(member, &(_, nodes))| (member.only(), nodes))
     }
 }
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ExplicitGroup<S, D>
-    for ExplicitElements<S, M, K, D>
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> ExplicitGroup<D>
+    for ExplicitElements<M, K, D>
 {
-    fn elements(&self) -> &dyn Elements<S, D> {
+    fn elements(&self) -> &dyn Elements<D> {
         &self.elements
     }
 
-    fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
+    fn elements_mut(&mut self) -> &mut dyn Elements<D> {
         &mut self.elements
     }
 
-    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>> {
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
         Box::new(self.elements.into_loose())
     }
 
@@ -70,23 +69,23 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Explicit
         }
     }
 
-    fn rates(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+    fn rates(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
         self.rates_of_all(stage)
     }
 
-    fn integrate_thermostats(&self, stage: &mut Stage<S, D>, is_start: bool) {
+    fn integrate_thermostats(&self, stage: &mut Stage<D>, is_start: bool) {
         self.integrate_thermostats_of_all(stage, is_start);
     }
 
-    fn close(&mut self, view: &mut ClosingView<'_, S, D>) -> Result<(), StateError> {
+    fn close(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError> {
         self.close_all(view)
     }
 
-    fn pull(&self, components: &[bool], forces: &mut [[S; D]], creep: &mut [[S; 2]]) {
+    fn pull(&self, components: &[bool], forces: &mut [[f64; D]], creep: &mut [[f64; 2]]) {
         self.pull_all(components, forces, creep);
     }
 
-    fn finish(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+    fn finish(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
         self.finish_all(stage)
     }
 }

@@ -13,13 +13,13 @@ use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use eem_material::free_energy::{Array, Material, Rates};
-use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
-    pub(super) fn rates_of_all(&self, stage: &mut Stage<S, D>) -> Result<(), StateError> {
+    pub(super) fn rates_of_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
         for (point, nodes) in self.placed() {
-            let r = arms_of::<K, S, D>(&nodes, &stage.places, Place::q);
+            let r = arms_of::<K, D>(&nodes, &stage.places, Place::q);
             let measures = point.kinematics.measure(&r);
             let found = point.found_at(&r, &measures, stage);
             let is_sound = point.write_rates(nodes, &found, stage);
@@ -33,13 +33,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitEleme
 
 /// The arms of an element, or their rates.
 #[inline]
-pub(super) fn arms_of<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn arms_of<K: Kinematics<D>, const D: usize>(
     nodes: &K::PerNode<u32>,
-    places: &[Place<S, D>],
-    of: impl Fn(&Place<S, D>) -> &[S; D],
-) -> Arms<K, S, D> {
+    places: &[Place<D>],
+    of: impl Fn(&Place<D>) -> &[f64; D],
+) -> Arms<K, D> {
     let first = of(&places[nodes[0] as usize]);
-    let mut arms = Arms::<K, S, D>::filled([S::zero(); D]);
+    let mut arms = Arms::<K, D>::filled([0.0; D]);
     for (index, arm) in arms.as_mut().iter_mut().enumerate() {
         let other = of(&places[nodes[index + 1] as usize]);
         *arm = core::array::from_fn(|axis| other[axis] - first[axis]);
@@ -47,19 +47,19 @@ pub(super) fn arms_of<K: Kinematics<S, D>, S: Real, const D: usize>(
     arms
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what was found stays in registers")]
     fn found_at(
         &self,
-        r: &Arms<K, S, D>,
-        measures: &Measures<K, S, D>,
-        stage: &Stage<S, D>,
-    ) -> Found<S, M, K, D> {
+        r: &Arms<K, D>,
+        measures: &Measures<K, D>,
+        stage: &Stage<D>,
+    ) -> Found<M, K, D> {
         let theta = self.temperature_in(stage);
         // Called first: a call of `exp` would spill the registers used below.
         let viscosities = match M::DASHPOTS {
-            0 => M::Viscosities::filled(S::zero()),
+            0 => M::Viscosities::filled(0.0),
             _ => self.model.viscosity(theta).0,
         };
         Found {
@@ -74,11 +74,11 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
     #[inline]
     pub(super) fn variables_at(
         &self,
-        measures: &Measures<K, S, D>,
-        stage: &Stage<S, D>,
-        theta: S,
+        measures: &Measures<K, D>,
+        stage: &Stage<D>,
+        theta: f64,
     ) -> M::Variables {
-        let mut x = M::Variables::filled(S::zero());
+        let mut x = M::Variables::filled(0.0);
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             x[a] = measure;
         }
@@ -93,10 +93,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
 
     /// Its temperature at a stage; zero without one.
     #[inline]
-    pub(super) fn temperature_in(&self, stage: &Stage<S, D>) -> S {
+    pub(super) fn temperature_in(&self, stage: &Stage<D>) -> f64 {
         match self.slots().thermal {
             Some(slot) => stage.theta(slot),
-            None => S::zero(),
+            None => 0.0,
         }
     }
 
@@ -109,35 +109,35 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
     pub(super) fn write_rates(
         &self,
         nodes: K::PerNode<u32>,
-        found: &Found<S, M, K, D>,
-        stage: &mut Stage<S, D>,
+        found: &Found<M, K, D>,
+        stage: &mut Stage<D>,
     ) -> bool {
-        let motion = arms_of::<K, S, D>(&nodes, &stage.places, Place::velocity);
+        let motion = arms_of::<K, D>(&nodes, &stage.places, Place::velocity);
         let Rates { forces, slopes } = &found.rates;
         let mut pull = found.gradient[0];
-        scale::<K, S, D>(&mut pull, forces[0]);
-        let speed = along::<K, S, D>(&found.gradient[0], &motion);
+        scale::<K, D>(&mut pull, forces[0]);
+        let speed = along::<K, D>(&found.gradient[0], &motion);
         let (mut power, mut drift) = (forces[0] * speed, slopes[0] * speed);
         for a in 1..M::MEASURES {
-            add_scaled::<K, S, D>(&mut pull, forces[a], &found.gradient[a]);
-            let speed = along::<K, S, D>(&found.gradient[a], &motion);
+            add_scaled::<K, D>(&mut pull, forces[a], &found.gradient[a]);
+            let speed = along::<K, D>(&found.gradient[a], &motion);
             power += forces[a] * speed;
             drift += slopes[a] * speed;
         }
         for (index, arm) in pull.as_ref().iter().enumerate() {
-            stage.places[nodes[index + 1] as usize].pull(&arm.map(S::neg));
+            stage.places[nodes[index + 1] as usize].pull(&arm.map(|component| -component));
             stage.places[nodes[0] as usize].pull(arm);
         }
         let viscous = self.slots().viscous;
         let flow = match self.slots().thermal {
             Some(slot) => stage.inner_rates[stage.temperatures + slot].0,
-            None => S::zero(),
+            None => 0.0,
         };
         let (mut heat, mut is_sound) = (flow, true);
         let per_theta = if M::THERMAL && M::DASHPOTS > 0 {
             found.theta.recip()
         } else {
-            S::one()
+            1.0
         };
         for k in 0..M::DASHPOTS {
             let g = forces[M::MEASURES + k];
@@ -150,7 +150,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             }
             heat += power;
             drift += slopes[M::MEASURES + k] * creep;
-            is_sound &= S::zero().less(found.viscosities[k]).all();
+            is_sound &= found.viscosities[k] > 0.0;
             // With temperature, θ̇ contains the heat of the dashpot and is checked itself.
             is_sound &= M::THERMAL || creep.is_finite();
         }
@@ -164,13 +164,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
             stage.receive(slot, heat);
         }
         is_sound &= heating.is_finite();
-        let is_stable = S::zero().less(capacity) & S::zero().less(found.theta);
-        is_sound && is_stable.all()
+        let is_stable = capacity > 0.0 && found.theta > 0.0;
+        is_sound && is_stable
     }
 
     /// The error of an element that has no valid rates.
     #[cold]
-    pub(super) fn refuse(&self, r: &Arms<K, S, D>, stage: &Stage<S, D>) -> StateError {
+    pub(super) fn refuse(&self, r: &Arms<K, D>, stage: &Stage<D>) -> StateError {
         let element = self.element;
         let measures = self.kinematics.measure(r);
         if !self.kinematics.is_admissible(r, &measures) {
@@ -179,7 +179,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
         let found = self.found_at(r, &measures, stage);
         let theta = found.theta;
         if M::THERMAL && !is_positive(theta) {
-            let value = theta.to_f64();
+            let value = theta;
             return StateError::Temperature { element, value };
         }
         if M::THERMAL
@@ -194,16 +194,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K
                 return StateError::Viscosity {
                     element,
                     dashpot,
-                    value: eta.to_f64(),
+                    value: eta,
                     unit: K::VISCOSITY_UNIT,
-                    temperature: M::THERMAL.then(|| theta.to_f64()),
+                    temperature: M::THERMAL.then_some(theta),
                 };
             }
         }
         StateError::NotFinite {
             element,
             quantity: "rate of change",
-            value: found.rates.forces[0].to_f64(),
+            value: found.rates.forces[0],
         }
     }
 }

@@ -1,21 +1,20 @@
 //! The state of a scene at a stage of an explicit step, and its rates.
 
 use crate::element::layout::Layout;
-use eem_material::number::scalar::Real;
 
 /// The number of stages whose rates are stored at the same time.
 pub(crate) const KEPT: usize = 10;
 
 /// Variables at the start of a step, and their rates at its stages.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Past<S, const N: usize, const P: usize> {
-    pub(crate) start: [[S; N]; P],
-    pub(crate) rates: [[[S; N]; P]; KEPT],
+pub(crate) struct Past<const N: usize, const P: usize> {
+    pub(crate) start: [[f64; N]; P],
+    pub(crate) rates: [[[f64; N]; P]; KEPT],
 }
 
-impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
+impl<const N: usize, const P: usize> Past<N, P> {
     fn none() -> Self {
-        let none = [[S::zero(); N]; P];
+        let none = [[0.0; N]; P];
         Self {
             start: none,
             rates: [none; KEPT],
@@ -32,13 +31,13 @@ impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
         clippy::needless_range_loop,
         reason = "with `array::from_fn` a step takes a quarter more instructions"
     )]
-    pub(crate) fn combined<const T: usize>(&self, rows: [usize; T], a: &[f64; T]) -> [[S; N]; P] {
-        let mut sums = [[S::zero(); N]; P];
+    pub(crate) fn combined<const T: usize>(&self, rows: [usize; T], a: &[f64; T]) -> [[f64; N]; P] {
+        let mut sums = [[0.0; N]; P];
         for part in 0..P {
             for index in 0..N {
-                let mut sum = S::from_f64(a[0]) * self.rates[rows[0]][part][index];
+                let mut sum = a[0] * self.rates[rows[0]][part][index];
                 for term in 1..T {
-                    sum += S::from_f64(a[term]) * self.rates[rows[term]][part][index];
+                    sum += a[term] * self.rates[rows[term]][part][index];
                 }
                 sums[part][index] = sum;
             }
@@ -52,10 +51,10 @@ impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
     #[expect(clippy::needless_range_loop, reason = "as above")]
     pub(crate) fn after<const T: usize>(
         &self,
-        h: S,
+        h: f64,
         rows: [usize; T],
         a: &[f64; T],
-    ) -> [[S; N]; P] {
+    ) -> [[f64; N]; P] {
         let mut y = self.combined(rows, a);
         for part in 0..P {
             for index in 0..N {
@@ -69,26 +68,26 @@ impl<S: Real, const N: usize, const P: usize> Past<S, N, P> {
 /// A mass, or an anchor in one of the components (connected bodies) that it holds.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
-pub(crate) struct Place<S, const D: usize> {
+pub(crate) struct Place<const D: usize> {
     /// q, m, and p, kg m/s.
-    pub(crate) now: [[S; D]; 2],
+    pub(crate) now: [[f64; D]; 2],
     /// Their rates: v, m/s, and F, N; for an anchor the reaction, N, which is used only if it is moved.
-    pub(crate) rates: [[S; D]; 2],
+    pub(crate) rates: [[f64; D]; 2],
     /// m and 1/m; zero for anchors.
-    pub(crate) mass: S,
-    pub(crate) per_mass: S,
-    pub(crate) past: Past<S, D, 2>,
+    pub(crate) mass: f64,
+    pub(crate) per_mass: f64,
+    pub(crate) past: Past<D, 2>,
 }
 
-impl<S: Real, const D: usize> Place<S, D> {
+impl<const D: usize> Place<D> {
     /// At rest at the origin; an anchor has the mass zero.
-    pub(crate) fn new(mass: S) -> Self {
-        let is_anchor = mass.equal(S::zero());
+    pub(crate) fn new(mass: f64) -> Self {
+        let is_anchor = mass == 0.0;
         Self {
-            now: [[S::zero(); D]; 2],
-            rates: [[S::zero(); D]; 2],
+            now: [[0.0; D]; 2],
+            rates: [[0.0; D]; 2],
             mass,
-            per_mass: S::branch(is_anchor, S::zero, || mass.recip()),
+            per_mass: if is_anchor { 0.0 } else { mass.recip() },
             past: Past::none(),
         }
     }
@@ -96,12 +95,12 @@ impl<S: Real, const D: usize> Place<S, D> {
     /// The rates that follow from the momentum; forces are added to them.
     #[inline]
     pub(crate) fn begin_rates(&mut self) {
-        self.rates = [self.now[1].map(|p| p * self.per_mass), [S::zero(); D]];
+        self.rates = [self.now[1].map(|p| p * self.per_mass), [0.0; D]];
     }
 
     /// Adds a force, N.
     #[inline]
-    pub(crate) fn pull(&mut self, by: &[S; D]) {
+    pub(crate) fn pull(&mut self, by: &[f64; D]) {
         let mut force = self.rates[1];
         for (force, &by) in force.iter_mut().zip(by) {
             *force += by;
@@ -110,45 +109,45 @@ impl<S: Real, const D: usize> Place<S, D> {
     }
 
     #[inline]
-    pub(crate) const fn q(&self) -> &[S; D] {
+    pub(crate) const fn q(&self) -> &[f64; D] {
         &self.now[0]
     }
 
     #[inline]
-    pub(crate) const fn p(&self) -> &[S; D] {
+    pub(crate) const fn p(&self) -> &[f64; D] {
         &self.now[1]
     }
 
     #[inline]
-    pub(crate) const fn velocity(&self) -> &[S; D] {
+    pub(crate) const fn velocity(&self) -> &[f64; D] {
         &self.rates[0]
     }
 }
 
 /// A rate at the present stage and at the start of the step, and its sum over the stages so far with their weights.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Integral<S> {
-    pub(crate) rate: S,
-    pub(crate) start: S,
-    pub(crate) sum: S,
+pub(crate) struct Integral {
+    pub(crate) rate: f64,
+    pub(crate) start: f64,
+    pub(crate) sum: f64,
 }
 
-impl<S: Real> Integral<S> {
+impl Integral {
     fn none() -> Self {
-        let (rate, start, sum) = (S::zero(), S::zero(), S::zero());
+        let (rate, start, sum) = (0.0, 0.0, 0.0);
         Self { rate, start, sum }
     }
 
     /// Begins a step, with the weight of its start.
     #[inline]
-    pub(crate) fn begin(&mut self, weight: S) {
+    pub(crate) fn begin(&mut self, weight: f64) {
         self.start = self.rate;
         self.sum = weight * self.rate;
     }
 
     /// Adds a stage of this weight.
     #[inline]
-    pub(crate) fn add(&mut self, weight: S, rate: S) {
+    pub(crate) fn add(&mut self, weight: f64, rate: f64) {
         self.rate = rate;
         self.sum += weight * rate;
     }
@@ -165,42 +164,41 @@ impl<S: Real> Integral<S> {
 /// with `x = (λ, γ)` and the heat `Q_in` of dashpots and paths. This is `∫ θ dS`, by `s = −∂ψ/∂θ`, without the rate of θ, which
 /// may jump. Nothing but `θ G` is left where θ is constant.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Thermostat<S> {
+pub(crate) struct Thermostat {
     /// Whether there is one.
     pub(crate) holds: bool,
     /// θ¹, K.
-    pub(crate) last: S,
+    pub(crate) last: f64,
     /// `Q_in` at the present stage and at the start of the step, W.
-    pub(crate) received: S,
-    pub(crate) start: S,
+    pub(crate) received: f64,
+    pub(crate) start: f64,
     /// The integral in units of the step, over the stages so far with their weights, W.
-    pub(crate) sum: S,
+    pub(crate) sum: f64,
     /// `ψ(x⁰, θ¹) − ψ(x⁰, θ⁰)`, J.
-    pub(crate) warming: S,
+    pub(crate) warming: f64,
 }
 
-impl<S: Real> Thermostat<S> {
+impl Thermostat {
     /// `holds` says whether there is one.
     pub(crate) fn new(holds: bool) -> Self {
-        let zero = S::zero();
         Self {
             holds,
-            last: S::one(),
-            received: zero,
-            start: zero,
-            sum: zero,
-            warming: zero,
+            last: 1.0,
+            received: 0.0,
+            start: 0.0,
+            sum: 0.0,
+            warming: 0.0,
         }
     }
 
     /// Begins a step that ends with this temperature, K.
-    pub(crate) fn begin(&mut self, last: S) {
+    pub(crate) fn begin(&mut self, last: f64) {
         (self.last, self.start) = (last, self.received);
-        (self.sum, self.warming) = (S::zero(), S::zero());
+        (self.sum, self.warming) = (0.0, 0.0);
     }
 
     /// `1 − θ¹/θ`.
-    pub(crate) fn excess(&self, theta: S) -> S {
+    pub(crate) fn excess(&self, theta: f64) -> f64 {
         (theta - self.last) / theta
     }
 }
@@ -208,53 +206,53 @@ impl<S: Real> Thermostat<S> {
 /// A number aligned like a vector: a vector load of two neighbours that have just been stored would wait for both stores.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
-pub(crate) struct Apart<S>(pub(crate) S);
+pub(crate) struct Apart(pub(crate) f64);
 
 /// All variables at a stage. Internal ones are the viscous stretches, m, then the temperatures of thermal slots and of
 /// reservoirs, K.
 #[derive(Clone, Debug)]
-pub(crate) struct Stage<S: Real, const D: usize> {
+pub(crate) struct Stage<const D: usize> {
     /// Masses, then anchors.
-    pub(crate) places: Vec<Place<S, D>>,
-    pub(crate) inner: Vec<S>,
+    pub(crate) places: Vec<Place<D>>,
+    pub(crate) inner: Vec<f64>,
     /// `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into each thermal slot, W.
-    pub(crate) inner_rates: Vec<Apart<S>>,
+    pub(crate) inner_rates: Vec<Apart>,
     /// Starts and earlier rates of the internal variables, two per entry.
-    pub(crate) inner_past: Vec<Past<S, 2, 1>>,
+    pub(crate) inner_past: Vec<Past<2, 1>>,
     /// The index of the first temperature among the internal variables.
     pub(crate) temperatures: usize,
     /// The entropy production of each dashpot, `g γ̇/θ`, W/K, or without temperature its heat `g γ̇`, W.
-    pub(crate) productions: Vec<Integral<S>>,
+    pub(crate) productions: Vec<Integral>,
     /// The heat of each dashpot, summed with the weights of the stages, W; empty unless it is metered.
-    pub(crate) heats: Vec<S>,
+    pub(crate) heats: Vec<f64>,
     pub(crate) has_heats: bool,
     /// The weight of this stage.
-    pub(crate) weight: S,
+    pub(crate) weight: f64,
     /// Per thermal slot; empty without thermostats.
-    pub(crate) thermostats: Vec<Thermostat<S>>,
+    pub(crate) thermostats: Vec<Thermostat>,
     pub(crate) has_thermostats: bool,
 }
 
-impl<S: Real, const D: usize> Stage<S, D> {
+impl<const D: usize> Stage<D> {
     /// A stage with places of these masses.
     pub(crate) fn new(
-        masses: impl Iterator<Item = S>,
+        masses: impl Iterator<Item = f64>,
         layout: &Layout,
         reservoirs: usize,
-        thermostats: Vec<Thermostat<S>>,
+        thermostats: Vec<Thermostat>,
     ) -> Self {
         let size = layout.viscous + layout.thermal;
         let pairs = size.div_ceil(2);
         Self {
             places: masses.map(Place::new).collect(),
-            inner: vec![S::one(); (size + reservoirs).max(2 * pairs)],
-            inner_rates: vec![Apart(S::zero()); 2 * pairs],
+            inner: vec![1.0; (size + reservoirs).max(2 * pairs)],
+            inner_rates: vec![Apart(0.0); 2 * pairs],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
             productions: vec![Integral::none(); layout.viscous],
             heats: Vec::new(),
             has_heats: false,
-            weight: S::zero(),
+            weight: 0.0,
             has_thermostats: !thermostats.is_empty(),
             thermostats,
         }
@@ -262,38 +260,38 @@ impl<S: Real, const D: usize> Stage<S, D> {
 
     /// Adds the heat of a dashpot at this stage, W.
     #[cold]
-    pub(crate) fn add_heat(&mut self, dashpot: usize, power: S) {
+    pub(crate) fn add_heat(&mut self, dashpot: usize, power: f64) {
         self.heats[dashpot] += self.weight * power;
     }
 
     /// Takes the heat of dashpots and paths that a thermal slot receives, W. If a thermostat prescribes the temperature,
     /// sets its rate to zero.
     #[cold]
-    pub(crate) fn receive(&mut self, slot: usize, heat: S) {
+    pub(crate) fn receive(&mut self, slot: usize, heat: f64) {
         self.thermostats[slot].received = heat;
         if self.thermostats[slot].holds {
-            self.inner_rates[self.temperatures + slot].0 = S::zero();
+            self.inner_rates[self.temperatures + slot].0 = 0.0;
         }
     }
 
     /// An internal variable at the start of the step.
-    pub(crate) fn inner_start(&self, index: usize) -> S {
+    pub(crate) fn inner_start(&self, index: usize) -> f64 {
         self.inner_past[index / 2].start[0][index % 2]
     }
 
     /// The temperature of a thermal slot or, with an index after those of the slots, of a reservoir, K.
     #[inline]
-    pub(crate) fn theta(&self, slot: usize) -> S {
+    pub(crate) fn theta(&self, slot: usize) -> f64 {
         self.inner[self.temperatures + slot]
     }
 
     #[inline]
-    pub(crate) fn theta_mut(&mut self, slot: usize) -> &mut S {
+    pub(crate) fn theta_mut(&mut self, slot: usize) -> &mut f64 {
         &mut self.inner[self.temperatures + slot]
     }
 
     /// Pairs of all rates, at the start of the step and now; of places only the first `places`.
-    pub(crate) fn rates(&self, places: usize) -> impl Iterator<Item = [S; 2]> + '_ {
+    pub(crate) fn rates(&self, places: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
         let places = self.places[..places].iter().flat_map(|of| {
             let starts = of.past.rates[0].as_flattened().iter();
             starts.zip(of.rates.as_flattened())
@@ -309,7 +307,7 @@ impl<S: Real, const D: usize> Stage<S, D> {
     }
 
     /// The same, mutable.
-    pub(crate) fn rates_mut(&mut self, places: usize) -> impl Iterator<Item = [&mut S; 2]> + '_ {
+    pub(crate) fn rates_mut(&mut self, places: usize) -> impl Iterator<Item = [&mut f64; 2]> + '_ {
         let places = self.places[..places].iter_mut().flat_map(|of| {
             let starts = of.past.rates[0].as_flattened_mut().iter_mut();
             starts.zip(of.rates.as_flattened_mut())

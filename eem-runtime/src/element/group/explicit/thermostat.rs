@@ -8,12 +8,11 @@ use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::point::Point;
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Material;
-use eem_material::number::scalar::{Mask, Real};
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitElements<S, M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::integrate_thermostats`](super::ExplicitGroup::hold).
     #[cold]
-    pub(super) fn integrate_thermostats_of_all(&self, stage: &mut Stage<S, D>, is_start: bool) {
+    pub(super) fn integrate_thermostats_of_all(&self, stage: &mut Stage<D>, is_start: bool) {
         for (point, nodes) in self.placed() {
             let held = point.slots().thermal.filter(|&slot| stage.is_held(slot));
             if let Some(slot) = held {
@@ -23,29 +22,33 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ExplicitEleme
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
     /// Adds the present stage to the integrals of its [thermostat](crate::element::group::explicit::stage::Thermostat).
     fn integrate_thermostat(
         &self,
         slot: usize,
         nodes: &K::PerNode<u32>,
-        stage: &mut Stage<S, D>,
+        stage: &mut Stage<D>,
         is_start: bool,
     ) {
         let (theta, thermostat) = (stage.theta(slot), &stage.thermostats[slot]);
         let last = thermostat.last;
-        if theta.equal(last).all() {
+        #[expect(
+            clippy::float_cmp,
+            reason = "a temperature that is held is the same number"
+        )]
+        if theta == last {
             return;
         }
-        let r = arms_of::<K, S, D>(nodes, &stage.places, Place::q);
+        let r = arms_of::<K, D>(nodes, &stage.places, Place::q);
         let measures = self.kinematics.measure(&r);
         let gradient = self.kinematics.gradient(&r, &measures);
-        let motion = arms_of::<K, S, D>(nodes, &stage.places, Place::velocity);
+        let motion = arms_of::<K, D>(nodes, &stage.places, Place::velocity);
         let [x, at_last] = [theta, last].map(|theta| self.variables_at(&measures, stage, theta));
         let [own, other] = [&x, &at_last].map(|x| self.model.rates(x).forces);
         let mut rate = thermostat.excess(theta) * thermostat.received;
         for a in 0..M::MEASURES {
-            rate += (own[a] - other[a]) * along::<K, S, D>(&gradient[a], &motion);
+            rate += (own[a] - other[a]) * along::<K, D>(&gradient[a], &motion);
         }
         for k in 0..M::DASHPOTS {
             let at = M::MEASURES + k;

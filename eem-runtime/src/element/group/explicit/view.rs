@@ -4,25 +4,22 @@ use crate::element::group::explicit::stage::Stage;
 use crate::element::handle::Element;
 use crate::element::state::{Energy, State};
 use eem_material::number::compensated::Total;
-use eem_material::number::scalar::{Real, unless};
 
 /// The state that closes a step.
 #[derive(Debug)]
-pub(crate) struct ClosingView<'a, S: Real, const D: usize> {
+pub(crate) struct ClosingView<'a, const D: usize> {
     /// Whether a component is still to be closed.
     pub(crate) open: &'a [bool],
-    /// Inactive lanes of each component, whose values stay.
-    pub(crate) inactive: &'a [S::Mask],
     /// Its temperatures are guesses; `close` replaces them by those found from the entropies, except at thermostats.
-    pub(crate) stage: &'a mut Stage<S, D>,
+    pub(crate) stage: &'a mut Stage<D>,
     /// c and `|∂c/∂ ln θ|` per thermal slot, J/K.
-    pub(crate) capacities: &'a mut [[S; 2]],
+    pub(crate) capacities: &'a mut [[f64; 2]],
     /// The first stored entropy that differs by more than rounding from that of the temperature found for it.
     pub(crate) unkept: &'a mut Option<UnkeptEntropy>,
     /// Entropies are input, except at thermostats; energies are output.
-    pub(crate) next: &'a mut State<S>,
+    pub(crate) next: &'a mut State,
     /// The energy of each component.
-    pub(crate) energies: &'a mut [ComponentEnergy<S>],
+    pub(crate) energies: &'a mut [ComponentEnergy],
 }
 
 /// A stored entropy that differs from `s(λ, γ, θ)`.
@@ -35,46 +32,33 @@ pub(crate) struct UnkeptEntropy {
 
 /// The internal energy of the elements of a component.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ComponentEnergy<S> {
+pub(crate) struct ComponentEnergy {
     /// `Σ (ψ + θ s)`, J.
-    pub(crate) value: Total<S>,
+    pub(crate) value: Total,
     /// `Σ (|e| + θ (|s| + c))`, J: times ε, its rounding error.
-    pub(crate) magnitude: S,
+    pub(crate) magnitude: f64,
     /// See [`Energy`], J.
-    pub(crate) terms: S,
-    pub(crate) excess: S,
+    pub(crate) terms: f64,
+    pub(crate) excess: f64,
 }
 
-impl<S: Real> ComponentEnergy<S> {
+impl ComponentEnergy {
     /// Zero sums.
     pub(crate) fn none() -> Self {
         Self {
             value: Total::default(),
-            magnitude: S::zero(),
-            terms: S::zero(),
-            excess: S::zero(),
+            magnitude: 0.0,
+            terms: 0.0,
+            excess: 0.0,
         }
     }
 
-    /// Adds the energy of an element, except in inactive lanes.
+    /// Adds the energy of an element.
     #[inline]
-    pub(crate) fn add(&mut self, inactive: S::Mask, energy: &Energy<S>) {
-        let added = |value: S| unless(inactive, S::zero(), value);
-        self.value.add(added(energy.value));
-        self.magnitude += added(energy.magnitude);
-        self.terms += added(energy.terms);
-        self.excess += added(energy.excess);
-    }
-
-    /// Sets all sums to zero, except in inactive lanes.
-    pub(crate) fn clear(&mut self, inactive: S::Mask) {
-        let mut cleared = Self::none();
-        if S::LANES > 1 {
-            cleared.value = Total::select(inactive, self.value, cleared.value);
-            cleared.magnitude = S::select(inactive, self.magnitude, cleared.magnitude);
-            cleared.terms = S::select(inactive, self.terms, cleared.terms);
-            cleared.excess = S::select(inactive, self.excess, cleared.excess);
-        }
-        *self = cleared;
+    pub(crate) fn add(&mut self, energy: &Energy) {
+        self.value.add(energy.value);
+        self.magnitude += energy.magnitude;
+        self.terms += energy.terms;
+        self.excess += energy.excess;
     }
 }

@@ -14,23 +14,20 @@ use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// The transposed equations of a point after the elimination of its own weights:
 /// `Σ_a h (D*π_a·w_v) moduli_a + w_Θ by_heat + constant`, by measure.
-pub(super) struct Reduced<K: Kinematics<S, D>, S: Real, const D: usize> {
-    moduli: K::PerMeasure<Measures<K, S, D>>,
-    by_heat: Measures<K, S, D>,
-    constant: Measures<K, S, D>,
+pub(super) struct Reduced<K: Kinematics<D>, const D: usize> {
+    moduli: K::PerMeasure<Measures<K, D>>,
+    by_heat: Measures<K, D>,
+    constant: Measures<K, D>,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// `Σ λ_σ h κ_r/θ_r`.
     #[inline]
-    pub(super) fn of_reservoirs(&self, step: &StepBack<'_, S>) -> S {
-        let mut sum = S::zero();
+    pub(super) fn of_reservoirs(&self, step: &StepBack<'_>) -> f64 {
+        let mut sum = 0.0;
         let Some(slot) = self.slots().thermal.filter(|_| self.meets_reservoirs) else {
             return sum;
         };
@@ -52,28 +49,28 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn condense_transposed(
         &mut self,
-        step: &StepBack<'_, S>,
-        interface: &InterfaceTemperatures<S>,
-        form: &Form<S, M>,
-        contact: Option<&Contact<K, S, D>>,
-    ) -> Result<Reduced<K, S, D>, StateError> {
+        step: &StepBack<'_>,
+        interface: &InterfaceTemperatures,
+        form: &Form<f64, M>,
+        contact: Option<&Contact<K, D>>,
+    ) -> Result<Reduced<K, D>, StateError> {
         let (response, tangent) = form;
-        let mut reduced = Reduced::<K, S, D> {
-            moduli: K::PerMeasure::filled(Measures::<K, S, D>::filled(S::zero())),
-            by_heat: Measures::<K, S, D>::filled(S::zero()),
-            constant: Measures::<K, S, D>::filled(S::zero()),
+        let mut reduced = Reduced::<K, D> {
+            moduli: K::PerMeasure::filled(Measures::<K, D>::filled(0.0)),
+            by_heat: Measures::<K, D>::filled(0.0),
+            constant: Measures::<K, D>::filled(0.0),
         };
         for a in 0..M::MEASURES {
-            reduced.moduli[a] = measures_in::<K, S, D>(&tangent[a]);
+            reduced.moduli[a] = measures_in::<K, D>(&tangent[a]);
         }
         if Self::UNKNOWNS == 0 {
             return Ok(reduced);
         }
-        let theta = temperature_in::<S, M>(response);
+        let theta = temperature_in::<M>(response);
         let flow = self.heat_flow(&step.past.view, contact, interface, theta);
-        let mut system = LocalSystem::<S, M>::empty(self.pivot_units(theta));
+        let mut system = LocalSystem::<M>::empty(self.pivot_units(theta));
         self.balances::<false>(&step.past.view, &flow, form, &mut system);
-        let mut transposed = LocalSystem::<S, M>::empty(system.unit);
+        let mut transposed = LocalSystem::<M>::empty(system.unit);
         let of_reservoirs = self.of_reservoirs(step);
         let Slots { viscous, thermal } = self.slots();
         for u in 0..Self::UNKNOWNS {
@@ -96,9 +93,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             }
         }
         let solved = if contact.is_some() {
-            eliminate::<S, M, true>(&mut transposed)
+            eliminate::<M, true>(&mut transposed)
         } else {
-            eliminate::<S, M, false>(&mut transposed)
+            eliminate::<M, false>(&mut transposed)
         };
         solved.map_err(|singular| self.unsolved(singular))?;
         self.keep_solved(&transposed, contact.is_some());
@@ -126,19 +123,19 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn add_transposed(
         &self,
-        step: S,
-        pose: &Pose<K, S, D>,
-        (form, reduced): (&Form<S, M>, &Reduced<K, S, D>),
-        sum: &mut Option<Momentum<K, S, D>>,
+        step: f64,
+        pose: &Pose<K, D>,
+        (form, reduced): (&Form<f64, M>, &Reduced<K, D>),
+        sum: &mut Option<Momentum<K, D>>,
     ) {
         let (kinematics, at) = (&self.kinematics, self.scheme.placement());
-        let mut forces = Measures::<K, S, D>::filled(S::zero());
+        let mut forces = Measures::<K, D>::filled(0.0);
         let mut by_arm = pose.sensitivity;
         for a in 0..M::MEASURES {
             forces[a] = step * form.0[a];
-            by_arm[a] = combined::<K, S, D>(&pose.sensitivity, &reduced.moduli[a], step);
+            by_arm[a] = combined::<K, D>(&pose.sensitivity, &reduced.moduli[a], step);
         }
-        let pull = combined::<K, S, D>(&pose.sensitivity, &reduced.constant, S::one());
+        let pull = combined::<K, D>(&pose.sensitivity, &reduced.constant, 1.0);
         match sum {
             None => {
                 *sum = Some(Momentum {
@@ -147,7 +144,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
                 });
             }
             Some(sum) => {
-                add_scaled::<K, S, D>(&mut sum.pull, S::one(), &pull);
+                add_scaled::<K, D>(&mut sum.pull, 1.0, &pull);
                 pose.add_tangent(kinematics, at, (&forces, &by_arm), &mut sum.blocks);
             }
         }
@@ -157,34 +154,34 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// to `w_Θ` and the arms. `−(∂R_s/∂Q) w_s` is `pull` times `w_v` plus `slope` times `w_Θ` plus `residual`.
     pub(super) fn heat_transposed(
         &self,
-        step: S,
-        pose: &Pose<K, S, D>,
-        reduced: &Reduced<K, S, D>,
-    ) -> Heat<K, S, D> {
+        step: f64,
+        pose: &Pose<K, D>,
+        reduced: &Reduced<K, D>,
+    ) -> Heat<K, D> {
         let (own, factor) = (M::DASHPOTS, self.condensed.heat_factor);
-        let mut by_measure = Measures::<K, S, D>::filled(S::zero());
+        let mut by_measure = Measures::<K, D>::filled(0.0);
         for a in 0..M::MEASURES {
             by_measure[a] = self.condensed.by_measure[a].get(own);
         }
         Heat {
             residual: factor * self.condensed.constant.get(own),
-            by_arm: combined::<K, S, D>(&pose.sensitivity, &reduced.by_heat, S::one()),
+            by_arm: combined::<K, D>(&pose.sensitivity, &reduced.by_heat, 1.0),
             slope: factor * self.condensed.by_heat.get(own),
-            pull: combined::<K, S, D>(&pose.direction, &by_measure, step * factor),
+            pull: combined::<K, D>(&pose.direction, &by_measure, step * factor),
         }
     }
 }
 
 /// `factor Σ_b slopes_b rows_b`.
 #[inline]
-fn combined<K: Kinematics<S, D>, S: Real, const D: usize>(
-    rows: &Gradient<K, S, D>,
-    slopes: &Measures<K, S, D>,
-    factor: S,
-) -> Arms<K, S, D> {
-    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+fn combined<K: Kinematics<D>, const D: usize>(
+    rows: &Gradient<K, D>,
+    slopes: &Measures<K, D>,
+    factor: f64,
+) -> Arms<K, D> {
+    let mut sum = Arms::<K, D>::filled([0.0; D]);
     for (row, &slope) in rows.as_ref().iter().zip(slopes.as_ref()) {
-        add_scaled::<K, S, D>(&mut sum, factor * slope, row);
+        add_scaled::<K, D>(&mut sum, factor * slope, row);
     }
     sum
 }

@@ -10,31 +10,28 @@ use crate::element::group::terms::Terms;
 use crate::element::kinematics::{Arms, Ends, Kinematics};
 use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// The inputs of the weights of a point besides its own values.
-pub(super) struct Surroundings<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
-    pub(super) step: &'a StepBack<'a, S>,
-    pub(super) interface: &'a InterfaceTemperatures<S>,
-    pub(super) contact: Option<&'a Contact<K, S, D>>,
+pub(super) struct Surroundings<'a, K: Kinematics<D>, const D: usize> {
+    pub(super) step: &'a StepBack<'a>,
+    pub(super) interface: &'a InterfaceTemperatures,
+    pub(super) contact: Option<&'a Contact<K, D>>,
     /// `w_Θ`.
-    pub(super) theta: S,
+    pub(super) theta: f64,
 }
 
 /// The derivatives of `wᵀR` with respect to the response, the increments and the viscosities of a point, its terms of
 /// `−(∂R/∂h)ᵀ w`, and the weight of its balance of heat.
-pub(super) struct OfPoint<S: Real, M: Material<S>> {
+pub(super) struct OfPoint<M: Material> {
     pub(super) rho: M::Response,
     pub(super) increments: M::Variables,
-    pub(super) by_size: Terms<S>,
+    pub(super) by_size: Terms,
     viscosities: M::Viscosities,
     drag: M::Drag,
-    own: S,
+    own: f64,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// The weights of its equations, given those of the motion of its arms, and its terms of `−(∂R/∂h)ᵀ w`. The forces
     /// there are replaced by inertia, by means of the momentum balances,
     ///
@@ -46,10 +43,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn weigh(
         &self,
-        around: &Surroundings<'_, K, S, D>,
-        ends: &Ends<K, S, D>,
-        w: &Arms<K, S, D>,
-    ) -> OfPoint<S, M> {
+        around: &Surroundings<'_, K, D>,
+        ends: &Ends<K, D>,
+        w: &Arms<K, D>,
+    ) -> OfPoint<M> {
         let (h, per_step) = (around.step.past.view.step, around.step.past.view.per_step);
         let along = self.kinematics.discrete_rates(ends, w);
         let own = |u: usize| {
@@ -62,28 +59,24 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             }
             -sum
         };
-        let mut of = OfPoint::<S, M> {
-            rho: M::Response::filled(S::zero()),
-            increments: M::Variables::filled(S::zero()),
+        let mut of = OfPoint::<M> {
+            rho: M::Response::filled(0.0),
+            increments: M::Variables::filled(0.0),
             by_size: Terms::none(),
-            viscosities: M::Viscosities::filled(S::zero()),
-            drag: M::Drag::filled(S::zero()),
-            own: S::zero(),
+            viscosities: M::Viscosities::filled(0.0),
+            drag: M::Drag::filled(0.0),
+            own: 0.0,
         };
         let theta = self.temperature();
         // Without a temperature there is no balance of entropy.
-        let mut per_theta = S::zero();
+        let mut per_theta = 0.0;
         if M::THERMAL {
             of.own = own(M::DASHPOTS);
             per_theta = theta.recip();
         }
-        let entropy = if self.is_prescribed {
-            S::zero()
-        } else {
-            of.own
-        };
+        let entropy = if self.is_prescribed { 0.0 } else { of.own };
         let per_heat = entropy * per_theta;
-        let (mut by_theta, mut heat, mut slope) = (S::zero(), S::zero(), S::zero());
+        let (mut by_theta, mut heat, mut slope) = (0.0, 0.0, 0.0);
         for a in 0..M::MEASURES {
             of.rho[a] = h * along[a];
         }
@@ -131,7 +124,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     /// The derivatives of `wᵀR` with respect to the variables of the old state.
     #[inline]
     pub(super) fn by_old(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
-        pulled::<S, M>(rho, &self.slopes_by_old(), increments, -S::one())
+        pulled::<M>(rho, &self.slopes_by_old(), increments, -1.0)
     }
 
     /// The derivatives of `wᵀR` with respect to the variables of the new state, without those to prescribed temperatures.
@@ -139,26 +132,26 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         let (_, tangent) = self
             .scheme
             .form(&self.model, &self.start, &self.x, &self.memory);
-        pulled::<S, M>(rho, &tangent, increments, S::one())
+        pulled::<M>(rho, &tangent, increments, 1.0)
     }
 
     /// Adds the derivatives of `wᵀR` with respect to the arms of the second of two ends, given those to its variables.
     #[inline]
     pub(super) fn add_by_arms(
         &self,
-        ends: &Ends<K, S, D>,
+        ends: &Ends<K, D>,
         by: &M::Variables,
-        w: &Arms<K, S, D>,
-        step: S,
-        sum: &mut Arms<K, S, D>,
+        w: &Arms<K, D>,
+        step: f64,
+        sum: &mut Arms<K, D>,
     ) {
         let mut forces = self.pulls();
         for force in forces.as_mut() {
             *force *= step;
         }
-        let by = measures_in::<K, S, D>(by);
+        let by = measures_in::<K, D>(by);
         let pulled = self.kinematics.pull_back(ends, &by, (&forces, w));
-        add_scaled::<K, S, D>(sum, S::one(), &pulled);
+        add_scaled::<K, D>(sum, 1.0, &pulled);
     }
 
     /// Writes the derivatives with respect to its old internal variables, and the weights of its balance of heat.
@@ -166,9 +159,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     pub(super) fn write(
         &self,
         by: &M::Variables,
-        of: &OfPoint<S, M>,
-        by_old: &mut PerVariable<S>,
-        weights: &mut StepWeights<S>,
+        of: &OfPoint<M>,
+        by_old: &mut PerVariable,
+        weights: &mut StepWeights,
     ) {
         let Slots { viscous, thermal } = self.slots();
         for k in 0..M::DASHPOTS {
@@ -186,16 +179,16 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
     /// The derivatives of the number with respect to the parameters in this step.
     #[inline]
-    pub(super) fn by_parameters(&self, of: &OfPoint<S, M>) -> M::Parameters {
+    pub(super) fn by_parameters(&self, of: &OfPoint<M>) -> M::Parameters {
         let x = [&self.start.x0, &self.x];
         let mut sum = (self.scheme).form_adjoint(&self.model, x, &self.memory, &of.rho);
         let theta = self.temperature();
         if M::DASHPOTS > 0 {
             let by = self.model.viscosity_adjoint(theta, &of.viscosities);
-            add::<S, M>(&mut sum, &by);
+            add::<M>(&mut sum, &by);
         }
         if Self::DRAGS > 0 {
-            add::<S, M>(&mut sum, &self.model.drag_adjoint(theta, &of.drag));
+            add::<M>(&mut sum, &self.model.drag_adjoint(theta, &of.drag));
         }
         for entry in sum.as_mut() {
             *entry = -*entry;
@@ -204,7 +197,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 }
 
-fn add<S: Real, M: Material<S>>(sum: &mut M::Parameters, by: &M::Parameters) {
+fn add<M: Material>(sum: &mut M::Parameters, by: &M::Parameters) {
     for (sum, &by) in sum.as_mut().iter_mut().zip(by.as_ref()) {
         *sum += by;
     }
@@ -212,13 +205,13 @@ fn add<S: Real, M: Material<S>>(sum: &mut M::Parameters, by: &M::Parameters) {
 
 /// `Tᵀρ ± increments`.
 #[inline]
-fn pulled<S: Real, M: Material<S>>(
+fn pulled<M: Material>(
     rho: &M::Response,
     tangent: &M::Tangent,
     increments: &M::Variables,
-    sign: S,
+    sign: f64,
 ) -> M::Variables {
-    let mut pulled = M::Variables::filled(S::zero());
+    let mut pulled = M::Variables::filled(0.0);
     for (at, pulled) in pulled.as_mut().iter_mut().enumerate() {
         *pulled = sign * increments[at];
         for (&rho, row) in rho.as_ref().iter().zip(tangent.as_ref()) {

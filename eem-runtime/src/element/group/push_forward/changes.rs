@@ -13,59 +13,56 @@ use crate::element::group::site::Contact;
 use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures};
 use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// The derivatives of the equations of a point, the same for all directions.
-pub(super) struct Linearized<S: Real, M: Material<S>, G> {
+pub(super) struct Linearized<M: Material, G> {
     /// With the forces of Kelvin–Voigt dashpots.
-    pub(super) form: Form<S, M>,
+    pub(super) form: Form<f64, M>,
     /// Of the response with respect to the variables of the old state.
     by_old: M::Tangent,
     /// Of the old measures by the old arms.
     gradient: G,
     /// The local equations before the elimination.
-    local: LocalSystem<S, M>,
+    local: LocalSystem<M>,
 }
 
 /// The changes of the forces, the local equations and θ* of a point at constant new variables.
-pub(super) struct Change<S: Real, M: Material<S>> {
+pub(super) struct Change<M: Material> {
     forces: M::Variables,
     local: M::Variables,
-    theta: S,
+    theta: f64,
 }
 
 /// The changes of viscosities with the parameters.
-struct ViscosityChanges<S: Real, M: Material<S>> {
+struct ViscosityChanges<M: Material> {
     viscosities: M::Viscosities,
     drag: M::Drag,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
-    Point<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
     /// Linearizes its equations at both states, set by `return_to`, and eliminates its unknowns.
     #[inline]
     pub(super) fn linearize_past(
         &mut self,
-        step: &PastStep<'_, S>,
-        interface: &InterfaceTemperatures<S>,
-        contact: Option<&Contact<K, S, D>>,
-        (pose, back): (&Pose<K, S, D>, &Ends<K, S, D>),
-    ) -> Result<Linearized<S, M, Gradient<K, S, D>>, StateError> {
+        step: &PastStep<'_>,
+        interface: &InterfaceTemperatures,
+        contact: Option<&Contact<K, D>>,
+        (pose, back): (&Pose<K, D>, &Ends<K, D>),
+    ) -> Result<Linearized<M, Gradient<K, D>>, StateError> {
         let form = self.tangent_in(step.view.per_step)?;
         self.sensitivity = pose.sensitivity;
         self.slopes_of(&form);
-        let theta = temperature_in::<S, M>(&form.0);
+        let theta = temperature_in::<M>(&form.0);
         let flow = self.heat_flow(&step.view, contact, interface, theta);
-        let mut local = LocalSystem::<S, M>::empty(self.pivot_units(theta));
+        let mut local = LocalSystem::<M>::empty(self.pivot_units(theta));
         self.balances::<false>(&step.view, &flow, &form, &mut local);
         if Self::UNKNOWNS > 0 {
-            let mut solved = LocalSystem::<S, M> {
+            let mut solved = LocalSystem::<M> {
                 rows: local.rows,
                 by_heat: local.by_heat,
                 ..LocalSystem::empty(local.unit)
             };
-            eliminate::<S, M, true>(&mut solved).map_err(|singular| self.unsolved(singular))?;
+            eliminate::<M, true>(&mut solved).map_err(|singular| self.unsolved(singular))?;
             self.keep_solved(&solved, contact.is_some());
         }
         Ok(Linearized {
@@ -77,7 +74,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     }
 
     /// Keeps the derivatives of θ*.
-    fn slopes_of(&mut self, (_, tangent): &Form<S, M>) {
+    fn slopes_of(&mut self, (_, tangent): &Form<f64, M>) {
         if M::THERMAL {
             self.slopes[Self::TEMPERATURE] = tangent[Self::TEMPERATURE];
         }
@@ -87,15 +84,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn add_old_curvature(
         &self,
-        step: S,
-        back: &Ends<K, S, D>,
-        sum: &mut Option<Blocks<K, S, D>>,
+        step: f64,
+        back: &Ends<K, D>,
+        sum: &mut Option<Blocks<K, D>>,
     ) {
         let mut forces = self.pulls();
         for force in forces.as_mut() {
             *force *= step;
         }
-        let (kinematics, still) = (&self.kinematics, still::<K, S, D>());
+        let (kinematics, still) = (&self.kinematics, still::<K, D>());
         match sum {
             None => *sum = Some(kinematics.discrete_tangent(back, &forces, &still)),
             Some(sum) => kinematics.add_discrete_tangent(back, &forces, &still, sum),
@@ -106,17 +103,17 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn change(
         &self,
-        step: &PastStep<'_, S>,
-        (interface, contact): (&InterfaceTemperatures<S>, Option<&Contact<K, S, D>>),
-        moved: &Arms<K, S, D>,
-        linear: &Linearized<S, M, Gradient<K, S, D>>,
-        direction: &Direction<S>,
-    ) -> Change<S, M> {
+        step: &PastStep<'_>,
+        (interface, contact): (&InterfaceTemperatures, Option<&Contact<K, D>>),
+        moved: &Arms<K, D>,
+        linear: &Linearized<M, Gradient<K, D>>,
+        direction: &Direction,
+    ) -> Change<M> {
         let (h, per_step) = (step.view.step, step.view.per_step);
         let Slots { viscous, thermal } = self.slots();
-        let mut x = M::Variables::filled(S::zero());
+        let mut x = M::Variables::filled(0.0);
         for a in 0..M::MEASURES {
-            x[a] = along::<K, S, D>(&linear.gradient[a], moved);
+            x[a] = along::<K, D>(&linear.gradient[a], moved);
         }
         for k in 0..M::DASHPOTS {
             x[M::MEASURES + k] = direction.old.viscous[viscous + k];
@@ -124,21 +121,21 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         if let Some(slot) = thermal {
             x[Self::TEMPERATURE] = direction.old.temperatures[slot];
         }
-        let mut response = M::Response::filled(S::zero());
+        let mut response = M::Response::filled(0.0);
         for (row, slopes) in linear.by_old.as_ref().iter().enumerate() {
             response[row] = sum_of(slopes, &x);
         }
         let by_parameters = self.add_parameters(direction, &mut response);
-        let theta = temperature_in::<S, M>(&response);
-        let mut change = Change::<S, M> {
-            forces: M::Variables::filled(S::zero()),
-            local: M::Variables::filled(S::zero()),
+        let theta = temperature_in::<M>(&response);
+        let mut change = Change::<M> {
+            forces: M::Variables::filled(0.0),
+            local: M::Variables::filled(0.0),
             theta,
         };
         for a in 0..M::MEASURES {
             change.forces[a] = response[a];
         }
-        let (mut heat, mut d_heat) = (S::zero(), S::zero());
+        let (mut heat, mut d_heat) = (0.0, 0.0);
         for k in 0..M::DASHPOTS {
             let (at, eta) = (M::MEASURES + k, self.viscosities.0[k]);
             let (rate, d_rate) = (self.creep[k] * per_step, -x[at] * per_step);
@@ -180,18 +177,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     fn add_parameters(
         &self,
-        direction: &Direction<S>,
+        direction: &Direction,
         response: &mut M::Response,
-    ) -> ViscosityChanges<S, M> {
-        let mut changes = ViscosityChanges::<S, M> {
-            viscosities: M::Viscosities::filled(S::zero()),
-            drag: M::Drag::filled(S::zero()),
+    ) -> ViscosityChanges<M> {
+        let mut changes = ViscosityChanges::<M> {
+            viscosities: M::Viscosities::filled(0.0),
+            drag: M::Drag::filled(0.0),
         };
         let own = direction.parameters.get(self.element.index());
         let Some(own) = own.filter(|own| !own.is_empty()) else {
             return changes;
         };
-        let mut parameters = M::Parameters::filled(S::zero());
+        let mut parameters = M::Parameters::filled(0.0);
         // A model of a text has room for more parameters than it uses.
         for (parameter, &own) in parameters.as_mut().iter_mut().zip(own) {
             *parameter = own;
@@ -203,14 +200,14 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
         let theta = self.temperature();
         for k in 0..M::DASHPOTS {
-            let mut weights = M::Viscosities::filled(S::zero());
-            weights[k] = S::one();
+            let mut weights = M::Viscosities::filled(0.0);
+            weights[k] = 1.0;
             let by = self.model.viscosity_adjoint(theta, &weights);
             changes.viscosities[k] = sum_of(&by, &parameters);
         }
         for a in 0..Self::DRAGS {
-            let mut weights = M::Drag::filled(S::zero());
-            weights[a] = S::one();
+            let mut weights = M::Drag::filled(0.0);
+            weights[a] = 1.0;
             changes.drag[a] = sum_of(&self.model.drag_adjoint(theta, &weights), &parameters);
         }
         changes
@@ -220,26 +217,26 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn push(
         &self,
-        linear: &Linearized<S, M, Gradient<K, S, D>>,
-        change: &Change<S, M>,
-        contact: Option<&Contact<K, S, D>>,
-        direction: &mut Direction<S>,
-    ) -> Result<Measures<K, S, D>, StateError> {
-        let mut solved = LocalSystem::<S, M> {
+        linear: &Linearized<M, Gradient<K, D>>,
+        change: &Change<M>,
+        contact: Option<&Contact<K, D>>,
+        direction: &mut Direction,
+    ) -> Result<Measures<K, D>, StateError> {
+        let mut solved = LocalSystem::<M> {
             constant: change.local,
             rows: linear.local.rows,
             ..LocalSystem::empty(linear.local.unit)
         };
         if Self::UNKNOWNS > 0 {
-            eliminate::<S, M, false>(&mut solved).map_err(|singular| self.unsolved(singular))?;
+            eliminate::<M, false>(&mut solved).map_err(|singular| self.unsolved(singular))?;
         }
-        let condensed = |row: usize, value: S| {
+        let condensed = |row: usize, value: f64| {
             let slopes = &linear.form.1[row];
             (0..Self::UNKNOWNS).fold(value, |value, u| {
                 value - slopes[M::MEASURES + u] * solved.constant[u]
             })
         };
-        let mut forces = no_forces::<K, S, D>();
+        let mut forces = no_forces::<K, D>();
         for a in 0..M::MEASURES {
             forces[a] = condensed(a, change.forces[a]);
         }
@@ -262,18 +259,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     pub(super) fn follow(
         &self,
-        moved: &Arms<K, S, D>,
-        contact: Option<&Contact<K, S, D>>,
-        direction: &mut Direction<S>,
+        moved: &Arms<K, D>,
+        contact: Option<&Contact<K, D>>,
+        direction: &mut Direction,
     ) {
         if Self::UNKNOWNS == 0 {
             return;
         }
-        let mut x = M::Variables::filled(S::zero());
+        let mut x = M::Variables::filled(0.0);
         for a in 0..M::MEASURES {
-            x[a] = along::<K, S, D>(&self.sensitivity[a], moved);
+            x[a] = along::<K, D>(&self.sensitivity[a], moved);
         }
-        let heat = contact.map_or(S::zero(), |contact| {
+        let heat = contact.map_or(0.0, |contact| {
             self.condensed.heat_factor * contact.heat(&direction.right)
         });
         let Slots { viscous, thermal } = self.slots();
@@ -300,7 +297,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
 
 /// `Σ aᵢ bᵢ`.
 #[inline]
-fn sum_of<S: Real, A: Array<S>>(a: &A, b: &A) -> S {
+fn sum_of<A: Array<f64>>(a: &A, b: &A) -> f64 {
     let pairs = a.as_ref().iter().zip(b.as_ref());
-    pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+    pairs.fold(0.0, |sum, (&a, &b)| sum + a * b)
 }

@@ -9,37 +9,34 @@ use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Blocks, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// The forces of an element at the stages, as functions of the arms of each set.
-pub(super) struct StageForces<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct StageForces<K: Kinematics<D>, const D: usize> {
     /// With the internal variables eliminated, N.
-    pulls: [Arms<K, S, D>; MOST_STAGES],
+    pulls: [Arms<K, D>; MOST_STAGES],
     /// Their derivatives with respect to the arms of each set.
-    pub(super) blocks: PerPair<Blocks<K, S, D>>,
+    pub(super) blocks: PerPair<Blocks<K, D>>,
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> StageForces<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> StageForces<K, D> {
     pub(super) fn zero() -> Self {
-        let blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
+        let blocks = Blocks::<K, D>::filled(K::PerArm::filled([[0.0; D]; D]));
         Self {
-            pulls: [Arms::<K, S, D>::filled([S::zero(); D]); MOST_STAGES],
+            pulls: [Arms::<K, D>::filled([0.0; D]); MOST_STAGES],
             blocks: [[blocks; MOST_SETS]; MOST_SETS],
         }
     }
 
     pub(super) fn clear(&mut self, rule: &Tableau) {
-        self.pulls = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_STAGES];
+        self.pulls = [Arms::<K, D>::filled([0.0; D]); MOST_STAGES];
         for row in &mut self.blocks[..rule.stages()] {
-            row[..rule.sets()].fill(Blocks::<K, S, D>::filled(K::PerArm::filled(
-                [[S::zero(); D]; D],
-            )));
+            row[..rule.sets()].fill(Blocks::<K, D>::filled(K::PerArm::filled([[0.0; D]; D])));
         }
     }
 
     /// Adds a force with this value and direction, given the derivatives of the value with respect to the arms of each set.
-    fn add(&mut self, stage: usize, (value, along): (S, &Arms<K, S, D>), by: &[Arms<K, S, D>]) {
-        add_scaled::<K, S, D>(&mut self.pulls[stage], value, along);
+    fn add(&mut self, stage: usize, (value, along): (f64, &Arms<K, D>), by: &[Arms<K, D>]) {
+        add_scaled::<K, D>(&mut self.pulls[stage], value, along);
         for (blocks, by) in self.blocks[stage].iter_mut().zip(by) {
             for (row, along) in blocks.as_mut().iter_mut().zip(along.as_ref()) {
                 for (block, by) in row.as_mut().iter_mut().zip(by.as_ref()) {
@@ -55,26 +52,26 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageForces<K, S, D> {
 }
 
 /// The workspace of the assembly of an element, and the global system.
-pub(super) struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(super) struct Target<'a, K: Kinematics<D>, const D: usize> {
     pub(super) rule: &'static Tableau,
-    pub(super) step: S,
-    pub(super) site: &'a StageSite<K, S, D>,
-    pub(super) local: &'a mut LocalStages<S>,
-    pub(super) forces: &'a mut StageForces<K, S, D>,
-    pub(super) values: &'a mut [S],
-    pub(super) right: &'a mut [[S; 1]],
+    pub(super) step: f64,
+    pub(super) site: &'a StageSite<K, D>,
+    pub(super) local: &'a mut LocalStages,
+    pub(super) forces: &'a mut StageForces<K, D>,
+    pub(super) values: &'a mut [f64],
+    pub(super) right: &'a mut [[f64; 1]],
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Target<'_, K, D> {
     /// Adds the forces of a point at all stages with their derivatives for constant directions, and the effect of heat
     /// from other elements on them.
-    pub(super) fn add_forces<M: Material<S>, C: Source<S, M, K, D>>(
+    pub(super) fn add_forces<M: Material, C: Source<M, K, D>>(
         &mut self,
         source: &C,
         bases: &C::Bases,
     ) {
         let (rule, contacts) = (self.rule, &source.point().contacts);
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let nowhere = Arms::<K, D>::filled([0.0; D]);
         // The derivatives of the forces at each stage with respect to the heat at each stage.
         let mut by_heat = [[nowhere; MOST_STAGES]; MOST_STAGES];
         for (stage, by_heat) in by_heat.iter_mut().enumerate().take(rule.stages()) {
@@ -88,7 +85,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
                 if contacts.is_some() {
                     let heats = &self.local.row[1 + rule.sets() * C::FORCES..];
                     for (sum, &by) in by_heat.iter_mut().zip(heats) {
-                        add_scaled::<K, S, D>(sum, by, along);
+                        add_scaled::<K, D>(sum, by, along);
                     }
                 }
             }
@@ -100,7 +97,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
             let mut impulses = [nowhere; MOST_STAGES];
             for (&weight, by_heat) in weights.iter().zip(&by_heat) {
                 for (sum, by) in impulses.iter_mut().zip(by_heat) {
-                    add_scaled::<K, S, D>(sum, self.step * S::from_f64(weight), by);
+                    add_scaled::<K, D>(sum, self.step * weight, by);
                 }
             }
             self.add_heat(set, &contacts[set], &impulses);
@@ -112,26 +109,26 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
     fn add_heat(
         &mut self,
         set: usize,
-        contacts: &[Contact<K, S, D>],
-        impulses: &[Arms<K, S, D>; MOST_STAGES],
+        contacts: &[Contact<K, D>],
+        impulses: &[Arms<K, D>; MOST_STAGES],
     ) {
         let (rule, site) = (self.rule, &self.site.sets[set][set]);
         for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
-            let mut by_interface = Arms::<K, S, D>::filled([S::zero(); D]);
+            let mut by_interface = Arms::<K, D>::filled([0.0; D]);
             for (stage, impulse) in impulses.iter().enumerate().take(rule.stages()) {
-                let share = S::from_f64(rule.share(stage, column));
-                add_scaled::<K, S, D>(&mut by_interface, share, impulse);
+                let share = rule.share(stage, column);
+                add_scaled::<K, D>(&mut by_interface, share, impulse);
             }
             contact.add_pull(site, &by_interface, self.values);
         }
     }
 
     /// Adds the equations `Θ − θ = 0` of the coupled interface temperatures of a point.
-    pub(super) fn add_temperatures<M: Material<S>, C: Source<S, M, K, D>>(
+    pub(super) fn add_temperatures<M: Material, C: Source<M, K, D>>(
         &mut self,
         source: &C,
         bases: &C::Bases,
-        (slot, trial): (usize, &Trial<S, D>),
+        (slot, trial): (usize, &Trial<D>),
     ) {
         let rule = self.rule;
         let contacts = source.point().contacts.iter().flatten();
@@ -142,14 +139,14 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
             let own = &contacts[set];
             let interface = trial.interface.values()[trial.interface_of_set(set, slot)];
             self.right[own.unknown as usize][0] += theta - interface;
-            self.values[own.diagonal as usize] += S::one();
+            self.values[own.diagonal as usize] += 1.0;
             for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
                 let site = &self.site.sets[set][column];
                 site.subtract_arms(&by_arms[column], &contact.row, self.values);
                 // ∂θ/∂Θ of the set of the column
                 let by = by_heat.iter().enumerate();
-                let by = by.fold(S::zero(), |sum, (stage, &by)| {
-                    sum + S::from_f64(rule.share(stage, column)) * by
+                let by = by.fold(0.0, |sum, (stage, &by)| {
+                    sum + rule.share(stage, column) * by
                 });
                 self.values[contact.diagonal as usize] += by * contact.conductance();
                 for partner in &contact.partners {
@@ -163,18 +160,18 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
     pub(super) fn add_impulses(self) {
         for (set, weights) in self.rule.positions.iter().enumerate() {
             let own = &self.site.sets[set][set];
-            let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
+            let mut pull = Arms::<K, D>::filled([0.0; D]);
             for (&weight, stage) in weights.iter().zip(&self.forces.pulls) {
-                add_scaled::<K, S, D>(&mut pull, self.step * S::from_f64(weight), stage);
+                add_scaled::<K, D>(&mut pull, self.step * weight, stage);
             }
             own.subtract_arms(&pull, &own.rows, self.right.as_flattened_mut());
             let sites = self.site.sets[set].iter().take(self.rule.sets());
             for (column, site) in sites.enumerate() {
                 for i in 0..K::PerArm::<()>::LEN {
                     for j in 0..K::PerArm::<()>::LEN {
-                        let mut block = [[S::zero(); D]; D];
+                        let mut block = [[0.0; D]; D];
                         for (&weight, stage) in weights.iter().zip(&self.forces.blocks) {
-                            let impulse = self.step * S::from_f64(weight);
+                            let impulse = self.step * weight;
                             let entries = stage[column][i][j].as_flattened();
                             for (sum, &entry) in block.as_flattened_mut().iter_mut().zip(entries) {
                                 *sum += impulse * entry;

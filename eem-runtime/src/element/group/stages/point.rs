@@ -24,85 +24,84 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
 use eem_material::free_energy::Array;
-use eem_material::number::scalar::Real;
 
 /// The same element in a state, apart from any step.
-pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, PointRule, D>;
+pub(super) type StateMember<M, K, const D: usize> = Member<M, K, PointRule, D>;
 
 /// One of its points.
-pub(super) type StatePoint<S, M, K, const D: usize> = Point<S, M, K, PointRule, D>;
+pub(super) type StatePoint<M, K, const D: usize> = Point<M, K, PointRule, D>;
 
 /// An element, whose points are [sources](super::source::Source) of conjugates.
-pub(crate) struct StageMember<K: Kinematics<S, D>, S: Real, C, const D: usize> {
-    pub(super) site: StageSite<K, S, D>,
+pub(crate) struct StageMember<K: Kinematics<D>, C, const D: usize> {
+    pub(super) site: StageSite<K, D>,
     /// On the heap: cells with many points are large.
     pub(super) points: Vec<C>,
 }
 
 /// A point of an element, apart from its conjugates.
-pub(crate) struct StagePoint<K: Kinematics<S, D>, S: Real, const D: usize> {
+pub(crate) struct StagePoint<K: Kinematics<D>, const D: usize> {
     pub(super) rule: &'static Tableau,
     pub(super) kinematics: K,
     /// The matrix indices of its coupled interface temperatures, if it conducts heat to other elements.
-    pub(super) contacts: Option<PerPair<Contact<K, S, D>>>,
+    pub(super) contacts: Option<PerPair<Contact<K, D>>>,
     /// s⁰, J/K; zero without temperature.
-    pub(super) entropy: S,
+    pub(super) entropy: f64,
     /// The temperatures of a thermostat at the stages, or at the supports of the path, K.
-    pub(super) prescribed: Option<[S; MOST_STAGES]>,
+    pub(super) prescribed: Option<[f64; MOST_STAGES]>,
     /// The unit of viscous stretches.
-    pub(super) viscous_unit: S,
+    pub(super) viscous_unit: f64,
     /// The solved local system, see [`LocalStages`].
-    pub(super) solved: Vec<S>,
+    pub(super) solved: Vec<f64>,
 }
 
 /// The arms of an element at a trial, m.
-pub(crate) struct StageArms<K: Kinematics<S, D>, S: Real, const D: usize> {
-    pub(super) old: Arms<K, S, D>,
+pub(crate) struct StageArms<K: Kinematics<D>, const D: usize> {
+    pub(super) old: Arms<K, D>,
     /// Their changes at the stage of each set of unknowns.
-    pub(super) changes: [Arms<K, S, D>; MOST_SETS],
+    pub(super) changes: [Arms<K, D>; MOST_SETS],
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> StageArms<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> StageArms<K, D> {
     /// The arms of the element with these nodes.
     pub(super) fn new(
         rule: &Tableau,
         nodes: &K::PerNode<u32>,
-        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
+        (view, trial): (&StepView<'_>, &Trial<D>),
     ) -> Self {
-        let mut changes = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+        let mut changes = [Arms::<K, D>::filled([0.0; D]); MOST_SETS];
         for (set, change) in changes.iter_mut().enumerate().take(rule.sets()) {
-            *change = change_in_set::<K, S, D>(nodes, trial, set);
+            *change = change_in_set::<K, D>(nodes, trial, set);
         }
-        let old = arms_in::<K, S, D>(nodes, &view.state.positions);
+        let old = arms_in::<K, D>(nodes, &view.state.positions);
         Self { old, changes }
     }
 
     /// The arms at the stage of a set of unknowns.
-    pub(super) fn of_set(&self, set: usize) -> Arms<K, S, D> {
+    pub(super) fn of_set(&self, set: usize) -> Arms<K, D> {
         let mut r = self.changes[set];
-        add_scaled::<K, S, D>(&mut r, S::one(), &self.old);
+        add_scaled::<K, D>(&mut r, 1.0, &self.old);
         r
     }
 }
 
 /// Workspace for the local systems of one group.
 #[derive(Clone, Debug)]
-pub(crate) struct LocalStages<S> {
+pub(crate) struct LocalStages {
     /// `∂r/∂u`, row-major.
-    pub(super) matrix: Vec<S>,
+    pub(super) matrix: Vec<f64>,
     pivots: Vec<usize>,
     /// The derivatives of one quantity with respect to the local unknowns.
-    pub(super) by_unknown: Vec<S>,
+    pub(super) by_unknown: Vec<f64>,
     /// Its change at constant inputs, zero before the elimination of the local unknowns, then its derivatives with respect
     /// to the inputs.
-    pub(super) row: Vec<S>,
+    pub(super) row: Vec<f64>,
     /// Changes of the inputs.
-    pub(super) inputs: Vec<S>,
+    pub(super) inputs: Vec<f64>,
 }
 
-impl<S: Real> LocalStages<S> {
+impl LocalStages {
     pub(super) fn new(unknowns: usize, inputs: usize) -> Self {
-        let zeros = |length: usize| vec![S::zero(); length];
+        let zeros = |length: usize| vec![0.0; length];
         Self {
             matrix: zeros(unknowns * unknowns),
             pivots: vec![0; unknowns],
@@ -119,12 +118,12 @@ impl<S: Real> LocalStages<S> {
 
     /// Starts another quantity.
     pub(super) fn clear_row(&mut self) {
-        self.by_unknown.fill(S::zero());
-        self.row.fill(S::zero());
+        self.by_unknown.fill(0.0);
+        self.row.fill(0.0);
     }
 
     /// The change of a local unknown that follows from the solved local system and the changes of the inputs.
-    pub(super) fn change(&self, solved: &[S], unknown: usize) -> S {
+    pub(super) fn change(&self, solved: &[f64], unknown: usize) -> f64 {
         let columns = solved[self.unknowns()..].chunks_exact(self.unknowns());
         let terms = columns.zip(&self.inputs);
         terms.fold(-solved[unknown], |change, (column, &input)| {
@@ -133,9 +132,9 @@ impl<S: Real> LocalStages<S> {
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> StagePoint<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> StagePoint<K, D> {
     /// Adds a multiple of the quantity in the row to an equation.
-    pub(super) fn add_row(&mut self, local: &mut LocalStages<S>, equation: usize, factor: S) {
+    pub(super) fn add_row(&mut self, local: &mut LocalStages, equation: usize, factor: f64) {
         let unknowns = local.unknowns();
         let columns = self.solved.chunks_exact_mut(unknowns).zip(&local.row);
         for (column, &entry) in columns.skip(1) {
@@ -148,32 +147,32 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StagePoint<K, S, D> {
     }
 
     /// Solves the local equations.
-    pub(super) fn solve(&mut self, local: &mut LocalStages<S>) -> Result<(), Singular> {
+    pub(super) fn solve(&mut self, local: &mut LocalStages) -> Result<(), Singular> {
         lu::factor(&mut local.matrix, &mut local.pivots)?;
         for column in self.solved.chunks_exact_mut(local.unknowns()) {
-            lu::solve::<S, 1>(&local.matrix, &local.pivots, column.as_chunks_mut().0);
+            lu::solve::<1>(&local.matrix, &local.pivots, column.as_chunks_mut().0);
         }
         Ok(())
     }
 
     /// Eliminates the local unknowns from the quantity in the row.
-    pub(super) fn eliminate(&self, local: &mut LocalStages<S>) {
+    pub(super) fn eliminate(&self, local: &mut LocalStages) {
         if local.by_unknown.is_empty() {
             return;
         }
         let solved = self.solved.chunks_exact(local.by_unknown.len());
         for (entry, solved) in local.row.iter_mut().zip(solved) {
             let pairs = local.by_unknown.iter().zip(solved);
-            *entry -= pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+            *entry -= pairs.fold(0.0, |sum, (&a, &b)| sum + a * b);
         }
     }
 
     /// The change of Q at a stage that follows from a global solution, W.
-    pub(super) fn heat_change(&self, stage: usize, solution: &[[S; 1]]) -> S {
-        let mut change = S::zero();
+    pub(super) fn heat_change(&self, stage: usize, solution: &[[f64; 1]]) -> f64 {
+        let mut change = 0.0;
         let contacts = self.contacts.iter().flatten().enumerate();
         for (set, contacts) in contacts.take(self.rule.sets()) {
-            let share = S::from_f64(self.rule.share(stage, set));
+            let share = self.rule.share(stage, set);
             let near = solution[contacts[set].unknown as usize][0];
             for partner in &contacts[set].partners {
                 let far = solution[partner.unknown as usize][0];
@@ -185,13 +184,13 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StagePoint<K, S, D> {
 }
 
 /// Q at a stage of the element with a thermal slot, W.
-pub(super) fn heat_received<S: Real, const D: usize>(
+pub(super) fn heat_received<const D: usize>(
     rule: &Tableau,
     stage: usize,
     slot: usize,
-    (view, trial): (&StepView<'_, S>, &Trial<S, D>),
-) -> S {
-    let mut heat = S::zero();
+    (view, trial): (&StepView<'_>, &Trial<D>),
+) -> f64 {
+    let mut heat = 0.0;
     for link in view.conduction.links(slot) {
         let Partner::Slot(partner) = link.partner else {
             continue;
@@ -199,7 +198,7 @@ pub(super) fn heat_received<S: Real, const D: usize>(
         let mut drop = excess(rule, stage, partner, view) - excess(rule, stage, slot, view);
         for (set, &share) in rule.temperatures[stage].iter().enumerate() {
             let [near, far] = [slot, partner].map(|slot| trial.interface_of_set(set, slot));
-            drop += S::from_f64(share) * trial.interface.drop(near, far);
+            drop += share * trial.interface.drop(near, far);
         }
         heat += link.conductance * drop;
     }
@@ -207,20 +206,20 @@ pub(super) fn heat_received<S: Real, const D: usize>(
 }
 
 /// The difference of a prescribed temperature at a stage and the combination of interface temperatures there, K.
-fn excess<S: Real>(rule: &Tableau, stage: usize, slot: usize, view: &StepView<'_, S>) -> S {
+fn excess(rule: &Tableau, stage: usize, slot: usize, view: &StepView<'_>) -> f64 {
     let Some(prescribed) = view.prescribed_at_stages(slot) else {
-        return S::zero();
+        return 0.0;
     };
     let shares = rule.temperatures[stage].iter().zip(rule.entropies);
     shares.fold(prescribed[stage], |rest, (&share, balance)| {
-        rest - S::from_f64(share) * prescribed[balance.unknown]
+        rest - share * prescribed[balance.unknown]
     })
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     /// `Σ κ`, W/K.
-    pub(super) fn conductance(&self) -> S {
+    pub(super) fn conductance(&self) -> f64 {
         let partners = self.partners.iter();
-        partners.fold(S::zero(), |sum, partner| sum + partner.conductance)
+        partners.fold(0.0, |sum, partner| sum + partner.conductance)
     }
 }

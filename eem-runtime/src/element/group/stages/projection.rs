@@ -36,70 +36,68 @@ use crate::element::state::State;
 use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES};
 use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 use vector::{Matrix, Vector, derivatives, steepness};
 
 /// A point with its path through a step, and the projections from it.
-pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
-    point: StagePoint<K, S, D>,
+pub(crate) struct Projections<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> {
+    point: StagePoint<K, D>,
     /// `y⁰ = (C, γ…, s)`, and the data of `(π, γ, θ)⁰` for the discrete derivatives.
-    old: Vector<S, M, K, D>,
+    old: Vector<M, K, D>,
     old_form: M::TemperatureFormOld,
     /// The units of the increments of γ and s: that of viscous stretches, the old heat capacity.
-    units: Vector<S, M, K, D>,
+    units: Vector<M, K, D>,
     /// The diagonal of W.
-    metric: Vector<S, M, K, D>,
+    metric: Vector<M, K, D>,
     /// R: the increments h ẏ at the stages.
-    rates: [Vector<S, M, K, D>; MOST_STAGES],
+    rates: [Vector<M, K, D>; MOST_STAGES],
     /// R before the last correction, and the correction, both without C.
-    previous: [Vector<S, M, K, D>; MOST_STAGES],
-    correction: [Vector<S, M, K, D>; MOST_STAGES],
+    previous: [Vector<M, K, D>; MOST_STAGES],
+    correction: [Vector<M, K, D>; MOST_STAGES],
     /// The temperatures of the points of the path, and that of its end, K.
-    temperatures: [S; MOST_POINTS + 1],
+    temperatures: [f64; MOST_POINTS + 1],
     /// y¹, and `∇ê` and the magnitudes of the terms of C at both ends.
-    end: Vector<S, M, K, D>,
-    end_slopes: [Vector<S, M, K, D>; 2],
-    end_sizes: [PerStrain<K, S, D>; 2],
+    end: Vector<M, K, D>,
+    end_slopes: [Vector<M, K, D>; 2],
+    end_sizes: [PerStrain<K, D>; 2],
     /// a.
-    conjugates: [Vector<S, M, K, D>; MOST_STAGES],
+    conjugates: [Vector<M, K, D>; MOST_STAGES],
     /// `∂a_i/∂R_j`.
-    by_rates: Box<PerPair<Matrix<S, M, K, D>>>,
+    by_rates: Box<PerPair<Matrix<M, K, D>>>,
     /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, the conditioning error of the conjugates.
-    conditioning: [Vector<S, M, K, D>; MOST_STAGES],
+    conditioning: [Vector<M, K, D>; MOST_STAGES],
     /// `|∂²ψ/∂γ_k²|` in the old state, N/m.
     stiffness: M::Viscosities,
     /// `η_k` and `dη_k/dθ` at `Θ_i`.
     viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
     /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives with respect to the temperature
     /// and, at constant temperature, to the increments of C.
-    viscous_heat: [S; MOST_STAGES],
-    heat_by_theta: [S; MOST_STAGES],
-    heat_by_strain: PerPair<PerStrain<K, S, D>>,
+    viscous_heat: [f64; MOST_STAGES],
+    heat_by_theta: [f64; MOST_STAGES],
+    heat_by_strain: PerPair<PerStrain<K, D>>,
     /// Heat from other elements at the stages, W.
-    received: [S; MOST_STAGES],
+    received: [f64; MOST_STAGES],
     /// `d_i` and `h ḋ_i`, m.
-    arms: [Arms<K, S, D>; MOST_STAGES],
-    motions: [Arms<K, S, D>; MOST_STAGES],
+    arms: [Arms<K, D>; MOST_STAGES],
+    motions: [Arms<K, D>; MOST_STAGES],
 }
 
 /// The directions of the components of the strain at the stages: `∂C_q/∂d_i`, and the same for `h ḋ_i`.
-pub(crate) struct Directions<K: QuadraticStrain<S, D>, S: Real, const D: usize> {
-    along: [K::PerStrain<Arms<K, S, D>>; MOST_STAGES],
-    turning: [K::PerStrain<Arms<K, S, D>>; MOST_STAGES],
+pub(crate) struct Directions<K: QuadraticStrain<D>, const D: usize> {
+    along: [K::PerStrain<Arms<K, D>>; MOST_STAGES],
+    turning: [K::PerStrain<Arms<K, D>>; MOST_STAGES],
 }
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S, M, K, D>
-    for Projections<S, M, K, D>
-{
-    const FORCES: usize = Vector::<S, M, K, D>::STRAINS;
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Projections<M, K, D> {
+    const FORCES: usize = Vector::<M, K, D>::STRAINS;
 
-    type Bases = Directions<K, S, D>;
+    type Bases = Directions<K, D>;
 
-    fn new(point: StagePoint<K, S, D>) -> Self {
-        let (none, zeros) = (S::zero(), Vector::zero());
+    fn new(point: StagePoint<K, D>) -> Self {
+        let (none, zeros) = (0.0, Vector::zero());
         let viscosities = M::Viscosities::filled(none);
-        let strain = PerStrain::<K, S, D>::filled(none);
-        let nowhere = Arms::<K, S, D>::filled([none; D]);
+        let strain = PerStrain::<K, D>::filled(none);
+        let nowhere = Arms::<K, D>::filled([none; D]);
         Self {
             point,
             old: zeros,
@@ -127,15 +125,15 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         }
     }
 
-    fn point(&self) -> &StagePoint<K, S, D> {
+    fn point(&self) -> &StagePoint<K, D> {
         &self.point
     }
 
-    fn point_mut(&mut self) -> &mut StagePoint<K, S, D> {
+    fn point_mut(&mut self) -> &mut StagePoint<K, D> {
         &mut self.point
     }
 
-    fn begin(&mut self, in_state: &StatePoint<S, M, K, D>, x0: &M::Variables, r0: &Arms<K, S, D>) {
+    fn begin(&mut self, in_state: &StatePoint<M, K, D>, x0: &M::Variables, r0: &Arms<K, D>) {
         let (kinematics, last) = (&self.point.kinematics, M::Variables::LEN - 1);
         let (gradient, hessian) = in_state.model.hessian(x0);
         self.old_form = in_state.model.temperature_form_old(x0);
@@ -160,10 +158,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         for index in strains.end..components.start {
             let unit = self.point.viscous_unit;
             self.units[index] = unit;
-            self.metric[index] = steepness(derivatives, index..index + 1, |_| S::one(), unit);
+            self.metric[index] = steepness(derivatives, index..index + 1, |_| 1.0, unit);
         }
         // Components of a tensor count alike, whatever the axes are.
-        let of_components = steepness(derivatives, components.clone(), |_| S::one(), S::one());
+        let of_components = steepness(derivatives, components.clone(), |_| 1.0, 1.0);
         for index in components {
             self.units[index] = self.point.viscous_unit;
             self.metric[index] = of_components;
@@ -180,9 +178,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
 
     fn evaluate(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
-        arms: &StageArms<K, S, D>,
+        in_state: &mut StatePoint<M, K, D>,
+        (view, trial): (&StepView<'_>, &Trial<D>),
+        arms: &StageArms<K, D>,
     ) -> Result<(), StateError> {
         if let Some(slot) = in_state.slots().thermal {
             let rule = self.point.rule;
@@ -201,9 +199,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
     // All in J; the unknowns are in their units.
     fn write_equations(
         &mut self,
-        in_state: &StatePoint<S, M, K, D>,
-        local: &mut LocalStages<S>,
-        view: &StepView<'_, S>,
+        in_state: &StatePoint<M, K, D>,
+        local: &mut LocalStages,
+        view: &StepView<'_>,
     ) -> Result<(), StateError> {
         let stages = 0..self.point.rule.stages();
         for stage in stages.clone() {
@@ -226,20 +224,20 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         Ok(())
     }
 
-    fn force(&self, local: &mut LocalStages<S>, [stage, component]: [usize; 2]) -> S {
+    fn force(&self, local: &mut LocalStages, [stage, component]: [usize; 2]) -> f64 {
         self.differentiate(local, [stage, component]);
         self.point.eliminate(local);
         self.conjugates[stage][component]
     }
 
-    fn bases(&self) -> Directions<K, S, D> {
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+    fn bases(&self) -> Directions<K, D> {
+        let nowhere = Arms::<K, D>::filled([0.0; D]);
         let none = [K::PerStrain::filled(nowhere); MOST_STAGES];
         let (mut along, mut turning) = (none, none);
         for stage in 0..self.point.rule.stages() {
             for component in 0..Self::FORCES {
-                let mut unit = PerStrain::<K, S, D>::filled(S::zero());
-                unit[component] = S::one();
+                let mut unit = PerStrain::<K, D>::filled(0.0);
+                unit[component] = 1.0;
                 let force = |arms| self.point.kinematics.strain_force(arms, &unit);
                 along[stage][component] = force(&self.arms[stage]);
                 turning[stage][component] = force(&self.motions[stage]);
@@ -250,14 +248,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
 
     fn direction<'a>(
         &'a self,
-        bases: &'a Directions<K, S, D>,
+        bases: &'a Directions<K, D>,
         [stage, component]: [usize; 2],
-    ) -> &'a Arms<K, S, D> {
+    ) -> &'a Arms<K, D> {
         &bases.along[stage].as_ref()[component]
     }
 
-    fn geometric_stiffness(&self, set: usize, _: &StageArms<K, S, D>) -> Blocks<K, S, D> {
-        let mut blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
+    fn geometric_stiffness(&self, set: usize, _: &StageArms<K, D>) -> Blocks<K, D> {
+        let mut blocks = Blocks::<K, D>::filled(K::PerArm::filled([[0.0; D]; D]));
         let stress = &self.conjugates[set].strain;
         let weights = self.point.kinematics.strain_stiffness(stress);
         for (row, weights) in blocks.as_mut().iter_mut().zip(weights.as_ref()) {
@@ -270,40 +268,36 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         blocks
     }
 
-    fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S {
+    fn temperature(&self, local: &mut LocalStages, set: usize) -> f64 {
         self.differentiate(local, [set, Self::ENTROPY]);
         self.point.eliminate(local);
         self.mean_temperature(set)
     }
 
     // ∂(hĊ_i)/∂d_j = δ_ij ∂²C/∂d² h ḋ_i + motion_ij ∂C/∂d_i
-    fn by_arms(
-        &self,
-        bases: &Directions<K, S, D>,
-        local: &LocalStages<S>,
-    ) -> [Arms<K, S, D>; MOST_SETS] {
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+    fn by_arms(&self, bases: &Directions<K, D>, local: &LocalStages) -> [Arms<K, D>; MOST_SETS] {
+        let nowhere = Arms::<K, D>::filled([0.0; D]);
         let mut by_arms = [nowhere; MOST_SETS];
         for (stage, row) in self.point.rule.motion.iter().enumerate() {
             let mut along = nowhere;
             let rows = bases.along[stage].as_ref().iter();
             let rows = rows.zip(bases.turning[stage].as_ref());
             for ((own, turning), &by) in rows.zip(&local.row[1 + stage * Self::FORCES..]) {
-                add_scaled::<K, S, D>(&mut along, by, own);
-                add_scaled::<K, S, D>(&mut by_arms[stage], by, turning);
+                add_scaled::<K, D>(&mut along, by, own);
+                add_scaled::<K, D>(&mut by_arms[stage], by, turning);
             }
             for (sum, &share) in by_arms.iter_mut().zip(*row) {
-                add_scaled::<K, S, D>(sum, S::from_f64(share), &along);
+                add_scaled::<K, D>(sum, share, &along);
             }
         }
         by_arms
     }
 
-    fn inputs(&self, motions: &[Arms<K, S, D>; MOST_SETS], inputs: &mut [S]) {
+    fn inputs(&self, motions: &[Arms<K, D>; MOST_SETS], inputs: &mut [f64]) {
         let kinematics = &self.point.kinematics;
         for (stage, row) in self.point.rule.motion.iter().enumerate() {
             let turned = kinematics.strain_rate(&self.motions[stage], &motions[stage]);
-            let change = combined::<K, S, D>(row, motions);
+            let change = combined::<K, D>(row, motions);
             let moved = kinematics.strain_rate(&self.arms[stage], &change);
             for q in 0..Self::FORCES {
                 inputs[stage * Self::FORCES + q] = turned[q] + moved[q];
@@ -316,9 +310,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         self.correction = [Vector::zero(); MOST_STAGES];
     }
 
-    fn correct(&mut self, local: &LocalStages<S>) -> S {
+    fn correct(&mut self, local: &LocalStages) -> f64 {
         let entropies = self.point.rule.sets() * M::DASHPOTS;
-        let mut largest = S::zero();
+        let mut largest = 0.0;
         for unknown in 0..local.unknowns() {
             let change = local.change(&self.point.solved, unknown);
             let (stage, index) = if unknown < entropies {
@@ -327,12 +321,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
                 (unknown - entropies, Self::ENTROPY)
             };
             self.correction[stage][index] = self.units[index] * change;
-            largest = largest.maximum(change.abs());
+            largest = Scalar::maximum(largest, change.abs());
         }
         largest
     }
 
-    fn apply(&mut self, fraction: S) {
+    fn apply(&mut self, fraction: f64) {
         for stage in 0..self.point.rule.stages() {
             for index in Self::FORCES..Self::LEN {
                 let change = fraction * self.correction[stage][index];
@@ -341,30 +335,30 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         }
     }
 
-    fn nodal_force(&self, stage: usize, _: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
+    fn nodal_force(&self, stage: usize, _: &StageArms<K, D>) -> K::PerNode<[f64; D]> {
         let (kinematics, stress) = (&self.point.kinematics, &self.conjugates[stage].strain);
-        spread::<K, S, D>(&kinematics.strain_force(&self.arms[stage], stress))
+        spread::<K, D>(&kinematics.strain_force(&self.arms[stage], stress))
     }
 
-    fn impulse_size(&mut self, in_state: &StatePoint<S, M, K, D>, step: S) -> S {
+    fn impulse_size(&mut self, in_state: &StatePoint<M, K, D>, step: f64) -> f64 {
         self.add_conditioning_of_path(in_state);
         let known =
             |stage: usize, q: usize| self.conjugates[stage][q].abs() + self.conditioning[stage][q];
         let stages = 0..self.point.rule.stages();
         let forces = stages.map(|stage| self.force_size(&self.arms[stage], |q| known(stage, q)));
-        step * forces.fold(S::zero(), S::maximum)
+        step * forces.fold(0.0, Scalar::maximum)
     }
 
-    fn work_along(&self, ways: &StageWays<S>, new_arms: &Arms<K, S, D>) -> S {
+    fn work_along(&self, ways: &StageWays, new_arms: &Arms<K, D>) -> f64 {
         self.work_of_rounding(ways, new_arms)
     }
 
     fn close(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        (view, trial, r1): (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
+        in_state: &mut StatePoint<M, K, D>,
+        (view, trial, r1): (&StepView<'_>, &Trial<D>, &Arms<K, D>),
+        next: &mut State,
+        tally: &mut Tally,
     ) -> Result<(), StateError> {
         let booked = self.book(in_state, (view, trial), next, tally);
         let near = self.temperatures[MOST_POINTS];
@@ -380,51 +374,51 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
 
     fn reevaluate(
         &self,
-        in_state: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<M, K, D>,
         nodes: &K::PerNode<u32>,
-        ends: [&State<S>; 2],
-        reevaluation: &mut Reevaluation<S>,
+        ends: [&State; 2],
+        reevaluation: &mut Reevaluation,
     ) {
         let own = in_state.balance_between(nodes, ends);
-        let mut found = S::zero();
+        let mut found = 0.0;
         for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
             let terms = self.conjugates[stage].entries();
             let work = terms.zip(self.rates[stage].entries());
-            let work = work.fold(S::zero(), |sum, (a, rate)| sum + a * rate);
-            found += S::from_f64(weight) * (work - self.viscous_heat[stage]);
+            let work = work.fold(0.0, |sum, (a, rate)| sum + a * rate);
+            found += weight * (work - self.viscous_heat[stage]);
         }
         reevaluation.element(in_state.element, own.by_values, own.by_differences, found);
     }
 }
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Number of variables y, of components of the strain among them, and the index of the entropy.
-    const LEN: usize = Vector::<S, M, K, D>::LEN;
-    const STRAINS: usize = Vector::<S, M, K, D>::STRAINS;
-    const ENTROPY: usize = Vector::<S, M, K, D>::ENTROPY;
+    const LEN: usize = Vector::<M, K, D>::LEN;
+    const STRAINS: usize = Vector::<M, K, D>::STRAINS;
+    const ENTROPY: usize = Vector::<M, K, D>::ENTROPY;
 
     /// Θ of a stage, K; zero without temperature.
-    fn mean_temperature(&self, stage: usize) -> S {
+    fn mean_temperature(&self, stage: usize) -> f64 {
         if M::THERMAL {
             self.conjugates[stage][Self::ENTROPY]
         } else {
-            S::zero()
+            0.0
         }
     }
 
     /// `Σ_j shares_j R_j`.
-    fn increments(&self, shares: &[f64]) -> Vector<S, M, K, D> {
+    fn increments(&self, shares: &[f64]) -> Vector<M, K, D> {
         let mut sum = Vector::zero();
         for (rates, &share) in self.rates.iter().zip(shares) {
             for index in 0..Self::LEN {
-                sum[index] += S::from_f64(share) * rates[index];
+                sum[index] += share * rates[index];
             }
         }
         sum
     }
 
     /// `y = (C, γ, s)` at the point of the path after these fractions of the increments.
-    fn path_at(&self, shares: &[f64]) -> Vector<S, M, K, D> {
+    fn path_at(&self, shares: &[f64]) -> Vector<M, K, D> {
         let mut y = self.increments(shares);
         for index in 0..Self::LEN {
             y[index] += self.old[index];
@@ -434,13 +428,13 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 }
 
 /// `Σ_j shares_j arms_j`.
-fn combined<K: QuadraticStrain<S, D>, S: Real, const D: usize>(
+fn combined<K: QuadraticStrain<D>, const D: usize>(
     shares: &[f64],
-    arms: &[Arms<K, S, D>],
-) -> Arms<K, S, D> {
-    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    arms: &[Arms<K, D>],
+) -> Arms<K, D> {
+    let mut sum = Arms::<K, D>::filled([0.0; D]);
     for (arms, &share) in arms.iter().zip(shares) {
-        add_scaled::<K, S, D>(&mut sum, S::from_f64(share), arms);
+        add_scaled::<K, D>(&mut sum, share, arms);
     }
     sum
 }

@@ -13,22 +13,21 @@ use crate::element::kinematics::{Arms, Kinematics, Weights};
 use crate::element::tableau::{MOST_SETS, Tableau};
 use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::Real;
 
 /// A value for every pair of sets of unknowns: that of the rows, then that of the columns.
 pub(super) type PerPair<T> = [[T; MOST_SETS]; MOST_SETS];
 
 /// The matrix indices of one element.
 #[derive(Clone, Debug)]
-pub(super) struct StageSite<K: Kinematics<S, D>, S: Real, const D: usize> {
-    pub(super) sets: PerPair<Site<K, S, D>>,
+pub(super) struct StageSite<K: Kinematics<D>, const D: usize> {
+    pub(super) sets: PerPair<Site<K, D>>,
     /// The entry of two nodes in the secant system.
     secant: K::PerNode<K::PerNode<u32>>,
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> StageSite<K, D> {
     /// The nodes, without indices.
-    pub(super) fn unconnected(site: Site<K, S, D>) -> Self {
+    pub(super) fn unconnected(site: Site<K, D>) -> Self {
         Self {
             sets: [[site; MOST_SETS]; MOST_SETS],
             secant: K::PerNode::filled(K::PerNode::filled(0)),
@@ -36,7 +35,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
     }
 
     /// The indices of an element with these nodes in the sets of a rule.
-    pub(super) fn new(rule: &Tableau, nodes: &K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
+    pub(super) fn new(rule: &Tableau, nodes: &K::PerNode<u32>, sites: &Sites<'_, D>) -> Self {
         let mass = |node: u32| sites.layout.nodes[node as usize].map(|first| first / D);
         let sets = pairs(|sets| Site::new(*nodes, &of_sets(rule, sites, sets)));
         let mut site = Self::unconnected(sets[0][0]);
@@ -49,15 +48,15 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
     }
 
     /// Nodes and rows of the first set.
-    pub(super) fn first(&self) -> &Site<K, S, D> {
+    pub(super) fn first(&self) -> &Site<K, D> {
         &self.sets[0][0]
     }
 
     /// Adds `factor A` of the nodal forces `A r` to the secant system, for the nodes that move.
     #[inline]
-    pub(super) fn add_secant(&self, weights: &Weights<K, S, D>, factor: S, values: &mut [S]) {
+    pub(super) fn add_secant(&self, weights: &Weights<K, D>, factor: f64, values: &mut [f64]) {
         let is_mass = &self.first().is_mass;
-        let mut add = |[i, j]: [usize; 2], entry: S| {
+        let mut add = |[i, j]: [usize; 2], entry: f64| {
             if is_mass[i] && is_mass[j] {
                 values[self.secant[i][j] as usize] += entry;
             }
@@ -74,12 +73,12 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
     }
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+impl<K: Kinematics<D>, const D: usize> Site<K, D> {
     /// Adds the motion of anchors, which is known, to arms.
     #[inline]
-    pub(super) fn add_anchors(&self, arms: &mut Arms<K, S, D>, moved: &[[S; D]]) {
+    pub(super) fn add_anchors(&self, arms: &mut Arms<K, D>, moved: &[[f64; D]]) {
         for (i, arm) in arms.as_mut().iter_mut().enumerate() {
-            for (node, sign) in [(i + 1, S::one()), (0, -S::one())] {
+            for (node, sign) in [(i + 1, 1.0), (0, -1.0)] {
                 if !self.is_mass[node] {
                     let moved = &moved[self.nodes[node] as usize];
                     for (arm, &moved) in arm.iter_mut().zip(moved) {
@@ -94,11 +93,11 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     #[inline]
     pub(super) fn subtract_known(
         &self,
-        weights: &Weights<K, S, D>,
-        (known, h): (&Arms<K, S, D>, S),
-        right: &mut [[S; D]],
+        weights: &Weights<K, D>,
+        (known, h): (&Arms<K, D>, f64),
+        right: &mut [[f64; D]],
     ) {
-        let force = pull_of_arms::<K, S, D>(weights, known);
+        let force = pull_of_arms::<K, D>(weights, known);
         for (i, force) in force.as_ref().iter().enumerate() {
             for (node, h) in [(i + 1, -h), (0, h)] {
                 if self.is_mass[node] {
@@ -113,12 +112,12 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 }
 
 /// The matrix indices of the interface temperature of a point, if it conducts heat to others.
-pub(super) fn contacts<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn contacts<K: Kinematics<D>, const D: usize>(
     rule: &Tableau,
     nodes: &K::PerNode<u32>,
     slot: Option<usize>,
-    sites: &Sites<'_, S, D>,
-) -> Option<PerPair<Contact<K, S, D>>> {
+    sites: &Sites<'_, D>,
+) -> Option<PerPair<Contact<K, D>>> {
     let contacts: PerPair<_> = pairs(|sets| Contact::new(nodes, slot, &of_sets(rule, sites, sets)));
     let is_coupled = contacts.iter().flatten().all(Option::is_some);
     let there = |contact: Option<_>| contact.unwrap_or_else(|| unreachable!("all of them are"));
@@ -126,11 +125,11 @@ pub(super) fn contacts<K: Kinematics<S, D>, S: Real, const D: usize>(
 }
 
 /// The rows of one set and the columns of another. A rule with fewer sets repeats its last one, which is never read.
-fn of_sets<'a, S: Real, const D: usize>(
+fn of_sets<'a, const D: usize>(
     rule: &Tableau,
-    sites: &Sites<'a, S, D>,
+    sites: &Sites<'a, D>,
     sets: [usize; 2],
-) -> Sites<'a, S, D> {
+) -> Sites<'a, D> {
     sites.of_sets(sets.map(|set| set.min(rule.sets() - 1)))
 }
 

@@ -9,14 +9,12 @@ use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
 /// A point of an element at the stages of a step: forces, temperatures and rates of the stages, with their derivatives.
-pub(crate) trait Source<S, M, K, const D: usize>: Sized + Send + Sync + 'static
+pub(crate) trait Source<M, K, const D: usize>: Sized + Send + Sync + 'static
 where
-    S: Real,
-    M: Material<S>,
-    K: Kinematics<S, D>,
+    M: Material,
+    K: Kinematics<D>,
 {
     /// Number of forces of a stage.
     const FORCES: usize;
@@ -34,44 +32,44 @@ where
         rule.sets() * Self::FORCES + rule.stages() * usize::from(M::THERMAL)
     }
 
-    fn new(point: StagePoint<K, S, D>) -> Self;
+    fn new(point: StagePoint<K, D>) -> Self;
 
-    fn point(&self) -> &StagePoint<K, S, D>;
+    fn point(&self) -> &StagePoint<K, D>;
 
-    fn point_mut(&mut self) -> &mut StagePoint<K, S, D>;
+    fn point_mut(&mut self) -> &mut StagePoint<K, D>;
 
     /// Starts the trial at the old variables `(π, γ, θ)⁰` and arms.
-    fn begin(&mut self, in_state: &StatePoint<S, M, K, D>, x0: &M::Variables, r0: &Arms<K, S, D>);
+    fn begin(&mut self, in_state: &StatePoint<M, K, D>, x0: &M::Variables, r0: &Arms<K, D>);
 
     /// Evaluates the model at a trial.
     fn evaluate(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        view_and_trial: (&StepView<'_, S>, &Trial<S, D>),
-        arms: &StageArms<K, S, D>,
+        in_state: &mut StatePoint<M, K, D>,
+        view_and_trial: (&StepView<'_>, &Trial<D>),
+        arms: &StageArms<K, D>,
     ) -> Result<(), StateError>;
 
     /// Writes the local equations at an evaluated trial: residuals and their derivatives with respect to
     /// local unknowns and inputs.
     fn write_equations(
         &mut self,
-        in_state: &StatePoint<S, M, K, D>,
-        local: &mut LocalStages<S>,
-        view: &StepView<'_, S>,
+        in_state: &StatePoint<M, K, D>,
+        local: &mut LocalStages,
+        view: &StepView<'_>,
     ) -> Result<(), StateError>;
 
     /// Eliminates the internal variables at an evaluated trial.
     fn condense(
         &mut self,
-        in_state: &StatePoint<S, M, K, D>,
-        local: &mut LocalStages<S>,
-        view: &StepView<'_, S>,
+        in_state: &StatePoint<M, K, D>,
+        local: &mut LocalStages,
+        view: &StepView<'_>,
     ) -> Result<(), StateError> {
         if local.unknowns() == 0 {
             return Ok(());
         }
-        local.matrix.fill(S::zero());
-        self.point_mut().solved.fill(S::zero());
+        local.matrix.fill(0.0);
+        self.point_mut().solved.fill(0.0);
         self.write_equations(in_state, local, view)?;
         // A finite local system is singular only where the model has no derivative.
         let solved = self.point_mut().solve(local);
@@ -84,7 +82,7 @@ where
 
     /// One of the forces of a stage; its derivatives, with the local unknowns eliminated, are written to the row of the
     /// workspace.
-    fn force(&self, local: &mut LocalStages<S>, stage_and_force: [usize; 2]) -> S;
+    fn force(&self, local: &mut LocalStages, stage_and_force: [usize; 2]) -> f64;
 
     /// See [`Bases`](Self::Bases), at an evaluated trial.
     fn bases(&self) -> Self::Bases;
@@ -94,65 +92,65 @@ where
         &'a self,
         bases: &'a Self::Bases,
         stage_and_force: [usize; 2],
-    ) -> &'a Arms<K, S, D>;
+    ) -> &'a Arms<K, D>;
 
     /// The forces at the stage of a set times the derivative of their directions with respect to the arms.
-    fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D>;
+    fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, D>) -> Blocks<K, D>;
 
     /// The temperature of a set, K; its derivatives are written like those of a [force](Self::force).
-    fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S;
+    fn temperature(&self, local: &mut LocalStages, set: usize) -> f64;
 
     /// The derivatives of the quantity in the row with respect to the arms of each set.
-    fn by_arms(&self, bases: &Self::Bases, local: &LocalStages<S>) -> [Arms<K, S, D>; MOST_SETS];
+    fn by_arms(&self, bases: &Self::Bases, local: &LocalStages) -> [Arms<K, D>; MOST_SETS];
 
     /// The changes of the inputs that belong to forces, for changes of the arms of each set.
-    fn inputs(&self, motions: &[Arms<K, S, D>; MOST_SETS], inputs: &mut [S]);
+    fn inputs(&self, motions: &[Arms<K, D>; MOST_SETS], inputs: &mut [f64]);
 
     /// Starts the next correction, of zero, from the present trial.
     fn hold(&mut self);
 
     /// Takes the correction from the solved local system; returns the largest in its unit.
-    fn correct(&mut self, local: &LocalStages<S>) -> S;
+    fn correct(&mut self, local: &LocalStages) -> f64;
 
     /// Applies a fraction of the correction.
-    fn apply(&mut self, fraction: S);
+    fn apply(&mut self, fraction: f64);
 
     /// The forces on the nodes at a stage, N.
-    fn nodal_force(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]>;
+    fn nodal_force(&self, stage: usize, arms: &StageArms<K, D>) -> K::PerNode<[f64; D]>;
 
     /// A of the nodal force `A q_i` at a stage, where stages are closed one after the other.
-    fn secant(&self, _stage: usize) -> Weights<K, S, D> {
-        Weights::<K, S, D>::filled(K::PerArm::filled(S::zero()))
+    fn secant(&self, _stage: usize) -> Weights<K, D> {
+        Weights::<K, D>::filled(K::PerArm::filled(0.0))
     }
 
     /// The magnitude of the terms of the impulses of the forces in a step, N s; zero if the scheme is not certified.
-    fn impulse_size(&mut self, _: &StatePoint<S, M, K, D>, _step: S) -> S {
-        S::zero()
+    fn impulse_size(&mut self, _: &StatePoint<M, K, D>, _step: f64) -> f64 {
+        0.0
     }
 
     /// The work of its forces along the ways of its nodes, whose new arms are given, J: times ε, what rounding of sums of
     /// forces and of the new positions does; zero if the scheme is not certified.
-    fn work_along(&self, _ways: &StageWays<S>, _new_arms: &Arms<K, S, D>) -> S {
-        S::zero()
+    fn work_along(&self, _ways: &StageWays, _new_arms: &Arms<K, D>) -> f64 {
+        0.0
     }
 
     /// Books the increments of the internal variables and of the reservoirs, and finds the temperature of the new state,
     /// whose arms are given.
     fn close(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        view_trial_and_new_arms: (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
+        in_state: &mut StatePoint<M, K, D>,
+        view_trial_and_new_arms: (&StepView<'_>, &Trial<D>, &Arms<K, D>),
+        next: &mut State,
+        tally: &mut Tally,
     ) -> Result<(), StateError>;
 
     /// Adds the energy balance of the point in the last step, given its nodes; only if the scheme is certified.
     fn reevaluate(
         &self,
-        _: &StatePoint<S, M, K, D>,
+        _: &StatePoint<M, K, D>,
         _: &K::PerNode<u32>,
-        _: [&State<S>; 2],
-        _: &mut Reevaluation<S>,
+        _: [&State; 2],
+        _: &mut Reevaluation,
     ) {
     }
 }

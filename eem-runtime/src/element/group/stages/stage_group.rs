@@ -25,31 +25,23 @@ use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::element::tally::{Care, Reevaluation, Tally};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// Elements of the model `M` with the kinematics `K`, with conjugates from the source `C`.
-pub(crate) struct StageGroup<
-    S: Real,
-    M: Material<S>,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
-    const D: usize,
-> {
+pub(crate) struct StageGroup<M: Material, K: Kinematics<D>, C: Source<M, K, D>, const D: usize> {
     pub(super) rule: &'static Tableau,
     /// The elements in a state.
-    pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
-    pub(super) members: Vec<StageMember<K, S, C, D>>,
-    pub(super) local: LocalStages<S>,
+    pub(super) elements: ElementGroup<M, K, PointRule, D>,
+    pub(super) members: Vec<StageMember<K, C, D>>,
+    pub(super) local: LocalStages,
     /// The forces of one element.
-    pub(super) forces: Box<StageForces<K, S, D>>,
+    pub(super) forces: Box<StageForces<K, D>>,
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
-    StageGroup<S, M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, C: Source<M, K, D>, const D: usize> StageGroup<M, K, C, D> {
     pub(crate) fn new(
         rule: &'static Tableau,
-        elements: LooseElements<S, M, K, D>,
+        elements: LooseElements<M, K, D>,
         placed: Placed<'_>,
     ) -> Self {
         let elements = ElementGroup::new(PointRule::Variational, elements, placed);
@@ -59,13 +51,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const 
                 rule,
                 kinematics,
                 contacts: None,
-                entropy: S::zero(),
+                entropy: 0.0,
                 prescribed: None,
-                viscous_unit: S::one(),
-                solved: vec![S::zero(); (1 + inputs) * unknowns],
+                viscous_unit: 1.0,
+                solved: vec![0.0; (1 + inputs) * unknowns],
             })
         };
-        let staged = |member: &StateMember<S, M, K, D>| StageMember {
+        let staged = |member: &StateMember<M, K, D>| StageMember {
             site: StageSite::unconnected(member.site),
             points: (member.points.as_ref().iter())
                 .map(|in_state| source(in_state.kinematics))
@@ -83,13 +75,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const 
     /// Eliminates the local unknowns at an evaluated trial, and adds residual and tangent.
     fn assemble(
         &mut self,
-        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
-        system: &mut LinearSystem<S, 1>,
+        (view, trial): (&StepView<'_>, &Trial<D>),
+        system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
         let rule = self.rule;
         let (values, right) = system.parts();
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            let arms = StageArms::<K, S, D>::new(rule, &member.site.nodes, (view, trial));
+            let arms = StageArms::<K, D>::new(rule, &member.site.nodes, (view, trial));
             self.forces.clear(rule);
             let mut target = Target {
                 rule,
@@ -106,7 +98,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const 
                 target.add_forces(source, &bases);
                 for set in 0..rule.sets() {
                     let blocks = &mut target.forces.blocks[rule.stage_of(set)][set];
-                    add_blocks::<K, S, D>(blocks, &source.geometric_stiffness(set, &arms));
+                    add_blocks::<K, D>(blocks, &source.geometric_stiffness(set, &arms));
                 }
                 if let Some(slot) = in_state.slots().thermal {
                     target.add_temperatures(source, &bases, (slot, trial));
@@ -122,22 +114,22 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const 
     }
 }
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, const D: usize>
-    Group<S, D> for StageGroup<S, M, K, C, D>
+impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Group<D>
+    for StageGroup<M, K, C, D>
 {
-    fn elements(&self) -> &dyn Elements<S, D> {
+    fn elements(&self) -> &dyn Elements<D> {
         &self.elements
     }
 
-    fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
+    fn elements_mut(&mut self) -> &mut dyn Elements<D> {
         &mut self.elements
     }
 
-    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>> {
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
         Box::new(self.elements.into_loose())
     }
 
-    fn connect(&mut self, sites: &Sites<'_, S, D>) {
+    fn connect(&mut self, sites: &Sites<'_, D>) {
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             let (rule, nodes) = (self.rule, &member.site.nodes);
             stages.site = StageSite::new(rule, nodes, sites);
@@ -148,21 +140,21 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         }
     }
 
-    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
+    fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             let nodes = &member.site.nodes;
-            let r0 = arms_in::<K, S, D>(nodes, &view.state.positions);
+            let r0 = arms_in::<K, D>(nodes, &view.state.positions);
             for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
                 let (slots, point) = (in_state.slots(), source.point_mut());
                 let measures = point.kinematics.measure(&r0);
                 let length = point.kinematics.length(&measures);
-                shorten::<K, S, D>(nodes, length, old.lengths);
+                shorten::<K, D>(nodes, length, old.lengths);
                 point.viscous_unit = point.kinematics.unit(&measures);
                 if let Some(slot) = slots.thermal {
                     point.entropy = view.state.entropies.values()[slot];
                     point.prescribed = view.prescribed_at_stages(slot);
                 }
-                let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
+                let x0 = variables::<M>(measures.as_ref(), slots, view.state);
                 source.begin(in_state, &x0, &r0);
                 source.hold();
             }
@@ -172,9 +164,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
 
     fn evaluate(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: Option<&mut LinearSystem<S, 1>>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
         for (member, stages) in (self.elements.members.iter_mut()).zip(&mut self.members) {
             let arms = StageArms::new(self.rule, &member.site.nodes, (view, trial));
@@ -188,11 +180,11 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         }
     }
 
-    fn correct(&mut self, solution: &[[S; 1]], _: S::Mask) -> S {
+    fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
         let (rule, local) = (self.rule, &mut self.local);
-        let mut largest = S::zero();
+        let mut largest = 0.0;
         for stages in &mut self.members {
-            let mut motions = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+            let mut motions = [Arms::<K, D>::filled([0.0; D]); MOST_SETS];
             for (set, motion) in motions.iter_mut().enumerate().take(rule.sets()) {
                 *motion = stages.site.sets[set][set].motion_in(solution);
             }
@@ -203,14 +195,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
                     *input = source.point().heat_change(stage, solution);
                 }
                 source.hold();
-                largest = largest.maximum(source.correct(local));
-                source.apply(S::one());
+                largest = Scalar::maximum(largest, source.correct(local));
+                source.apply(1.0);
             }
         }
         largest
     }
 
-    fn apply(&mut self, share: S) {
+    fn apply(&mut self, share: f64) {
         self.sources_mut().for_each(|source| source.apply(share));
     }
 
@@ -220,11 +212,11 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
 
     fn add_impulse(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
         along: Along,
-        impulses: &mut Impulses<'_, S, D>,
-        magnitudes: &mut [S],
+        impulses: &mut Impulses<'_, D>,
+        magnitudes: &mut [f64],
     ) {
         let Along::Stage(stage) = along else {
             return;
@@ -252,16 +244,16 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
     fn add_secant(
         &mut self,
         set: usize,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, D>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: &mut LinearSystem<D>,
     ) {
         let stage = self.rule.stage_of(set);
-        let impulse = view.step * S::from_f64(self.rule.positions[set][stage]);
+        let impulse = view.step * self.rule.positions[set][stage];
         let (values, right) = system.parts();
         for stages in &self.members {
             let site = stages.site.first();
-            let mut known = arms_in::<K, S, D>(&site.nodes, &view.state.positions);
+            let mut known = arms_in::<K, D>(&site.nodes, &view.state.positions);
             site.add_anchors(&mut known, trial.displacements_of_set(set));
             for source in &stages.points {
                 let weights = source.secant(stage);
@@ -273,10 +265,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
 
     fn close(
         &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        next: &mut State,
+        tally: &mut Tally,
     ) -> Result<(), StateError> {
         for (member, stages) in (self.elements.members.iter_mut()).zip(&mut self.members) {
             let r1 = member.arms_in(next);
@@ -294,7 +286,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         Ok(())
     }
 
-    fn reevaluate(&self, ends: [&State<S>; 2], reevaluation: &mut Reevaluation<S>) {
+    fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation) {
         for (member, stages) in self.elements.members.iter().zip(&self.members) {
             for (source, in_state) in stages.points.iter().zip(member.points.as_ref()) {
                 source.reevaluate(in_state, &member.site.nodes, ends, reevaluation);
@@ -302,7 +294,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
         }
     }
 
-    fn generic_of_step(&self, _: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
+    fn generic_of_step(&self, _: [&State; 2]) -> Vec<ElementGeneric> {
         Vec::new()
     }
 }

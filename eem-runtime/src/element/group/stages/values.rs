@@ -27,11 +27,11 @@ use crate::element::tableau::{Ending, EntropyBalance, MOST_SETS, MOST_STAGES};
 use crate::element::tally::Tally;
 use at_stage::AtStage;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// A point with its variables and the model at the stages.
-pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
-    point: StagePoint<K, S, D>,
+pub(crate) struct Values<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> {
+    point: StagePoint<K, D>,
     /// The old variables `(π, γ, θ)⁰`.
     old: M::Variables,
     /// The trial variables at the stages.
@@ -40,21 +40,19 @@ pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D
     /// temperatures are unknowns.
     previous: [M::Variables; MOST_STAGES],
     correction: [M::Variables; MOST_STAGES],
-    stages: [AtStage<S, M>; MOST_STAGES],
+    stages: [AtStage<M>; MOST_STAGES],
     /// `∂π/∂r`.
-    gradients: [Gradient<K, S, D>; MOST_STAGES],
+    gradients: [Gradient<K, D>; MOST_STAGES],
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, K, D>
-    for Values<S, M, K, D>
-{
+impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M, K, D> {
     const FORCES: usize = M::MEASURES;
 
     type Bases = ();
 
-    fn new(point: StagePoint<K, S, D>) -> Self {
-        let zeros = [M::Variables::filled(S::zero()); MOST_STAGES];
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+    fn new(point: StagePoint<K, D>) -> Self {
+        let zeros = [M::Variables::filled(0.0); MOST_STAGES];
+        let nowhere = Arms::<K, D>::filled([0.0; D]);
         Self {
             point,
             old: zeros[0],
@@ -62,20 +60,20 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
             previous: zeros,
             correction: zeros,
             stages: [(); MOST_STAGES].map(|()| AtStage::zero()),
-            gradients: [Gradient::<K, S, D>::filled(nowhere); MOST_STAGES],
+            gradients: [Gradient::<K, D>::filled(nowhere); MOST_STAGES],
         }
     }
 
-    fn point(&self) -> &StagePoint<K, S, D> {
+    fn point(&self) -> &StagePoint<K, D> {
         &self.point
     }
 
-    fn point_mut(&mut self) -> &mut StagePoint<K, S, D> {
+    fn point_mut(&mut self) -> &mut StagePoint<K, D> {
         &mut self.point
     }
 
-    fn begin(&mut self, _: &StatePoint<S, M, K, D>, x0: &M::Variables, r0: &Arms<K, S, D>) {
-        let gradient = (self.point.kinematics).gradient(r0, &measures_in::<K, S, D>(x0));
+    fn begin(&mut self, _: &StatePoint<M, K, D>, x0: &M::Variables, r0: &Arms<K, D>) {
+        let gradient = (self.point.kinematics).gradient(r0, &measures_in::<K, D>(x0));
         self.gradients = [gradient; MOST_STAGES];
         (self.old, self.x) = (*x0, [*x0; MOST_STAGES]);
         let prescribed = self.point.prescribed.into_iter().flatten();
@@ -86,9 +84,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
 
     fn evaluate(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
-        arms: &StageArms<K, S, D>,
+        in_state: &mut StatePoint<M, K, D>,
+        (view, trial): (&StepView<'_>, &Trial<D>),
+        arms: &StageArms<K, D>,
     ) -> Result<(), StateError> {
         let (rule, kinematics) = (self.point.rule, self.point.kinematics);
         for stage in 0..rule.stages() {
@@ -96,13 +94,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
             if let Some(set) = rule.set_of(stage) {
                 let r = arms.of_set(set);
                 let measures = kinematics.measure(&r);
-                check_measures::<K, S, D>(&kinematics, in_state.element, &measures, &r)?;
+                check_measures::<K, D>(&kinematics, in_state.element, &measures, &r)?;
                 self.gradients[stage] = kinematics.gradient(&r, &measures);
                 self.x[stage].as_mut()[..M::MEASURES].copy_from_slice(measures.as_ref());
             }
             let heat = match in_state.slots().thermal {
                 Some(slot) => heat_received(rule, stage, slot, (view, trial)),
-                None => S::zero(),
+                None => 0.0,
             };
             self.evaluate_stage(in_state, view, (stage, heat))?;
         }
@@ -111,9 +109,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
 
     fn write_equations(
         &mut self,
-        _: &StatePoint<S, M, K, D>,
-        local: &mut LocalStages<S>,
-        view: &StepView<'_, S>,
+        _: &StatePoint<M, K, D>,
+        local: &mut LocalStages,
+        view: &StepView<'_>,
     ) -> Result<(), StateError> {
         self.write_creep(local, view.step);
         let unknowns = local.unknowns();
@@ -123,13 +121,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
                 self.write_balance(local, (first + set, balance), view.step);
             } else if M::THERMAL {
                 // δθ = 0
-                local.matrix[(first + set) * (unknowns + 1)] = S::one();
+                local.matrix[(first + set) * (unknowns + 1)] = 1.0;
             }
         }
         Ok(())
     }
 
-    fn force(&self, local: &mut LocalStages<S>, [stage, measure]: [usize; 2]) -> S {
+    fn force(&self, local: &mut LocalStages, [stage, measure]: [usize; 2]) -> f64 {
         let at_stage = &self.stages[stage];
         self.differentiate(local, stage, &at_stage.hessian[measure]);
         self.point.eliminate(local);
@@ -138,58 +136,58 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
 
     fn bases(&self) {}
 
-    fn direction<'a>(&'a self, (): &'a (), [stage, measure]: [usize; 2]) -> &'a Arms<K, S, D> {
+    fn direction<'a>(&'a self, (): &'a (), [stage, measure]: [usize; 2]) -> &'a Arms<K, D> {
         &self.gradients[stage].as_ref()[measure]
     }
 
-    fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D> {
+    fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, D>) -> Blocks<K, D> {
         let stage = self.point.rule.stage_of(set);
         let [measures, forces] = self.measures_and_forces(stage);
         let r = arms.of_set(set);
         self.point.kinematics.curvature(&r, &measures, &forces)
     }
 
-    fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S {
-        let mut by = M::Variables::filled(S::zero());
-        by[Self::TEMPERATURE] = S::one();
+    fn temperature(&self, local: &mut LocalStages, set: usize) -> f64 {
+        let mut by = M::Variables::filled(0.0);
+        by[Self::TEMPERATURE] = 1.0;
         let stage = self.point.rule.entropies[set].unknown;
         self.differentiate(local, stage, &by);
         self.point.eliminate(local);
         self.theta(stage)
     }
 
-    fn by_arms(&self, (): &(), local: &LocalStages<S>) -> [Arms<K, S, D>; MOST_SETS] {
+    fn by_arms(&self, (): &(), local: &LocalStages) -> [Arms<K, D>; MOST_SETS] {
         let rule = self.point.rule;
         let measures = local.row[1..].chunks_exact(M::MEASURES);
-        let mut by_arm = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+        let mut by_arm = [Arms::<K, D>::filled([0.0; D]); MOST_SETS];
         let sets = by_arm.iter_mut().take(rule.sets()).zip(measures);
         for (set, (sum, measures)) in sets.enumerate() {
             let rows = self.gradients[rule.stage_of(set)].as_ref().iter();
             for (row, &by) in rows.zip(measures) {
-                add_scaled::<K, S, D>(sum, by, row);
+                add_scaled::<K, D>(sum, by, row);
             }
         }
         by_arm
     }
 
-    fn inputs(&self, motions: &[Arms<K, S, D>; MOST_SETS], inputs: &mut [S]) {
+    fn inputs(&self, motions: &[Arms<K, D>; MOST_SETS], inputs: &mut [f64]) {
         for (set, measures) in inputs.chunks_exact_mut(M::MEASURES).enumerate() {
             let rows = self.gradients[self.point.rule.stage_of(set)].as_ref();
             for (input, row) in measures.iter_mut().zip(rows) {
-                *input = along::<K, S, D>(row, &motions[set]);
+                *input = along::<K, D>(row, &motions[set]);
             }
         }
     }
 
     fn hold(&mut self) {
         self.previous = self.x;
-        self.correction = [M::Variables::filled(S::zero()); MOST_STAGES];
+        self.correction = [M::Variables::filled(0.0); MOST_STAGES];
     }
 
-    fn correct(&mut self, local: &LocalStages<S>) -> S {
+    fn correct(&mut self, local: &LocalStages) -> f64 {
         let rule = self.point.rule;
         let temperatures = rule.sets() * M::DASHPOTS;
-        let mut largest = S::zero();
+        let mut largest = 0.0;
         for u in 0..local.unknowns() {
             let change = local.change(&self.point.solved, u);
             let (stage, index, scale) = if u < temperatures {
@@ -201,13 +199,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
                 (stage, Self::TEMPERATURE, self.theta(stage))
             };
             self.correction[stage][index] = change;
-            largest = largest.maximum((change / scale).abs());
+            largest = Scalar::maximum(largest, (change / scale).abs());
         }
         largest
     }
 
     /// Viscous stretches linearly, temperatures in their logarithms, so that they stay positive.
-    fn apply(&mut self, fraction: S) {
+    fn apply(&mut self, fraction: f64) {
         let rule = self.point.rule;
         for stage in rule.known..rule.stages() {
             for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
@@ -225,29 +223,29 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
         }
         for (stage, shares) in rule.temperatures.iter().enumerate() {
             let terms = shares.iter().zip(rule.entropies);
-            self.x[stage][Self::TEMPERATURE] = terms.fold(S::zero(), |sum, (&share, balance)| {
-                sum + S::from_f64(share) * self.theta(balance.unknown)
+            self.x[stage][Self::TEMPERATURE] = terms.fold(0.0, |sum, (&share, balance)| {
+                sum + share * self.theta(balance.unknown)
             });
         }
     }
 
     /// With the forces of the last evaluation, along the directions at the trial.
-    fn nodal_force(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
+    fn nodal_force(&self, stage: usize, arms: &StageArms<K, D>) -> K::PerNode<[f64; D]> {
         let (rule, kinematics) = (self.point.rule, &self.point.kinematics);
         let set = rule.set_of(stage);
         let r = set.map_or(arms.old, |set| arms.of_set(set));
         let depends_on_itself = set.is_some_and(|set| rule.positions[set][stage] != 0.0);
         if depends_on_itself && matches!(rule.ending, Ending::StageByStage) {
-            return pull::<K, S, D>(&self.secant(stage), &r);
+            return pull::<K, D>(&self.secant(stage), &r);
         }
         let gradient = kinematics.gradient(&r, &kinematics.measure(&r));
         let [_, forces] = self.measures_and_forces(stage);
-        resultant::<K, S, D>(&gradient, &forces)
+        resultant::<K, D>(&gradient, &forces)
     }
 
-    fn secant(&self, stage: usize) -> Weights<K, S, D> {
+    fn secant(&self, stage: usize) -> Weights<K, D> {
         let [measures, forces] = self.measures_and_forces(stage);
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let nowhere = Arms::<K, D>::filled([0.0; D]);
         // At rest in the stage; the secant of an element with one point does not depend on the arms.
         let ends = Ends::new(&self.point.kinematics, [nowhere; 2], [measures; 2]);
         self.point.kinematics.secant(&ends, &forces)
@@ -255,10 +253,10 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
 
     fn close(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        (view, _, r1): (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
-        next: &mut State<S>,
-        _: &mut Tally<S>,
+        in_state: &mut StatePoint<M, K, D>,
+        (view, _, r1): (&StepView<'_>, &Trial<D>, &Arms<K, D>),
+        next: &mut State,
+        _: &mut Tally,
     ) -> Result<(), StateError> {
         let received = self.book(in_state.slots(), view, next);
         let near = self.theta(self.point.rule.stages() - 1);
@@ -269,25 +267,25 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
     /// The index of the last variable, the temperature of elements that have one.
     const TEMPERATURE: usize = M::Variables::LEN - 1;
 
     /// The temperature of a stage, K; without meaning for elements that have none.
-    fn theta(&self, stage: usize) -> S {
+    fn theta(&self, stage: usize) -> f64 {
         self.x[stage][Self::TEMPERATURE]
     }
 
-    fn measures_and_forces(&self, stage: usize) -> [K::PerMeasure<S>; 2] {
-        [&self.x[stage], &self.stages[stage].gradient].map(measures_in::<K, S, D>)
+    fn measures_and_forces(&self, stage: usize) -> [K::PerMeasure<f64>; 2] {
+        [&self.x[stage], &self.stages[stage].gradient].map(measures_in::<K, D>)
     }
 
     /// Evaluates the model at a stage whose variables are known, with the heat from other elements, W.
     fn evaluate_stage(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        view: &StepView<'_, S>,
-        (stage, heat): (usize, S),
+        in_state: &mut StatePoint<M, K, D>,
+        view: &StepView<'_>,
+        (stage, heat): (usize, f64),
     ) -> Result<(), StateError> {
         let (theta, at_stage) = (self.theta(stage), &mut self.stages[stage]);
         if M::THERMAL {
@@ -299,7 +297,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
             return Err(StateError::NotFinite {
                 element: in_state.element,
                 quantity: "force or entropy",
-                value: value.to_f64(),
+                value: *value,
             });
         }
         in_state.find_viscosities(theta, None)?;
@@ -317,7 +315,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
     }
 
     /// Writes the derivatives of a quantity of a stage, given those with respect to x, to the row of the workspace.
-    fn differentiate(&self, local: &mut LocalStages<S>, stage: usize, by: &M::Variables) {
+    fn differentiate(&self, local: &mut LocalStages, stage: usize, by: &M::Variables) {
         let rule = self.point.rule;
         let (measures, rest) = by.as_ref().split_at(M::MEASURES);
         let (dashpots, theta) = rest.split_at(M::DASHPOTS);
@@ -331,22 +329,22 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         if M::THERMAL && self.point.prescribed.is_none() {
             let thetas = &mut local.by_unknown[rule.sets() * M::DASHPOTS..];
             for (entry, &share) in thetas.iter_mut().zip(rule.temperatures[stage]) {
-                *entry = S::from_f64(share) * theta[0];
+                *entry = share * theta[0];
             }
         }
     }
 
     /// Writes the equations of the viscous stretches.
-    fn write_creep(&mut self, local: &mut LocalStages<S>, h: S) {
+    fn write_creep(&mut self, local: &mut LocalStages, h: f64) {
         let rule = self.point.rule;
         for (set, weights) in rule.rates.iter().enumerate() {
             for k in 0..M::DASHPOTS {
                 let (equation, index) = (set * M::DASHPOTS + k, M::MEASURES + k);
                 let mut residual = self.x[rule.stage_of(set)][index] - self.old[index];
                 let diagonal = equation * (local.unknowns() + 1);
-                local.matrix[diagonal] = S::one();
+                local.matrix[diagonal] = 1.0;
                 for (stage, &weight) in weights.iter().enumerate() {
-                    let weight = -h * S::from_f64(weight);
+                    let weight = -h * weight;
                     residual += weight * self.stages[stage].rates[index];
                     self.differentiate(local, stage, &self.stages[stage].rates_by[index]);
                     self.point.add_row(local, equation, weight);
@@ -359,16 +357,15 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
     /// Writes an equation of the entropies, if the temperature is free.
     fn write_balance(
         &mut self,
-        local: &mut LocalStages<S>,
+        local: &mut LocalStages,
         (equation, balance): (usize, &EntropyBalance),
-        h: S,
+        h: f64,
     ) {
         let rule = self.point.rule;
         let unknowns = local.unknowns();
-        let mut residual = -S::from_f64(balance.old) * self.point.entropy;
+        let mut residual = -balance.old * self.point.entropy;
         for (stage, &weight) in balance.entropies.iter().enumerate() {
             if weight != 0.0 {
-                let weight = S::from_f64(weight);
                 residual += weight * self.stages[stage].entropy();
                 self.differentiate(local, stage, &self.stages[stage].entropy_by());
                 self.point.add_row(local, equation, weight);
@@ -376,7 +373,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         }
         for (stage, &weight) in balance.rates.iter().enumerate() {
             if weight != 0.0 {
-                let weight = -h * S::from_f64(weight);
+                let weight = -h * weight;
                 residual += weight * self.stages[stage].rates[Self::TEMPERATURE];
                 self.differentiate(
                     local,
@@ -394,18 +391,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         let scaled = residual / self.theta(balance.stage);
         let row = &mut local.matrix[equation * unknowns + rule.sets() * M::DASHPOTS..];
         for (entry, &share) in row.iter_mut().zip(rule.temperatures[balance.stage]) {
-            *entry += S::from_f64(share) * scaled;
+            *entry += share * scaled;
         }
     }
 
     /// Books the increments of the internal variables and of the reservoirs' entropies; returns the entropy that dashpots
     /// and conduction gave to the point, J/K.
-    fn book(&self, slots: Slots, view: &StepView<'_, S>, next: &mut State<S>) -> S {
+    fn book(&self, slots: Slots, view: &StepView<'_>, next: &mut State) -> f64 {
         let (stages, old) = (&self.stages, view.state);
-        let over_step = |of: &dyn Fn(usize) -> S| {
+        let over_step = |of: &dyn Fn(usize) -> f64| {
             let terms = self.point.rule.weights.iter().enumerate();
-            terms.fold(S::zero(), |sum, (stage, &weight)| {
-                sum + view.step * S::from_f64(weight) * of(stage)
+            terms.fold(0.0, |sum, (stage, &weight)| {
+                sum + view.step * weight * of(stage)
             })
         };
         for k in 0..M::DASHPOTS {
@@ -415,7 +412,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         let Some(slot) = slots.thermal else {
             let heat = over_step(&|stage| stages[stage].dissipation);
             next.dissipated.add(heat);
-            return S::zero();
+            return 0.0;
         };
         let received = over_step(&|stage| stages[stage].rates[Self::TEMPERATURE]);
         next.entropies.advance(slot, &old.entropies, received);
@@ -431,18 +428,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
 
     /// Books the heat of the thermostat of an element whose new entropy is given: at the stages it gives what the equations
     /// of the rule need with the prescribed temperatures, at the last stage the rest of the total.
-    fn book_thermostat(&self, h: S, [new_entropy, received]: [S; 2], next: &mut State<S>) {
+    fn book_thermostat(&self, h: f64, [new_entropy, received]: [f64; 2], next: &mut State) {
         let total = new_entropy - self.point.entropy - received;
         let mut rest = total;
         for balance in self.point.rule.entropies {
-            let mut defect = -S::from_f64(balance.old) * self.point.entropy;
+            let mut defect = -balance.old * self.point.entropy;
             let terms = balance.entropies.iter().zip(balance.rates);
             for ((&entropy, &rate), stage) in terms.zip(&self.stages) {
-                defect += S::from_f64(entropy) * stage.entropy();
-                defect -= h * S::from_f64(rate) * stage.rates[Self::TEMPERATURE];
+                defect += entropy * stage.entropy();
+                defect -= h * rate * stage.rates[Self::TEMPERATURE];
             }
             for (stage, &supply) in balance.supply.iter().enumerate() {
-                let given = S::from_f64(supply) * defect;
+                let given = supply * defect;
                 next.heat.add(self.theta(stage) * given);
                 rest -= given;
             }

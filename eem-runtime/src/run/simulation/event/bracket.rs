@@ -1,78 +1,77 @@
 //! A bracket of step sizes around a change of sign, which is narrowed.
 
 use super::Sense;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::Scalar;
 
-/// Step sizes on both sides of a change of sign. For single numbers only, no lanes.
+/// Step sizes on both sides of a change of sign.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bracket<S> {
-    low: S,
-    pub(super) high: S,
+pub(super) struct Bracket {
+    low: f64,
+    pub(super) high: f64,
     is_rising: bool,
     /// The function at both sizes; halved where a size has stayed while the other moved twice
     /// (the Illinois variant of regula falsi; Dowell & Jarratt 1971).
-    values: [S; 2],
+    values: [f64; 2],
     /// Which of the two moved last.
     moved: Option<bool>,
     /// The widths before the last two candidates.
-    widths: [S; 2],
+    widths: [f64; 2],
 }
 
-impl<S: Real> Bracket<S> {
+impl Bracket {
     /// From zero to a whole step, if the sign of the function changes in it in the given sense.
-    pub(super) fn new(sense: Sense, step: S, [before, after]: [S; 2]) -> Option<Self> {
-        let zero = S::zero();
-        let is_rising = before.less(zero);
-        let falls = zero.less(before) & after.at_most(zero);
-        let rises = is_rising & zero.at_most(after);
+    pub(super) fn new(sense: Sense, step: f64, [before, after]: [f64; 2]) -> Option<Self> {
+        let is_rising = before < 0.0;
+        let falls = before > 0.0 && after <= 0.0;
+        let rises = is_rising && after >= 0.0;
         let counts = match sense {
             Sense::Rising => rises,
             Sense::Falling => falls,
-            Sense::Either => falls | rises,
+            Sense::Either => falls || rises,
         };
         let bracket = Self {
-            low: S::select(after.equal(zero), step, zero),
+            low: if after == 0.0 { step } else { 0.0 },
             high: step,
-            is_rising: is_rising.all(),
+            is_rising,
             values: [before, after],
             moved: None,
-            widths: [S::MAX; 2],
+            widths: [f64::MAX; 2],
         };
-        counts.all().then_some(bracket)
+        counts.then_some(bracket)
     }
 
     /// The next size to try; `None` if the bracket is as narrow as the resolution.
     ///
     /// It is the zero of the secant, at least half the resolution inside the bracket, so that a good guess narrows it
     /// from both sides. If two candidates have not halved the width, it is the middle.
-    pub(super) fn candidate(&self, resolution: S) -> Option<S> {
-        let half = S::from_f64(0.5);
+    pub(super) fn candidate(&self, resolution: f64) -> Option<f64> {
         let width = self.high - self.low;
-        if width.at_most(resolution).all() {
+        if width <= resolution {
             return None;
         }
         let [below, above] = self.values;
         let secant = self.high - width * (above / (above - below));
-        let margin = half * resolution;
-        let is_short = width.at_most(half * self.widths[0]).all();
+        let margin = 0.5 * resolution;
+        let is_short = width <= 0.5 * self.widths[0];
         let guess = if secant.is_finite() && is_short {
-            secant
-                .maximum(self.low + margin)
-                .minimum(self.high - margin)
+            Scalar::minimum(
+                Scalar::maximum(secant, self.low + margin),
+                self.high - margin,
+            )
         } else {
-            self.low + half * width
+            self.low + 0.5 * width
         };
-        let is_inside = self.low.less(guess) & guess.less(self.high);
-        is_inside.all().then_some(guess)
+        let is_inside = self.low < guess && guess < self.high;
+        is_inside.then_some(guess)
     }
 
     /// Narrows the bracket by the value at a size. True if the event lies at or before that size.
-    pub(super) fn narrow(&mut self, size: S, value: S) -> bool {
+    pub(super) fn narrow(&mut self, size: f64, value: f64) -> bool {
         self.widths = [self.widths[1], self.high - self.low];
         let is_behind = if self.is_rising {
-            S::zero().at_most(value).all()
+            value >= 0.0
         } else {
-            value.at_most(S::zero()).all()
+            value <= 0.0
         };
         self.values[usize::from(is_behind)] = value;
         if is_behind {
@@ -80,11 +79,11 @@ impl<S: Real> Bracket<S> {
         } else {
             self.low = size;
         }
-        if value.equal(S::zero()).all() {
+        if value == 0.0 {
             self.low = size;
         }
         if self.moved.replace(is_behind) == Some(is_behind) {
-            self.values[usize::from(!is_behind)] *= S::from_f64(0.5);
+            self.values[usize::from(!is_behind)] *= 0.5;
         }
         is_behind
     }

@@ -14,12 +14,12 @@ use crate::run::simulation::guard::or_restore;
 use crate::run::simulation::run::RunEnd;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
-use eem_material::number::scalar::{Discord, Mask, Real};
+use eem_material::number::scalar::Scalar;
 
 /// The finest resolution of the time of an event, in units in the last place.
 const SHARPEST: f64 = 4.0;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Steps until the time `end`, s, or until the first of some events.
     ///
     /// The run stops just behind the event, at most the tolerance of the event after the change of sign, or
@@ -51,8 +51,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn run_until_event(
         &mut self,
-        end: S,
-        events: &mut [Event<'_, D, S>],
+        end: f64,
+        events: &mut [Event<'_, D>],
     ) -> Result<RunEnd, StepError> {
         if events.is_empty() {
             self.expect_finite(end)?;
@@ -86,27 +86,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn run_until_event_with(
         &mut self,
-        end: S,
-        events: &mut [Event<'_, D, S>],
-        mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
+        end: f64,
+        events: &mut [Event<'_, D>],
+        mut observer: impl FnMut(&Self, &StepReport) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
-        if S::LANES > 1 && !events.is_empty() {
-            // Each lane has its events at other times.
-            return Err(self.refused(Discord.into()));
-        }
         for event in &mut *events {
             event.has_happened = false;
         }
-        if !self.time().at_most(end).all() {
-            let end = end.to_f64();
+        if !(self.time() <= end) {
             return Err(self.refused(StepFailure::End { end }));
         }
         self.begin_search(events)?;
-        while self.is_before(end)? {
+        while self.is_before(end) {
             let before = (!events.is_empty()).then(|| self.history());
             let mut report = self.advance(Aim::Towards(end))?;
             if let Some(before) = before {
-                let restore = |run: &mut Self| run.restore_history(before);
+                let restore = |run: &mut Self| run.restore_history(&before);
                 let locate = Functions::get().end_at_event;
                 report = or_restore(self, restore, |run| locate(run, events, report, end))?;
             }
@@ -122,9 +117,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Evaluates the functions at the present state.
-    fn begin_search(&self, events: &mut [Event<'_, D, S>]) -> Result<(), StepError> {
+    fn begin_search(&self, events: &mut [Event<'_, D>]) -> Result<(), StepError> {
         for (event, place) in events.iter_mut().zip(0..) {
-            let value = event.tolerance.to_f64();
+            let value = event.tolerance;
             if value.is_nan() || value < 0.0 {
                 return Err(self.refused(StepFailure::EventTolerance {
                     event: place,
@@ -141,10 +136,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Returns the report of the step that is kept.
     pub(in crate::run::simulation) fn end_at_event(
         &mut self,
-        events: &mut [Event<'_, D, S>],
-        whole: StepReport<S>,
-        end: S,
-    ) -> StepResult<S> {
+        events: &mut [Event<'_, D>],
+        whole: StepReport,
+        end: f64,
+    ) -> StepResult {
         let mut report = whole;
         let mut is_located = false;
         for place in 0..events.len() {
@@ -174,17 +169,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// searches for events in it.
     fn end_at_event_in_half(
         &mut self,
-        events: &mut [Event<'_, D, S>],
-        whole: StepReport<S>,
-        end: S,
+        events: &mut [Event<'_, D>],
+        whole: StepReport,
+        end: f64,
         error: StepError,
-    ) -> StepResult<S> {
+    ) -> StepResult {
         let is_of_event = matches!(
             error.failure,
             StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
         );
-        let middle = self.time() + S::from_f64(0.5) * whole.step;
-        if self.control.is_none() || is_of_event || !self.is_before(middle)? {
+        let middle = self.time() + 0.5 * whole.step;
+        if self.control.is_none() || is_of_event || !self.is_before(middle) {
             return Err(error);
         }
         let shorter = self.advance(Aim::InSchemeTowards(middle))?;
@@ -194,14 +189,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Replaces the last step, `whole`, by a shorter one that ends just behind the event.
     fn locate(
         &mut self,
-        mut bracket: Bracket<S>,
-        whole: StepReport<S>,
-        end: S,
-        (event, place): (&mut Event<'_, D, S>, usize),
-    ) -> StepResult<S> {
+        mut bracket: Bracket,
+        whole: StepReport,
+        end: f64,
+        (event, place): (&mut Event<'_, D>, usize),
+    ) -> StepResult {
         let scale = whole.time.abs() + whole.step;
-        let sharpest = S::from_f64(SHARPEST) * S::EPSILON * scale;
-        let resolution = event.tolerance.maximum(sharpest);
+        let sharpest = SHARPEST * f64::EPSILON * scale;
+        let resolution = Scalar::maximum(event.tolerance, sharpest);
         let mut report = whole;
         let (mut is_behind, mut is_shorter) = (true, false);
         while let Some(size) = bracket.candidate(resolution) {
@@ -219,32 +214,33 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return self.advance(Aim::Again(bracket.high));
         }
         let mut report = self.advance(Aim::Again(whole.step))?;
-        if whole.time.equal(end).all() {
+        #[expect(clippy::float_cmp, reason = "whether the step ended there")]
+        if whole.time == end {
             self.arrive_at(end, &mut report);
         }
         Ok(report)
     }
 
     /// The function of an event at the present state. If it fails, the last step is undone.
-    fn value(&mut self, event: &mut Event<'_, D, S>, place: usize) -> Result<S, StepError> {
+    fn value(&mut self, event: &mut Event<'_, D>, place: usize) -> Result<f64, StepError> {
         let value = or_restore(self, Self::undo, |run| event.value(place, run));
         value.map_err(|failure| self.failed(self.step, failure))
     }
 }
 
-impl<const D: usize, S: Real> Event<'_, D, S> {
+impl<const D: usize> Event<'_, D> {
     /// Step sizes around the change of sign within a step, if there is one in the sense of the event.
-    fn bracket(&self, step: S) -> Option<Bracket<S>> {
+    fn bracket(&self, step: f64) -> Option<Bracket> {
         Bracket::new(self.sense, step, [self.before, self.after])
     }
 
     /// The function in a state; an error unless it is a number.
-    fn value(&mut self, place: usize, run: &Simulation<D, S>) -> Result<S, StepFailure> {
+    fn value(&mut self, place: usize, run: &Simulation<D>) -> Result<f64, StepFailure> {
         let value = (self.function)(run).map_err(|error| StepFailure::EventError {
             event: place,
             reason: error.to_string(),
         })?;
-        if value.to_f64().is_nan() {
+        if value.is_nan() {
             return Err(StepFailure::EventFunction { event: place });
         }
         Ok(value)

@@ -7,9 +7,8 @@ use crate::run::gradient::error::GradientError;
 use crate::run::gradient::history::Kept;
 use crate::run::gradient::snapshots::{Record, Snapshot};
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Real;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Calls a function that makes steps, and restores everything afterwards.
     pub(super) fn with_steps_again<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> T {
         let before = self.snapshot();
@@ -26,9 +25,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Makes steps again that end in the state `last` after `end` steps, and returns their states.
     pub(super) fn states_before(
         &mut self,
-        (end, last): (usize, &State<S>),
-        kept: &mut Record<S>,
-    ) -> Result<Kept<S>, GradientError> {
+        (end, last): (usize, &State),
+        kept: &mut Record,
+    ) -> Result<Kept, GradientError> {
         loop {
             let pass = kept.next_pass(end);
             let [from, to] = pass.steps;
@@ -46,7 +45,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             } else if states.ends_in(last) {
                 return Ok(states);
             } else {
-                let time = last.time.value.to_f64();
+                let time = last.time.value;
                 return Err(GradientError::NotRepeatable { time });
             }
         }
@@ -56,8 +55,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn make_again(
         &mut self,
         [from, to]: [usize; 2],
-        kept: &Record<S>,
-        mut see: impl FnMut(&State<S>),
+        kept: &Record,
+        mut see: impl FnMut(&State),
     ) -> Result<(), GradientError> {
         for step in from..to {
             self.look()?;
@@ -71,7 +70,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The present state, after `index` steps, with what the next step depends on.
-    pub(super) fn snapshot_of(&self, index: usize) -> Snapshot<S> {
+    pub(super) fn snapshot_of(&self, index: usize) -> Snapshot {
         let (past, _) = self.stepper.past(&self.state);
         Snapshot {
             index,
@@ -81,7 +80,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Goes back to the state of a snapshot.
-    pub(super) fn return_to_state(&mut self, snapshot: &Snapshot<S>) {
+    pub(super) fn return_to_state(&mut self, snapshot: &Snapshot) {
         self.state.copy_all_from(&snapshot.state);
         self.stepper.restore(&snapshot.past, None);
     }

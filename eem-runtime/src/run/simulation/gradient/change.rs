@@ -3,29 +3,28 @@
 use super::derivatives::Of;
 use crate::scene::loads::{OfTime, ScalarOfTime};
 use crate::step::adjoint::{HeatChange, PerVariable};
-use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
 /// The changes of all inputs. A list is empty if no input of its kind changes.
-pub(super) struct Change<const D: usize, S: Real> {
+pub(super) struct Change<const D: usize> {
     /// The state at the start, without functions of time.
-    pub(super) start: PerVariable<S>,
-    pub(super) parameters: Vec<Vec<S>>,
-    pub(super) masses: Vec<S>,
-    pub(super) pairs: Vec<S>,
-    pub(super) gravity: SVector<S, D>,
-    pub(super) heat: HeatChange<S>,
+    pub(super) start: PerVariable,
+    pub(super) parameters: Vec<Vec<f64>>,
+    pub(super) masses: Vec<f64>,
+    pub(super) pairs: Vec<f64>,
+    pub(super) gravity: SVector<f64, D>,
+    pub(super) heat: HeatChange,
     /// Changes as functions of time, each with its index: of the node, rocket, node, thermal slot or reservoir.
-    pub(super) forces: Vec<(usize, OfTime<S, D>)>,
-    pub(super) thrusts: Vec<(usize, ScalarOfTime<S>)>,
-    pub(super) motions: Vec<(usize, OfTime<S, D>)>,
-    pub(super) temperatures: Vec<(usize, ScalarOfTime<S>)>,
-    pub(super) ovens: Vec<(usize, ScalarOfTime<S>)>,
+    pub(super) forces: Vec<(usize, OfTime<D>)>,
+    pub(super) thrusts: Vec<(usize, ScalarOfTime)>,
+    pub(super) motions: Vec<(usize, OfTime<D>)>,
+    pub(super) temperatures: Vec<(usize, ScalarOfTime)>,
+    pub(super) ovens: Vec<(usize, ScalarOfTime)>,
 }
 
-impl<const D: usize, S: Real> Change<D, S> {
+impl<const D: usize> Change<D> {
     /// The change of the state at the start, including that of prescribed motions at this time.
-    pub(super) fn start_at(&self, time: S) -> PerVariable<S> {
+    pub(super) fn start_at(&self, time: f64) -> PerVariable {
         let mut start = self.start.clone();
         for (node, by) in &self.motions {
             let own = by(time);
@@ -38,13 +37,13 @@ impl<const D: usize, S: Real> Change<D, S> {
 }
 
 /// The derivative `by`, taken with respect to `of`, times the change of `of` in a direction.
-pub(super) fn along<const D: usize, S: Real>(
-    (change, state): (&Change<D, S>, &PerVariable<S>),
-    of: Of<'_, S>,
-    by: S,
-) -> S {
-    let input = |all: &[S], at: usize| all.get(at).copied().unwrap_or(S::zero());
-    by * match of {
+pub(super) fn along<const D: usize>(
+    (change, state): (&Change<D>, &PerVariable),
+    of: Of<'_>,
+    by: f64,
+) -> f64 {
+    let input = |all: &[f64], at: usize| all.get(at).copied().unwrap_or(0.0);
+    by * (match of {
         Of::Position(at) => state.positions[at],
         Of::Velocity(at) => state.velocities[at],
         Of::Viscous(slot) => state.viscous[slot],
@@ -60,7 +59,7 @@ pub(super) fn along<const D: usize, S: Real>(
                 .get(element)
                 .map_or(&[][..], Vec::as_slice);
             let pairs = own.iter().zip(values);
-            pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+            pairs.fold(0.0, |sum, (&a, &b)| sum + a * b)
         }
-    }
+    })
 }

@@ -13,7 +13,6 @@ use crate::run::gradient::result::Gradient;
 use crate::run::gradient::series::Series;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
-use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
 /// A generator of random numbers, the same in every check, and the change of the objective if inputs change by them.
@@ -26,7 +25,7 @@ struct Draw {
 
 impl Draw {
     /// A random change of an input, between −1 and 1 times its size; its effect, with the derivative `by`, is added to `change`.
-    fn of<S: Real>(&mut self, by: S, size: S) -> S {
+    fn of(&mut self, by: f64, size: f64) -> f64 {
         // Steele, Lea & Flood (2014), splitmix64.
         self.seed = self.seed.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut bits = self.seed;
@@ -34,56 +33,55 @@ impl Draw {
         bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         let half = u32::try_from((bits ^ (bits >> 31)) >> 32).unwrap_or(0);
         let unit = f64::from(half) / f64::from(u32::MAX);
-        let change = S::from_f64(2.0 * unit - 1.0) * size;
-        let term = (by * change).to_f64();
+        let change = (2.0 * unit - 1.0) * size;
+        let term = by * change;
         self.change += term;
         self.magnitude += term.abs();
         change
     }
 
     /// Changes of as many numbers.
-    fn all<S: Real>(&mut self, by: &[S], size: S) -> Vec<S> {
+    fn all(&mut self, by: &[f64], size: f64) -> Vec<f64> {
         by.iter().map(|&by| self.of(by, size)).collect()
     }
 
     /// Changes of the values of a function of time.
-    fn values<S: Real>(&mut self, by: &Series<S, S>, size: S) -> Arc<dyn Fn(S) -> S + Send + Sync> {
+    fn values(&mut self, by: &Series<f64>, size: f64) -> Arc<dyn Fn(f64) -> f64 + Send + Sync> {
         let values = by.iter().map(|&(time, by)| (time, self.of(by, size)));
-        let values: Vec<(S, S)> = values.collect();
-        Arc::new(move |time| at(&values, time).unwrap_or(S::zero()))
+        let values: Vec<(f64, f64)> = values.collect();
+        Arc::new(move |time| at(&values, time).unwrap_or(0.0))
     }
 
     /// Changes of the values of a vector function of time.
-    fn vectors<S: Real, const D: usize>(
+    fn vectors<const D: usize>(
         &mut self,
-        by: &Series<SVector<S, D>, S>,
-        size: S,
-    ) -> Arc<dyn Fn(S) -> SVector<S, D> + Send + Sync> {
+        by: &Series<SVector<f64, D>>,
+        size: f64,
+    ) -> Arc<dyn Fn(f64) -> SVector<f64, D> + Send + Sync> {
         let values = by
             .iter()
             .map(|(time, by)| (*time, by.map(|by| self.of(by, size))));
         let values: Vec<_> = values.collect();
-        let still = SVector::from_element(S::zero());
+        let still = SVector::from_element(0.0);
         Arc::new(move |time| at(&values, time).unwrap_or(still))
     }
 }
 
 /// The value at this time; `None` unless it is one of the sorted times.
-fn at<T: Copy, S: Real>(values: &[(S, T)], time: S) -> Option<T> {
-    let time = time.to_f64();
-    let found = values.binary_search_by(|(own, _)| own.to_f64().total_cmp(&time));
+fn at<T: Copy>(values: &[(f64, T)], time: f64) -> Option<T> {
+    let found = values.binary_search_by(|(own, _)| own.total_cmp(&time));
     found.ok().map(|place| values[place].1)
 }
 
 /// The largest magnitude, or one if all are zero.
-fn size_of<S: Real>(values: impl IntoIterator<Item = S>) -> S {
-    let largest = values.into_iter().map(|value| value.to_f64().abs());
+fn size_of(values: impl IntoIterator<Item = f64>) -> f64 {
+    let largest = values.into_iter().map(f64::abs);
     let largest = largest.fold(0.0, f64::max);
-    S::from_f64(if largest > 0.0 { largest } else { 1.0 })
+    if largest > 0.0 { largest } else { 1.0 }
 }
 
 /// # Gradients
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Checks a gradient of an objective by the tangents of the same steps, from the first to the last. All inputs but the sizes of steps
     /// change at once; the objective has to change by what the gradient says.
     ///
@@ -112,11 +110,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn check_gradient(
         &mut self,
-        gradient: &Gradient<D, S>,
-        objective: &Objective<D, S>,
+        gradient: &Gradient<D>,
+        objective: &Objective<D>,
     ) -> Result<(), GradientError> {
         let [adjoint, tangent, magnitude] = self.changes_along(gradient, objective)?;
-        if (adjoint - tangent).abs() <= S::EPSILON.to_f64().sqrt() * magnitude {
+        if (adjoint - tangent).abs() <= f64::EPSILON.sqrt() * magnitude {
             return Ok(());
         }
         Err(GradientError::Disagrees { adjoint, tangent })
@@ -127,37 +125,36 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     #[doc(hidden)]
     pub fn changes_along(
         &mut self,
-        gradient: &Gradient<D, S>,
-        objective: &Objective<D, S>,
+        gradient: &Gradient<D>,
+        objective: &Objective<D>,
     ) -> Result<[f64; 3], GradientError> {
         self.on_history(|run, kept| {
             let outline = run.outline();
             let (change, draw) = run.any_change(gradient, &outline)?;
             let objectives = [(1.0, objective)];
             let mut seeds = Seeds::new(kept, &objectives)?.forwards();
-            let mut tangent = [S::zero()];
-            let see = &mut |run: &mut Self,
-                            (steps, state): (usize, &mut State<S>),
-                            way: &Forward<D, S>| {
-                for asked in &mut seeds.terms {
-                    if let Some(weighed) = run.weigh((steps, &mut *state), kept, asked)? {
-                        let weighted = (&*state, S::from_f64(weighed.weight));
-                        run.add_rates(weighted, asked.of(), way, &mut tangent)?;
+            let mut tangent = [0.0];
+            let see =
+                &mut (|run: &mut Self, (steps, state): (usize, &mut State), way: &Forward<D>| {
+                    for asked in &mut seeds.terms {
+                        if let Some(weighed) = run.weigh((steps, &mut *state), kept, asked)? {
+                            let weighted = (&*state, weighed.weight);
+                            run.add_rates(weighted, asked.of(), way, &mut tangent)?;
+                        }
                     }
-                }
-                Ok(())
-            };
+                    Ok(())
+                });
             run.go_forward(kept, vec![change], see)?;
-            Ok([draw.change, tangent[0].to_f64(), draw.magnitude])
+            Ok([draw.change, tangent[0], draw.magnitude])
         })
     }
 
     /// Random changes of all inputs, by parts of their sizes, and the change of the objective according to its gradient.
     fn any_change(
         &self,
-        gradient: &Gradient<D, S>,
-        outline: &Outline<S>,
-    ) -> Result<(Change<D, S>, Draw), GradientError> {
+        gradient: &Gradient<D>,
+        outline: &Outline,
+    ) -> Result<(Change<D>, Draw), GradientError> {
         if gradient.elements.len() != self.places.len()
             || gradient.masses.len() != self.masses.len()
         {
@@ -173,9 +170,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let state = &self.state;
         let length = size_of(state.positions.values().iter().copied());
         let masses = self.masses.iter().enumerate();
-        let speed = size_of(masses.flat_map(|(node, mass)| {
-            mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
-        }));
+        let speed = size_of(
+            masses
+                .flat_map(|(node, mass)| mass.map_or([0.0; D], |mass| state.velocity(node, mass))),
+        );
         let theta = size_of(state.temperatures.iter().copied());
         let entropy = size_of(state.reservoir_entropies.values().iter().copied());
         let (start, by) = (&mut change.start, &gradient.start);
@@ -187,11 +185,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.drop_velocities(&mut change);
         let mass = size_of(self.masses.iter().flatten());
         change.masses = draw.all(&gradient.masses, mass);
-        let pairs: Vec<S> = gradient.pairs.iter().map(|&(_, by)| by).collect();
+        let pairs: Vec<f64> = gradient.pairs.iter().map(|&(_, by)| by).collect();
         change.pairs = draw.all(&pairs, mass);
         let gravity = size_of(self.loads.gravity.iter().copied());
         change.gravity = gradient.gravity.map(|by| draw.of(by, gravity));
-        change.heat.conductances = draw.all(&gradient.conductances, S::one());
+        change.heat.conductances = draw.all(&gradient.conductances, 1.0);
         change.heat.reservoirs = draw.all(&gradient.reservoirs, theta);
         for (own, &[group, place]) in gradient.elements.iter().zip(&self.places) {
             let group = self.stepper.elements(group as usize);
@@ -206,10 +204,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             change.parameters.push(values);
         }
         for (node, by) in &gradient.forces {
-            change.forces.push((*node, draw.vectors(by, S::one())));
+            change.forces.push((*node, draw.vectors(by, 1.0)));
         }
         for (place, (_, by)) in gradient.thrusts.iter().enumerate() {
-            change.thrusts.push((place, draw.values(by, S::one())));
+            change.thrusts.push((place, draw.values(by, 1.0)));
         }
         for (node, by) in &gradient.motions {
             change.motions.push((*node, draw.vectors(by, length)));

@@ -9,12 +9,11 @@ use crate::run::gradient::error::GradientError;
 use crate::run::recorder::Quantity;
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
-use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
 /// What a quantity depends on: coordinates, slots of a state and reservoirs, and inputs.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Of<'a, S> {
+pub(super) enum Of<'a> {
     Position(usize),
     Velocity(usize),
     Viscous(usize),
@@ -30,25 +29,25 @@ pub(super) enum Of<'a, S> {
     /// The temperature of a reservoir.
     Reservoir(usize),
     /// The parameters of an element, with the derivative by each, still without the factor passed to [`See`].
-    Parameters(usize, &'a [S]),
+    Parameters(usize, &'a [f64]),
 }
 
 /// A function that receives derivatives.
-type See<'a, S> = dyn FnMut(Of<'_, S>, S) + 'a;
+type See<'a> = dyn FnMut(Of<'_>, f64) + 'a;
 
 /// Properties of the scene to which derivatives in all states refer.
-pub(super) struct Outline<S> {
+pub(super) struct Outline {
     pub(super) layout: Layout,
     /// Sums of the rows of the mass matrix, kg.
-    pub(super) sums: Vec<S>,
+    pub(super) sums: Vec<f64>,
     /// The nodes of the masses of pairs and of anchors, in order.
     pub(super) pairs: Vec<[usize; 2]>,
     /// The heat that elements without a temperature have lost until the end, J.
-    lost_heat: S,
+    lost_heat: f64,
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
-    pub(super) fn outline(&self) -> Outline<S> {
+impl<const D: usize> Simulation<D> {
+    pub(super) fn outline(&self) -> Outline {
         let pairs = self.masses.pairs().iter().chain(self.masses.held());
         let mut pairs: Vec<_> = pairs.map(MassPair::nodes).collect();
         pairs.sort_unstable();
@@ -63,10 +62,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Passes the derivatives of a component of a quantity in a state, times a weight, to a function.
     pub(super) fn see_derivatives(
         &mut self,
-        (state, weight): (&State<S>, S),
-        (quantity, component): (&Quantity<D, S>, usize),
-        outline: &Outline<S>,
-        see: &mut See<'_, S>,
+        (state, weight): (&State, f64),
+        (quantity, component): (&Quantity<D>, usize),
+        outline: &Outline,
+        see: &mut See<'_>,
     ) -> Result<(), GradientError> {
         let at = |node: &Node| node.index * D + component;
         let slots = |element: &Element| outline.layout.elements[element.index()];
@@ -88,10 +87,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     return Err(no_derivative(quantity));
                 };
                 let positions = state.positions.values();
-                let arm: SVector<S, D> = SVector::from_fn(|axis, _| {
+                let arm: SVector<f64, D> = SVector::from_fn(|axis, _| {
                     positions[b as usize * D + axis] - positions[a as usize * D + axis]
                 });
-                let length = arm.iter().fold(S::zero(), |sum, &x| sum + x * x).sqrt();
+                let length = arm.iter().fold(0.0, |sum, &x| sum + x * x).sqrt();
                 for axis in 0..D {
                     let entry = weight * arm[axis] / length;
                     see(Of::Position(b as usize * D + axis), entry);
@@ -112,8 +111,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             Quantity::KineticEnergy => self.see_kinetic((state, weight), outline, see),
             Quantity::TotalEnergy => {
-                if outline.lost_heat != S::zero() {
-                    let heat = outline.lost_heat.to_f64();
+                if outline.lost_heat != 0.0 {
+                    let heat = outline.lost_heat;
                     return Err(GradientError::LostHeat { heat });
                 }
                 self.see_kinetic((state, weight), outline, see);
@@ -133,7 +132,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The heat of a reservoir, `θ_r σ_r`; none for an oven: what it gives is booked as heat after each step.
-    fn see_heat(&self, (state, weight): (&State<S>, S), index: usize, see: &mut See<'_, S>) {
+    fn see_heat(&self, (state, weight): (&State, f64), index: usize, see: &mut See<'_>) {
         if self.is_oven(index) {
             return;
         }
@@ -146,20 +145,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// `½ vᵀ M v`.
-    fn see_kinetic(
-        &self,
-        (state, weight): (&State<S>, S),
-        outline: &Outline<S>,
-        see: &mut See<'_, S>,
-    ) {
+    fn see_kinetic(&self, (state, weight): (&State, f64), outline: &Outline, see: &mut See<'_>) {
         let momenta = state.momenta.values();
-        let half = S::from_f64(0.5);
         for (node, mass) in self.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
             let velocity = state.velocity::<D>(node, mass);
             for (speed, at) in velocity.into_iter().zip(node * D..) {
                 see(Of::Velocity(at), weight * momenta[at]);
-                see(Of::Mass(node), weight * half * speed * speed);
+                see(Of::Mass(node), weight * 0.5 * speed * speed);
             }
         }
         if !self.masses.are_coupled() {
@@ -170,23 +163,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 see(Of::Velocity(at), weight * momenta[at]);
             }
         }
-        let velocity = |node: usize| SVector::from(state.velocity::<D>(node, S::one()));
+        let velocity = |node: usize| SVector::from(state.velocity::<D>(node, 1.0));
         for (place, &[i, j]) in outline.pairs.iter().enumerate() {
-            let share = if i == j { half } else { S::one() };
+            let share = if i == j { 0.5 } else { 1.0 };
             let by = share * dot(&velocity(i), &velocity(j));
             see(Of::Pair(place), weight * by);
         }
     }
 
     /// `−Σ m g·q`, with the sums of the rows of the mass matrix.
-    fn see_potential(
-        &self,
-        (state, weight): (&State<S>, S),
-        outline: &Outline<S>,
-        see: &mut See<'_, S>,
-    ) {
+    fn see_potential(&self, (state, weight): (&State, f64), outline: &Outline, see: &mut See<'_>) {
         let positions = state.positions.values();
-        let place = |node: usize| SVector::<S, D>::from_fn(|axis, _| positions[node * D + axis]);
+        let place = |node: usize| SVector::<f64, D>::from_fn(|axis, _| positions[node * D + axis]);
         let gravity = self.loads.gravity;
         for (node, &sum) in outline.sums.iter().enumerate() {
             for (axis, at) in (node * D..(node + 1) * D).enumerate() {
@@ -207,7 +195,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// `Σ e` of all elements.
-    fn see_internal(&mut self, (state, weight): (&State<S>, S), see: &mut See<'_, S>) {
+    fn see_internal(&mut self, (state, weight): (&State, f64), see: &mut See<'_>) {
         // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         let Stepper::Newton(newton) = &mut self.stepper else {
@@ -225,7 +213,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 /// The derivatives of an internal energy as a function of positions, γ and θ: `∂e = f ∂π − g ∂γ + θ ∂s`.
-fn see_energy<S: Real>(element: &ElementGeneric<S>, weight: S, see: &mut See<'_, S>) {
+fn see_energy(element: &ElementGeneric, weight: f64, see: &mut See<'_>) {
     for &(at, force) in &element.forces {
         see(Of::Position(at), weight * force);
     }
@@ -249,13 +237,13 @@ fn see_energy<S: Real>(element: &ElementGeneric<S>, weight: S, see: &mut See<'_,
 }
 
 #[cold]
-fn no_derivative<const D: usize, S: Real>(quantity: &Quantity<D, S>) -> GradientError {
+fn no_derivative<const D: usize>(quantity: &Quantity<D>) -> GradientError {
     let quantity = quantity.kind();
     GradientError::NoDerivative { quantity }
 }
 
 /// The product of two vectors.
-pub(super) fn dot<S: Real, const D: usize>(one: &SVector<S, D>, other: &SVector<S, D>) -> S {
+pub(super) fn dot<const D: usize>(one: &SVector<f64, D>, other: &SVector<f64, D>) -> f64 {
     let pairs = one.iter().zip(other);
-    pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+    pairs.fold(0.0, |sum, (&a, &b)| sum + a * b)
 }

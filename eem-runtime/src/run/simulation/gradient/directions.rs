@@ -10,28 +10,27 @@ use crate::run::gradient::input::{Input, InputOf};
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
 use crate::step::adjoint::{Direction, HeatChange, PerVariable};
-use eem_material::number::scalar::{Mask, Real};
 use nalgebra::SVector;
 
 /// A list of zeros, with a one at this place.
-fn one_of<S: Real>(count: usize, place: usize) -> Vec<S> {
-    let mut all = vec![S::zero(); count];
+fn one_of(count: usize, place: usize) -> Vec<f64> {
+    let mut all = vec![0.0; count];
     if let Some(own) = all.get_mut(place) {
-        *own = S::one();
+        *own = 1.0;
     }
     all
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The change in which no input changes.
-    pub(super) fn no_change(&self, outline: &Outline<S>) -> Change<D, S> {
+    pub(super) fn no_change(&self, outline: &Outline) -> Change<D> {
         let reservoirs = self.conduction.reservoirs.len();
         Change {
             start: PerVariable::zero(self.masses.len() * D, &outline.layout, reservoirs),
             parameters: Vec::new(),
             masses: Vec::new(),
             pairs: Vec::new(),
-            gravity: SVector::from_element(S::zero()),
+            gravity: SVector::from_element(0.0),
             heat: HeatChange {
                 conductances: Vec::new(),
                 reservoirs: Vec::new(),
@@ -47,9 +46,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The change in which one input changes by one.
     pub(super) fn change_by(
         &self,
-        input: &Input<D, S>,
-        outline: &Outline<S>,
-    ) -> Result<Change<D, S>, GradientError> {
+        input: &Input<D>,
+        outline: &Outline,
+    ) -> Result<Change<D>, GradientError> {
         let mut change = self.no_change(outline);
         let component = |what: String, component: usize, components: usize| {
             let error = GradientError::Component {
@@ -76,8 +75,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             InputOf::Density(node, masses) => {
                 self.expect(node)?;
-                change.masses = vec![S::zero(); self.masses.len()];
-                change.pairs = vec![S::zero(); outline.pairs.len()];
+                change.masses = vec![0.0; self.masses.len()];
+                change.pairs = vec![0.0; outline.pairs.len()];
                 for &([i, j], mass) in masses {
                     if let Ok(place) = outline.pairs.binary_search(&[i, j]) {
                         change.pairs[place] += mass;
@@ -89,7 +88,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             &InputOf::Gravity(axis) => {
                 component("gravity".to_owned(), axis, D)?;
-                change.gravity[axis] = S::one();
+                change.gravity[axis] = 1.0;
             }
             InputOf::Conductance(path) => {
                 self.expect(path)?;
@@ -104,17 +103,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             &InputOf::Position(node, axis) => {
                 self.expect(&node)?;
                 component(format!("the position of {node}"), axis, D)?;
-                change.start.positions[node.index * D + axis] = S::one();
+                change.start.positions[node.index * D + axis] = 1.0;
             }
             &InputOf::Velocity(node, axis) => {
                 self.expect(&node)?;
                 component(format!("the velocity of {node}"), axis, D)?;
-                change.start.velocities[node.index * D + axis] = S::one();
+                change.start.velocities[node.index * D + axis] = 1.0;
                 self.drop_velocities(&mut change);
             }
             &InputOf::Temperature(element) => {
                 let slot = self.slot_of(element, outline)?;
-                change.start.temperatures[slot] = S::one();
+                change.start.temperatures[slot] = 1.0;
             }
             &InputOf::ViscousStretch(element, dashpot) => {
                 self.expect(&element)?;
@@ -126,7 +125,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     dashpots,
                 )?;
                 let first = outline.layout.elements[element.index()].viscous;
-                change.start.viscous[first + dashpot] = S::one();
+                change.start.viscous[first + dashpot] = 1.0;
             }
             of => self.change_of_function(of, outline, &mut change)?,
         }
@@ -136,9 +135,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Adds to `change` that a parameter of a function of time changes by one.
     fn change_of_function(
         &self,
-        of: &InputOf<D, S>,
-        outline: &Outline<S>,
-        change: &mut Change<D, S>,
+        of: &InputOf<D>,
+        outline: &Outline,
+        change: &mut Change<D>,
     ) -> Result<(), GradientError> {
         let none = |why: String| Err(GradientError::NoSeries { why });
         match of {
@@ -184,7 +183,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     return none(format!("{oven} is not an oven"));
                 }
                 let reservoirs = self.conduction.reservoirs.len();
-                change.heat.reservoirs = vec![S::zero(); reservoirs];
+                change.heat.reservoirs = vec![0.0; reservoirs];
                 change.ovens.push((oven.index, by.clone()));
             }
             _ => {}
@@ -198,10 +197,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Drops changes of initial velocities that anchors do not have: only moved ones that masses couple with other nodes have one.
-    pub(super) fn drop_velocities(&self, change: &mut Change<D, S>) {
+    pub(super) fn drop_velocities(&self, change: &mut Change<D>) {
         for node in self.masses.anchors() {
             if !(self.masses.are_coupled() && self.is_moved(node)) {
-                change.start.velocities[node * D..][..D].fill(S::zero());
+                change.start.velocities[node * D..][..D].fill(0.0);
             }
         }
     }
@@ -214,14 +213,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Err(SceneError::ForeignHandle { handle }.into())
     }
 
-    fn slot_of(&self, element: Element, outline: &Outline<S>) -> Result<usize, GradientError> {
+    fn slot_of(&self, element: Element, outline: &Outline) -> Result<usize, GradientError> {
         self.expect(&element)?;
         let slot = outline.layout.elements[element.index()].thermal;
         slot.ok_or_else(|| SceneError::NotThermal { element }.into())
     }
 
     /// The changes of the parameters of an element if one of them changes by one.
-    fn parameter_of(&self, element: Element, name: &str) -> Result<Vec<S>, GradientError> {
+    fn parameter_of(&self, element: Element, name: &str) -> Result<Vec<f64>, GradientError> {
         self.expect(&element)?;
         let [group, _] = self.places[element.index()];
         let group = self.stepper.elements(group as usize);
@@ -237,7 +236,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The unit of an input; empty if it is not known.
-    pub(super) fn unit_of(&self, input: &Input<D, S>) -> String {
+    pub(super) fn unit_of(&self, input: &Input<D>) -> String {
         if let Some([_, unit]) = &input.named {
             return unit.clone();
         }
@@ -268,23 +267,23 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Sets what changes in a step from outside: the new state of anchors and of prescribed temperatures, the conduction of heat,
     /// and the momentum balances of masses with their loads.
-    pub(super) fn enter(&self, made: Made<'_, S>, way: &mut Forward<D, S>) {
+    pub(super) fn enter(&self, made: Made<'_>, way: &mut Forward<D>) {
         let (h, [old, new]) = made;
-        let middle = old.time.value + S::from_f64(0.5) * h;
+        let middle = old.time.value + 0.5 * h;
         let all = way.changes.iter().zip(&mut way.directions);
         for ((change, direction), heat) in all.zip(&mut way.heats) {
-            direction.right.fill([S::zero()]);
+            direction.right.fill([0.0]);
             let Direction {
                 old: from, new: to, ..
             } = direction;
             to.positions.copy_from_slice(&from.positions);
             to.reservoirs.copy_from_slice(&from.reservoirs);
             for &node in &way.anchors {
-                to.velocities[node * D..][..D].fill(S::zero());
+                to.velocities[node * D..][..D].fill(0.0);
             }
             self.move_anchors(made, change, direction);
             for (slot, _) in way.held.iter().enumerate().filter(|(_, is_held)| **is_held) {
-                direction.new.temperatures[slot] = S::zero();
+                direction.new.temperatures[slot] = 0.0;
             }
             for (slot, by) in &change.temperatures {
                 direction.new.temperatures[*slot] += by(new.time.value);
@@ -294,7 +293,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 heat.reservoirs[*oven] += by(middle);
             }
             let rows = &way.outline.layout.nodes;
-            let mut push = |node: usize, force: SVector<S, D>| {
+            let mut push = |node: usize, force: SVector<f64, D>| {
                 if let Some(row) = rows[node] {
                     for axis in 0..D {
                         direction.right[row + axis][0] += force[axis];
@@ -305,15 +304,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 push(*node, by(middle) * h);
             }
             for (place, by) in &change.thrusts {
-                let along: SVector<S, D> = way.rockets[*place].direction.into();
+                let along: SVector<f64, D> = way.rockets[*place].direction.into();
                 let node = self.loads.rockets[*place].line.node.index;
                 push(node, along * (h * by(middle)));
             }
-            if change
-                .gravity
-                .iter()
-                .any(|axis| !axis.equal(S::zero()).all())
-            {
+            if change.gravity.iter().any(|&axis| axis != 0.0) {
                 for (node, &sum) in way.outline.sums.iter().enumerate() {
                     push(node, change.gravity * (h * sum));
                 }
@@ -324,8 +319,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 }
             }
             for (&[i, j], &by) in way.outline.pairs.iter().zip(&change.pairs) {
-                push(i, self.pushed(made, j, S::one()) * -by);
-                push(j, self.pushed(made, i, S::one()) * -by);
+                push(i, self.pushed(made, j, 1.0) * -by);
+                push(j, self.pushed(made, i, 1.0) * -by);
             }
         }
     }
@@ -333,9 +328,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Sets the changes of new positions and velocities for anchors whose motion changes.
     fn move_anchors(
         &self,
-        (h, [old, new]): Made<'_, S>,
-        change: &Change<D, S>,
-        direction: &mut Direction<S>,
+        (h, [old, new]): Made<'_>,
+        change: &Change<D>,
+        direction: &mut Direction,
     ) {
         for (node, _) in &change.motions {
             let own = *node * D..(*node + 1) * D;
@@ -344,11 +339,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let start = old.time.value;
         for (node, by) in &change.motions {
             let end = by(new.time.value);
-            let mut speed = SVector::<S, D>::from_element(S::zero());
+            let mut speed = SVector::<f64, D>::from_element(0.0);
             if self.masses.are_coupled() {
                 for (thirds, weight) in CUBIC {
-                    let at = start + S::from_f64(thirds) * (h / S::from_f64(3.0));
-                    speed += (end - by(at)) * (S::from_f64(0.5 * weight) / h);
+                    let at = start + thirds * (h / 3.0);
+                    speed += (end - by(at)) * (0.5 * weight / h);
                 }
             }
             for (axis, at) in (*node * D..).take(D).enumerate() {

@@ -7,29 +7,28 @@ use crate::element::conduction::{Conduction, Partner};
 use crate::element::state::State;
 use crate::scene::loads::Course;
 use crate::step::adjoint::RocketStep;
-use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
 /// A step that was made: its size, its old state and its new one.
-pub(super) type Made<'a, S> = (S, [&'a State<S>; 2]);
+pub(super) type Made<'a> = (f64, [&'a State; 2]);
 
 /// The velocity of a moved anchor at the end of a step, from the cubic through four positions,
 /// `q̇ = Σ weight (q_end − q_k)/(2h)`: the time of `q_k` in thirds of the step, and its weight.
 pub(super) const CUBIC: [(f64, f64); 3] = [(2.0, 18.0), (1.0, -9.0), (0.0, 2.0)];
 
-fn vector<S: Real, const D: usize>(values: &[S], node: usize) -> SVector<S, D> {
+fn vector<const D: usize>(values: &[f64], node: usize) -> SVector<f64, D> {
     SVector::from_fn(|axis, _| values[node * D + axis])
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// Finds the rockets of a step and the temperatures of ovens in it.
     pub(super) fn find_loads(
         &self,
-        (h, [old, new]): Made<'_, S>,
-        conduction: &mut Conduction<S>,
-        rockets: &mut Vec<RocketStep<S, D>>,
+        (h, [old, new]): Made<'_>,
+        conduction: &mut Conduction,
+        rockets: &mut Vec<RocketStep<D>>,
     ) {
-        let middle = old.time.value + S::from_f64(0.5) * h;
+        let middle = old.time.value + 0.5 * h;
         for (index, temperature) in &self.loads.ovens {
             conduction.reservoirs[*index] = temperature(middle);
         }
@@ -42,7 +41,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Finds the derivatives by the velocities of moved anchors at the end of a step, and drops those by the old velocities of
     /// anchors that do not move.
-    pub(super) fn find_by_speeds(way: &mut Way<D, S>) {
+    pub(super) fn find_by_speeds(way: &mut Way<D>) {
         way.by_speeds.clear();
         let adjoint = &mut way.adjoint;
         for &(node, is_moved) in &way.anchors {
@@ -51,30 +50,30 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     [&adjoint.costate, &adjoint.after].map(|by| vector(&by.velocities, node));
                 way.by_speeds.push((node, new - old));
             } else {
-                adjoint.costate.velocities[node * D..][..D].fill(S::zero());
+                adjoint.costate.velocities[node * D..][..D].fill(0.0);
             }
         }
     }
 
     /// `Δv − h g` of a node, m/s: the change of its velocity without gravity. Where masses couple nodes, `mass` is not used.
-    pub(super) fn pushed(&self, (h, states): Made<'_, S>, node: usize, mass: S) -> SVector<S, D> {
+    pub(super) fn pushed(&self, (h, states): Made<'_>, node: usize, mass: f64) -> SVector<f64, D> {
         let [old, new] = states.map(|state| state.velocity::<D>(node, mass));
         SVector::from_fn(|axis, _| new[axis] - old[axis] - h * self.loads.gravity[axis])
     }
 
     /// Adds the derivatives of a step by masses, gravity, conductances and temperatures of reservoirs.
-    pub(super) fn add_step(&self, made: Made<'_, S>, way: &mut Way<D, S>) {
+    pub(super) fn add_step(&self, made: Made<'_>, way: &mut Way<D>) {
         let (h, [old, _]) = made;
         let (weights, found) = (&way.adjoint.weights, &mut way.found);
         for (node, mass) in self.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
-            let weight = vector::<S, D>(&weights.motion, node);
+            let weight = vector::<D>(&weights.motion, node);
             found.masses[node] -= dot(&weight, &self.pushed(made, node, mass));
             found.gravity += weight * (h * way.outline.sums[node]);
         }
         for ([i, j], by) in &mut found.pairs {
-            let [w_i, w_j] = [*i, *j].map(|node| vector::<S, D>(&weights.motion, node));
-            let [of_i, of_j] = [*i, *j].map(|node| self.pushed(made, node, S::one()));
+            let [w_i, w_j] = [*i, *j].map(|node| vector::<D>(&weights.motion, node));
+            let [of_i, of_j] = [*i, *j].map(|node| self.pushed(made, node, 1.0));
             *by -= dot(&w_i, &of_j) + dot(&w_j, &of_i);
         }
         let theta = &weights.temperatures;
@@ -82,7 +81,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let by_new = &way.adjoint.after.reservoirs;
         let of_heat = |at: usize| by_new[at] / way.conduction.reservoirs[at];
         let by_reservoirs = &mut way.by_reservoirs;
-        by_reservoirs.fill(S::zero());
+        by_reservoirs.fill(0.0);
         for (slot, &own) in theta.iter().enumerate() {
             for link in way.conduction.links(slot) {
                 if let Partner::Reservoir(at) = link.partner {
@@ -95,7 +94,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         for (sum, &by) in found.reservoirs.iter_mut().zip(&*by_reservoirs) {
             *sum += by;
         }
-        let middle = old.time.value + S::from_f64(0.5) * h;
+        let middle = old.time.value + 0.5 * h;
         for (reservoir, series) in &mut found.ovens {
             series.0.push((middle, by_reservoirs[*reservoir]));
         }
@@ -113,32 +112,32 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Appends the derivatives of a step by the values of functions of time, the last value first.
-    pub(super) fn add_series(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
+    pub(super) fn add_series(&self, (h, [old, new]): Made<'_>, way: &mut Way<D>) {
         let (start, end) = (old.time.value, new.time.value);
-        let middle = start + S::from_f64(0.5) * h;
+        let middle = start + 0.5 * h;
         let (weights, found) = (&way.adjoint.weights, &mut way.found);
         for (node, series) in &mut found.forces {
             series
                 .0
-                .push((middle, vector::<S, D>(&weights.motion, *node) * h));
+                .push((middle, vector::<D>(&weights.motion, *node) * h));
         }
         let pushes = self.loads.rockets.iter().zip(&way.rockets);
         for ((_, series), (rocket, own)) in found.thrusts.iter_mut().zip(pushes) {
-            let weight = vector::<S, D>(&weights.motion, rocket.line.node.index);
+            let weight = vector::<D>(&weights.motion, rocket.line.node.index);
             series
                 .0
                 .push((middle, dot(&weight, &own.direction.into()) * h));
         }
         for (node, series) in &mut found.motions {
             let [mut by_old, mut by_new] =
-                [0, 1].map(|side| vector::<S, D>(&weights.anchors[side], *node));
+                [0, 1].map(|side| vector::<D>(&weights.anchors[side], *node));
             let at_end = series.len().checked_sub(1);
             if let Some((_, by)) = way.by_speeds.iter().find(|(own, _)| own == node) {
                 for (thirds, weight) in CUBIC {
-                    let own = by * (S::from_f64(0.5 * weight) / h);
+                    let own = by * (0.5 * weight / h);
                     by_new += own;
                     if thirds > 0.0 {
-                        let at = start + S::from_f64(thirds) * (h / S::from_f64(3.0));
+                        let at = start + thirds * (h / 3.0);
                         series.0.push((at, -own));
                     } else {
                         by_old -= own;
@@ -165,7 +164,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// with the positions X of anchors whose velocity a controller has set. Moved anchors that masses couple with other nodes add
     /// `Δv·M w_v/h`; if their motion is a function, its velocity v¹ is a difference over h, which adds `−v¹·∂J/∂v¹/h`.
-    pub(super) fn add_size(&self, (h, [old, new]): Made<'_, S>, way: &mut Way<D, S>) {
+    pub(super) fn add_size(&self, (h, [old, new]): Made<'_>, way: &mut Way<D>) {
         let (by_old, by_new) = (&way.adjoint.costate, &way.adjoint.after);
         let weights = &way.adjoint.weights;
         let mut terms = weights.by_size;

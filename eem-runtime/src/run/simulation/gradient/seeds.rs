@@ -12,12 +12,12 @@ use crate::run::recorder::Quantity;
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
 use crate::step::adjoint::PerVariable;
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 use nalgebra::SVector;
 
 /// The quantities of objectives, and the states at which they count, from the last one on.
-pub(super) struct Seeds<'a, const D: usize, S: Real> {
-    pub(super) terms: Vec<Asked<'a, D, S>>,
+pub(super) struct Seeds<'a, const D: usize> {
+    pub(super) terms: Vec<Asked<'a, D>>,
     /// The factor of the time at the end.
     time: f64,
     /// The value of the first objective, as far as the states passed so far contribute.
@@ -33,8 +33,8 @@ pub(super) struct Weighed {
 }
 
 /// A quantity of an objective.
-pub(super) struct Asked<'a, const D: usize, S: Real> {
-    term: &'a Term<D, S>,
+pub(super) struct Asked<'a, const D: usize> {
+    term: &'a Term<D>,
     /// The factor of the objective.
     factor: f64,
     /// Whether the objective is the first one, whose value counts.
@@ -42,9 +42,9 @@ pub(super) struct Asked<'a, const D: usize, S: Real> {
     moments: Vec<Moment>,
 }
 
-impl<'a, const D: usize, S: Real> Asked<'a, D, S> {
+impl<'a, const D: usize> Asked<'a, D> {
     /// The quantity and its component.
-    pub(super) const fn of(&self) -> (&'a Quantity<D, S>, usize) {
+    pub(super) const fn of(&self) -> (&'a Quantity<D>, usize) {
         (&self.term.quantity, self.term.component)
     }
 }
@@ -58,11 +58,8 @@ struct Moment {
     record: Option<[f64; 2]>,
 }
 
-impl<'a, const D: usize, S: Real> Seeds<'a, D, S> {
-    pub(super) fn new(
-        kept: &Record<S>,
-        objectives: Weighted<'a, D, S>,
-    ) -> Result<Self, GradientError> {
+impl<'a, const D: usize> Seeds<'a, D> {
+    pub(super) fn new(kept: &Record, objectives: Weighted<'a, D>) -> Result<Self, GradientError> {
         let (mut terms, mut time, mut value) = (Vec::new(), 0.0, 0.0);
         for (place, &(factor, objective)) in objectives.iter().enumerate() {
             let is_first = place == 0;
@@ -76,7 +73,7 @@ impl<'a, const D: usize, S: Real> Seeds<'a, D, S> {
             }
             time += factor * objective.time;
             if is_first && objective.time != 0.0 {
-                value += objective.time * kept.time().to_f64();
+                value += objective.time * kept.time();
             }
         }
         Ok(Self { terms, time, value })
@@ -91,9 +88,9 @@ impl<'a, const D: usize, S: Real> Seeds<'a, D, S> {
     }
 }
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The value of a quantity in a state of the history, whose energies are not kept.
-    fn value_in(&mut self, state: &mut State<S>, term: &Term<D, S>) -> Result<f64, GradientError> {
+    fn value_in(&mut self, state: &mut State, term: &Term<D>) -> Result<f64, GradientError> {
         if matches!(term.quantity, Quantity::TotalEnergy) {
             self.find_energies(state)?;
         }
@@ -113,7 +110,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Finds entropies and energies of a state from its temperatures.
-    fn find_energies(&mut self, state: &mut State<S>) -> Result<(), GradientError> {
+    fn find_energies(&mut self, state: &mut State) -> Result<(), GradientError> {
         self.has_stepped = false;
         let Stepper::Newton(newton) = &mut self.stepper else {
             return Ok(());
@@ -129,9 +126,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// How a quantity of an objective counts in the state after `steps` steps; `None` if it does not.
     pub(super) fn weigh(
         &mut self,
-        (steps, state): (usize, &mut State<S>),
-        kept: &Record<S>,
-        asked: &mut Asked<'_, D, S>,
+        (steps, state): (usize, &mut State),
+        kept: &Record,
+        asked: &mut Asked<'_, D>,
     ) -> Result<Option<Weighed>, GradientError> {
         let term = asked.term;
         let factor = asked.factor * term.factor;
@@ -149,7 +146,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 .into_iter()
                 .chain((steps < kept.len()).then_some(steps))
             {
-                let share = 0.5 * term.factor * kept.size(step).to_f64();
+                let share = 0.5 * term.factor * kept.size(step);
                 found.weight += asked.factor * share;
                 found.own += share * value;
             }
@@ -172,18 +169,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Adds the values and the derivatives of the quantities in the state after `steps` steps.
     pub(super) fn add_seeds(
         &mut self,
-        (steps, state): (usize, &mut State<S>),
-        (kept, seeds): (&Record<S>, &mut Seeds<'_, D, S>),
-        way: &mut Way<D, S>,
+        (steps, state): (usize, &mut State),
+        (kept, seeds): (&Record, &mut Seeds<'_, D>),
+        way: &mut Way<D>,
     ) -> Result<(), GradientError> {
-        let place = |costate: &PerVariable<S>, node: usize| {
-            SVector::<S, D>::from_fn(|axis, _| costate.positions[node * D + axis])
+        let place = |costate: &PerVariable, node: usize| {
+            SVector::<f64, D>::from_fn(|axis, _| costate.positions[node * D + axis])
         };
         let motions = way.found.motions.iter();
         let before: Vec<_> = motions
             .map(|&(node, _)| place(&way.adjoint.costate, node))
             .collect();
-        way.by_size = S::from_f64(seeds.time);
+        way.by_size = seeds.time;
         let mut sum = 0.0;
         for asked in &mut seeds.terms {
             let at = (steps, &mut *state);
@@ -193,12 +190,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             if let Some(value) = weighed.integrand {
                 let share = asked.factor * 0.5 * asked.term.factor * value;
                 if steps > 0 {
-                    way.by_size += S::from_f64(share);
+                    way.by_size += share;
                 }
                 if let Some((_, by_size)) = way.found.sizes.last_mut()
                     && steps < kept.len()
                 {
-                    *by_size += S::from_f64(share);
+                    *by_size += share;
                 }
             }
             if asked.is_first {
@@ -210,9 +207,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 found,
                 ..
             } = way;
-            let see = &mut |of: Of<'_, S>, by| add_to((&mut *adjoint, found), of, by);
+            let see = &mut (|of: Of<'_>, by| add_to((&mut *adjoint, found), of, by));
             // Also with weight zero: a quantity without derivatives is an error, whatever its value.
-            let weight = S::from_f64(weighed.weight);
+            let weight = weighed.weight;
             self.see_derivatives((state, weight), asked.of(), outline, see)?;
         }
         seeds.value += sum;
@@ -234,7 +231,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 const ROUNDINGS: f64 = 4.0;
 
 /// The states in which a quantity counts, the last one at the end.
-fn moments<S: Real>(kept: &Record<S>, when: &When) -> Result<Vec<Moment>, GradientError> {
+fn moments(kept: &Record, when: &When) -> Result<Vec<Moment>, GradientError> {
     let at = |steps: usize, record| Moment { steps, record };
     let mut asked: Vec<(f64, Option<[f64; 2]>)> = match when {
         When::End => return Ok(vec![at(kept.len(), None)]),
@@ -253,7 +250,7 @@ fn moments<S: Real>(kept: &Record<S>, when: &When) -> Result<Vec<Moment>, Gradie
         }
     };
     asked.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-    let mut times = kept.times().map(Real::to_f64).enumerate().peekable();
+    let mut times = kept.times().enumerate().peekable();
     let (mut steps, mut near) = times.next().unwrap_or((0, f64::NAN));
     let mut found = Vec::with_capacity(asked.len());
     for (time, record) in asked {
@@ -262,7 +259,7 @@ fn moments<S: Real>(kept: &Record<S>, when: &When) -> Result<Vec<Moment>, Gradie
             (steps, near) = next;
         }
         let is_there =
-            time.is_finite() && (near - time).abs() <= ROUNDINGS * S::EPSILON.to_f64() * time.abs();
+            time.is_finite() && (near - time).abs() <= ROUNDINGS * f64::EPSILON * time.abs();
         if !is_there {
             let nearest = near;
             return Err(GradientError::NotAnEndOfStep { time, nearest });

@@ -19,18 +19,13 @@ use crate::run::recorder::{Column, Quantity};
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
 use crate::step::adjoint::Tangents;
-use eem_material::number::scalar::Real;
 
 /// A function that is called with every state of a history and the number of steps before it.
-type Visit<'a, const D: usize, S> = dyn FnMut(
-        &mut Simulation<D, S>,
-        (usize, &mut State<S>),
-        &Forward<D, S>,
-    ) -> Result<(), GradientError>
+type Visit<'a, const D: usize> = dyn FnMut(&mut Simulation<D>, (usize, &mut State), &Forward<D>) -> Result<(), GradientError>
     + 'a;
 
 /// # Gradients
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// The derivatives of quantities by some inputs in all states since [`keep_history`](Self::keep_history): a table with the
     /// time and a column for each quantity and input, `z by stiffness of element 0 (Spring)`; of a vector for each component.
     ///
@@ -68,8 +63,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn sensitivities<N: Into<String>>(
         &mut self,
-        inputs: &[Input<D, S>],
-        quantities: impl IntoIterator<Item = (N, Quantity<D, S>)>,
+        inputs: &[Input<D>],
+        quantities: impl IntoIterator<Item = (N, Quantity<D>)>,
     ) -> Result<Sensitivities, GradientError> {
         let mut asked = Vec::new();
         let mut columns = vec![Column::of(
@@ -92,24 +87,24 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let outline = run.outline();
             let changes = inputs.iter().map(|input| run.change_by(input, &outline));
             let changes = changes.collect::<Result<_, _>>()?;
-            let mut sums = vec![S::zero(); inputs.len()];
-            let see = &mut |run: &mut Self, at: (usize, &mut State<S>), way: &Forward<D, S>| {
+            let mut sums = vec![0.0; inputs.len()];
+            let see = &mut (|run: &mut Self, at: (usize, &mut State), way: &Forward<D>| {
                 let mut places = columns.iter_mut();
                 if let Some(time) = places.next() {
-                    time.push(at.1.time.value.to_f64());
+                    time.push(at.1.time.value);
                 }
                 for quantity in &asked {
                     for component in 0..quantity.columns("").len() {
-                        sums.fill(S::zero());
+                        sums.fill(0.0);
                         let of = (quantity, component);
-                        run.add_rates((at.1, S::one()), of, way, &mut sums)?;
+                        run.add_rates((at.1, 1.0), of, way, &mut sums)?;
                         for (&sum, column) in sums.iter().zip(&mut places) {
-                            column.push(sum.to_f64());
+                            column.push(sum);
                         }
                     }
                 }
                 Ok(())
-            };
+            });
             run.go_forward(kept, changes, see)
         })?;
         Ok(Sensitivities {
@@ -121,26 +116,26 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Adds the changes of a component of a quantity in a state, times a weight, in each direction.
     pub(super) fn add_rates(
         &mut self,
-        weighted: (&State<S>, S),
-        of: (&Quantity<D, S>, usize),
-        way: &Forward<D, S>,
-        sums: &mut [S],
+        weighted: (&State, f64),
+        of: (&Quantity<D>, usize),
+        way: &Forward<D>,
+        sums: &mut [f64],
     ) -> Result<(), GradientError> {
-        let see = &mut |of: Of<'_, S>, by: S| {
+        let see = &mut (|of: Of<'_>, by: f64| {
             let directions = way.changes.iter().zip(&way.directions);
             for (sum, (change, direction)) in sums.iter_mut().zip(directions) {
                 *sum += along((change, &direction.old), of, by);
             }
-        };
+        });
         self.see_derivatives(weighted, of, &way.outline, see)
     }
 
     /// Goes through a history from its first state on, with the changes of its states in some directions.
     pub(super) fn go_forward(
         &mut self,
-        kept: &Record<S>,
-        changes: Vec<Change<D, S>>,
-        see: &mut Visit<'_, D, S>,
+        kept: &Record,
+        changes: Vec<Change<D>>,
+        see: &mut Visit<'_, D>,
     ) -> Result<(), GradientError> {
         let last = State::clone(&self.state);
         let mut ends = [(); 2].map(|()| last.clone());
@@ -164,7 +159,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             self.make_again([from, to], kept, |state| states.keep(state))?;
             here = self.snapshot_of(to);
             if to == kept.len() && !states.ends_in(&last) {
-                let time = last.time.value.to_f64();
+                let time = last.time.value;
                 return Err(GradientError::NotRepeatable { time });
             }
             self.follow(kept, (from, &states), &mut ends, &mut way, see)?;
@@ -176,11 +171,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Goes through the steps between these states, of which the first follows `from` steps.
     fn follow(
         &mut self,
-        kept: &Record<S>,
-        (from, states): (usize, &Kept<S>),
-        [old, new]: &mut [State<S>; 2],
-        way: &mut Forward<D, S>,
-        see: &mut Visit<'_, D, S>,
+        kept: &Record,
+        (from, states): (usize, &Kept),
+        [old, new]: &mut [State; 2],
+        way: &mut Forward<D>,
+        see: &mut Visit<'_, D>,
     ) -> Result<(), GradientError> {
         for at in 0..states.len() {
             mem::swap(old, new);
@@ -194,9 +189,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// A way forward before its first step.
     fn way_forward(
         &mut self,
-        start: &State<S>,
-        changes: Vec<Change<D, S>>,
-    ) -> Result<Forward<D, S>, GradientError> {
+        start: &State,
+        changes: Vec<Change<D>>,
+    ) -> Result<Forward<D>, GradientError> {
         let outline = self.outline();
         let held = self.held(&outline.layout);
         let Stepper::Newton(newton) = &mut self.stepper else {
@@ -225,7 +220,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Takes a step: from the changes of its old state to those of its new one.
-    fn push(&mut self, made: Made<'_, S>, way: &mut Forward<D, S>) -> Result<(), GradientError> {
+    fn push(&mut self, made: Made<'_>, way: &mut Forward<D>) -> Result<(), GradientError> {
         self.find_loads(made, &mut way.conduction, &mut way.rockets);
         self.enter(made, way);
         let (tangents, directions) = (&mut way.tangents, &mut way.directions);
@@ -237,11 +232,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 tangents.step_forward(past, loaded, groups, system, (directions, &way.heats))
             },
         )?;
-        let time = made.1[1].time.value.to_f64();
+        let time = made.1[1].time.value;
         for direction in &mut way.directions {
             for (oven, _) in &self.loads.ovens {
                 // An oven keeps no entropy: what it receives is booked as heat after the step.
-                direction.new.reservoirs[*oven] = S::zero();
+                direction.new.reservoirs[*oven] = 0.0;
             }
             mem::swap(&mut direction.old, &mut direction.new);
             if !direction.old.is_finite() {

@@ -5,42 +5,41 @@ use crate::element::conduction::{Conduction, Partner};
 use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::Gradient;
 use crate::step::adjoint::{Adjoint, RocketStep, Terms};
-use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
 /// The way back through a history.
-pub(super) struct Way<const D: usize, S: Real> {
-    pub(super) outline: Outline<S>,
+pub(super) struct Way<const D: usize> {
+    pub(super) outline: Outline,
     /// The conduction, with the temperatures of ovens in the present step.
-    pub(super) conduction: Conduction<S>,
+    pub(super) conduction: Conduction,
     pub(super) paths: Vec<(usize, Partner)>,
     /// Whether a thermostat prescribes the temperature, by thermal slot.
     pub(super) held: Vec<bool>,
     /// The anchors that masses couple with other nodes, and whether they are moved.
     pub(super) anchors: Vec<(usize, bool)>,
     /// The rockets in the present step.
-    pub(super) rockets: Vec<RocketStep<S, D>>,
+    pub(super) rockets: Vec<RocketStep<D>>,
     /// The derivatives of the present step by the velocities of moved anchors at its end, where masses couple them with
     /// others, and by the temperatures of reservoirs.
-    pub(super) by_speeds: Vec<(usize, SVector<S, D>)>,
-    pub(super) by_reservoirs: Vec<S>,
+    pub(super) by_speeds: Vec<(usize, SVector<f64, D>)>,
+    pub(super) by_reservoirs: Vec<f64>,
     /// The adjoint, with the derivatives by the present state.
-    pub(super) adjoint: Adjoint<S, D>,
+    pub(super) adjoint: Adjoint<D>,
     /// The derivative by the size of the step before the present state, as far as the objective itself contains this size.
-    pub(super) by_size: S,
+    pub(super) by_size: f64,
     /// The terms of the derivative by the size of the last step.
-    pub(super) last: Option<Terms<S>>,
-    pub(super) found: Gradient<D, S>,
+    pub(super) last: Option<Terms>,
+    pub(super) found: Gradient<D>,
 }
 
 /// Objectives with factors. The value of the first one is that of the gradient.
-pub(super) type Weighted<'a, const D: usize, S> = &'a [(f64, &'a Objective<D, S>)];
+pub(super) type Weighted<'a, const D: usize> = &'a [(f64, &'a Objective<D>)];
 
 /// Adds a derivative by a state variable to those by the present state, or one by an input to those by inputs.
-pub(super) fn add_to<const D: usize, S: Real>(
-    (adjoint, found): (&mut Adjoint<S, D>, &mut Gradient<D, S>),
-    of: Of<'_, S>,
-    by: S,
+pub(super) fn add_to<const D: usize>(
+    (adjoint, found): (&mut Adjoint<D>, &mut Gradient<D>),
+    of: Of<'_>,
+    by: f64,
 ) {
     let costate = &mut adjoint.costate;
     match of {
@@ -58,7 +57,7 @@ pub(super) fn add_to<const D: usize, S: Real>(
 }
 
 /// Adds `factor values` to `sum`.
-pub(super) fn add<S: Real>(sum: &mut [S], factor: S, values: &[S]) {
+pub(super) fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
     for (sum, &value) in sum.iter_mut().zip(values) {
         *sum += factor * value;
     }

@@ -9,12 +9,11 @@ use crate::run::gradient::timed::Timed;
 use crate::run::simulation::Simulation;
 use crate::scene::loads::Course;
 use crate::step::adjoint::PerVariable;
-use eem_material::number::scalar::Real;
 use nalgebra::SVector;
 
-impl<const D: usize, S: Real> Simulation<D, S> {
+impl<const D: usize> Simulation<D> {
     /// A gradient of zeros, with the names of all parameters.
-    pub(super) fn no_gradient(&self, outline: &Outline<S>) -> Gradient<D, S> {
+    pub(super) fn no_gradient(&self, outline: &Outline) -> Gradient<D> {
         let layout = &outline.layout;
         let coordinates = self.masses.len() * D;
         let mut elements = Vec::with_capacity(self.places.len());
@@ -29,7 +28,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 names,
                 units: of_group.parameter_units(),
                 viscous_unit: self.viscous_unit(group as usize),
-                values: vec![S::zero(); names.len()],
+                values: vec![0.0; names.len()],
             });
         }
         Gradient {
@@ -41,15 +40,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             moving: (0..self.masses.len())
                 .filter(|&node| self.masses.get(node).is_some())
                 .collect(),
-            masses: vec![S::zero(); self.masses.len()],
-            pairs: outline
-                .pairs
-                .iter()
-                .map(|&nodes| (nodes, S::zero()))
-                .collect(),
-            gravity: SVector::from_element(S::zero()),
-            conductances: vec![S::zero(); self.conduction.path_ends().len()],
-            reservoirs: vec![S::zero(); self.conduction.reservoirs.len()],
+            masses: vec![0.0; self.masses.len()],
+            pairs: outline.pairs.iter().map(|&nodes| (nodes, 0.0)).collect(),
+            gravity: SVector::from_element(0.0),
+            conductances: vec![0.0; self.conduction.path_ends().len()],
+            reservoirs: vec![0.0; self.conduction.reservoirs.len()],
             elements,
             sizes: Vec::new(),
             started: self.time(),
@@ -94,7 +89,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 /// Empty series for these indices, each once.
-fn empty<T, S>(indices: impl Iterator<Item = usize>) -> Vec<(usize, Series<T, S>)> {
+fn empty<T>(indices: impl Iterator<Item = usize>) -> Vec<(usize, Series<T>)> {
     let indices: BTreeSet<usize> = indices.collect();
     indices
         .into_iter()

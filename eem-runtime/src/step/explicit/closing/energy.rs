@@ -7,7 +7,6 @@ use super::Status;
 use crate::element::group::{Place, is_met};
 use crate::element::state::State;
 use core::ops::Range;
-use eem_material::number::scalar::{Mask, Real, unless};
 
 /// The fraction of the entropy production of a step by which a correction by heat may change it.
 const HEAT_SHARE: f64 = 0.003;
@@ -18,7 +17,7 @@ const HEAT_ITERATIONS: usize = 3;
 /// The tolerance of the defect, in u = ε/2, relative to the magnitude of the energy.
 const ENOUGH: f64 = 2.0;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Finds the sums over the masses of a component for their present positions and momenta.
     pub(in super::super) fn look_at_motion(&mut self, index: usize) {
         let gravity = self.gravity;
@@ -31,7 +30,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     pub(super) fn sum_motion(
         &mut self,
         index: usize,
-        add: impl Fn(&mut Motion<S, D>, &Place<S, D>, &[S; D]),
+        add: impl Fn(&mut Motion<D>, &Place<D>, &[f64; D]),
     ) {
         let component = &self.components.all[index];
         let origin = Self::origin(&self.stage.places, component);
@@ -43,7 +42,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The energy of a component, and the magnitude of its terms, J.
-    pub(in super::super) fn energy_of(&self, index: usize) -> [S; 2] {
+    pub(in super::super) fn energy_of(&self, index: usize) -> [f64; 2] {
         let (motion, inner) = (&self.scratch.motions[index], &self.scratch.energies[index]);
         let (mut energy, mut magnitude) = (motion.energy, motion.magnitude + inner.magnitude);
         energy.add(inner.value.value());
@@ -65,11 +64,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The magnitude by which the state at the start of a step enters the bound of the energy, and its energy terms, J.
     #[cold]
-    pub(in super::super) fn terms_at_start(&self, state: &State<S>) -> [S; 2] {
-        let mut motion = S::zero();
+    pub(in super::super) fn terms_at_start(&self, state: &State) -> [f64; 2] {
+        let mut motion = 0.0;
         for place in &self.stage.places[..self.components.masses] {
             let p = &place.past.start[1];
-            motion += S::from_f64(0.5) * dot(p, p) * place.per_mass;
+            motion += 0.5 * dot(p, p) * place.per_mass;
         }
         let energies = state.energies.iter();
         energies.fold([motion; 2], |[counted, terms], energy| {
@@ -79,35 +78,32 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The defect of the energy of a component, and the magnitude of its terms, J.
-    pub(in super::super) fn defect_of(&self, index: usize) -> [S; 2] {
+    pub(in super::super) fn defect_of(&self, index: usize) -> [f64; 2] {
         let [energy, magnitude] = self.energy_of(index);
         let target = self.books.targets[index].energy;
         [target.beyond(energy), magnitude + target.value.abs()]
     }
 
     /// Corrects the energy by heat as long as no element has to be evaluated for it.
-    ///
-    /// Each lane takes the branch that it would take alone.
-    pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Status {
+    pub(super) fn balance(&mut self, index: usize, next: &mut State) -> Status {
         loop {
             let is_finite = self.look(index);
             let progress = &mut self.scratch.progress[index];
-            if progress.is_rigid || progress.is_closed.all() {
+            if progress.is_rigid || progress.is_closed {
                 return Status::Closed;
             }
             let iterations = progress.iterations;
             progress.iterations += 1;
-            let mut heats = S::Mask::none();
-            if iterations < HEAT_ITERATIONS && is_finite && !self.is_motion_first {
-                heats = self.heat_within_share(index, next);
-            }
-            let progress = &mut self.scratch.progress[index];
-            progress.needs_forces = !(heats | progress.is_closed);
-            if progress.needs_forces.any() {
-                return Status::NeedsForces;
-            }
-            if !self.scratch.inactive[index].all() {
-                return Status::Changed;
+            let tries_heat = iterations < HEAT_ITERATIONS && is_finite && !self.is_motion_first;
+            let heated = if tries_heat {
+                self.heat_within_share(index, next)
+            } else {
+                None
+            };
+            match heated {
+                None => return Status::NeedsForces,
+                Some(false) => return Status::Changed,
+                Some(true) => {}
             }
         }
     }
@@ -119,39 +115,30 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         progress.present = Some(present);
         let [defect, magnitude] = present;
         progress.defect = defect;
-        let begins = progress.scale.equal(S::zero());
-        if begins.any() {
-            let has_terms = S::zero().less(magnitude);
-            let correction = S::select(has_terms, defect / magnitude, S::zero());
-            progress.correction = S::select(begins, correction, progress.correction);
-            progress.scale = S::select(begins, magnitude, progress.scale);
+        if progress.scale == 0.0 {
+            let has_terms = magnitude > 0.0;
+            progress.correction = if has_terms { defect / magnitude } else { 0.0 };
+            progress.scale = magnitude;
         }
-        let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
-        progress.is_closed = progress.is_closed | defect.abs().at_most(enough);
-        self.scratch.inactive[index] = !S::Mask::none();
+        let enough = 0.5 * ENOUGH * f64::EPSILON * progress.scale;
+        progress.is_closed = progress.is_closed || defect.abs() <= enough;
         defect.is_finite()
     }
 
-    /// Closes a component by heat in the lanes where the heat is small compared with what is produced; returns these
-    /// lanes.
-    fn heat_within_share(&mut self, index: usize, next: &mut State<S>) -> S::Mask {
-        let progress = &self.scratch.progress[index];
-        let (defect, is_closed) = (progress.defect, progress.is_closed);
+    /// Closes a component by heat if the heat is small compared with what is produced; then returns whether the result is
+    /// known without another evaluation.
+    fn heat_within_share(&mut self, index: usize, next: &mut State) -> Option<bool> {
+        let defect = self.scratch.progress[index].defect;
         let produced = self.produced_heat(index);
-        let most = S::from_f64(HEAT_SHARE) * produced;
-        let heats = defect.abs().at_most(most) & !is_closed;
-        if heats.any() {
-            let progress = &mut self.scratch.progress[index];
-            progress.has_heated = progress.has_heated | heats;
-            let part = unless(!heats, S::zero(), defect / produced);
-            let is_known = self.heat(index, part, next);
-            self.scratch.inactive[index] = is_known | !heats;
+        if !(defect.abs() <= HEAT_SHARE * produced) {
+            return None;
         }
-        heats
+        self.scratch.progress[index].has_heated = true;
+        Some(self.heat(index, defect / produced, next))
     }
 
     /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.
-    pub(super) fn produced_heat(&self, index: usize) -> S {
+    pub(super) fn produced_heat(&self, index: usize) -> f64 {
         let slots = &self.components.slots[self.components.all[index].slots.clone()];
         let lost = self.scratch.progress[index].lost;
         slots.iter().fold(lost, |sum, &slot| {
@@ -160,25 +147,25 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         })
     }
 
-    /// Scales each element's entropy production by 1 + ε. Returns the lanes in which the second-order update is
-    /// accurate to rounding.
-    pub(super) fn heat(&mut self, index: usize, part: S, next: &mut State<S>) -> S::Mask {
+    /// Scales each element's entropy production by 1 + ε. Returns whether the second-order update is accurate to
+    /// rounding.
+    pub(super) fn heat(&mut self, index: usize, part: f64, next: &mut State) -> bool {
         let scratch = &mut self.scratch;
         let lost = &mut scratch.progress[index].lost;
         let change = *lost * part;
-        if !change.equal(S::zero()).all() {
+        if change != 0.0 {
             *lost += change;
             next.dissipated.add(change);
             self.books.targets[index].lost.add(change);
         }
-        scratch.progress[index].factor *= S::one() + part;
+        scratch.progress[index].factor *= 1.0 + part;
         scratch.progress[index].present = None;
-        let mut is_small = !S::Mask::none();
+        let mut is_small = true;
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;
             let entropy = self.scratch.produced[slot] * part;
-            if !entropy.equal(S::zero()).all() {
-                is_small = is_small & self.warm(index, slot, entropy, next);
+            if entropy != 0.0 {
+                is_small &= self.warm(index, slot, entropy, next);
             }
         }
         is_small
@@ -189,32 +176,32 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Gives the entropy x to an element as if it had produced it: θ becomes `θ (1 + r + r²/2)` with `r = x/c`, and e becomes
-    /// `e + θ x (1 + r/2)`. The thermostat of a held element takes it, with the heat θ x. Returns the lanes in which that is exact to rounding, and θ matches the stored entropy.
+    /// `e + θ x (1 + r/2)`. The thermostat of a held element takes it, with the heat θ x.
+    /// Returns whether that is exact to rounding, and θ matches the stored entropy.
     pub(super) fn warm(
         &mut self,
         index: usize,
         slot: usize,
-        entropy: S,
-        next: &mut State<S>,
-    ) -> S::Mask {
+        entropy: f64,
+        next: &mut State,
+    ) -> bool {
         self.scratch.produced[slot] += entropy;
         self.scratch.progress[index].production.add(entropy);
         if self.stage.is_held(slot) {
             self.warm_held(slot, entropy);
-            return !S::Mask::none();
+            return true;
         }
-        let half = S::from_f64(0.5);
         let (theta, scratch) = (self.stage.theta_mut(slot), &mut self.scratch);
         let [capacity, bend] = scratch.capacities[slot];
         let ratio = entropy / capacity;
-        let energy = *theta * entropy * (S::one() + half * ratio);
+        let energy = *theta * entropy * (1.0 + 0.5 * ratio);
         next.entropies.add(slot, entropy);
         scratch.energies[index].value.add(energy);
         let element = self.components.elements[slot] as usize;
         next.energies[element].value += energy;
-        *theta += *theta * ratio * (S::one() + half * ratio);
+        *theta += *theta * ratio * (1.0 + 0.5 * ratio);
         // 2 √u: neglected are the cube of r, and the second-order change of forces.
-        let small = (S::EPSILON + S::EPSILON).sqrt();
-        ratio.abs().less(small) & is_met(ratio, [capacity, bend])
+        let small = (f64::EPSILON + f64::EPSILON).sqrt();
+        ratio.abs() < small && is_met(ratio, [capacity, bend])
     }
 }

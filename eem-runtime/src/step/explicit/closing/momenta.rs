@@ -9,7 +9,6 @@ use super::super::vector::{Origin, add, dot};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::Place;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::{MOST_LANES, Mask, Real, unless};
 
 /// Defects up to this many roundings of `Σ |q||p|` are corrected by momenta; only for larger ones positions are
 /// rotated.
@@ -26,30 +25,30 @@ const fn most_turns<const D: usize>() -> usize {
 
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Rigid<S, const D: usize> {
+pub(super) struct Rigid<const D: usize> {
     /// The anchor or the centre of mass, m, and the velocity of the centre of mass, m/s; zero with an anchor.
-    pub(super) origin: Origin<S, D>,
-    pub(super) velocity: [S; D],
+    pub(super) origin: Origin<D>,
+    pub(super) velocity: [f64; D],
     /// The angular velocity, 1/s.
-    pub(super) omega: Bivector<S, D>,
+    pub(super) omega: Bivector<f64, D>,
 }
 
 /// A component as a rigid body.
 #[derive(Clone, Copy, Debug)]
-struct Body<S, const D: usize> {
+struct Body<const D: usize> {
     /// The anchor or the centre of mass, m.
-    origin: Origin<S, D>,
+    origin: Origin<D>,
     /// About `origin`; `None` if the component cannot turn, or no momentum is conserved.
-    inertia: Option<Inertia<S, D>>,
+    inertia: Option<Inertia<D>>,
 }
 
-impl<S: Real, const D: usize> Body<S, D> {
+impl<const D: usize> Body<D> {
     /// The rigid motion with these momenta.
     fn motion(
         &self,
-        component: &Component<S>,
-        (linear, angular): (&[S; D], &Bivector<S, D>),
-    ) -> Rigid<S, D> {
+        component: &Component,
+        (linear, angular): (&[f64; D], &Bivector<f64, D>),
+    ) -> Rigid<D> {
         let turning = self.inertia.as_ref();
         let turning = turning.map(|inertia| inertia.solve(angular));
         Rigid {
@@ -60,16 +59,16 @@ impl<S: Real, const D: usize> Body<S, D> {
     }
 }
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// The rigid motion of a component with its present momenta.
-    pub(super) fn rigid(&self, index: usize) -> Rigid<S, D> {
+    pub(super) fn rigid(&self, index: usize) -> Rigid<D> {
         let (component, motion) = (&self.components.all[index], &self.scratch.motions[index]);
         let body = self.body(component);
         body.motion(component, (&motion.linear, &motion.angular))
     }
 
     /// A component as a rigid body.
-    fn body(&self, component: &Component<S>) -> Body<S, D> {
+    fn body(&self, component: &Component) -> Body<D> {
         let mut body = Body {
             origin: Self::origin(&self.stage.places, component),
             inertia: None,
@@ -84,10 +83,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             return body;
         }
         let masses = &self.stage.places[component.masses.clone()];
-        let arm = |place: &Place<S, D>| body.origin.arm(place.q());
+        let arm = |place: &Place<D>| body.origin.arm(place.q());
         body.inertia = Some(if count == without_arm + 1 {
             // The other mass of a pair is on the same line through the centre.
-            let moment = masses.iter().fold(S::zero(), |sum, place| {
+            let moment = masses.iter().fold(0.0, |sum, place| {
                 let arm = arm(place);
                 sum + place.mass * dot(&arm, &arm)
             });
@@ -98,7 +97,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         body
     }
 
-    fn moments(&self, component: &Component<S>, origin: &Origin<S, D>) -> Moments<S, D> {
+    fn moments(&self, component: &Component, origin: &Origin<D>) -> Moments<D> {
         let mut moments = Moments::none();
         for place in &self.stage.places[component.masses.clone()] {
             moments.add(place.mass, &origin.arm(place.q()));
@@ -106,19 +105,17 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         moments
     }
 
-    /// Adds a rigid motion to the momenta, except in inactive lanes, and updates the sums over the masses.
-    fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>, inactive: S::Mask) {
+    /// Adds a rigid motion to the momenta and updates the sums over the masses.
+    fn add_rigid(&mut self, index: usize, rigid: &Rigid<D>) {
         let masses = self.components.all[index].masses.clone();
         let mut motion = Motion::none();
         for place in &mut self.stage.places[masses] {
             let arm = rigid.origin.arm(place.q());
             let turning = rigid.omega.turn(&arm);
-            let mut momentum = *place.p();
+            let momentum = &mut place.now[1];
             for axis in 0..D {
                 momentum[axis] += place.mass * (rigid.velocity[axis] + turning[axis]);
             }
-            place.now[1] =
-                core::array::from_fn(|axis| unless(inactive, place.now[1][axis], momentum[axis]));
             motion.add(place, &arm, self.gravity.as_ref());
         }
         self.scratch.motions[index] = motion;
@@ -133,112 +130,89 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         // The energy is summed with the corrected momenta.
         self.sum_motion(index, Motion::add_momenta);
-        let mut inactive = self.scratch.inactive[index];
         for _ in 0..most_turns::<D>() {
-            inactive = self.approach_momenta(index, inactive);
-            if inactive.all() {
+            if self.approach_momenta(index) {
                 return;
             }
         }
     }
 
-    /// Rotates the body if needed and corrects its momenta, except in inactive lanes; returns these lanes and those
-    /// whose momenta are accurate to rounding.
-    fn approach_momenta(&mut self, index: usize, inactive: S::Mask) -> S::Mask {
+    /// Rotates the body if needed and corrects its momenta. Returns whether they are known to be accurate to rounding.
+    fn approach_momenta(&mut self, index: usize) -> bool {
         let mut body = self.body(&self.components.all[index]);
         let is_weak = match &body.inertia {
             Some(Inertia::Line { along, .. }) => self.leaves_plane(index, along),
-            Some(Inertia::Principal(_) | Inertia::Lanes(_)) => true,
+            Some(Inertia::Principal(_)) => true,
             _ => false,
         };
-        if is_weak && self.turn_body(index, &body, inactive) {
+        if is_weak && self.turn_body(index, &body) {
             self.look_at_motion(index);
             body = self.body(&self.components.all[index]);
         }
-        let mut correct = inactive;
         for _ in 0..=MOST_CORRECTIONS {
             let (linear, angular) = self.missing_momenta(index);
             let component = &self.components.all[index];
             let rigid = body.motion(component, (&linear, &angular));
-            self.add_rigid(index, &rigid, correct);
+            self.add_rigid(index, &rigid);
             let [_, terms] = self.scratch.motions[index].terms;
             // The rotation is known to ε/WEAK of itself.
-            correct = correct | angular.largest().at_most(S::from_f64(WEAK) * terms);
-            if D < 3 || correct.all() {
+            if D < 3 || angular.largest() <= WEAK * terms {
                 break;
             }
         }
         if D < 4 {
-            return inactive;
+            return false;
         }
         let (_, left) = self.missing_momenta(index);
-        inactive | left.largest().at_most(self.own_rounding(index))
+        left.largest() <= self.own_rounding(index)
     }
 
     /// The defects of linear and angular momentum of a component.
-    pub(in super::super) fn missing_momenta(&self, index: usize) -> ([S; D], Bivector<S, D>) {
+    pub(in super::super) fn missing_momenta(&self, index: usize) -> ([f64; D], Bivector<f64, D>) {
         let (motion, target) = (&self.scratch.motions[index], &self.books.targets[index]);
         let linear = core::array::from_fn(|axis| target.linear[axis].beyond(motion.linear[axis]));
-        let angular = target.angular.zip(&motion.angular, S::zero(), Sum::beyond);
+        let angular = target.angular.zip(&motion.angular, 0.0, Sum::beyond);
         (linear, angular)
     }
 
     /// Whether the target of masses on a line has an angular momentum in planes perpendicular to the line, which no
     /// momenta of the masses can give.
-    fn leaves_plane(&self, index: usize, along: &[S; D]) -> bool {
+    fn leaves_plane(&self, index: usize, along: &[f64; D]) -> bool {
         let target = self.angular_target(index);
         let mut across = target;
-        across.add(-S::one(), &Bivector::wedge(along, &target.turn(along)));
-        !across.largest().at_most(self.own_rounding(index)).all()
+        across.add(-1.0, &Bivector::wedge(along, &target.turn(along)));
+        !(across.largest() <= self.own_rounding(index))
     }
 
     /// The largest defect of the angular momentum that is corrected by momenta alone.
-    fn own_rounding(&self, index: usize) -> S {
+    fn own_rounding(&self, index: usize) -> f64 {
         let [_, terms] = self.scratch.motions[index].terms;
-        S::from_f64(OWN_ROUNDINGS) * S::EPSILON * terms
+        OWN_ROUNDINGS * f64::EPSILON * terms
     }
 
-    fn angular_target(&self, index: usize) -> Bivector<S, D> {
+    fn angular_target(&self, index: usize) -> Bivector<f64, D> {
         let target = &self.books.targets[index].angular;
-        target.map(S::zero(), |sum| sum.value)
+        target.map(0.0, |sum| sum.value)
     }
 
-    /// Rotates positions and momenta of a component, except in inactive lanes, so that its momenta can be corrected;
-    /// returns whether it did.
+    /// Rotates positions and momenta of a component, so that its momenta can be corrected; returns whether it did.
     #[cold]
-    fn turn_body(&mut self, index: usize, body: &Body<S, D>, inactive: S::Mask) -> bool {
+    fn turn_body(&mut self, index: usize, body: &Body<D>) -> bool {
         let (component, origin) = (&self.components.all[index], &body.origin);
-        let motion = &self.scratch.motions[index];
-        let (linear, present) = (motion.linear, motion.angular);
-        let target = self.angular_target(index);
-        let rounding = self.own_rounding(index);
-        let moves = S::select(inactive, S::zero(), S::one());
-        let change = |lane: usize| {
-            if moves.lane(lane) < 1.0 {
-                return None;
-            }
-            let of_lane = |momentum: &Bivector<S, D>| momentum.map(0.0, |j| j.lane(lane));
-            let momenta = [&of_lane(&present), &of_lane(&target)];
-            let own = match body.inertia {
-                Some(Inertia::Principal(principal)) => Inertia::Principal(principal),
-                _ => Inertia::of_body(self.moments(component, origin).lane(lane)),
-            };
-            match own {
-                Inertia::Principal(principal) => turning(&principal, momenta, rounding.lane(lane)),
-                // No inertia is weak: the momenta alone are corrected, as in a run of this lane alone.
-                _ => None,
-            }
+        let inertia = match body.inertia {
+            Some(inertia @ Inertia::Principal(_)) => inertia,
+            _ => Inertia::of_body(self.moments(component, origin)),
         };
-        let changes: [_; MOST_LANES] = core::array::from_fn(|lane| {
-            let is_lane = lane < S::LANES;
-            is_lane.then(|| change(lane)).flatten()
-        });
-        if changes.iter().all(Option::is_none) {
+        let Inertia::Principal(principal) = inertia else {
+            // No inertia is weak: the momenta alone are corrected.
             return false;
-        }
-        let change: [[S; D]; D] = core::array::from_fn(|i| {
-            core::array::from_fn(|j| S::pack(|lane| changes[lane].map_or(0.0, |by| by[i][j])))
-        });
+        };
+        let motion = &self.scratch.motions[index];
+        let linear = motion.linear;
+        let momenta = [&motion.angular, &self.angular_target(index)];
+        let Some(change) = turning(&principal, momenta, self.own_rounding(index)) else {
+            return false;
+        };
         let velocity = component.velocity(&linear);
         let masses = component.masses.clone();
         for place in &mut self.stage.places[masses] {

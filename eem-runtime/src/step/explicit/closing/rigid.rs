@@ -9,21 +9,17 @@ use crate::element::group::Place;
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Total;
-use eem_material::number::scalar::{Discord, Mask, Real};
+use eem_material::number::scalar::Scalar;
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Replaces the step of a component by a rigid motion of its old state, with the old internal variables: a relative
     /// equilibrium, at the largest entropy that its energy and momenta allow.
     pub(super) fn turn_rigidly(
         &mut self,
         index: usize,
-        (view, demand, scales): (&ExplicitView<'_, S, D>, Demand<S>, Scales<S>),
-        next: &mut State<S>,
+        (view, demand, scales): (&ExplicitView<'_, D>, Demand, Scales),
+        next: &mut State,
     ) -> Result<(), StepFailure> {
-        if S::LANES > 1 {
-            // Each lane would need a rotation of its own.
-            return Err(Discord.into());
-        }
         let largest = demand.largest_turn();
         let is_loaded = !self.load_sums.is_empty() || self.gravity.is_some();
         let has_thermostat = self
@@ -31,8 +27,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             .any(|at| self.stage.is_held(self.components.slots[at] as usize));
         if is_loaded || has_thermostat || !self.takes_turn(index, view.step, largest, scales) {
             return Err(StepFailure::NotClosed {
-                defect: self.scratch.progress[index].defect.to_f64(),
-                time: (view.state.time.value + view.step).to_f64(),
+                defect: self.scratch.progress[index].defect,
+                time: view.state.time.value + view.step,
             });
         }
         for (dashpot, own) in self.components.dashpots.iter().enumerate() {
@@ -45,7 +41,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let slot = self.components.slots[at] as usize;
             let at = self.stage.temperatures + slot;
             self.stage.inner[at] = self.stage.inner_start(at);
-            next.entropies.advance(slot, &old.entropies, S::zero());
+            next.entropies.advance(slot, &old.entropies, 0.0);
         }
         for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir as usize;
@@ -66,8 +62,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         progress.is_rigid = true;
         progress.present = None;
         progress.production = Total::default();
-        progress.factor = S::zero();
-        self.scratch.inactive[index] = S::Mask::none();
+        progress.factor = 0.0;
         self.restore_momenta(index);
         self.scratch.open[index] = true;
         Ok(())
@@ -75,7 +70,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Whether the old state, rotated in one plane, agrees with the stages to this relative difference; positions and
     /// momenta are then set to it.
-    fn takes_turn(&mut self, index: usize, h: S, largest: S, scales: Scales<S>) -> bool {
+    fn takes_turn(&mut self, index: usize, h: f64, largest: f64, scales: Scales) -> bool {
         if D > 3 {
             // The component may turn in several planes at once.
             return false;
@@ -85,7 +80,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let rigid = self.rigid(index);
         self.swap_start(index);
         let difference = self.difference_from_turn(index, &rigid, h, scales);
-        if !difference.at_most(largest).all() {
+        if !(difference <= largest) {
             return false;
         }
         for place in &mut self.stage.places[self.components.all[index].masses.clone()] {
@@ -102,22 +97,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The largest relative difference between the present stage vector and the rotated old state.
-    fn difference_from_turn(
-        &self,
-        index: usize,
-        rigid: &Rigid<S, D>,
-        h: S,
-        scales: Scales<S>,
-    ) -> S {
-        let mut largest = S::zero();
-        let mut see = |difference: S, scale: S| {
-            let is_none = difference.equal(S::zero()).all();
+    fn difference_from_turn(&self, index: usize, rigid: &Rigid<D>, h: f64, scales: Scales) -> f64 {
+        let mut largest = 0.0;
+        let mut see = |difference: f64, scale: f64| {
+            let is_none = difference == 0.0;
             let part = if is_none {
                 difference
             } else {
                 difference.abs() / scale
             };
-            largest = largest.maximum(part);
+            largest = Scalar::maximum(largest, part);
         };
         for place in &self.stage.places[self.components.all[index].masses.clone()] {
             let [position, momentum] = turned(place, rigid, h);
@@ -140,26 +129,25 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 }
 
 /// Position and momentum of a mass, from those at the start of the step by the rigid motion of its component.
-fn turned<S: Real, const D: usize>(place: &Place<S, D>, rigid: &Rigid<S, D>, h: S) -> [[S; D]; 2] {
+fn turned<const D: usize>(place: &Place<D>, rigid: &Rigid<D>, h: f64) -> [[f64; D]; 2] {
     let [position, momentum] = &place.past.start;
     let speed = rigid.omega.square().sqrt();
-    let is_turning = S::zero().less(speed).all();
-    let zero = S::zero();
+    let is_turning = speed > 0.0;
     let about = rigid
         .omega
-        .map(zero, |w| if is_turning { w / speed } else { w });
-    let mut along = [S::zero(); D];
+        .map(0.0, |w| if is_turning { w / speed } else { w });
+    let mut along = [0.0; D];
     add(&mut along, place.mass, &rigid.velocity);
     let mut way = rotated(&rigid.origin.arm(position), &about, speed * h);
     add(&mut way, h, &rigid.velocity);
     let mut turned = rotated(&difference(momentum, &along), &about, speed * h);
-    add(&mut turned, S::one(), &along);
+    add(&mut turned, 1.0, &along);
     [rigid.origin.moved(&way), turned]
 }
 
 /// A vector turned in a plane, that of a bivector of length one (Rodrigues).
-fn rotated<S: Real, const D: usize>(r: &[S; D], about: &Bivector<S, D>, angle: S) -> [S; D] {
-    let (sine, half) = (angle.sin(), (S::from_f64(0.5) * angle).sin());
+fn rotated<const D: usize>(r: &[f64; D], about: &Bivector<f64, D>, angle: f64) -> [f64; D] {
+    let (sine, half) = (Scalar::sin(angle), Scalar::sin(0.5 * angle));
     // 1 − cos, without cancellation.
     let versine = (half + half) * half;
     let turned = about.turn(r);

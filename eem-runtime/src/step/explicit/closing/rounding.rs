@@ -22,33 +22,26 @@
 use super::super::vector::dot;
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
-use eem_material::number::scalar::{Mask, Real};
 
-impl<S: Real, const D: usize> Explicit<S, D> {
+impl<const D: usize> Explicit<D> {
     /// Closed if the remaining defect is rounding, failed otherwise.
-    pub(super) fn unless_rounding(
-        &mut self,
-        index: usize,
-        is_left: S::Mask,
-        view: &ExplicitView<'_, S, D>,
-    ) -> Status {
+    pub(super) fn unless_rounding(&mut self, index: usize, view: &ExplicitView<'_, D>) -> Status {
         let progress = &self.scratch.progress[index];
-        let (defect, scale, is_closed) = (progress.defect, progress.scale, progress.is_closed);
+        let (defect, scale) = (progress.defect, progress.scale);
         let mut granularity = self.granularity(index);
-        let bound = |terms: S| S::from_f64(FROZEN) * S::EPSILON * (scale + terms);
-        let mut is_rounding = defect.abs().at_most(bound(granularity));
-        let mut is_forgiven = S::Mask::none();
-        if !(is_closed | (is_left & is_rounding)).all() {
-            let all = granularity + self.terms_at_rest(index, view);
-            is_forgiven = defect.abs().at_most(bound(all)) & is_left & !is_rounding;
-            granularity = S::select(is_forgiven, all, granularity);
-            is_rounding = is_rounding | is_forgiven;
+        let is_rounding = |terms: f64| defect.abs() <= FROZEN * f64::EPSILON * (scale + terms);
+        let mut is_closed = is_rounding(granularity);
+        let mut is_forgiven = false;
+        if !is_closed {
+            granularity += self.terms_at_rest(index, view);
+            is_forgiven = is_rounding(granularity);
+            is_closed = is_forgiven;
         }
         let progress = &mut self.scratch.progress[index];
         progress.granularity = granularity;
         progress.is_forgiven = is_forgiven;
-        progress.is_closed = is_closed | (is_left & is_rounding);
-        if progress.is_closed.all() {
+        progress.is_closed = is_closed;
+        if is_closed {
             Status::Closed
         } else {
             Status::Failed
@@ -60,20 +53,20 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     pub(in super::super) fn explained(
         &mut self,
         index: usize,
-        magnitude: S,
-        view: &ExplicitView<'_, S, D>,
-    ) -> S {
+        magnitude: f64,
+        view: &ExplicitView<'_, D>,
+    ) -> f64 {
         self.scratch.needs_forces.fill(false);
         self.scratch.needs_forces[index] = true;
         self.find_forces(view);
         let terms = self.granularity(index) + self.terms_at_rest(index, view);
-        S::from_f64(FROZEN) * S::EPSILON * (magnitude + terms)
+        FROZEN * f64::EPSILON * (magnitude + terms)
     }
 
     /// `Σ |F||q|`: times ε, the error of the energy by rounding of positions, J.
-    fn granularity(&self, index: usize) -> S {
+    fn granularity(&self, index: usize) -> f64 {
         let masses = self.components.all[index].masses.clone();
-        masses.fold(S::zero(), |sum, at| {
+        masses.fold(0.0, |sum, at| {
             let terms = self.scratch.forces[at]
                 .iter()
                 .zip(self.stage.places[at].q());
@@ -83,37 +76,35 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// `T⁰ + |work| + Σ |g||γ| + ε Σ k |q|²`: terms that do not vanish with the energy, J.
     #[cold]
-    fn terms_at_rest(&mut self, index: usize, view: &ExplicitView<'_, S, D>) -> S {
+    fn terms_at_rest(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
         self.find_stiffnesses(view);
-        let half = S::from_f64(0.5);
         let loads = self.load_sums.get(index);
-        let mut sum = loads.map_or(S::zero(), |sums| (view.step * sums.work).abs());
+        let mut sum = loads.map_or(0.0, |sums| (view.step * sums.work).abs());
         for at in self.components.all[index].masses.clone() {
             let place = &self.stage.places[at];
             let start = &place.past.start[1];
             let stiffness = self.scratch.stiffnesses[self.components.nodes[at] as usize];
-            sum += half * dot(start, start) * place.per_mass;
-            sum += S::EPSILON * stiffness * dot(place.q(), place.q());
+            sum += 0.5 * dot(start, start) * place.per_mass;
+            sum += f64::EPSILON * stiffness * dot(place.q(), place.q());
         }
         for (dashpot, own) in self.components.dashpots.iter().enumerate() {
             let [rate, power] = self.scratch.creep[dashpot];
-            if own.component as usize == index && !rate.equal(S::zero()).all() {
+            if own.component as usize == index && rate != 0.0 {
                 let stretch = self.stage.inner[dashpot];
-                let term = (power / rate * stretch).abs();
-                sum += S::select(rate.equal(S::zero()), S::zero(), term);
+                sum += (power / rate * stretch).abs();
             }
         }
         sum
     }
 
     /// Sums the stiffnesses of the elements at each node, once in a step.
-    fn find_stiffnesses(&mut self, view: &ExplicitView<'_, S, D>) {
+    fn find_stiffnesses(&mut self, view: &ExplicitView<'_, D>) {
         if self.scratch.has_stiffnesses {
             return;
         }
         self.scratch.has_stiffnesses = true;
         let sums = &mut self.scratch.stiffnesses;
-        sums.fill(S::zero());
+        sums.fill(0.0);
         for group in &self.groups {
             group.elements().stiffness(view.state, &mut |point| {
                 for &node in point.nodes {

@@ -6,7 +6,7 @@ use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use super::{MOST_ITERATIONS, Status};
 use crate::element::state::State;
-use eem_material::number::scalar::{Discord, Mask, Real, unless};
+use eem_material::number::scalar::Scalar;
 
 /// Motion corrects the energy only if it is at least this fraction of all that can give energy.
 const LEAST_MOTION: f64 = 0.05;
@@ -26,93 +26,60 @@ const ROUNDED: f64 = 16.0;
 
 /// The energies available to correct a component, J.
 #[derive(Clone, Copy, Debug)]
-struct Means<S, const D: usize> {
-    rigid: Rigid<S, D>,
+struct Means<const D: usize> {
+    rigid: Rigid<D>,
     /// The kinetic energy of the motion relative to the rigid one, T.
-    motion: S,
+    motion: f64,
     /// `2 T + h² Σ |F|²/m + h Σ g²/η + Σ 2hκ(Δθ)²/(θ_a + θ_b)`.
-    all: S,
+    all: f64,
     /// The acceleration of the centre of mass of a free component, which does not change its shape, m/s².
-    drift: [S; D],
+    drift: [f64; D],
 }
 
-impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Corrects the energy of a component by other means than heat, in the lanes that need it.
+impl<const D: usize> Explicit<D> {
+    /// Corrects the energy of a component by other means than heat.
     pub(super) fn reshape(
         &mut self,
         index: usize,
-        view: &ExplicitView<'_, S, D>,
-        next: &mut State<S>,
-    ) -> Result<Status, Discord> {
+        view: &ExplicitView<'_, D>,
+        next: &mut State,
+    ) -> Status {
         self.scratch.progress[index].present = None;
         let progress = self.scratch.progress[index];
         let (defect, iterations) = (progress.defect, progress.iterations);
         if !defect.is_finite() {
-            return Ok(Status::Failed);
+            return Status::Failed;
         }
         let means = self.means(index, view);
         let share = defect / means.all;
-        let is_small = share.abs().less(S::from_f64(LARGEST_PART));
-        let moves = (S::from_f64(LEAST_MOTION) * means.all).at_most(means.motion + means.motion)
-            & (-means.motion).less(defect);
-        let rest = S::from_f64(REST_OF_HEAT) * means.motion;
-        let is_rest = progress.has_heated & defect.abs().at_most(rest);
-        let has_motion = S::zero().less(means.motion);
-        let moves = progress.needs_forces & has_motion & (is_rest | (is_small & moves));
-        if moves.any() {
+        let is_small = share.abs() < LARGEST_PART;
+        let moves =
+            LEAST_MOTION * means.all <= means.motion + means.motion && -means.motion < defect;
+        let rest = REST_OF_HEAT * means.motion;
+        let is_rest = progress.has_heated && defect.abs() <= rest;
+        if means.motion > 0.0 && (is_rest || (is_small && moves)) {
             let x = defect / means.motion;
-            let part = x / (S::one() + (S::one() + x).sqrt());
-            self.scale_motion(index, &means.rigid, unless(!moves, S::zero(), part));
+            let part = x / (1.0 + (1.0 + x).sqrt());
+            self.scale_motion(index, &means.rigid, part);
+            self.scratch.progress[index].is_closed = true;
+            return Status::Closed;
         }
-        let is_closed = progress.is_closed | moves;
-        self.scratch.progress[index].is_closed = is_closed;
-        let is_left = progress.needs_forces & !moves;
-        let mut shifts = is_left & is_small;
-        if iterations >= MOST_ITERATIONS || iterations > SHAPE_ITERATIONS {
-            shifts = S::Mask::none();
-        }
-        if shifts.any() {
-            let share = unless(!shifts, S::zero(), share);
+        if is_small && iterations < MOST_ITERATIONS && iterations <= SHAPE_ITERATIONS {
             self.shift(index, (view, &means), share, next);
-            self.scratch.inactive[index] = self.scratch.inactive[index] & !shifts;
             self.restore_momenta(index);
+            return Status::Changed;
         }
-        let is_left = is_left & !shifts;
-        if is_left.any() && !self.try_sink(index, is_left, next)? {
-            return Ok(self.unless_rounding(index, is_left, view));
+        if iterations < MOST_ITERATIONS && self.sink(index, defect, next) {
+            return Status::Changed;
         }
-        Ok(if is_closed.all() {
-            Status::Closed
-        } else {
-            Status::Changed
-        })
+        self.unless_rounding(index, view)
     }
 
-    /// Last resort: converts the defect to entropy or back. False if no element can take it or the limit of corrections
-    /// is reached.
-    fn try_sink(
-        &mut self,
-        index: usize,
-        is_left: S::Mask,
-        next: &mut State<S>,
-    ) -> Result<bool, Discord> {
-        let progress = &self.scratch.progress[index];
-        let defect = progress.defect;
-        if !is_left.decide()?
-            || progress.iterations >= MOST_ITERATIONS
-            || !self.sink(index, defect, next)?
-        {
-            return Ok(false);
-        }
-        self.scratch.inactive[index] = S::Mask::none();
-        Ok(true)
-    }
-
-    fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {
+    fn means(&self, index: usize, view: &ExplicitView<'_, D>) -> Means<D> {
         let (component, h) = (&self.components.all[index], view.step);
         let rigid = self.rigid(index);
         let forces = &self.scratch.forces;
-        let mut drift = [S::zero(); D];
+        let mut drift = [0.0; D];
         if component.support == Support::Free {
             for place in component.masses.clone() {
                 add(&mut drift, component.mass.recip(), &forces[place]);
@@ -120,16 +87,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let mut means = Means {
             rigid,
-            motion: S::zero(),
-            all: S::zero(),
+            motion: 0.0,
+            all: 0.0,
             drift,
         };
-        let (half, mut shape) = (S::from_f64(0.5), S::zero());
+        let mut shape = 0.0;
         for place in component.masses.clone() {
             let own = self.inner_momentum(place, &rigid);
             let force = self.inner_force(place, &means);
             let per_mass = self.stage.places[place].per_mass;
-            means.motion += half * dot(&own, &own) * per_mass;
+            means.motion += 0.5 * dot(&own, &own) * per_mass;
             shape += dot(&force, &force) * per_mass;
         }
         means.all = means.motion + means.motion + h * h * shape;
@@ -138,15 +105,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// `Σ g²/η`, W.
-    fn creeping_power(&self, index: usize) -> S {
+    fn creeping_power(&self, index: usize) -> f64 {
         let owned = self.scratch.creep.iter().zip(&self.components.dashpots);
         let own = owned.filter(|&(_, dashpot)| dashpot.component as usize == index);
-        own.fold(S::zero(), |sum, (&[_, power], _)| sum + power)
+        own.fold(0.0, |sum, (&[_, power], _)| sum + power)
     }
 
     /// `Σ 2hκ(Δθ)²/(θ_a + θ_b)` of the paths without a thermostat at an end, J.
-    fn exchange(&self, component: &Component<S>, h: S) -> S {
-        let mut sum = S::zero();
+    fn exchange(&self, component: &Component, h: f64) -> f64 {
+        let mut sum = 0.0;
         for path in &self.components.paths[component.paths.clone()] {
             let [a, b] = path.ends.map(|end| self.stage.theta(end as usize));
             if !self.meets_thermostat(path.ends) {
@@ -163,7 +130,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The momentum of a mass relative to the rigid motion.
-    fn inner_momentum(&self, place: usize, rigid: &Rigid<S, D>) -> [S; D] {
+    fn inner_momentum(&self, place: usize, rigid: &Rigid<D>) -> [f64; D] {
         let place = &self.stage.places[place];
         let mut own = *place.p();
         let arm = rigid.origin.arm(place.q());
@@ -174,7 +141,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The negative gradient of the energy at fixed momenta: the force less the centripetal force of the rotation and the
     /// drift.
-    fn inner_force(&self, at: usize, means: &Means<S, D>) -> [S; D] {
+    fn inner_force(&self, at: usize, means: &Means<D>) -> [f64; D] {
         let (place, rigid) = (&self.stage.places[at], &means.rigid);
         let arm = rigid.origin.arm(place.q());
         let toward = rigid.omega.turn(&rigid.omega.turn(&arm));
@@ -185,7 +152,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// `p += a p_int`.
-    fn scale_motion(&mut self, index: usize, rigid: &Rigid<S, D>, part: S) {
+    fn scale_motion(&mut self, index: usize, rigid: &Rigid<D>, part: f64) {
         for place in self.components.all[index].masses.clone() {
             let own = self.inner_momentum(place, rigid);
             add(&mut self.stage.places[place].now[1], part, &own);
@@ -197,9 +164,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn shift(
         &mut self,
         index: usize,
-        (view, means): (&ExplicitView<'_, S, D>, &Means<S, D>),
-        share: S,
-        next: &mut State<S>,
+        (view, means): (&ExplicitView<'_, D>, &Means<D>),
+        share: f64,
+        next: &mut State,
     ) {
         let h = view.step;
         let masses = self.components.all[index].masses.clone();
@@ -220,7 +187,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Moves entropy from the warmer to the cooler end of each path, without production.
-    fn exchange_heat(&mut self, index: usize, duration: S, next: &mut State<S>) {
+    fn exchange_heat(&mut self, index: usize, duration: f64, next: &mut State) {
         let slots = self.scratch.produced.len();
         for path in &self.components.paths[self.components.all[index].paths.clone()] {
             if self.meets_thermostat(path.ends) {
@@ -242,33 +209,33 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Converts energy to entropy, or back as far as it was produced in this step; returns false if no element can take
-    /// it.
-    fn sink(&mut self, index: usize, defect: S, next: &mut State<S>) -> Result<bool, Discord> {
-        if defect.less(S::zero()).decide()? {
+    /// Last resort: converts energy to entropy, or back as far as it was produced in this step; returns false if no element
+    /// can take it.
+    fn sink(&mut self, index: usize, defect: f64, next: &mut State) -> bool {
+        if defect < 0.0 {
             let produced = self.produced_heat(index);
             // Of what was produced at first, however often a part of it has been taken back.
-            let kept = S::from_f64(ROUNDED) * S::EPSILON;
-            let most = S::one() - kept / self.scratch.progress[index].factor;
-            if !(S::zero().less(produced) & S::zero().less(most)).decide()? {
-                return Ok(false);
+            let kept = ROUNDED * f64::EPSILON;
+            let most = 1.0 - kept / self.scratch.progress[index].factor;
+            if !(produced > 0.0 && most > 0.0) {
+                return false;
             }
             let part = defect / produced;
-            self.heat(index, part.maximum(-most), next);
-            if part.at_most(-most).decide()? {
+            self.heat(index, Scalar::maximum(part, -most), next);
+            if part <= -most {
                 // The rest is rounding, for which no factor is known.
-                self.scratch.progress[index].factor = S::zero();
+                self.scratch.progress[index].factor = 0.0;
             }
-            return Ok(true);
+            return true;
         }
         let slots = self
             .slots_of(index)
             .map(|at| self.components.slots[at] as usize);
         let takes = |slot: &usize| self.produces[*slot] && !self.stage.is_held(*slot);
-        let all = slots.filter(takes).fold(S::zero(), |all, slot| {
+        let all = slots.filter(takes).fold(0.0, |all, slot| {
             all + self.scratch.capacities[slot][0] * self.stage.theta(slot)
         });
-        if S::zero().less(all).decide()? {
+        if all > 0.0 {
             for at in self.slots_of(index) {
                 let slot = self.components.slots[at] as usize;
                 if self.produces[slot] && !self.stage.is_held(slot) {
@@ -277,14 +244,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                     next.meters.produce(slot, entropy);
                 }
             }
-            return Ok(true);
+            return true;
         }
         // What leaves the scene, or is taken by thermostats, is known to its own size.
         let produced = self.produced_heat(index);
-        let takes = (S::zero().less(produced) & defect.at_most(produced)).decide()?;
+        let takes = produced > 0.0 && defect <= produced;
         if takes {
             self.heat(index, defect / produced, next);
         }
-        Ok(takes)
+        takes
     }
 }

@@ -16,7 +16,7 @@ pub(in super::super) struct Principal<const D: usize> {
 }
 
 impl<const D: usize> Principal<D> {
-    pub(in super::super) fn of(moments: &Moments<f64, D>) -> Self {
+    pub(in super::super) fn of(moments: &Moments<D>) -> Self {
         let mut matrix = moments.0;
         for [i, j] in planes::<D>() {
             matrix[j][i] = matrix[i][j];

@@ -16,6 +16,7 @@
 use super::moments::{NO_INERTIA, WEAK};
 use super::principal::Principal;
 use crate::algebra::bivector::{Bivector, planes};
+use eem_material::number::scalar::Scalar;
 
 /// Rounds of corrections. With a single plane they converge quadratically; several planes are corrected in turn.
 const MOST_ROUNDS: usize = 100;
@@ -32,7 +33,7 @@ struct Turned<const D: usize> {
 impl<const D: usize> Turned<D> {
     /// Rotates axis `from` towards axis `to`.
     fn rotate(&mut self, from: usize, to: usize, angle: f64) {
-        let (sine, half) = (angle.sin(), (0.5 * angle).sin());
+        let (sine, half) = (Scalar::sin(angle), Scalar::sin(0.5 * angle));
         // 1 − cos, without cancellation.
         let versine = 2.0 * half * half;
         for column in 0..D {

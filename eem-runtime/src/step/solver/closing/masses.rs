@@ -10,17 +10,16 @@ use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
 use crate::step::scheme::Closing;
 use crate::step::solver::Solver;
-use eem_material::number::scalar::{Mask, Real};
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     /// Sets new positions and momenta, all finite. With increments, impulses from these replace those of the elements,
     /// and the difference is judged. The impulses are recorded as forces for the predictor.
     pub(super) fn move_masses(
         &mut self,
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-        motion: &mut Motion<S, D>,
-        tally: &mut Tally<S>,
+        view: &StepView<'_>,
+        next: &mut State,
+        motion: &mut Motion<D>,
+        tally: &mut Tally,
     ) -> Result<(), StepFailure> {
         if view.loads.has_force() || !self.rockets.are_none() {
             self.book_work(view, next);
@@ -47,7 +46,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 }
                 if is_exact {
                     let magnitude = match self.magnitudes.get(at) {
-                        None => S::zero(),
+                        None => 0.0,
                         Some(&magnitude) => {
                             motion.fall_short(&residual, displacement, view.per_step);
                             tally.residues += magnitude;
@@ -70,7 +69,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             motion.see(&moved, load.as_ref(), view.step);
             move_node(at, [displacement, rest, impulse], view.state, next)?;
             if let Speeds::Given { change, .. } = &moved.speeds {
-                let (old, none) = (&view.state.velocities, [S::zero(); D]);
+                let (old, none) = (&view.state.velocities, [0.0; D]);
                 next.velocities.advance_point(at, old, [change, &none]);
             }
             remembering.take(at, view.per_step, node.place.per_mass);
@@ -78,17 +77,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
         remembering.finish();
         self.final_residual = largest.found();
         if view.masses.are_coupled() {
-            follow_coupled_masses::<S, D>(view, next);
+            follow_coupled_masses::<D>(view, next);
         }
         Ok(())
     }
 
-    fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
+    fn book_work(&self, view: &StepView<'_>, next: &mut State) {
         for node in &self.nodes {
             let at = node.place.node();
             let force = self.rockets.add_to(view.loads.force(at), [0, at]);
             for (force, &displacement) in force.into_iter().zip(&self.trial.displacements[at]) {
-                if !force.equal(S::zero()).all() {
+                if force != 0.0 {
                     next.work.add(force * displacement);
                 }
             }
@@ -97,12 +96,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
 }
 
 /// Sets the new velocities of moved anchors, then the momenta of nodes that masses couple, from all velocities.
-pub(super) fn follow_coupled_masses<S: Real, const D: usize>(
-    view: &StepView<'_, S>,
-    next: &mut State<S>,
-) {
+pub(super) fn follow_coupled_masses<const D: usize>(view: &StepView<'_>, next: &mut State) {
     for &node in &view.loads.moved {
-        let (old, none) = (&view.state.velocities, [S::zero(); D]);
+        let (old, none) = (&view.state.velocities, [0.0; D]);
         let change = view.change_of_speed::<D>(node);
         next.velocities.advance_point(node, old, [&change, &none]);
     }
@@ -111,16 +107,16 @@ pub(super) fn follow_coupled_masses<S: Real, const D: usize>(
 
 /// Sets the new position and momentum of a node from its displacement and impulse; an error unless all are finite.
 #[inline]
-pub(super) fn move_node<S: Real, const D: usize>(
+pub(super) fn move_node<const D: usize>(
     node: usize,
-    [displacement, rest, impulse]: [&[S; D]; 3],
-    old: &State<S>,
-    next: &mut State<S>,
+    [displacement, rest, impulse]: [&[f64; D]; 3],
+    old: &State,
+    next: &mut State,
 ) -> Result<(), StepFailure> {
     let by_position = next
         .positions
         .advance_point(node, &old.positions, [displacement, rest]);
-    let none = [S::zero(); D];
+    let none = [0.0; D];
     let by_momentum = next
         .momenta
         .advance_point(node, &old.momenta, [impulse, &none]);
@@ -128,15 +124,12 @@ pub(super) fn move_node<S: Real, const D: usize>(
     if (by_position + by_momentum).is_finite() {
         return Ok(());
     }
-    find_unbounded::<S, D>(node, next)
+    find_unbounded::<D>(node, next)
 }
 
 /// The error with the first coordinate of a node that is not finite.
 #[cold]
-fn find_unbounded<S: Real, const D: usize>(
-    node: usize,
-    state: &State<S>,
-) -> Result<(), StepFailure> {
+fn find_unbounded<const D: usize>(node: usize, state: &State) -> Result<(), StepFailure> {
     for axis in 0..D {
         let at = node * D + axis;
         let values = [state.positions.values()[at], state.momenta.values()[at]];
@@ -146,7 +139,7 @@ fn find_unbounded<S: Real, const D: usize>(
                     node,
                     axis,
                     quantity,
-                    value: value.to_f64(),
+                    value,
                 });
             }
         }

@@ -19,15 +19,14 @@ use crate::step::newton::Largest;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::{follow_coupled_masses, move_node};
 use crate::step::solver::stages::Stages;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     /// Judges the balances of the nodes at all stages.
     pub(super) fn judge_stages(
         &mut self,
-        stages: &Stages<S, D>,
-        view: &StepView<'_, S>,
-        (motion, tally): (&mut Motion<S, D>, &mut Tally<S>),
+        stages: &Stages<D>,
+        view: &StepView<'_>,
+        (motion, tally): (&mut Motion<D>, &mut Tally),
     ) {
         let inertias = self.inertias(view);
         let mut largest = Largest::none();
@@ -38,20 +37,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
             for (index, moving) in self.nodes[nodes].iter().enumerate() {
                 let node = moving.place.node();
                 let [gained, terms] = (self.coupling).impulse((index, moving), &self.trial);
-                let terms = self.coupling.found(index).map_or([S::zero(); D], |_| terms);
+                let terms = self.coupling.found(index).map_or([0.0; D], |_| terms);
                 let impulse = stages.combined(node, weights);
                 let residual = array::from_fn(|axis| gained[axis] - impulse[axis]);
                 for &residual in &residual {
                     largest.see(residual);
                 }
                 let mut magnitude = match self.magnitudes.get(node) {
-                    None => S::zero(),
+                    None => 0.0,
                     Some(&magnitude) => {
-                        let mut way = [S::zero(); D];
+                        let mut way = [0.0; D];
                         for (other, share) in stages.rule.ways_of_residual(set).enumerate() {
                             let moved = &self.trial.displacements_of_set(other)[node];
                             for axis in 0..D {
-                                way[axis] += S::from_f64(share) * moved[axis];
+                                way[axis] += share * moved[axis];
                             }
                         }
                         motion.fall_short(&residual, &way, view.per_step);
@@ -64,7 +63,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 };
                 for (&weight, impulse) in weights.iter().zip(&stages.impulses[node]) {
                     for &impulse in impulse {
-                        magnitude += (S::from_f64(weight) * impulse).abs();
+                        magnitude += (weight * impulse).abs();
                     }
                 }
                 tally.balance_node(&residual, [&gained, &terms], magnitude);
@@ -76,11 +75,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Sets new positions and momenta, all finite, and adds the work of loads.
     pub(super) fn move_along_path(
         &mut self,
-        stages: &mut Stages<S, D>,
+        stages: &mut Stages<D>,
         [displacements, impulses]: [&[f64]; 2],
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-        (motion, tally): (&mut Motion<S, D>, &mut Tally<S>),
+        view: &StepView<'_>,
+        next: &mut State,
+        (motion, tally): (&mut Motion<D>, &mut Tally),
     ) -> Result<(), StepFailure> {
         self.change_velocities(stages, impulses, view);
         for (index, moving) in self.nodes_of_set(0).iter().enumerate() {
@@ -103,13 +102,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
             for (set, &weight) in displacements.iter().enumerate() {
                 let change = self.nodes_of_set(set)[index].change(&self.trial);
                 for axis in 0..D {
-                    rest[axis] += S::from_f64(weight) * change[axis];
+                    rest[axis] += weight * change[axis];
                 }
             }
             let coupled = self.coupling.found(index).zip(stages.changes.get(node));
             let (impulse, speeds) = if let Some((&[impulse, _], &change)) = coupled {
                 let [&old, _] = state.velocities.point::<D>(node);
-                let none = [S::zero(); D];
+                let none = [0.0; D];
                 (next.velocities).advance_point(node, &state.velocities, [&change, &none]);
                 (impulse, Speeds::Given { old, change })
             } else {
@@ -134,18 +133,18 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.see_loads(stages, view, &moved, node, (next, motion));
         }
         if !stages.changes.is_empty() {
-            follow_coupled_masses::<S, D>(view, next);
+            follow_coupled_masses::<D>(view, next);
         }
         Ok(())
     }
 
     /// `Σ_j weights_j w_j` of the moving node with this index, m.
-    fn gained(&self, index: usize, weights: &[f64]) -> [S; D] {
-        let mut gained = [S::zero(); D];
+    fn gained(&self, index: usize, weights: &[f64]) -> [f64; D] {
+        let mut gained = [0.0; D];
         for (set, &weight) in weights.iter().enumerate() {
             let change = self.nodes_of_set(set)[index].change(&self.trial);
             for axis in 0..D {
-                gained[axis] += S::from_f64(weight) * change[axis];
+                gained[axis] += weight * change[axis];
             }
         }
         gained
@@ -153,24 +152,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// `Σ_j |weights_j w_j|/h` of the moving node with this index, m/s.
     #[cold]
-    fn terms_of_gain(&self, index: usize, weights: &[f64], per_step: S) -> [S; D] {
-        let mut terms = [S::zero(); D];
+    fn terms_of_gain(&self, index: usize, weights: &[f64], per_step: f64) -> [f64; D] {
+        let mut terms = [0.0; D];
         for (set, &weight) in weights.iter().enumerate() {
             let change = self.nodes_of_set(set)[index].change(&self.trial);
             for axis in 0..D {
-                terms[axis] += (S::from_f64(weight) * change[axis]).abs() * per_step;
+                terms[axis] += (weight * change[axis]).abs() * per_step;
             }
         }
         terms
     }
 
     /// Where masses couple nodes: finds the changes of their velocities, and the impulses that follow.
-    fn change_velocities(
-        &mut self,
-        stages: &mut Stages<S, D>,
-        weights: &[f64],
-        view: &StepView<'_, S>,
-    ) {
+    fn change_velocities(&mut self, stages: &mut Stages<D>, weights: &[f64], view: &StepView<'_>) {
         if stages.changes.is_empty() {
             return;
         }
@@ -187,11 +181,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Adds work and impulse of loads and weight on a node in the step.
     fn see_loads(
         &self,
-        stages: &Stages<S, D>,
-        view: &StepView<'_, S>,
-        moved: &NodeStep<'_, S, D>,
+        stages: &Stages<D>,
+        view: &StepView<'_>,
+        moved: &NodeStep<'_, D>,
         node: usize,
-        (next, motion): (&mut State<S>, &mut Motion<S, D>),
+        (next, motion): (&mut State, &mut Motion<D>),
     ) {
         if !view.stages[0].has_total_force() && self.rockets.are_none() {
             return;
@@ -210,7 +204,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             motion.work((total[axis] - force[axis]) * moved.displacement[axis]);
         }
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
-            let share = view.step * S::from_f64(weight);
+            let share = view.step * weight;
             let total = view.stages[stage].total_force::<D>(node);
             let total = self.rockets.add_to(total, [stage, node]);
             let impulse = total.map(|force| share * force);

@@ -12,16 +12,15 @@ use crate::step::error::StepFailure;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::move_node;
 use crate::step::solver::stages::Stages;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     /// New positions and momenta, all finite, and the work of loads and supports.
     pub(super) fn move_through_stages(
         &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-        (motion, tally): (&mut Motion<S, D>, &mut Tally<S>),
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
+        next: &mut State,
+        (motion, tally): (&mut Motion<D>, &mut Tally),
     ) -> Result<(), StepFailure> {
         let Some(mut stages) = self.stages.take() else {
             return Ok(());
@@ -50,9 +49,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Finds the impulses of all stages and, except along paths, the displacements at the end of the step.
     fn find_stages(
         &mut self,
-        stages: &mut Stages<S, D>,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
+        stages: &mut Stages<D>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
     ) -> Result<(), StepFailure> {
         let rule = stages.rule;
         for stage in 0..rule.stages() {
@@ -78,7 +77,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let at = (stage, view.step);
             (self.rockets).add_impulses(at, &mut impulses, &mut self.magnitudes);
         }
-        let momenta = points::<S, D>(view.state.momenta.values());
+        let momenta = points::<D>(view.state.momenta.values());
         for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
             let node = mass.node();
             stages.ends[node] = match rule.ending {
@@ -96,10 +95,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// `q_i − q⁰ = c (h/m)(p⁰ + Σ_j w_j h G_j)` with the total forces G of the stages before.
-    fn move_to_stage(&mut self, stages: &Stages<S, D>, view: &StepView<'_, S>, set: usize) {
+    fn move_to_stage(&mut self, stages: &Stages<D>, view: &StepView<'_>, set: usize) {
         let weights = stages.rule.positions[set];
-        let time = S::from_f64(self.sets[set].time);
-        let momenta = points::<S, D>(view.state.momenta.values());
+        let time = self.sets[set].time;
+        let momenta = points::<D>(view.state.momenta.values());
         for at in self.range_of_set(set) {
             let mass = self.nodes[at].place;
             let (momentum, impulse) =
@@ -114,9 +113,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// at the stage.
     fn solve_for_stage(
         &mut self,
-        stages: &mut Stages<S, D>,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
+        stages: &mut Stages<D>,
+        groups: &mut [Box<dyn Group<D>>],
+        view: &StepView<'_>,
         set: usize,
     ) -> Result<(), StepFailure> {
         let Some(mut secant) = stages.secant.take() else {
@@ -130,9 +129,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let own = rule.stage_of(set);
         let (before, weight) = (
             &rule.positions[set][..own],
-            view.step * S::from_f64(rule.positions[set][own]),
+            view.step * rule.positions[set][own],
         );
-        let momenta = points::<S, D>(view.state.momenta.values());
+        let momenta = points::<D>(view.state.momenta.values());
         let inertia = self.inertias(view)[set];
         let nodes = self.nodes_of_set(set);
         let (values, right) = secant.parts();
@@ -156,19 +155,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Sets the displacement of a node in a set.
-    fn place(&mut self, in_trial: usize, displacement: [S; D]) {
+    fn place(&mut self, in_trial: usize, displacement: [f64; D]) {
         self.trial.displacements[in_trial] = displacement;
-        self.trial.carries[in_trial] = [S::zero(); D];
+        self.trial.carries[in_trial] = [0.0; D];
     }
 
     fn move_to_end(
         &self,
-        stages: &Stages<S, D>,
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-        motion: &mut Motion<S, D>,
+        stages: &Stages<D>,
+        view: &StepView<'_>,
+        next: &mut State,
+        motion: &mut Motion<D>,
     ) -> Result<(), StepFailure> {
-        let none = [S::zero(); D];
+        let none = [0.0; D];
         for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
             let node = mass.node();
             let displacement = &stages.ends[node];
@@ -198,20 +197,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// `h Σ b_i f_i v_i` of a coordinate, with the velocities that the rule gives to the stages, J.
     pub(super) fn work(
         &self,
-        stages: &Stages<S, D>,
+        stages: &Stages<D>,
         node: usize,
         axis: usize,
-        force: impl Fn(usize) -> S,
-    ) -> S {
+        force: impl Fn(usize) -> f64,
+    ) -> f64 {
         let rule = stages.rule;
-        let mut work = S::zero();
+        let mut work = 0.0;
         for (stage, (&weight, shares)) in rule.weights.iter().zip(rule.motion).enumerate() {
-            let mut motion = S::zero();
+            let mut motion = 0.0;
             for (set, &share) in shares.iter().enumerate() {
                 let displacement = self.trial.displacements_of_set(set)[node][axis];
-                motion += S::from_f64(share) * displacement;
+                motion += share * displacement;
             }
-            work += S::from_f64(weight) * force(stage) * motion;
+            work += weight * force(stage) * motion;
         }
         work
     }

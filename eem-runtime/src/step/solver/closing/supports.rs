@@ -15,15 +15,14 @@ use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::solver::Solver;
 use crate::step::solver::coupling::changes_at_stages;
 use crate::step::solver::stages::Stages;
-use eem_material::number::scalar::Real;
 
-impl<S: Real, const D: usize> Solver<S, D> {
+impl<const D: usize> Solver<D> {
     /// Sets moved anchors to their new positions, and adds the work of their supports.
     pub(super) fn move_supports(
         &self,
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-        motion: &mut Motion<S, D>,
+        view: &StepView<'_>,
+        next: &mut State,
+        motion: &mut Motion<D>,
     ) {
         let Some(stages) = &self.stages else {
             return;
@@ -49,24 +48,23 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn carry(
         &self,
         node: usize,
-        (stages, path): (&Stages<S, D>, &Path),
-        view: &StepView<'_, S>,
-        (next, motion): (&mut State<S>, &mut Motion<S, D>),
+        (stages, path): (&Stages<D>, &Path),
+        view: &StepView<'_>,
+        (next, motion): (&mut State, &mut Motion<D>),
     ) {
         let state = view.state;
         let [&old, _] = state.velocities.point::<D>(node);
-        let changes = changes_at_stages::<S, D>(path, node, view);
+        let changes = changes_at_stages::<D>(path, node, view);
         let impulses = self.impulses_at_stages(node, (stages, path), view);
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
             for axis in 0..D {
                 let speed = old[axis] + changes[stage][axis];
-                next.work
-                    .add(S::from_f64(weight) * speed * impulses[stage][axis]);
+                next.work.add(weight * speed * impulses[stage][axis]);
             }
         }
         let displacement = view.loads.motion::<D>(node);
-        let momentum = points::<S, D>(state.momenta.values())[node];
-        let end = points::<S, D>(next.momenta.values())[node];
+        let momentum = points::<D>(state.momenta.values())[node];
+        let end = points::<D>(next.momenta.values())[node];
         let impulse = array::from_fn(|axis| end[axis] - momentum[axis]);
         let carried = NodeStep {
             speeds: Speeds::Given {
@@ -92,10 +90,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn impulses_at_stages(
         &self,
         node: usize,
-        (stages, path): (&Stages<S, D>, &Path),
-        view: &StepView<'_, S>,
-    ) -> [[S; D]; MOST_STAGES] {
-        let mut impulses = [[S::zero(); D]; MOST_STAGES];
+        (stages, path): (&Stages<D>, &Path),
+        view: &StepView<'_>,
+    ) -> [[f64; D]; MOST_STAGES] {
+        let mut impulses = [[0.0; D]; MOST_STAGES];
         for pair in view.masses.held() {
             let other = match pair.nodes() {
                 [a, b] if a == node => b,
@@ -121,11 +119,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn changes_of_mass(
         &self,
         node: usize,
-        stages: &Stages<S, D>,
-        view: &StepView<'_, S>,
-    ) -> [[S; D]; MOST_STAGES] {
+        stages: &Stages<D>,
+        view: &StepView<'_>,
+    ) -> [[f64; D]; MOST_STAGES] {
         let masses = self.nodes_of_set(0);
-        let mut beyond = [[S::zero(); D]; MOST_STAGES];
+        let mut beyond = [[0.0; D]; MOST_STAGES];
         if let Ok(index) = masses.binary_search_by_key(&node, |mass| mass.place.node()) {
             for (set, beyond) in beyond.iter_mut().enumerate().take(self.sets.len()) {
                 let change = self.nodes_of_set(set)[index].change(&self.trial);
@@ -137,15 +135,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
 }
 
 /// `h ẋ` at the stages of a polynomial x(t) that vanishes at the start of the step, from its values at the stages.
-fn differentiated<S: Real, const D: usize>(
+fn differentiated<const D: usize>(
     motion: &[&[f64]],
-    values: &[[S; D]; MOST_STAGES],
-) -> [[S; D]; MOST_STAGES] {
-    let mut rates = [[S::zero(); D]; MOST_STAGES];
+    values: &[[f64; D]; MOST_STAGES],
+) -> [[f64; D]; MOST_STAGES] {
+    let mut rates = [[0.0; D]; MOST_STAGES];
     for (rate, shares) in rates.iter_mut().zip(motion) {
         for (&share, value) in shares.iter().zip(values) {
             for axis in 0..D {
-                rate[axis] += S::from_f64(share) * value[axis];
+                rate[axis] += share * value[axis];
             }
         }
     }

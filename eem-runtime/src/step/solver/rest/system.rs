@@ -1,6 +1,7 @@
 //! The system of an iteration for a state at rest, and its updates.
 
 use core::array;
+use eem_material::number::scalar::Scalar;
 
 use super::{AtRest, LONG};
 use crate::element::tally::Care;
@@ -41,7 +42,9 @@ impl Update {
 }
 
 pub(super) fn norm(vector: &[f64]) -> f64 {
-    vector.iter().fold(0.0, |norm, &entry| entry.hypot(norm))
+    vector
+        .iter()
+        .fold(0.0, |norm, &entry| Scalar::hypot(entry, norm))
 }
 
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {

@@ -17,24 +17,24 @@ use crate::element::state::State;
 use crate::element::tableau::MOST_STAGES;
 use crate::element::tally::{Care, Tally};
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// Heat and entropy received in a step, stage by stage.
-pub(super) type Booked<S> = [Received<S>; MOST_STAGES];
+pub(super) type Booked = [Received; MOST_STAGES];
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Books the increments of the internal variables and of the reservoirs' entropies.
     pub(super) fn book(
         &self,
-        in_state: &StatePoint<S, M, K, D>,
-        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
-    ) -> Booked<S> {
+        in_state: &StatePoint<M, K, D>,
+        (view, trial): (&StepView<'_>, &Trial<D>),
+        next: &mut State,
+        tally: &mut Tally,
+    ) -> Booked {
         let mut booked = self.book_dashpots(in_state, view, next, tally);
-        let sum = |of: fn(&Received<S>) -> S| {
+        let sum = |of: fn(&Received) -> f64| {
             let terms = booked.iter().map(of);
-            terms.fold(S::zero(), |sum, term| sum + term)
+            terms.fold(0.0, |sum, term| sum + term)
         };
         let Some(slot) = in_state.slots().thermal else {
             if M::DASHPOTS + M::Drag::LEN > 0 {
@@ -47,7 +47,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         (balances.next.entropies).advance(slot, &view.state.entropies, produced);
         let weights = self.point.rule.weights.iter();
         for ((stage, &weight), received) in weights.enumerate().zip(&mut booked) {
-            let share = view.step * S::from_f64(weight);
+            let share = view.step * weight;
             self.book_paths((stage, share), slot, trial, &mut balances, received);
             let theta = self.mean_temperature(stage);
             let correction = self.reservoir_correction((stage, share), slot, view, received.heat);
@@ -60,14 +60,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// Books the viscous stretches; returns heat and entropy of the dashpots.
     fn book_dashpots(
         &self,
-        in_state: &StatePoint<S, M, K, D>,
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
-    ) -> Booked<S> {
+        in_state: &StatePoint<M, K, D>,
+        view: &StepView<'_>,
+        next: &mut State,
+        tally: &mut Tally,
+    ) -> Booked {
         let mut booked = [Received::none(); MOST_STAGES];
         let (weights, slots) = (self.point.rule.weights, in_state.slots());
-        let mut dissipate = |stage: usize, heat: S, (dashpot, next): (usize, &mut State<S>)| {
+        let mut dissipate = |stage: usize, heat: f64, (dashpot, next): (usize, &mut State)| {
             let entropy = heat / self.temperature_or_one(stage);
             booked[stage].heat += heat;
             booked[stage].add(entropy);
@@ -85,13 +85,13 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             for (stage, &weight) in weights.iter().enumerate() {
                 let rate = self.rates[stage][index];
                 let drag = self.viscosities[stage].0[k] * view.per_step * rate;
-                let heat = S::from_f64(weight) * (drag * rate);
+                let heat = weight * (drag * rate);
                 dissipate(stage, heat, (slots.viscous + k, &mut *next));
             }
         }
         if M::Drag::LEN > 0 {
             for (stage, &weight) in weights.iter().enumerate() {
-                let heat = S::from_f64(weight) * self.viscous_heat[stage];
+                let heat = weight * self.viscous_heat[stage];
                 let drag = view.state.viscous.values().len() + in_state.element.index();
                 dissipate(stage, heat, (drag, &mut *next));
             }
@@ -102,11 +102,11 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// Books the heat to other elements at a stage, during its share of the step, s.
     fn book_paths(
         &self,
-        (stage, share): (usize, S),
+        (stage, share): (usize, f64),
         slot: usize,
-        trial: &Trial<S, D>,
-        balances: &mut Balances<'_, S>,
-        received: &mut Received<S>,
+        trial: &Trial<D>,
+        balances: &mut Balances<'_>,
+        received: &mut Received,
     ) {
         let Some(contacts) = &self.point.contacts else {
             return;
@@ -126,30 +126,30 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// `stored` is zero.
     fn reservoir_correction(
         &self,
-        (stage, share): (usize, S),
+        (stage, share): (usize, f64),
         slot: usize,
-        view: &StepView<'_, S>,
-        heat: S,
-    ) -> S {
+        view: &StepView<'_>,
+        heat: f64,
+    ) -> f64 {
         if self.point.prescribed.is_some() {
-            return S::zero();
+            return 0.0;
         }
         let theta = self.mean_temperature(stage);
         let flow = view.conduction.reservoir_flow(slot, theta);
         let weight = share * view.per_step;
         let taken = weight * theta * self.rates[stage][Self::ENTROPY];
-        reservoir_correction(&flow, [share, theta], [taken, S::zero(), heat])
+        reservoir_correction(&flow, [share, theta], [taken, 0.0, heat])
     }
 
     /// Books the heat of the thermostat of an element whose new entropy is given, stage by stage; the rounding of the
     /// entropy at the last one.
-    pub(super) fn book_thermostat(&self, booked: &Booked<S>, entropy: S, next: &mut State<S>) {
+    pub(super) fn book_thermostat(&self, booked: &Booked, entropy: f64, next: &mut State) {
         let rule = self.point.rule;
         let mut total = entropy - self.point.entropy;
-        let mut heat = S::zero();
+        let mut heat = 0.0;
         let mut rest = total;
         for ((stage, &weight), received) in rule.weights.iter().enumerate().zip(booked) {
-            let taken = S::from_f64(weight) * self.rates[stage][Self::ENTROPY];
+            let taken = weight * self.rates[stage][Self::ENTROPY];
             heat += self.mean_temperature(stage) * (taken - received.entropy);
             rest -= taken;
             total -= received.entropy;
@@ -159,11 +159,11 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// Θ of a stage, K; one without temperature.
-    fn temperature_or_one(&self, stage: usize) -> S {
+    fn temperature_or_one(&self, stage: usize) -> f64 {
         if M::THERMAL {
             self.mean_temperature(stage)
         } else {
-            S::one()
+            1.0
         }
     }
 
@@ -171,25 +171,25 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// its energy, J.
     pub(super) fn certify(
         &self,
-        in_state: &StatePoint<S, M, K, D>,
-        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
-        (booked, energy): (&Booked<S>, S),
-        tally: &mut Tally<S>,
+        in_state: &StatePoint<M, K, D>,
+        (view, trial): (&StepView<'_>, &Trial<D>),
+        (booked, energy): (&Booked, f64),
+        tally: &mut Tally,
     ) {
         let weights = self.point.rule.weights;
         let forces = self.amplitude(tally.care);
         tally.force(forces);
         // h Σ b |F|, each F limited by those at the ends: the rounding of larger forces, which cancel, is an error.
         let [old_slopes, new_slopes] = &self.end_slopes;
-        let at_ends = |q: usize| old_slopes[q].abs().maximum(new_slopes[q].abs());
+        let at_ends = |q: usize| Scalar::maximum(old_slopes[q].abs(), new_slopes[q].abs());
         let impulse = weights.iter().enumerate();
-        let impulse = impulse.fold(S::zero(), |sum, (stage, &weight)| {
-            let size = |q: usize| self.conjugates[stage][q].abs().minimum(at_ends(q));
-            sum + view.step * S::from_f64(weight) * self.force_size(&self.arms[stage], size)
+        let impulse = impulse.fold(0.0, |sum, (stage, &weight)| {
+            let size = |q: usize| Scalar::minimum(self.conjugates[stage][q].abs(), at_ends(q));
+            sum + view.step * weight * self.force_size(&self.arms[stage], size)
         });
         tally.exchange(impulse);
         for k in 0..M::DASHPOTS {
-            let half = S::from_f64(0.5) * self.stiffness[k];
+            let half = 0.5 * self.stiffness[k];
             tally.see_relaxation(view.step, half, self.viscosities[0].0[k]);
         }
         if let Some(slot) = in_state.slots().thermal
@@ -213,7 +213,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             let last = Self::ENTROPY;
             let theta = self.mean_temperature(stage);
             if self.point.prescribed.is_none() {
-                let taken = S::from_f64(weight) * theta * self.rates[stage][last];
+                let taken = weight * theta * self.rates[stage][last];
                 let defect = taken - theta * received.entropy;
                 let terms = theta * received.terms;
                 tally.balance(defect, taken.abs() + terms + energy + forces);
@@ -229,7 +229,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// The size of a conjugate, for a thorough bound with its conditioning error, in units of ε.
-    fn size_of_conjugate(&self, [stage, index]: [usize; 2], care: Care) -> S {
+    fn size_of_conjugate(&self, [stage, index]: [usize; 2], care: Care) -> f64 {
         let size = self.conjugates[stage][index].abs();
         match care {
             Care::Quick => size,
@@ -242,19 +242,19 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// ```text
     /// |∇ê⁰||y⁰| + |∇ê¹||y¹| + Σ b |a||R| + ε Σ |W| y¹²,     Σ b |∂²ê/∂x∂y| |y| |R_x|
     /// ```
-    fn amplitude(&self, care: Care) -> S {
+    fn amplitude(&self, care: Care) -> f64 {
         let weights = self.point.rule.weights;
-        let mut sum = S::zero();
+        let mut sum = 0.0;
         for index in 0..Self::ENTROPY {
             let [old, new] = [0, 1].map(|end| self.size_at_end(end, index));
-            sum += S::EPSILON * self.metric[index] * new * new;
+            sum += f64::EPSILON * self.metric[index] * new * new;
             // λ ∂e/∂λ = 2 C ∂ê/∂C
             let [old_slopes, new_slopes] = &self.end_slopes;
             let ends = (old_slopes[index] * old).abs() + (new_slopes[index] * new).abs();
             sum += ends + ends;
             for (stage, &weight) in weights.iter().enumerate() {
                 let work = self.conjugates[stage][index] * self.rates[stage][index];
-                sum += S::from_f64(weight) * work.abs();
+                sum += weight * work.abs();
             }
         }
         // Strains of solids are ratios, whose sizes are unrelated to the motion.
@@ -264,14 +264,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         for (stage, &weight) in weights.iter().enumerate() {
             for index in 0..Self::LEN {
                 let work = self.conditioning[stage][index] * self.rates[stage][index];
-                sum += S::from_f64(weight) * work.abs();
+                sum += weight * work.abs();
             }
         }
         sum
     }
 
     /// The magnitude of the terms of a variable at one of the ends.
-    fn size_at_end(&self, end: usize, index: usize) -> S {
+    fn size_at_end(&self, end: usize, index: usize) -> f64 {
         if index < Self::STRAINS {
             self.end_sizes[end][index]
         } else {
@@ -280,9 +280,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// `Σ|f||π| + Σ|g||γ|` of the new state, J.
-    pub(super) fn forces_at_end(&self) -> S {
+    pub(super) fn forces_at_end(&self) -> f64 {
         let strains = Self::STRAINS;
-        (0..Self::ENTROPY).fold(S::zero(), |sum, index| {
+        (0..Self::ENTROPY).fold(0.0, |sum, index| {
             let size = self.size_at_end(1, index);
             let work = (self.end_slopes[1][index] * size).abs();
             // λ ∂e/∂λ = 2 C ∂ê/∂C
@@ -291,8 +291,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// The magnitude of the terms of the force on the nodes with these arms, given that of each conjugate of the strain, N.
-    pub(super) fn force_size(&self, arms: &Arms<K, S, D>, of: impl Fn(usize) -> S) -> S {
-        let mut sizes = PerStrain::<K, S, D>::filled(S::zero());
+    pub(super) fn force_size(&self, arms: &Arms<K, D>, of: impl Fn(usize) -> f64) -> f64 {
+        let mut sizes = PerStrain::<K, D>::filled(0.0);
         for (q, size) in sizes.as_mut().iter_mut().enumerate() {
             *size = of(q);
         }

@@ -5,14 +5,13 @@ use super::vector::Vector;
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::MOST_STAGES;
 use eem_material::free_energy::Material;
-use eem_material::number::scalar::Real;
 
 /// `Δê − Σ b a·R` is rounding up to this many roundings of its terms: a product and two sums of a term, in each of the two
 /// parts. The tangent then takes the correction as constant: its derivative would be noise divided by
 /// small increments.
 const DEFECT_ROUNDINGS: f64 = 8.0;
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Corrects projected conjugates, given `∇ê` at the end and the discrete derivatives ē.
     ///
     /// ```text
@@ -20,10 +19,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// ```
     ///
     /// Without increments there is nothing to correct.
-    pub(super) fn make_exact(&mut self, [slopes, mean]: &[Vector<S, M, K, D>; 2]) {
-        let (mut defect, mut norm, mut terms) = (S::zero(), S::zero(), S::zero());
+    pub(super) fn make_exact(&mut self, [slopes, mean]: &[Vector<M, K, D>; 2]) {
+        let (mut defect, mut norm, mut terms) = (0.0, 0.0, 0.0);
         for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
-            let weight = S::from_f64(weight);
             let (a, rates) = (&self.conjugates[stage], &self.rates[stage]);
             for index in 0..Self::LEN {
                 let rate = weight * rates[index];
@@ -33,37 +31,35 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             }
         }
         // A smaller sum of squares has lost digits.
-        let is_moving = (S::MIN_POSITIVE / S::EPSILON).less(norm);
-        let zero = S::zero();
-        let factor = S::select(is_moving, defect / norm, zero);
-        let noise = S::from_f64(DEFECT_ROUNDINGS) * S::EPSILON * terms;
-        let is_noise = !is_moving | defect.abs().at_most(noise);
-        let per_norm = S::select(is_noise, zero, norm.recip());
+        let is_moving = norm > f64::MIN_POSITIVE / f64::EPSILON;
+        let factor = if is_moving { defect / norm } else { 0.0 };
+        let noise = DEFECT_ROUNDINGS * f64::EPSILON * terms;
+        let is_noise = !is_moving || defect.abs() <= noise;
+        let per_norm = if is_noise { 0.0 } else { norm.recip() };
         let slopes = self.slopes_of_factor(slopes, [factor, per_norm]);
-        let conditioning = S::select(is_moving, terms / norm, zero);
+        let conditioning = if is_moving { terms / norm } else { 0.0 };
         self.apply_factor([factor, conditioning], &slopes);
     }
 
     /// `∂μ/∂R_j`.
     fn slopes_of_factor(
         &self,
-        slopes: &Vector<S, M, K, D>,
-        [factor, per_norm]: [S; 2],
-    ) -> [Vector<S, M, K, D>; MOST_STAGES] {
+        slopes: &Vector<M, K, D>,
+        [factor, per_norm]: [f64; 2],
+    ) -> [Vector<M, K, D>; MOST_STAGES] {
         let weights = self.point.rule.weights;
         let mut by = [Vector::zero(); MOST_STAGES];
         for (j, &weight) in weights.iter().enumerate() {
-            let weight = S::from_f64(weight);
             for index in 0..Self::LEN {
                 let stretched = factor * self.metric[index] * self.rates[j][index];
                 let direct = slopes[index] - self.conjugates[j][index];
                 let mut sum = weight * (direct - stretched - stretched);
                 for (i, &weight) in weights.iter().enumerate() {
                     let rows = 0..Self::LEN;
-                    let response = rows.fold(S::zero(), |sum, row| {
+                    let response = rows.fold(0.0, |sum, row| {
                         sum + self.by_rates[i][j].at([row, index]) * self.rates[i][row]
                     });
-                    sum -= S::from_f64(weight) * response;
+                    sum -= weight * response;
                 }
                 by[j][index] = per_norm * sum;
             }
@@ -74,8 +70,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// Adds `μ W R_i` and its derivatives to `a_i`, given μ and, in units of ε, its conditioning error.
     fn apply_factor(
         &mut self,
-        [factor, conditioning]: [S; 2],
-        slopes: &[Vector<S, M, K, D>; MOST_STAGES],
+        [factor, conditioning]: [f64; 2],
+        slopes: &[Vector<M, K, D>; MOST_STAGES],
     ) {
         let stages = self.point.rule.stages();
         for i in 0..stages {

@@ -12,14 +12,13 @@ use crate::element::group::stages::point::StatePoint;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::MOST_SETS;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Adds the forces of the dashpot to conjugates that are exact without them.
     pub(super) fn add_kelvin_voigt(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        per_step: S,
+        in_state: &mut StatePoint<M, K, D>,
+        per_step: f64,
     ) -> Result<(), StateError> {
         if M::Drag::LEN == 0 {
             return Ok(());
@@ -27,8 +26,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         for stage in 0..self.point.rule.stages() {
             in_state.find_drag_viscosity(self.mean_temperature(stage))?;
             let (viscosities, slopes) = in_state.drag.viscosity;
-            (self.viscous_heat[stage], self.heat_by_theta[stage]) = (S::zero(), S::zero());
-            self.heat_by_strain[stage] = [PerStrain::<K, S, D>::filled(S::zero()); MOST_SETS];
+            (self.viscous_heat[stage], self.heat_by_theta[stage]) = (0.0, 0.0);
+            self.heat_by_strain[stage] = [PerStrain::<K, D>::filled(0.0); MOST_SETS];
             for a in 0..M::Drag::LEN {
                 let per_step = [viscosities[a] * per_step, slopes[a] * per_step];
                 self.add_kelvin_voigt_of(in_state, [stage, a], per_step)?;
@@ -40,22 +39,22 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// The same for a measure at a stage, given `η/h` and `(dη/dθ)/h`.
     fn add_kelvin_voigt_of(
         &mut self,
-        in_state: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<M, K, D>,
         [stage, measure]: [usize; 2],
-        [eta, slope]: [S; 2],
+        [eta, slope]: [f64; 2],
     ) -> Result<(), StateError> {
         let (strains, last) = (Self::STRAINS, Self::ENTROPY);
         let (kinematics, reaches) = (self.point.kinematics, self.point.rule.rates[stage]);
         let strain = self.path_at(reaches).strain;
         self.measures_in_path(in_state.element, &strain)?;
         let direction = kinematics.strain_slopes([&strain, &strain])[measure];
-        let mut unit = Measures::<K, S, D>::filled(S::zero());
-        unit[measure] = S::one();
+        let mut unit = Measures::<K, D>::filled(0.0);
+        unit[measure] = 1.0;
         let turning = kinematics.strain_curvature(&strain, &unit);
         let rates = self.rates[stage].strain;
         // ∂P/∂C·R
-        let mut turned = PerStrain::<K, S, D>::filled(S::zero());
-        let mut extension = S::zero();
+        let mut turned = PerStrain::<K, D>::filled(0.0);
+        let mut extension = 0.0;
         for q in 0..strains {
             extension += direction[q] * rates[q];
             for p in 0..strains {
@@ -65,7 +64,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         // The terms of the extension, which may cancel.
         let sizes = kinematics.strain_sizes(&strain);
         let terms = direction.as_ref().iter().zip(sizes.as_ref());
-        let size = terms.fold(S::zero(), |sum, (&slope, &size)| sum + (slope * size).abs());
+        let size = terms.fold(0.0, |sum, (&slope, &size)| sum + (slope * size).abs());
         let (force, thinning) = (eta * extension, slope * extension);
         self.viscous_heat[stage] += force * extension;
         self.heat_by_theta[stage] += thinning * extension;
@@ -74,14 +73,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             self.conditioning[stage][q] += (direction[q] * eta * size).abs();
         }
         for (set, &reach) in reaches.iter().enumerate() {
-            let reach = S::from_f64(reach);
             let by = &mut self.by_rates[stage][set];
             for p in 0..strains {
-                let direct = if set == stage {
-                    direction[p]
-                } else {
-                    S::zero()
-                };
+                let direct = if set == stage { direction[p] } else { 0.0 };
                 let by_extension = direct + reach * turned[p];
                 self.heat_by_strain[stage][set][p] += (force + force) * by_extension;
                 for q in 0..strains {

@@ -17,11 +17,10 @@ use crate::element::group::view::StepView;
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::MOST_STAGES;
 use eem_material::free_energy::{Array, Material};
-use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Writes the derivatives of a conjugate of a stage to the row of the workspace.
-    pub(super) fn differentiate(&self, local: &mut LocalStages<S>, [stage, index]: [usize; 2]) {
+    pub(super) fn differentiate(&self, local: &mut LocalStages, [stage, index]: [usize; 2]) {
         let (sets, strains) = (self.point.rule.sets(), Self::STRAINS);
         local.clear_row();
         for (set, by) in self.by_rates[stage].iter().enumerate().take(sets) {
@@ -43,10 +42,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// Adds a multiple of a conjugate of a stage to an equation.
     fn add(
         &mut self,
-        local: &mut LocalStages<S>,
+        local: &mut LocalStages,
         equation: usize,
         stage_and_index: [usize; 2],
-        factor: S,
+        factor: f64,
     ) {
         self.differentiate(local, stage_and_index);
         self.point.add_row(local, equation, factor);
@@ -55,9 +54,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// The equation of a dashpot at a stage, times the unit of its stretch.
     pub(super) fn write_creep(
         &mut self,
-        local: &mut LocalStages<S>,
+        local: &mut LocalStages,
         [stage, k]: [usize; 2],
-        per_step: S,
+        per_step: f64,
     ) {
         let (equation, index) = (stage * M::DASHPOTS + k, Self::STRAINS + k);
         let unit = self.units[index];
@@ -79,9 +78,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// reservoirs.
     pub(super) fn write_heat(
         &mut self,
-        local: &mut LocalStages<S>,
+        local: &mut LocalStages,
         stage: usize,
-        (view, [heat, conductance]): (&StepView<'_, S>, [S; 2]),
+        (view, [heat, conductance]): (&StepView<'_>, [f64; 2]),
     ) {
         let (sets, strains) = (self.point.rule.sets(), Self::STRAINS);
         let (unknowns, last) = (local.unknowns(), Self::ENTROPY);
@@ -118,9 +117,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// The equations `θ (s(τ) − S(λ, γ, θ)) = 0` where the temperature θ is given.
     pub(super) fn prescribe(
         &mut self,
-        in_state: &StatePoint<S, M, K, D>,
-        local: &mut LocalStages<S>,
-        prescribed: &[S; MOST_STAGES],
+        in_state: &StatePoint<M, K, D>,
+        local: &mut LocalStages,
+        prescribed: &[f64; MOST_STAGES],
     ) -> Result<(), StateError> {
         let rule = self.point.rule;
         let Some(path) = rule.path else {
@@ -140,9 +139,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             let residual = (self.old[last] - entropy) + increment;
             self.point.solved[equation] = theta * residual;
             let slopes = (self.point.kinematics).strain_slopes([&y.strain, &y.strain]);
-            let by_strain = chained::<S, K, D>(&slopes, &row.as_ref()[..M::MEASURES]);
+            let by_strain = chained::<K, D>(&slopes, &row.as_ref()[..M::MEASURES]);
             for (set, &share) in shares.iter().enumerate() {
-                let share = theta * S::from_f64(share);
+                let share = theta * share;
                 for (q, &by) in by_strain.as_ref().iter().enumerate() {
                     let input = (1 + set * strains + q) * unknowns + equation;
                     self.point.solved[input] += share * by;

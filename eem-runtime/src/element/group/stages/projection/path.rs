@@ -10,24 +10,24 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
-use eem_material::number::scalar::{Real, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// `y = (C, γ, s)` and `x = (π, γ, θ)` at a point of a path.
-type PathPoint<S, M, K, const D: usize> = (Vector<S, M, K, D>, <M as FreeEnergy<S>>::Variables);
+type PathPoint<M, K, const D: usize> = (Vector<M, K, D>, <M as FreeEnergy<f64>>::Variables);
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Finds arms, their motion and the increments of C at the stages.
     pub(super) fn move_along(
         &mut self,
-        in_state: &StatePoint<S, M, K, D>,
-        arms: &StageArms<K, S, D>,
+        in_state: &StatePoint<M, K, D>,
+        arms: &StageArms<K, D>,
     ) -> Result<(), StateError> {
         let kinematics = &self.point.kinematics;
         for (stage, row) in self.point.rule.motion.iter().enumerate() {
             let r = arms.of_set(stage);
             let measures = kinematics.measure(&r);
-            check_measures::<K, S, D>(kinematics, in_state.element, &measures, &r)?;
-            let motion = combined::<K, S, D>(row, &arms.changes);
+            check_measures::<K, D>(kinematics, in_state.element, &measures, &r)?;
+            let motion = combined::<K, D>(row, &arms.changes);
             self.rates[stage].strain = kinematics.strain_rate(&r, &motion);
             (self.arms[stage], self.motions[stage]) = (r, motion);
         }
@@ -35,7 +35,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// Finds the conjugates of the stages and their derivatives, before [`make_exact`](Self::make_exact).
-    pub(super) fn project(&mut self, in_state: &StatePoint<S, M, K, D>) -> Result<(), StateError> {
+    pub(super) fn project(&mut self, in_state: &StatePoint<M, K, D>) -> Result<(), StateError> {
         let rule = self.point.rule;
         let Some(path) = rule.path else {
             return Ok(());
@@ -67,23 +67,23 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     fn take(
         &mut self,
         (path, r): (&Path, usize),
-        y: &Vector<S, M, K, D>,
-        (slopes, curvatures): &(Vector<S, M, K, D>, Matrix<S, M, K, D>),
+        y: &Vector<M, K, D>,
+        (slopes, curvatures): &(Vector<M, K, D>, Matrix<M, K, D>),
     ) {
         let mut sizes = *y;
         sizes.strain = self.point.kinematics.strain_sizes(&y.strain);
         let variables = 0..Self::LEN;
         for (stage, shares) in path.projection.iter().enumerate() {
-            let share = S::from_f64(shares[r]);
+            let share = shares[r];
             for index in variables.clone() {
                 self.conjugates[stage][index] += share * slopes[index];
-                let size = variables.clone().fold(S::zero(), |sum, column| {
+                let size = variables.clone().fold(0.0, |sum, column| {
                     sum + (curvatures.at([index, column]) * sizes[column]).abs()
                 });
                 self.conditioning[stage][index] += share.abs() * size;
             }
             for (by, &reach) in self.by_rates[stage].iter_mut().zip(path.integrals[r]) {
-                let factor = share * S::from_f64(reach);
+                let factor = share * reach;
                 for row in variables.clone() {
                     for column in variables.clone() {
                         *by.at_mut([row, column]) += factor * curvatures.at([row, column]);
@@ -97,8 +97,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     pub(super) fn measures_in_path(
         &self,
         element: Element,
-        strain: &PerStrain<K, S, D>,
-    ) -> Result<Measures<K, S, D>, StateError> {
+        strain: &PerStrain<K, D>,
+    ) -> Result<Measures<K, D>, StateError> {
         let measures = self.point.kinematics.measures_of(strain);
         measures.ok_or_else(|| self.point.kinematics.refuse(element, strain))
     }
@@ -106,10 +106,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// The point of the path after these fractions of the increments.
     pub(super) fn find_point(
         &mut self,
-        in_state: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<M, K, D>,
         shares: &[f64],
         point: usize,
-    ) -> Result<PathPoint<S, M, K, D>, StateError> {
+    ) -> Result<PathPoint<M, K, D>, StateError> {
         let y = self.path_at(shares);
         let measures = self.measures_in_path(in_state.element, &y.strain)?;
         let near = self.temperatures[point];
@@ -127,15 +127,15 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// the increments is Δê.
     pub(super) fn reach_end(
         &mut self,
-        in_state: &StatePoint<S, M, K, D>,
-    ) -> Result<[Vector<S, M, K, D>; 2], StateError> {
+        in_state: &StatePoint<M, K, D>,
+    ) -> Result<[Vector<M, K, D>; 2], StateError> {
         let (end, x) = self.find_point(in_state, self.point.rule.weights, MOST_POINTS)?;
         let (kinematics, model) = (&self.point.kinematics, &in_state.model);
         self.end = end;
         self.end_sizes[1] = kinematics.strain_sizes(&end.strain);
         let mut gradient = model.gradient(&x);
         let response = model.temperature_form_response(&self.old_form, &x);
-        let mut mean = M::Variables::filled(S::zero());
+        let mut mean = M::Variables::filled(0.0);
         mean.as_mut()
             .copy_from_slice(&response.as_ref()[..M::Variables::LEN]);
         for force in &mut mean.as_mut()[M::MEASURES..M::MEASURES + M::DASHPOTS] {
@@ -146,7 +146,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             gradient[last] = x[last];
         }
         let between = |ends, by: M::Variables| Vector {
-            strain: chained::<S, K, D>(&kinematics.strain_slopes(ends), by.as_ref()),
+            strain: chained::<K, D>(&kinematics.strain_slopes(ends), by.as_ref()),
             rest: by,
         };
         let slopes = between([&end.strain, &end.strain], gradient);
@@ -159,14 +159,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// Finds the viscosities at the temperatures of the stages; an error unless both are positive.
     pub(super) fn find_viscosities(
         &mut self,
-        in_state: &mut StatePoint<S, M, K, D>,
+        in_state: &mut StatePoint<M, K, D>,
     ) -> Result<(), StateError> {
         for stage in 0..self.point.rule.stages() {
             let theta = self.mean_temperature(stage);
             if M::THERMAL && !is_positive(theta) {
                 return Err(StateError::MeanTemperature {
                     element: in_state.element,
-                    value: theta.to_f64(),
+                    value: theta,
                 });
             }
             in_state.find_viscosities(theta, None)?;
@@ -177,17 +177,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 }
 
 /// An error unless the sum of some numbers is finite.
-fn check_finite<S: Real>(
-    element: Element,
-    values: impl Iterator<Item = S>,
-) -> Result<(), StateError> {
-    let sum = values.fold(S::zero(), |sum, value| sum + value);
+fn check_finite(element: Element, values: impl Iterator<Item = f64>) -> Result<(), StateError> {
+    let sum = values.fold(0.0, |sum, value| sum + value);
     if sum.is_finite() {
         return Ok(());
     }
     Err(StateError::NotFinite {
         element,
         quantity: "force or entropy",
-        value: sum.to_f64(),
+        value: sum,
     })
 }

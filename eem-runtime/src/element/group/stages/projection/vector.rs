@@ -11,30 +11,30 @@ use core::ops::{Index, IndexMut, Range};
 use crate::element::group::arms::measures_in;
 use crate::element::kinematics::{PerStrain, QuadraticStrain, StrainMatrix};
 use eem_material::free_energy::{Array, FreeEnergy};
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::Scalar;
 
 /// A number per variable.
 #[derive(Debug)]
-pub(super) struct Vector<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
+pub(super) struct Vector<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> {
     /// Of the components of the strain.
-    pub(super) strain: PerStrain<K, S, D>,
+    pub(super) strain: PerStrain<K, D>,
     /// Of γ and s, at their indices among the variables of the model, whose measures are ignored.
     pub(super) rest: M::Variables,
 }
 
 /// A number per two variables.
 #[derive(Debug)]
-pub(super) struct Matrix<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
-    strains: StrainMatrix<K, S, D>,
+pub(super) struct Matrix<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> {
+    strains: StrainMatrix<K, D>,
     /// Rows of the strain, columns of the rest; and rows of the rest, columns of the strain, stored transposed.
     right: K::PerStrain<M::Variables>,
     below: K::PerStrain<M::Variables>,
     rest: M::Hessian,
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Vector<S, M, K, D> {
+impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Vector<M, K, D> {
     /// Number of components of the strain.
-    pub(super) const STRAINS: usize = <PerStrain<K, S, D> as Array<S>>::LEN;
+    pub(super) const STRAINS: usize = <PerStrain<K, D> as Array<f64>>::LEN;
     /// Number of variables.
     pub(super) const LEN: usize = Self::STRAINS + M::DASHPOTS + M::THERMAL as usize;
     /// The index of the entropy.
@@ -42,17 +42,17 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Vector
 
     pub(super) fn zero() -> Self {
         Self {
-            strain: PerStrain::<K, S, D>::filled(S::zero()),
-            rest: M::Variables::filled(S::zero()),
+            strain: PerStrain::<K, D>::filled(0.0),
+            rest: M::Variables::filled(0.0),
         }
     }
 
-    pub(super) fn entries(&self) -> impl Iterator<Item = S> + '_ {
+    pub(super) fn entries(&self) -> impl Iterator<Item = f64> + '_ {
         (0..Self::LEN).map(|index| self[index])
     }
 
     /// The variables of the model with these γ, and the given measures and temperature.
-    pub(super) fn variables(&self, measures: &[S], theta: S) -> M::Variables {
+    pub(super) fn variables(&self, measures: &[f64], theta: f64) -> M::Variables {
         let mut x = self.rest;
         x.as_mut()[..M::MEASURES].copy_from_slice(measures);
         if M::THERMAL {
@@ -62,11 +62,11 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Vector
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Matrix<S, M, K, D> {
+impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Matrix<M, K, D> {
     pub(super) fn zero() -> Self {
-        let zeros = M::Variables::filled(S::zero());
+        let zeros = M::Variables::filled(0.0);
         Self {
-            strains: K::PerStrain::filled(PerStrain::<K, S, D>::filled(S::zero())),
+            strains: K::PerStrain::filled(PerStrain::<K, D>::filled(0.0)),
             right: K::PerStrain::filled(zeros),
             below: K::PerStrain::filled(zeros),
             rest: M::Hessian::filled(zeros),
@@ -74,8 +74,8 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Matrix
     }
 
     #[inline]
-    pub(super) fn at(&self, [row, column]: [usize; 2]) -> S {
-        let strains = Vector::<S, M, K, D>::STRAINS;
+    pub(super) fn at(&self, [row, column]: [usize; 2]) -> f64 {
+        let strains = Vector::<M, K, D>::STRAINS;
         match (row.checked_sub(strains), column.checked_sub(strains)) {
             (None, None) => self.strains[row][column],
             (None, Some(beyond)) => self.right[row][M::MEASURES + beyond],
@@ -85,8 +85,8 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Matrix
     }
 
     #[inline]
-    pub(super) fn at_mut(&mut self, [row, column]: [usize; 2]) -> &mut S {
-        let strains = Vector::<S, M, K, D>::STRAINS;
+    pub(super) fn at_mut(&mut self, [row, column]: [usize; 2]) -> &mut f64 {
+        let strains = Vector::<M, K, D>::STRAINS;
         match (row.checked_sub(strains), column.checked_sub(strains)) {
             (None, None) => &mut self.strains[row][column],
             (None, Some(beyond)) => &mut self.right[row][M::MEASURES + beyond],
@@ -96,39 +96,27 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Matrix
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Clone
-    for Vector<S, M, K, D>
-{
+impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Clone for Vector<M, K, D> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Copy
-    for Vector<S, M, K, D>
-{
-}
+impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Copy for Vector<M, K, D> {}
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Clone
-    for Matrix<S, M, K, D>
-{
+impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Clone for Matrix<M, K, D> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Copy
-    for Matrix<S, M, K, D>
-{
-}
+impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Copy for Matrix<M, K, D> {}
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Index<usize>
-    for Vector<S, M, K, D>
-{
-    type Output = S;
+impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Index<usize> for Vector<M, K, D> {
+    type Output = f64;
 
     #[inline]
-    fn index(&self, index: usize) -> &S {
+    fn index(&self, index: usize) -> &f64 {
         match index.checked_sub(Self::STRAINS) {
             None => &self.strain[index],
             Some(beyond) => &self.rest[M::MEASURES + beyond],
@@ -136,11 +124,11 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Index<
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexMut<usize>
-    for Vector<S, M, K, D>
+impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> IndexMut<usize>
+    for Vector<M, K, D>
 {
     #[inline]
-    fn index_mut(&mut self, index: usize) -> &mut S {
+    fn index_mut(&mut self, index: usize) -> &mut f64 {
         match index.checked_sub(Self::STRAINS) {
             None => &mut self.strain[index],
             Some(beyond) => &mut self.rest[M::MEASURES + beyond],
@@ -149,22 +137,22 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexM
 }
 
 /// `∇ê` and `∇²ê` with respect to `(C, γ, s)` from the derivatives of ψ with respect to `x = (π, γ, θ)`.
-pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
+pub(super) fn derivatives<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize>(
     kinematics: &K,
-    strain: &PerStrain<K, S, D>,
+    strain: &PerStrain<K, D>,
     of_model: (&M::Variables, &M::Variables, &M::Hessian),
-) -> (Vector<S, M, K, D>, Matrix<S, M, K, D>) {
-    let (first, second) = by_entropy::<S, M>(of_model);
+) -> (Vector<M, K, D>, Matrix<M, K, D>) {
+    let (first, second) = by_entropy::<M>(of_model);
     let along = kinematics.strain_slopes([strain, strain]);
     let slopes = Vector {
-        strain: chained::<S, K, D>(&along, first.as_ref()),
+        strain: chained::<K, D>(&along, first.as_ref()),
         rest: first,
     };
     let mut curvatures = Matrix::zero();
-    let geometric = kinematics.strain_curvature(strain, &measures_in::<K, S, D>(&first));
-    let strains = Vector::<S, M, K, D>::STRAINS;
+    let geometric = kinematics.strain_curvature(strain, &measures_in::<K, D>(&first));
+    let strains = Vector::<M, K, D>::STRAINS;
     for column in 0..M::Variables::LEN {
-        let by_strain = chained::<S, K, D>(&along, second[column].as_ref());
+        let by_strain = chained::<K, D>(&along, second[column].as_ref());
         for (q, &by) in by_strain.as_ref().iter().enumerate() {
             match column.checked_sub(M::MEASURES) {
                 None => {
@@ -193,7 +181,7 @@ pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, c
 }
 
 /// The derivatives of the energy with respect to `(π, γ, s)`.
-fn by_entropy<S: Real, M: FreeEnergy<S>>(
+fn by_entropy<M: FreeEnergy<f64>>(
     (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
 ) -> (M::Variables, M::Hessian) {
     let (mut first, mut second) = (*gradient, *hessian);
@@ -216,11 +204,11 @@ fn by_entropy<S: Real, M: FreeEnergy<S>>(
 }
 
 /// `Σ_a f_a P_a`.
-pub(super) fn chained<S: Real, K: QuadraticStrain<S, D>, const D: usize>(
-    slopes: &K::PerMeasure<PerStrain<K, S, D>>,
-    by_measure: &[S],
-) -> PerStrain<K, S, D> {
-    let mut sum = PerStrain::<K, S, D>::filled(S::zero());
+pub(super) fn chained<K: QuadraticStrain<D>, const D: usize>(
+    slopes: &K::PerMeasure<PerStrain<K, D>>,
+    by_measure: &[f64],
+) -> PerStrain<K, D> {
+    let mut sum = PerStrain::<K, D>::filled(0.0);
     for (row, &by) in slopes.as_ref().iter().zip(by_measure) {
         for (sum, &slope) in sum.as_mut().iter_mut().zip(row.as_ref()) {
             *sum += by * slope;
@@ -231,18 +219,18 @@ pub(super) fn chained<S: Real, K: QuadraticStrain<S, D>, const D: usize>(
 
 /// The norm of the second derivatives by some variables, plus that of the first ones over `unit`; each derivative by a
 /// variable is divided by the root of its count. The metric made of it vanishes only where all these derivatives do.
-pub(super) fn steepness<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
-    (slopes, curvatures): (&Vector<S, M, K, D>, &Matrix<S, M, K, D>),
+pub(super) fn steepness<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize>(
+    (slopes, curvatures): (&Vector<M, K, D>, &Matrix<M, K, D>),
     variables: Range<usize>,
-    counts: impl Fn(usize) -> S,
-    unit: S,
-) -> S {
-    let (mut curvature, mut slope) = (S::zero(), S::zero());
+    counts: impl Fn(usize) -> f64,
+    unit: f64,
+) -> f64 {
+    let (mut curvature, mut slope) = (0.0, 0.0);
     for row in variables.clone() {
-        slope = slope.hypot(slopes[row] / counts(row).sqrt());
+        slope = Scalar::hypot(slope, slopes[row] / counts(row).sqrt());
         for column in variables.clone() {
             let counted = (counts(row) * counts(column)).sqrt();
-            curvature = curvature.hypot(curvatures.at([row, column]) / counted);
+            curvature = Scalar::hypot(curvature, curvatures.at([row, column]) / counted);
         }
     }
     curvature + slope / unit

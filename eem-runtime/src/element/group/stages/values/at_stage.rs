@@ -2,11 +2,10 @@
 
 use crate::element::conduction::HeatFlow;
 use eem_material::free_energy::{Array, FreeEnergy};
-use eem_material::number::scalar::Real;
 
 /// The model at a stage.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct AtStage<S: Real, M: FreeEnergy<S>> {
+pub(super) struct AtStage<M: FreeEnergy<f64>> {
     /// `∂ψ/∂x = (f, −g, −s)`.
     pub(super) gradient: M::Variables,
     /// `∂²ψ/∂x²`.
@@ -16,23 +15,23 @@ pub(super) struct AtStage<S: Real, M: FreeEnergy<S>> {
     /// Their derivatives with respect to x, a row each, at constant heat from other elements.
     pub(super) rates_by: M::Hessian,
     /// `Σ g γ̇`, W.
-    pub(super) dissipation: S,
+    pub(super) dissipation: f64,
 }
 
-impl<S: Real, M: FreeEnergy<S>> AtStage<S, M> {
+impl<M: FreeEnergy<f64>> AtStage<M> {
     pub(super) fn zero() -> Self {
-        let zeros = M::Variables::filled(S::zero());
+        let zeros = M::Variables::filled(0.0);
         Self {
             gradient: zeros,
             hessian: M::Hessian::filled(zeros),
             rates: zeros,
             rates_by: M::Hessian::filled(zeros),
-            dissipation: S::zero(),
+            dissipation: 0.0,
         }
     }
 
     /// s, J/K; only with a temperature.
-    pub(super) fn entropy(&self) -> S {
+    pub(super) fn entropy(&self) -> f64 {
         -self.gradient[M::Variables::LEN - 1]
     }
 
@@ -47,8 +46,8 @@ impl<S: Real, M: FreeEnergy<S>> AtStage<S, M> {
 
     /// Finds the rates of the dashpots with the viscosities `η` and `dη/dθ`; returns `∂(Σ g γ̇)/∂x`.
     pub(super) fn creep(&mut self, viscosities: &(M::Viscosities, M::Viscosities)) -> M::Variables {
-        let mut dissipation_by = M::Variables::filled(S::zero());
-        self.dissipation = S::zero();
+        let mut dissipation_by = M::Variables::filled(0.0);
+        self.dissipation = 0.0;
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
             let (eta, slope) = (viscosities.0[k], viscosities.1[k]);
@@ -59,7 +58,7 @@ impl<S: Real, M: FreeEnergy<S>> AtStage<S, M> {
             for column in 0..M::Variables::LEN {
                 let g_by = -self.hessian[index][column];
                 let is_temperature = M::THERMAL && column == M::Variables::LEN - 1;
-                let eta_by = if is_temperature { slope } else { S::zero() };
+                let eta_by = if is_temperature { slope } else { 0.0 };
                 let rate_by = (g_by - rate * eta_by) / eta;
                 self.rates_by[index][column] = rate_by;
                 dissipation_by[column] += g_by * rate + g * rate_by;
@@ -69,7 +68,7 @@ impl<S: Real, M: FreeEnergy<S>> AtStage<S, M> {
     }
 
     /// Finds the rate `Φ` of the entropy at the temperature θ, with the heat received and `∂(Σ g γ̇)/∂x`.
-    pub(super) fn warm(&mut self, theta: S, flow: &HeatFlow<S>, dissipation_by: &M::Variables) {
+    pub(super) fn warm(&mut self, theta: f64, flow: &HeatFlow, dissipation_by: &M::Variables) {
         let last = M::Variables::LEN - 1;
         let rate = (self.dissipation + flow.heat) / theta;
         self.rates[last] = rate;
