@@ -5,7 +5,7 @@
 
 mod fixed;
 
-pub(crate) use fixed::{Singular, solve_fixed, solve_one, solve_two};
+pub(crate) use fixed::{MOST_FIXED, Singular, solve_fixed, solve_one, solve_two};
 
 /// Factors the row-major `n × n` matrix, `n` the length of `pivots`: `P A = L U`.
 pub(crate) fn factor(matrix: &mut [f64], pivots: &mut [usize]) -> Result<(), Singular> {

@@ -19,12 +19,10 @@ use core::mem;
 #[cfg(feature = "sparse")]
 use eem_sparse::{Analysis, Solver};
 
+pub(crate) use crate::algebra::lu::MOST_FIXED;
 use crate::algebra::lu::{self, Singular};
 use crate::algebra::memory::{MemoryLimit, TooLarge, bytes};
 use crate::algebra::pattern::Pattern;
-
-/// The most unknowns for which the elimination is compiled with their number.
-pub(crate) const MOST_FIXED: usize = 12;
 
 /// The most unknowns whose elimination is dense whatever the pattern.
 #[cfg(feature = "sparse")]

@@ -7,6 +7,9 @@
 
 use core::array;
 
+/// The most unknowns for which there is an elimination of its own.
+pub(crate) const MOST_FIXED: usize = 12;
+
 /// A matrix without a usable pivot in some column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Singular;
@@ -81,16 +84,19 @@ pub(crate) fn solve_fixed<const N: usize, const W: usize>(
     matrix: &mut [f64],
     b: &mut [[f64; W]],
 ) -> Result<(), Singular> {
+    if W > 1 {
+        return solve_rows(N, matrix, b);
+    }
     let [a, ..] = matrix.as_chunks_mut::<N>().0.as_chunks_mut::<N>().0 else {
         return Err(Singular);
     };
-    let [b, ..] = b.as_chunks_mut::<N>().0 else {
+    let [right, ..] = b.as_flattened_mut().as_chunks_mut::<N>().0 else {
         return Err(Singular);
     };
     // `exchange_from` finishes the solution itself: a return to `eliminate` would load rows again.
-    match eliminate(a, b) {
-        Ok(()) => substitute(a, b),
-        Err(row) => exchange_from(row, a, b)?,
+    match eliminate(a, right) {
+        Ok(()) => substitute(a, right),
+        Err(row) => exchange_from(row, N, a.as_flattened_mut(), b)?,
     }
     *a = [[0.0; N]; N];
     Ok(())
@@ -98,23 +104,20 @@ pub(crate) fn solve_fixed<const N: usize, const W: usize>(
 
 /// Replaces A by its upper factor, whose diagonal is one. The error is the first row without a good pivot.
 #[inline]
-fn eliminate<const N: usize, const W: usize>(
-    a: &mut [[f64; N]; N],
-    b: &mut [[f64; W]; N],
-) -> Result<(), usize> {
+fn eliminate<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) -> Result<(), usize> {
     // Unrolled by hand, as the compiler does not unroll loops in loops: rows stay in registers.
-    eliminate_row::<0, N, W>(a, b)?;
-    eliminate_row::<1, N, W>(a, b)?;
-    eliminate_row::<2, N, W>(a, b)?;
-    eliminate_row::<3, N, W>(a, b)?;
-    eliminate_row::<4, N, W>(a, b)?;
-    eliminate_row::<5, N, W>(a, b)?;
-    eliminate_row::<6, N, W>(a, b)?;
-    eliminate_row::<7, N, W>(a, b)?;
-    eliminate_row::<8, N, W>(a, b)?;
-    eliminate_row::<9, N, W>(a, b)?;
-    eliminate_row::<10, N, W>(a, b)?;
-    eliminate_row::<11, N, W>(a, b)?;
+    eliminate_row::<0, N>(a, b)?;
+    eliminate_row::<1, N>(a, b)?;
+    eliminate_row::<2, N>(a, b)?;
+    eliminate_row::<3, N>(a, b)?;
+    eliminate_row::<4, N>(a, b)?;
+    eliminate_row::<5, N>(a, b)?;
+    eliminate_row::<6, N>(a, b)?;
+    eliminate_row::<7, N>(a, b)?;
+    eliminate_row::<8, N>(a, b)?;
+    eliminate_row::<9, N>(a, b)?;
+    eliminate_row::<10, N>(a, b)?;
+    eliminate_row::<11, N>(a, b)?;
     Ok(())
 }
 
@@ -122,9 +125,9 @@ fn eliminate<const N: usize, const W: usize>(
 /// pivot, the row does not change, and the error is its index.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "only then is the row a constant")]
-fn eliminate_row<const I: usize, const N: usize, const W: usize>(
+fn eliminate_row<const I: usize, const N: usize>(
     a: &mut [[f64; N]; N],
-    b: &mut [[f64; W]; N],
+    b: &mut [f64; N],
 ) -> Result<(), usize> {
     if I >= N {
         return Ok(());
@@ -134,7 +137,7 @@ fn eliminate_row<const I: usize, const N: usize, const W: usize>(
         let factor = row[k];
         let first = even(k + 1);
         subtract(&mut row[first..], factor, &a[k][first..]);
-        subtract(&mut right, factor, &b[k]);
+        right -= factor * b[k];
     }
     if !dominates(&row, I) {
         return Err(I);
@@ -144,7 +147,43 @@ fn eliminate_row<const I: usize, const N: usize, const W: usize>(
     for (entry, &value) in a[I][first..].iter_mut().zip(&row[first..]) {
         *entry = value * inverse;
     }
-    b[I] = right.map(|value| value * inverse);
+    b[I] = right * inverse;
+    Ok(())
+}
+
+/// Finds the solution from the upper factor, whose diagonal is one.
+#[inline]
+fn substitute<const N: usize>(a: &[[f64; N]; N], b: &mut [f64; N]) {
+    for (row, entries) in a.iter().enumerate().rev() {
+        let (head, known) = b.split_at_mut(row + 1);
+        // The result computed last is used last.
+        for (known, &factor) in known.iter().zip(&entries[row + 1..]).rev() {
+            head[row] -= factor * known;
+        }
+    }
+}
+
+/// The same for several right-hand sides, in loops, with the same bits.
+fn solve_rows<const W: usize>(
+    n: usize,
+    matrix: &mut [f64],
+    b: &mut [[f64; W]],
+) -> Result<(), Singular> {
+    let (a, b) = (&mut matrix[..n * n], &mut b[..n]);
+    let unfit = (0..n).find(|&at| {
+        eliminate_before(at, n, a, b);
+        let row = &a[at * n..][..n];
+        let is_fit = dominates(row, at);
+        if is_fit {
+            divide(at, n, a, b);
+        }
+        !is_fit
+    });
+    match unfit {
+        None => substitute_rows(n, a, b),
+        Some(row) => exchange_from(row, n, a, b)?,
+    }
+    a.fill(0.0);
     Ok(())
 }
 
@@ -152,39 +191,55 @@ fn eliminate_row<const I: usize, const N: usize, const W: usize>(
 /// exchange of two columns.
 #[cold]
 #[inline(never)]
-fn exchange_from<const N: usize, const W: usize>(
+fn exchange_from<const W: usize>(
     first: usize,
-    a: &mut [[f64; N]; N],
-    b: &mut [[f64; W]; N],
+    n: usize,
+    a: &mut [f64],
+    b: &mut [[f64; W]],
 ) -> Result<(), Singular> {
-    let mut order: [usize; N] = array::from_fn(|at| at);
-    for at in first..N {
-        for k in 0..at {
-            let factor = a[at][k];
-            let (above, below) = a.split_at_mut(at);
-            subtract(&mut below[0][k + 1..], factor, &above[k][k + 1..]);
-            let (above, below) = b.split_at_mut(at);
-            subtract(&mut below[0], factor, &above[k]);
-        }
-        let pivot = largest_behind(&a[at], at)?;
-        for row in a.iter_mut() {
+    let mut order: [usize; MOST_FIXED] = array::from_fn(|at| at);
+    for at in first..n {
+        eliminate_before(at, n, a, b);
+        let pivot = largest_behind(&a[at * n..][..n], at)?;
+        for row in a.chunks_exact_mut(n) {
             row.swap(at, pivot);
         }
         order.swap(at, pivot);
-        let inverse = a[at][at].recip();
-        a[at] = a[at].map(|value| value * inverse);
-        b[at] = b[at].map(|value| value * inverse);
+        divide(at, n, a, b);
     }
-    substitute(a, b);
-    let found = *b;
-    for (&unknown, value) in order.iter().zip(found) {
+    substitute_rows(n, a, b);
+    let mut found = [[0.0; W]; MOST_FIXED];
+    found[..n].copy_from_slice(&b[..n]);
+    for (&unknown, value) in order[..n].iter().zip(found) {
         b[unknown] = value;
     }
     Ok(())
 }
 
+/// Eliminates the entries of a row before the diagonal.
+fn eliminate_before<const W: usize>(at: usize, n: usize, a: &mut [f64], b: &mut [[f64; W]]) {
+    let (above, below) = a.split_at_mut(at * n);
+    let (known, right) = b.split_at_mut(at);
+    for (k, (entries, known)) in above.chunks_exact(n).zip(known).enumerate() {
+        let factor = below[k];
+        // So that a row is eliminated once, however often it is looked at.
+        below[k] = 0.0;
+        subtract(&mut below[k + 1..n], factor, &entries[k + 1..]);
+        subtract(&mut right[0], factor, known);
+    }
+}
+
+/// Divides a row by its diagonal entry.
+fn divide<const W: usize>(at: usize, n: usize, a: &mut [f64], b: &mut [[f64; W]]) {
+    let row = &mut a[at * n..][..n];
+    let inverse = row[at].recip();
+    for entry in row.iter_mut().chain(&mut b[at]) {
+        *entry *= inverse;
+    }
+}
+
 /// The column of the largest entry of a row, on the diagonal or behind it.
-fn largest_behind<const N: usize>(row: &[f64; N], diagonal: usize) -> Result<usize, Singular> {
+fn largest_behind(row: &[f64], diagonal: usize) -> Result<usize, Singular> {
     let (mut pivot, mut size) = (diagonal, row[diagonal].abs());
     for (column, entry) in row.iter().enumerate().skip(diagonal + 1) {
         if size < entry.abs() {
@@ -198,12 +253,10 @@ fn largest_behind<const N: usize>(row: &[f64; N], diagonal: usize) -> Result<usi
     }
 }
 
-/// Finds the solution from the upper factor, whose diagonal is one.
-#[inline]
-fn substitute<const N: usize, const W: usize>(a: &[[f64; N]; N], b: &mut [[f64; W]; N]) {
-    for (row, entries) in a.iter().enumerate().rev() {
+/// Finds the solutions from the upper factor, whose diagonal is one.
+fn substitute_rows<const W: usize>(n: usize, a: &[f64], b: &mut [[f64; W]]) {
+    for (row, entries) in a.chunks_exact(n).enumerate().rev() {
         let (head, known) = b.split_at_mut(row + 1);
-        // The result computed last is used last.
         for (known, &factor) in known.iter().zip(&entries[row + 1..]).rev() {
             subtract(&mut head[row], factor, known);
         }
@@ -217,7 +270,7 @@ const fn even(column: usize) -> usize {
 
 /// Whether the diagonal entry of a row is a good pivot.
 #[inline]
-fn dominates<const N: usize>(row: &[f64; N], diagonal: usize) -> bool {
+fn dominates(row: &[f64], diagonal: usize) -> bool {
     let mut squares = [0.0; 2];
     for (column, &entry) in row.iter().enumerate().skip(diagonal + 1) {
         squares[column % 2] += entry * entry;
@@ -247,10 +300,16 @@ mod tests {
 
     fn check<const N: usize>(mut a: [[f64; N]; N]) {
         let mut b = image(&a);
+        let (mut copy, mut two) = (a, b.map(|[b]| [b; 2]));
         solve_fixed::<N, 1>(a.as_flattened_mut(), &mut b).unwrap();
         for (found, exact) in b.iter().zip(1_u8..) {
             let exact = f64::from(exact);
             assert!((found[0] - exact).abs() <= 16.0 * f64::EPSILON * exact);
+        }
+        // Several columns have the bits of one.
+        solve_fixed::<N, 2>(copy.as_flattened_mut(), &mut two).unwrap();
+        for (two, one) in two.iter().zip(&b) {
+            assert_eq!(two.map(f64::to_bits), [one[0].to_bits(); 2]);
         }
     }
 
