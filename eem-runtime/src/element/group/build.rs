@@ -56,12 +56,20 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
             Conjugates::Stages(rule) if rule.path.is_some() => {
                 staged::<M, K, Projections<M, K, D>, D>(rule, *self, placed)
             }
-            Conjugates::Stages(rule) => staged::<M, K, Values<M, K, D>, D>(rule, *self, placed),
+            // Not compiled for solids, which these schemes refuse, nor are explicit ones below.
+            Conjugates::Stages(rule) if K::IS_SPRING => {
+                staged::<M, K, Values<M, K, D>, D>(rule, *self, placed)
+            }
+            Conjugates::Stages(_) => unreachable!("they are refused in scenes with solids"),
         }
     }
 
     fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
-        Box::new(ExplicitElements::new(*self, placed))
+        if K::IS_SPRING {
+            Box::new(ExplicitElements::new(*self, placed))
+        } else {
+            unreachable!("they are refused in scenes with solids")
+        }
     }
 }
 
