@@ -13,11 +13,13 @@ use crate::run::AnyRun;
 
 /// The scalar entries of a ledger, as their names and as their values; linear and angular momentum follow.
 macro_rules! ledger {
-    ($($entry:ident)*) => {
-        pub(crate) const LEDGER: [&str; [$(stringify!($entry)),*].len()] = [$(stringify!($entry)),*];
+    ($($entry:ident)*; $count:ident) => {
+        pub(crate) const LEDGER: [&str; [$(stringify!($entry)),*].len() + 1] =
+            [$(stringify!($entry),)* stringify!($count)];
 
+        #[expect(clippy::cast_precision_loss, reason = "a count of less than 2⁵³")]
         pub(crate) fn entries<const D: usize>(ledger: &Ledger<D>) -> [f64; LEDGER.len()] {
-            [$(ledger.$entry),*]
+            [$(ledger.$entry,)* ledger.$count as f64]
         }
     };
 }
@@ -36,7 +38,8 @@ ledger! {
     element_entropy_of_state
     reservoir_entropy
     thermostat_entropy
-    entropy
+    entropy;
+    unresolved
 }
 
 /// What is recorded.

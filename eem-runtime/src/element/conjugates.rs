@@ -16,7 +16,7 @@ use crate::element::tableau::Tableau;
 pub(crate) use eem_entropy::EemEntropy;
 pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use element::{ElementScheme, Form, Infeasible, Placement, Start};
-pub(crate) use fitting::end_weight;
+pub(crate) use fitting::{end_weight, end_weight_over};
 pub(crate) use point::PointRule;
 pub(crate) use temperature::{recovered_at, temperature_at};
 

@@ -35,6 +35,7 @@ mod kelvin_voigt;
 mod local;
 mod loose;
 mod member;
+mod modes;
 #[cfg(feature = "gradients")]
 mod past;
 mod point;

@@ -76,10 +76,13 @@ pub struct Ledger<const D: usize> {
     /// `Σ (q − o) × p`, kg m²/s, always with three components; `o` is the anchor if the scene has
     /// exactly one, otherwise the origin. In the plane only the third is not zero.
     pub angular_momentum: SVector<f64, 3>,
+    /// The points that steps did not resolve since the start or the restored checkpoint, summed over the steps: see
+    /// [`StepReport::unresolved`](crate::StepReport::unresolved).
+    pub unresolved: u64,
 }
 
 impl<const D: usize> Ledger<D> {
-    /// The balance sheet of a state.
+    /// The balance sheet of a state; the steps before it are unknown.
     pub(crate) fn of<'a>(
         state: &State,
         masses: &Masses,
@@ -133,6 +136,7 @@ impl<const D: usize> Ledger<D> {
                 Total::of(momenta.clone().map(|p| p[axis]))
             }),
             angular_momentum: angular_momentum::<D>(state, masses),
+            unresolved: 0,
         }
     }
 
@@ -237,7 +241,11 @@ impl<const D: usize> fmt::Display for Ledger<D> {
         for (axis, &momentum) in axes.skip(first) {
             line(f, &format!("angular, {axis}"), momentum, "N m s")?;
         }
-        Ok(())
+        writeln!(
+            f,
+            "| {:<19} | {:<20} | {:<5} |",
+            "unresolved", self.unresolved, ""
+        )
     }
 }
 

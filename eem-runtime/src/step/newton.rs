@@ -85,7 +85,7 @@ pub struct StepReport {
     /// relaxation time `τ = c/(2 Σ κ to elements + Σ κ to reservoirs)` of a heat capacity c, or `τ = η/k` of a dashpot with the
     /// stiffness `k = ∂²ψ/∂γ²`. There all schemes but [`EemDamped`](crate::Scheme::EemDamped) decay too slowly or
     /// alternate. If it is zero, none alternates. Zero in steps of
-    /// [`EemExplicit`](crate::Scheme::EemExplicit) and of the schemes for comparison. See
+    /// [`EemDamped`](crate::Scheme::EemDamped), of [`EemExplicit`](crate::Scheme::EemExplicit) and of the schemes for comparison. See
     /// [`Simulation::warning`](crate::Simulation::warning).
     pub unresolved: usize,
     /// The estimated error of the step relative to its tolerance, below 1.2; zero without [step

@@ -37,8 +37,8 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// only, without rockets. `EemEntropy4` and `EemEntropy6` use mean temperatures along the step, which are positive if no
 /// temperature changes by more than a factor of 13.9 or 7.2 within a step; one that is not is an error.
 ///
-/// In steps longer than its relaxation time, conduction decays with `EemDamped` only. With the other implicit schemes, and
-/// dashpots with all of them, differences alternate or stay although all laws hold, as with any Gauss collocation:
+/// In steps longer than their relaxation times, conduction and dashpots decay with `EemDamped` only. With the other implicit
+/// schemes differences alternate or stay although all laws hold, as with any Gauss collocation:
 /// [`Simulation::warning`](crate::Simulation::warning) says so, with an example.
 ///
 /// ```
@@ -53,7 +53,7 @@ pub enum Scheme {
     /// Energy–entropy–momentum scheme in entropy form (García Orden & Romero 2012, eqs. 25–28).
     EemEntropy,
     /// Energy–entropy–momentum scheme in temperature form (Conde Martín, Betsch & García Orden
-    /// 2016, eqs. 37–39). Conduction and dashpots that relax faster than a step alternate; for conduction see [`EemDamped`](Self::EemDamped).
+    /// 2016, eqs. 37–39). Conduction and dashpots that relax faster than a step alternate; see [`EemDamped`](Self::EemDamped).
     EemTemperature,
     /// Explicit Runge–Kutta stages of order 8 (DOP853), entropies by quadrature, and one correction of energy and
     /// momenta per step. For accuracy if vibrations are resolved: `ωh < 5.96`.
@@ -80,9 +80,10 @@ pub enum Scheme {
     EemEntropy4,
     /// Energy–entropy–momentum scheme of order 6, with three stages.
     EemEntropy6,
-    /// `EemTemperature`, damped towards the end of the step so that fast conduction decays in steps of any size: exactly for
-    /// small differences between two bodies. Dashpots are those of `EemTemperature`. Steady states and both laws stay exact. Where
-    /// steps are much longer than relaxation times, slow changes of temperature have errors of first order.
+    /// `EemTemperature`, damped towards the end of the step so that fast conduction and dashpots in series decay in steps of any
+    /// size: exactly for small differences of temperature between two bodies, and for held dashpots with quadratic energies. Steady
+    /// states, steady creep and both laws stay exact. Where steps are much longer than relaxation times, slow changes have errors of
+    /// first order.
     EemDamped,
     /// Chooses the cheapest exact scheme for a [tolerance](crate::Simulation::control_steps), by the effort that it counts,
     /// among those that can step the scene: it begins with `EemExplicit`, with solids, rockets and dashpots in parallel

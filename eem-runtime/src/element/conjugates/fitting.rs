@@ -18,6 +18,15 @@ pub(crate) fn end_weight(x: f64) -> f64 {
     -0.5 * tanh_dd2(z, 0.0) / tanh_dd(0.0, z)
 }
 
+/// `α(x)/x`, also where a decay has the rate zero or grows: 1/12.
+pub(crate) fn end_weight_over(x: f64) -> f64 {
+    if x > 0.0 {
+        end_weight(x) / x
+    } else {
+        1.0 / 12.0
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::end_weight;

@@ -143,6 +143,9 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             let force = slopes.fold(self.response[row], |force, (column, &slope)| {
                 force + slope * self.increment_of(column)
             });
+            // The slopes contain those of the damping, which is zero at rest.
+            let damping = self.damping.as_ref().iter();
+            let force = damping.fold(force, |force, damping| force - damping.force[row]);
             at_end += force.abs() * size;
         }
         if matches!(care, Care::Quick) {
@@ -173,16 +176,6 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         forces
             .zip(sizes.as_ref())
             .fold(0.0, |sum, (&force, &size)| sum + (force * size).abs())
-    }
-
-    /// Δλ or Δγ.
-    #[inline]
-    fn increment_of(&self, row: usize) -> f64 {
-        if row < M::MEASURES {
-            self.x[row] - self.start.x0[row]
-        } else {
-            self.creep[row - M::MEASURES]
-        }
     }
 
     #[cold]
@@ -226,10 +219,12 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
                 let row = M::MEASURES + k;
                 let drag = self.viscosities.0[k] * self.creep_rate(k, view);
                 let terms = drag.abs() + self.known_to(row, r1, tally.care);
-                tally.balance(drag - self.response[row], terms);
-                // g* is a divided difference, with half the slope of g.
-                let slope = self.slopes[row][row].abs();
-                tally.see_relaxation(view.step, slope, self.viscosities.0[k]);
+                tally.balance(drag - self.pull_of_row(row), terms);
+                if C::Damping::<()>::LEN == 0 {
+                    // g* is a divided difference, with half the slope of g.
+                    let slope = self.slopes[row][row].abs();
+                    tally.see_relaxation(view.step, slope, self.viscosities.0[k]);
+                }
             }
         }
         if !M::THERMAL {

@@ -181,7 +181,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             let old = &view.state.viscous;
             next.viscous.advance(slots.viscous + k, old, self.creep[k]);
             if view.phase.heats() {
-                let heat = share * self.power_of(k, view);
+                let heat = share * self.power_of(k, view) + self.damping_heat(k);
                 dissipated += heat;
                 tally.produce(heat * per_theta);
                 next.meters.dissipate(slots.viscous + k, heat);

@@ -1,9 +1,10 @@
 //! The [damping](super::damping) of a point: found when a step begins, and what it changes.
 
-use super::damping::Damping;
-use super::point::{Point, temperature_in};
+use super::local::Dissipation;
+use super::modes::relaxation_modes;
+use super::point::{DampingOf, Point, temperature_in};
 use crate::element::conduction::Partner;
-use crate::element::conjugates::{ElementScheme, Form, Placement, end_weight};
+use crate::element::conjugates::{ElementScheme, Form, Placement, end_weight, end_weight_over};
 use crate::element::error::StateError;
 use crate::element::group::respond::check_temperature;
 use crate::element::group::view::StepView;
@@ -17,16 +18,144 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
         if C::Damping::<()>::LEN == 0 {
             return;
         }
-        let mut damping = Damping::none();
+        let mut damping = DampingOf::<M>::none();
         if let Some(slot) = self.conducting_slot(view) {
             let theta = self.start.x0[Self::TEMPERATURE];
             let x = view.step * relaxation_rate(view, slot);
             damping.weight = 2.0 * end_weight(x) * theta;
             damping.per_capacity = per_capacity(view, slot);
         }
+        if M::DASHPOTS > 0 {
+            let x0 = &self.start.x0;
+            let theta = if M::THERMAL {
+                x0[Self::TEMPERATURE]
+            } else {
+                0.0
+            };
+            let (viscosities, _) = self.model.viscosity(theta);
+            let (_, hessian) = self.model.hessian(x0);
+            let (mut modes, rates) = relaxation_modes::<M>(&hessian, &viscosities);
+            for k in 0..M::DASHPOTS {
+                let factor = (view.step * end_weight_over(view.step * rates[k])).sqrt();
+                for entry in modes[k].as_mut() {
+                    *entry *= -factor;
+                }
+            }
+            damping.modes = modes;
+        }
         for own in self.damping.as_mut() {
             *own = damping;
         }
+    }
+
+    /// Δλ or Δγ.
+    #[inline]
+    pub(super) fn increment_of(&self, row: usize) -> f64 {
+        if row < M::MEASURES {
+            self.x[row] - self.start.x0[row]
+        } else {
+            self.creep[row - M::MEASURES]
+        }
+    }
+
+    /// Finds the damping of the dashpots at a trial; an error unless it is finite.
+    #[inline]
+    pub(super) fn find_damping(&mut self) -> Result<(), StateError> {
+        if M::DASHPOTS == 0 || C::Damping::<()>::LEN == 0 {
+            return Ok(());
+        }
+        let mut increments = M::Variables::filled(0.0);
+        for row in 0..Self::TEMPERATURE {
+            increments[row] = self.increment_of(row);
+        }
+        let mut heat = 0.0;
+        for damping in self.damping.as_mut() {
+            damping.force = M::Variables::filled(0.0);
+            for k in 0..M::DASHPOTS {
+                let mode = &damping.modes[k];
+                let terms = (0..Self::TEMPERATURE).map(|row| mode[row] * increments[row]);
+                let part = terms.fold(0.0, |sum, term| sum + term);
+                damping.parts[k] = part;
+                heat += part * part;
+                for row in 0..Self::TEMPERATURE {
+                    damping.force[row] += Self::sign(row) * (part * mode[row]);
+                }
+            }
+        }
+        if heat.is_finite() {
+            return Ok(());
+        }
+        Err(StateError::NotFinite {
+            element: self.element,
+            quantity: "damping of the dashpots",
+            value: heat,
+        })
+    }
+
+    /// The sign of a row of the response: f is a derivative of the energy, g of the negative energy.
+    #[inline]
+    fn sign(row: usize) -> f64 {
+        if row < M::MEASURES { 1.0 } else { -1.0 }
+    }
+
+    /// Adds the damping of the dashpots and its derivatives to a form; returns the response without it.
+    #[inline]
+    pub(super) fn add_damping(
+        &self,
+        (response, tangent): &mut Form<f64, M>,
+    ) -> C::Damping<M::Response> {
+        let undamped = C::Damping::filled(*response);
+        if M::DASHPOTS == 0 {
+            return undamped;
+        }
+        for damping in self.damping.as_ref() {
+            for row in 0..Self::TEMPERATURE {
+                response[row] += damping.force[row];
+                for k in 0..M::DASHPOTS {
+                    let mode = &damping.modes[k];
+                    let slope = Self::sign(row) * mode[row];
+                    for column in 0..Self::TEMPERATURE {
+                        tangent[row][column] += slope * mode[column];
+                    }
+                }
+            }
+        }
+        undamped
+    }
+
+    /// Restores the response of a form to that without damping.
+    #[inline]
+    pub(super) fn drop_damping(&mut self, undamped: &C::Damping<M::Response>) {
+        for undamped in undamped.as_ref() {
+            self.response = *undamped;
+        }
+    }
+
+    /// Adds the power of the damping and its derivatives to what the dashpots turn into heat.
+    #[inline]
+    pub(super) fn dissipate_by_damping(
+        &self,
+        view: &StepView<'_>,
+        dissipation: &mut Dissipation<M>,
+    ) {
+        for damping in self.damping.as_ref() {
+            for k in 0..M::DASHPOTS {
+                dissipation.power += self.damping_heat(k) * view.per_step;
+            }
+            for row in 0..Self::TEMPERATURE {
+                let by = Self::sign(row) * damping.force[row];
+                dissipation.by[row] += (by + by) * view.per_step;
+            }
+        }
+    }
+
+    /// The heat of the damping of a mode in the step, J.
+    #[inline]
+    pub(super) fn damping_heat(&self, mode: usize) -> f64 {
+        let damping = self.damping.as_ref().iter();
+        damping.fold(0.0, |sum, damping| {
+            sum + damping.parts[mode] * damping.parts[mode]
+        })
     }
 
     /// Its thermal slot, if it conducts heat at a free temperature.

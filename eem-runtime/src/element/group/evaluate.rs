@@ -162,6 +162,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
             }
             point.accept(view.per_step, &form, known.map(|known| known.2))?;
             let elastic = point.add_drag(view.per_step, &mut form);
+            let undamped = point.add_damping(&mut form);
             let contact = point.contact_in(contacts);
             point.condense(view, &trial.interface, &form, contact)?;
             if let Some(by_rate) = &by_rate {
@@ -173,6 +174,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
                 point.add_momentum(view.step, &pose, form, heat, &mut share.momentum);
             }
             point.keep(&form);
+            point.drop_damping(&undamped);
             point.drop_drag(&elastic);
         }
         Ok(())

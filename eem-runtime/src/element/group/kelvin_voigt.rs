@@ -222,24 +222,31 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
         dissipated
     }
 
-    /// The forces between the nodes: those of the response plus those of Kelvin–Voigt dashpots, N.
+    /// The forces between the nodes: those of the response plus those of Kelvin–Voigt dashpots and of damping, N.
     #[inline]
     pub(super) fn pulls(&self) -> Measures<K, D> {
         let mut forces = measures_in::<K, D>(&self.response);
         for a in 0..Self::DRAGS {
             forces[a] += self.drag.force[a];
         }
+        for damping in self.damping.as_ref() {
+            for a in 0..M::MEASURES {
+                forces[a] += damping.force[a];
+            }
+        }
         forces
     }
 
-    /// A row of the response, including the dashpot force if the row is a force.
+    /// A row of the response, including damping, and the dashpot force if the row is a force.
     #[inline]
     pub(super) fn pull_of_row(&self, row: usize) -> f64 {
-        if row < Self::DRAGS {
+        let own = if row < Self::DRAGS {
             self.response[row] + self.drag.force[row]
         } else {
             self.response[row]
-        }
+        };
+        let damping = self.damping.as_ref().iter();
+        damping.fold(own, |sum, damping| sum + damping.force[row])
     }
 }
 

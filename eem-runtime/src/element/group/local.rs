@@ -86,6 +86,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
             self.dashpot_balance(view, k, form, system, &mut dissipation);
         }
         self.dissipate_by_drag(view, form, &mut dissipation);
+        self.dissipate_by_damping(view, &mut dissipation);
         if M::THERMAL {
             let row = M::DASHPOTS;
             if self.is_prescribed {

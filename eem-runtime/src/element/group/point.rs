@@ -86,6 +86,10 @@ pub(super) type Viscosities<M> = (
 /// Values of a trial that may have been evaluated ahead: memory of the scheme, response or form, and viscosities.
 pub(super) type Known<P, T, M> = Option<(P, T, Viscosities<M>)>;
 
+/// The damping of a point with this model.
+pub(super) type DampingOf<M> =
+    Damping<<M as FreeEnergy<f64>>::Variables, <M as FreeEnergy<f64>>::Hessian>;
+
 /// A point with its variables in a step of the scheme `C`.
 pub(crate) struct Point<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> {
     pub(super) scheme: C,
@@ -129,7 +133,7 @@ pub(crate) struct Point<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M
     /// Only for schemes that evaluate the model at one point of the step.
     pub(super) single: C::AtPoint<MemoryAtPoint<M, K, D>>,
     /// Only for a damped scheme.
-    pub(super) damping: C::Damping<Damping>,
+    pub(super) damping: C::Damping<DampingOf<M>>,
 }
 
 impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
@@ -179,7 +183,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
             sensitivity: Gradient::<K, D>::filled(nowhere),
             condensed: Condensed::zero(),
             single: C::AtPoint::filled(MemoryAtPoint::<M, K, D>::zero(nowhere)),
-            damping: C::Damping::filled(Damping::none()),
+            damping: C::Damping::filled(DampingOf::<M>::none()),
         }
     }
 

@@ -147,6 +147,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         check_response::<M>(self.element, response)?;
         self.check_conducting(response)?;
         self.find_drag(per_step, response)?;
+        self.find_damping()?;
         self.find_viscosities(temperature_in::<M>(response), known)
     }
 

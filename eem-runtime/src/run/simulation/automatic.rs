@@ -9,11 +9,14 @@ use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::control::Controller;
 use crate::step::error::StepFailure;
-use crate::step::explicit::SavedExplicit;
+use crate::step::explicit::{REAL_LIMIT, SavedExplicit};
 use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::SavedPast;
 use eem_material::number::scalar::Scalar;
+
+/// Relaxation times in the longest step in which no difference alternates.
+const MOST_RESOLVED: f64 = 2.0;
 
 /// The scheme in use, with its history and the energies of the elements as it evaluated them.
 pub(super) struct SchemeAtWork {
@@ -45,6 +48,23 @@ impl<const D: usize> Simulation<D> {
             return false;
         }
         self.scheme == Scheme::Auto
+    }
+
+    /// Takes the damped scheme for constant steps that are longer than the present scheme resolves the relaxation of conduction and
+    /// dashpots, if it is to be chosen and there is memory for it. With a tolerance their errors are seen.
+    pub(super) fn damp_fixed_steps(&mut self) {
+        if self.control.is_some() || self.in_use.is_damped() || !self.may_change_scheme() {
+            return;
+        }
+        let most = match self.in_use.closing() {
+            Closing::Explicit => REAL_LIMIT,
+            _ => MOST_RESOLVED,
+        };
+        let fastest = self.fastest_relaxation();
+        if fastest.is_some_and(|(time, _)| self.step > most * time) {
+            // Without memory for it, the present scheme goes on, with a warning.
+            _ = self.use_scheme(Scheme::EemDamped);
+        }
     }
 
     /// A step of the present scheme, or of another one if it finds none.
@@ -253,7 +273,10 @@ impl<const D: usize> Simulation<D> {
         checkpoint: &Checkpoint,
     ) -> Result<Option<SavedChoice>, RestoreError> {
         let saved = checkpoint.choice.filter(|_| self.scheme == Scheme::Auto);
-        let suits = |scheme| CANDIDATES.contains(&scheme) && self.automatic.needs.allows(scheme);
+        let suits = |scheme: Scheme| {
+            let is_choice = CANDIDATES.contains(&scheme) || scheme.is_damped();
+            is_choice && self.automatic.needs.allows(scheme)
+        };
         match saved.filter(|saved| !suits(saved.scheme) || !suits(saved.previous)) {
             Some(saved) => Err(RestoreError::Scheme {
                 checkpoint: saved.scheme,

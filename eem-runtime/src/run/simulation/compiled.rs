@@ -127,6 +127,7 @@ impl<const D: usize> Simulation<D> {
             Aim::InSchemeTowards(end) => self.step_towards(end, false),
             Aim::Again(size) => self.step_again(size),
         };
+        self.unresolved.last = 0;
         if let Ok(report) = &made
             && report.unresolved > 0
         {

@@ -54,7 +54,14 @@ impl<const D: usize> Simulation<D> {
     /// ```
     pub fn control_steps(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
         let memory = Some(Self::new_control(tolerance));
-        Self::check_control(memory, (self.scheme, self.in_use))?;
+        let first = self.automatic.needs.first(self.scheme);
+        let is_damped = self.scheme == Scheme::Auto && self.in_use.is_damped();
+        let in_use = if is_damped { first } else { self.in_use };
+        Self::check_control(memory, (self.scheme, in_use))?;
+        if is_damped {
+            // With a tolerance, errors of conduction and dashpots are seen.
+            self.use_scheme(first)?;
+        }
         self.set_control(memory);
         Ok(())
     }
@@ -122,9 +129,11 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Switches step control off: all further steps have the [present size](Self::step_size) and use the [scheme in
-    /// use](Self::scheme_in_use).
+    /// use](Self::scheme_in_use). [`Scheme::Auto`] takes [`Scheme::EemDamped`] instead if steps of this size do not
+    /// resolve the relaxation of conduction or dashpots in the present state, until steps are controlled again.
     pub fn fix_steps(&mut self) {
         self.control = None;
+        self.damp_fixed_steps();
     }
 
     /// The tolerance of step control; `None` if it is off.
@@ -302,6 +311,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     pub(super) fn undo_here(&mut self) {
+        self.unresolved.undo();
         self.with_control(|run, control| {
             if let Some(halves) = control.and_then(|control| control.halves.as_ref()) {
                 return run.return_to(halves);

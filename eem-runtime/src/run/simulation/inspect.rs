@@ -397,13 +397,17 @@ impl<const D: usize> Simulation<D> {
     }
 
     pub(super) fn ledger_here(&self) -> Ledger<D> {
-        Ledger::of(
+        let sheet = Ledger::of(
             &self.state,
             &self.masses,
             self.stepper.all(),
             &self.conduction.reservoirs,
             &self.loads.gravity,
-        )
+        );
+        Ledger {
+            unresolved: self.unresolved.points,
+            ..sheet
+        }
     }
 
     /// An error unless an element is a spring of this scene.

@@ -93,6 +93,9 @@ impl Automatic {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unresolved {
     pub(super) steps: u64,
+    /// The sum of their points, and the points of the last step.
+    pub(super) points: u64,
+    pub(super) last: usize,
     /// The largest of them, s, and the scheme of the last one.
     pub(super) largest: f64,
     pub(super) scheme: Scheme,
@@ -102,8 +105,19 @@ impl Unresolved {
     pub(super) fn none() -> Self {
         Self {
             steps: 0,
+            points: 0,
+            last: 0,
             largest: 0.0,
             scheme: Scheme::Auto,
+        }
+    }
+
+    /// Takes back the last step.
+    pub(super) fn undo(&mut self) {
+        if self.last > 0 {
+            self.steps -= 1;
+            self.points -= self.last as u64;
+            self.last = 0;
         }
     }
 }

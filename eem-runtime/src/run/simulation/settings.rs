@@ -23,6 +23,7 @@ impl<const D: usize> Simulation<D> {
     pub fn set_step_size(&mut self, step: f64) -> Result<(), SceneError> {
         check_step(step)?;
         self.step = step;
+        self.damp_fixed_steps();
         Ok(())
     }
 

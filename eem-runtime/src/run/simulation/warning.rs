@@ -43,8 +43,8 @@ impl fmt::Display for Warning {
         write!(
             f,
             "steps of up to {step:.3e} s ({steps} so far) do not resolve fast conduction or dashpots, which alternate or stay with \
-             {scheme} instead of decaying. {element} relaxes in {relaxation:.3e} s: use eem-damped for conduction, and steps below \
-             {most:.3e} s or a tolerance for dashpots"
+             {scheme} instead of decaying. {element} relaxes in {relaxation:.3e} s: use eem-damped, a tolerance, or steps below \
+             {most:.3e} s"
         )
     }
 }
@@ -56,6 +56,8 @@ impl<const D: usize> Simulation<D> {
         let largest = Scalar::maximum(self.unresolved.largest, report.step);
         self.unresolved = Unresolved {
             steps: self.unresolved.steps + 1,
+            points: self.unresolved.points + report.unresolved as u64,
+            last: report.unresolved,
             largest,
             scheme: self.in_use,
         };
@@ -105,6 +107,7 @@ impl<const D: usize> Simulation<D> {
             steps,
             largest,
             scheme,
+            ..
         } = self.unresolved;
         if steps == 0 || self.control.is_some() {
             return None;
@@ -121,7 +124,7 @@ impl<const D: usize> Simulation<D> {
 
     /// The shortest relaxation time in the present state, s, and its element: of a dashpot, or `c/(2 Σ κ to elements + Σ κ to
     /// reservoirs)` of a conduction unless a thermostat prescribes the temperature.
-    fn fastest_relaxation(&self) -> Option<(f64, Element)> {
+    pub(super) fn fastest_relaxation(&self) -> Option<(f64, Element)> {
         let held = self.loads.temperatures.iter();
         let held: BTreeSet<usize> = held.map(|(element, _)| element.index()).collect();
         let mut fastest: Option<(f64, Element)> = None;
@@ -134,7 +137,6 @@ impl<const D: usize> Simulation<D> {
                     place += 1;
                     let mut rate = point.relaxation;
                     if let Some((slot, capacity)) = point.capacity
-                        && !self.in_use.is_damped()
                         && !held.contains(&element.index())
                     {
                         let settling = self.conduction.settling(slot);

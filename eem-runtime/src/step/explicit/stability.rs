@@ -10,7 +10,7 @@ use eem_material::number::scalar::Scalar;
 /// Up to these products with the step the stability function of DOP853 is at most 1: on the imaginary axis,
 /// vibrations, and on the real one, conduction and dashpots.
 const IMAGINARY_LIMIT: f64 = 5.96;
-const REAL_LIMIT: f64 = 6.39;
+pub(crate) const REAL_LIMIT: f64 = 6.39;
 
 /// The limits for the fastest vibration, conduction and dashpot.
 const LIMITS: [f64; 3] = [IMAGINARY_LIMIT, REAL_LIMIT, REAL_LIMIT];
