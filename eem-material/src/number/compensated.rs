@@ -138,6 +138,7 @@ impl Compensated {
     }
 
     /// Copies the sums of `other` without allocation; `self` has as many, or none and is left empty.
+    #[inline]
     pub fn copy_from(&mut self, other: &Self) {
         if self.values.is_empty() {
             return;
@@ -235,6 +236,7 @@ impl Total {
     }
 
     /// Adds another sum.
+    #[inline]
     pub fn add_total(&mut self, other: Self) {
         self.add(other.value);
         self.add(other.rest);
@@ -242,6 +244,7 @@ impl Total {
 
     /// The sum, rounded once.
     #[must_use]
+    #[inline]
     pub fn value(self) -> f64 {
         self.value + self.rest
     }

@@ -209,6 +209,7 @@ impl Conduction {
     /// Flows between elements are computed from interface temperatures Θ at both ends, so that one end
     /// receives exactly what the other gives, whatever rounding does to a large κ; flows
     /// from reservoirs from the temperature θ of the slot.
+    #[inline]
     pub(crate) fn heat_flow(&self, slot: usize, theta: f64, interface: &[f64]) -> HeatFlow {
         let mut flow = self.reservoir_flow(slot, theta);
         for link in self.links(slot) {

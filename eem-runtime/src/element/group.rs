@@ -61,7 +61,7 @@ mod ways;
 pub(crate) use arms::points;
 pub(crate) use audit::Misfit;
 pub(crate) use explicit::{
-    Apart, ClosingView, ComponentEnergy, Past, Place, Stage, Thermostat, UnkeptEntropy, is_met,
+    ClosingView, ComponentEnergy, Inner, Past, Place, Stage, Thermostat, UnkeptEntropy, is_met,
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;

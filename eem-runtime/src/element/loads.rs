@@ -49,11 +49,13 @@ pub(crate) struct StepLoads {
 
 impl StepLoads {
     /// Whether there are loads that do work on nodes.
+    #[inline]
     pub(crate) fn has_force(&self) -> bool {
         !self.force.is_empty()
     }
 
     /// Whether there are loads or weights.
+    #[inline]
     pub(crate) fn has_total_force(&self) -> bool {
         !self.total_force.is_empty()
     }

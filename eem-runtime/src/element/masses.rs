@@ -60,6 +60,7 @@ impl Masses {
         masses
     }
 
+    #[inline]
     pub(crate) fn len(&self) -> usize {
         self.own.len()
     }
@@ -90,6 +91,7 @@ impl Masses {
     }
 
     /// Whether masses couple nodes: those of solids.
+    #[inline]
     pub(crate) fn are_coupled(&self) -> bool {
         !(self.pairs.is_empty() && self.held.is_empty())
     }

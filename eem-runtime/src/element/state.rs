@@ -204,6 +204,7 @@ impl State {
     }
 
     /// Copies the accumulated sums of `old`, a state of the same scene; a step adds to them.
+    #[inline]
     pub(crate) fn copy_books(&mut self, old: &Self) {
         self.time = old.time;
         self.work = old.work;

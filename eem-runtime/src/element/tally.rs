@@ -44,6 +44,7 @@ pub(crate) struct Tally {
 
 impl Tally {
     /// Without contributions.
+    #[inline]
     pub(crate) fn new(care: Care) -> Self {
         Self {
             care,
@@ -136,6 +137,7 @@ pub(crate) struct Reevaluation {
 
 impl Reevaluation {
     /// Without elements.
+    #[inline]
     pub(crate) fn new() -> Self {
         Self {
             correction: 0.0,

@@ -125,6 +125,8 @@ pub struct Simulation<const D: usize> {
     worst: Option<StepReport>,
     corrections: Corrections,
     unresolved: Unresolved,
+    /// Of the last step that was made.
+    report: StepReport,
 }
 
 /// The report of a step, or why it failed.
@@ -235,6 +237,7 @@ impl<const D: usize> Simulation<D> {
             worst: None,
             corrections: Corrections::none(),
             unresolved: Unresolved::none(),
+            report: StepReport::none(),
         };
         match begin {
             Begin::WithTolerance(tolerance) => {

@@ -141,6 +141,7 @@ pub(crate) struct Internal {
 }
 
 impl Internal {
+    #[inline]
     pub(crate) fn new(reservoirs: &[f64], [old, next]: [&State; 2]) -> Self {
         let [mut change, mut magnitude, mut excess] = [0.0; 3];
         let mut terms = [0.0; 2];
@@ -167,7 +168,28 @@ impl Internal {
 }
 
 impl Certificate {
+    /// Before the first step.
+    pub(crate) fn none() -> Self {
+        let nothing = [0.0; 2];
+        Self {
+            defect: 0.0,
+            bound: 0.0,
+            motion: 0.0,
+            terms: nothing,
+            judged: nothing,
+            residual_work: 0.0,
+            production: 0.0,
+            least_production: 0.0,
+            unresolved: 0,
+            linear: nothing,
+            angular: nothing,
+            residues: nothing,
+            is_balanced: false,
+        }
+    }
+
     /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states.
+    #[inline]
     pub(crate) fn new<const D: usize>(
         motion: &Motion<D>,
         tally: &Tally,
@@ -230,19 +252,18 @@ impl Certificate {
         is_wide(self.bound, self.motion + old + new)
     }
 
-    /// With the terms of the energies in both states, which are evaluated if the known part of them makes the bound wide.
-    pub(crate) fn with_terms_of<const D: usize>(
-        mut self,
+    /// Evaluates the terms of the energies in both states, of which a part is known: where that makes the bound wide.
+    #[cold]
+    #[inline]
+    pub(crate) fn find_terms<const D: usize>(
+        &mut self,
         groups: &[Box<dyn Group<D>>],
         ends: [&State; 2],
-    ) -> Self {
-        if self.is_bound_wide() {
-            self.terms = ends.map(|state| {
-                let groups = groups.iter().map(|group| group.elements());
-                groups.fold(0.0, |sum, group| sum + group.energy_terms(state))
-            });
-        }
-        self
+    ) {
+        self.terms = ends.map(|state| {
+            let groups = groups.iter().map(|group| group.elements());
+            groups.fold(0.0, |sum, group| sum + group.energy_terms(state))
+        });
     }
 
     /// The certificate of two parts of a step, one after the other.

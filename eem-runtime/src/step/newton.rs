@@ -97,6 +97,25 @@ pub struct StepReport {
 }
 
 impl StepReport {
+    /// Before the first step.
+    pub(crate) fn none() -> Self {
+        Self {
+            time: 0.0,
+            step: 0.0,
+            iterations: 0,
+            update: 0.0,
+            residual: 0.0,
+            defect: 0.0,
+            bound: 0.0,
+            is_bound_wide: false,
+            production: 0.0,
+            least_production: 0.0,
+            unresolved: 0,
+            error: 0.0,
+            correction: 0.0,
+        }
+    }
+
     /// The report of two consecutive steps as one.
     pub(crate) fn and(self, later: Self) -> Self {
         Self {

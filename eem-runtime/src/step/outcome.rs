@@ -20,8 +20,9 @@ pub(crate) struct Outcome {
     pub(crate) correction: f64,
 }
 
-impl From<Certificate> for Outcome {
-    fn from(certificate: Certificate) -> Self {
+impl From<&Certificate> for Outcome {
+    #[inline]
+    fn from(certificate: &Certificate) -> Self {
         Self {
             defect: certificate.defect,
             bound: certificate.bound,

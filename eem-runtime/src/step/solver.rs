@@ -72,7 +72,7 @@ pub(crate) struct Solver<const D: usize> {
     /// The largest residual of the momentum balances where the step was closed, N s.
     final_residual: f64,
     /// The certificate of the last closed step.
-    certificate: Option<Certificate>,
+    certificate: Certificate,
     /// The error because of which the last update was not applied in full.
     obstacle: Option<StateError>,
     /// The element with the largest defect of its own energy balance, when elements were last evaluated for it.
@@ -142,7 +142,7 @@ impl<const D: usize> Solver<D> {
             anchors: masses.anchors().collect(),
             magnitudes: Vec::with_capacity(nodes_with(scheme.is_exact())),
             final_residual: 0.0,
-            certificate: None,
+            certificate: Certificate::none(),
             obstacle: None,
             worst: None,
             evaluations: 0,

@@ -52,6 +52,7 @@ impl StepView<'_> {
     }
 
     /// The time during which internal variables evolve, s.
+    #[inline]
     pub(super) fn thermal_step(&self) -> f64 {
         if self.phase.heats() { self.step } else { 0.0 }
     }
@@ -66,6 +67,7 @@ impl StepView<'_> {
     }
 
     /// The temperature prescribed on a thermal slot, at the time that a scheme with this placement uses.
+    #[inline]
     pub(super) fn prescribed(&self, slot: usize, at: Placement) -> Option<f64> {
         if !self.phase.prescribes() {
             return None;

@@ -8,7 +8,7 @@ use crate::element::phase::Phase;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
-use crate::step::outcome::Attempt;
+use crate::step::outcome::{Attempt, Outcome};
 
 /// How often a step is halved in search of a size that succeeds.
 const HALVINGS: usize = 10;
@@ -48,13 +48,42 @@ pub(super) use explicit_view;
 impl<const D: usize> Simulation<D> {
     /// One step of this size. It is rejected if the scheme estimates its error and that is not within the demand.
     pub(super) fn try_step(&mut self, size: f64, demand: Demand) -> Result<Tried, StepError> {
-        self.has_stepped = false;
-        self.effort.restart();
         let found = self.find_next(size, demand);
         let Attempt { error, outcome } = found.map_err(|failure| self.failed(size, failure))?;
         let Some(outcome) = outcome else {
             return Ok(Tried::Rejected(error));
         };
+        self.go_to_next(size, error, &outcome);
+        Ok(Tried::Made(self.report))
+    }
+
+    /// One step of this size, whatever its error.
+    pub(super) fn step_by(&mut self, size: f64) -> StepResult {
+        self.make_step(size)?;
+        Ok(self.report)
+    }
+
+    /// The same; the report stays in the simulation.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "a step of one spring copies nothing twice"
+    )]
+    pub(super) fn make_step(&mut self, size: f64) -> Result<(), StepError> {
+        match self.find_next(size, Demand::None) {
+            Ok(Attempt {
+                error,
+                outcome: Some(outcome),
+            }) => self.go_to_next(size, error, &outcome),
+            Ok(_) => unreachable!("a step without a tolerance is not rejected"),
+            Err(failure) => return Err(self.failed(size, failure)),
+        }
+        Ok(())
+    }
+
+    /// Makes the next state the present one, and its report.
+    #[inline]
+    fn go_to_next(&mut self, size: f64, error: f64, outcome: &Outcome) {
         mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = true;
         if self.has_loads && !self.loads.ovens.is_empty() {
@@ -62,7 +91,7 @@ impl<const D: usize> Simulation<D> {
         }
         #[cfg(feature = "gradients")]
         self.keep_step(size);
-        let report = StepReport {
+        self.report = StepReport {
             time: self.time(),
             step: size,
             iterations: self.effort.history.len(),
@@ -77,29 +106,23 @@ impl<const D: usize> Simulation<D> {
             correction: outcome.correction.abs(),
             error,
         };
-        self.corrections.note(outcome.correction);
+        if outcome.correction != 0.0 {
+            self.corrections.note(outcome.correction);
+        }
         let is_worse = self.worst.is_none_or(|worst| {
-            let (own, other) = (report.defect.abs(), worst.defect.abs());
-            other * report.bound < own * worst.bound
+            let (own, other) = (outcome.defect.abs(), worst.defect.abs());
+            other * outcome.bound < own * worst.bound
         });
         if is_worse {
-            self.worst = Some(report);
-        }
-        Ok(Tried::Made(report))
-    }
-
-    /// One step of this size, whatever its error.
-    pub(super) fn step_by(&mut self, size: f64) -> StepResult {
-        match self.try_step(size, Demand::None)? {
-            Tried::Made(report) => Ok(report),
-            Tried::Rejected(_) | Tried::Unseen(_) => {
-                unreachable!("a step without a tolerance is not rejected")
-            }
+            self.worst = Some(self.report);
         }
     }
 
     /// Writes the next state.
+    #[inline(never)]
     fn find_next(&mut self, size: f64, demand: Demand) -> Result<Attempt, StepFailure> {
+        self.has_stepped = false;
+        self.effort.restart();
         let end = self.time() + size;
         if !end.is_finite() {
             let value = end;
@@ -128,13 +151,13 @@ impl<const D: usize> Simulation<D> {
             return Ok(Attempt::made(solver.solve(groups, &view, effort, next)?));
         };
         let view = view!(self, size, Phase::Mechanics, &self.state, [loads, stages]);
-        let motion = solver.solve(groups, &view, effort, intermediate)?;
+        let motion = *solver.solve(groups, &view, effort, intermediate)?;
         let view = view!(self, size, Phase::Heat, intermediate, [loads, stages]);
-        let heat = solver.solve(groups, &view, effort, next)?;
-        let whole = motion.and(heat);
-        Ok(Attempt::made(
-            whole.with_terms_of(groups, [&self.state, next]),
-        ))
+        let mut whole = motion.and(*solver.solve(groups, &view, effort, next)?);
+        if whole.is_bound_wide() {
+            whole.find_terms(groups, [&self.state, next]);
+        }
+        Ok(Attempt::made(&whole))
     }
 
     /// The loads of a step of this size.

@@ -175,24 +175,27 @@ impl<const D: usize> Simulation<D> {
         }
     }
 
-    /// One step by the scheme in use, not beyond `end`, of an accurate size if steps are controlled; by another scheme
-    /// if that is allowed and cheaper.
+    /// One step by the scheme in use, of the present size but not beyond `end`.
+    #[inline]
+    pub(super) fn step_of_fixed_size(&mut self, end: f64) -> Result<(), StepError> {
+        let end = self.stop_before(end);
+        let full = self.step;
+        let last = self.size_towards(end, full);
+        let size = last.unwrap_or(full);
+        if let Err(error) = self.make_step(size) {
+            return Err(self.with_shorter(error, size));
+        }
+        if last.is_some() {
+            self.arrive_at(end);
+        }
+        Ok(())
+    }
+
+    /// One step by the scheme in use, not beyond `end`, of an accurate size; by another scheme if that is allowed and
+    /// cheaper.
     pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> StepResult {
-        let (horizon, mut end) = (end, end);
-        if !self.loads.stops.is_empty() {
-            end = self.stop_before(end);
-        }
-        if self.control.is_none() {
-            let full = self.step;
-            let last = self.size_towards(end, full);
-            let size = last.unwrap_or(full);
-            let made = self.step_by(size);
-            let mut report = made.map_err(|error| self.with_shorter(error, size))?;
-            if last.is_some() {
-                self.arrive_at(end, &mut report);
-            }
-            return Ok(report);
-        }
+        let horizon = end;
+        let end = self.stop_before(end);
         // A step in the scheme goes to a time within one that has looked.
         let looks = may_switch;
         let may_switch = may_switch && self.may_change_scheme();
@@ -246,7 +249,8 @@ impl<const D: usize> Simulation<D> {
                         self.step = controller.next(size, report.error, control.accuracy);
                     }
                     if arriving.is_some() {
-                        self.arrive_at(end, &mut report);
+                        self.arrive_at(end);
+                        report.time = end;
                     }
                     self.accept(control);
                     return Ok(report);

@@ -147,6 +147,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// The size of a step that ends at `end`, if one of this size would end there or beyond it.
+    #[inline]
     pub(super) fn size_towards(&self, end: f64, full: f64) -> Option<f64> {
         // With the time to twice the precision.
         let Sum { value, carry } = self.state.time;
@@ -161,13 +162,14 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Sets the end of the last step to this time, which it misses by rounding.
-    pub(super) fn arrive_at(&mut self, end: f64, report: &mut StepReport) {
+    #[inline]
+    pub(super) fn arrive_at(&mut self, end: f64) {
         #[cfg(feature = "gradients")]
         if let Some(history) = &mut self.history {
             history.arrive(self.state.time, end);
         }
         self.state.time = Sum::new(end);
-        report.time = end;
+        self.report.time = end;
     }
 }
 

@@ -186,8 +186,16 @@ impl<const D: usize> Simulation<D> {
 
     /// The end of the next step that is not later than `end`, s: `end` or an earlier time at which steps end. At the beginning of
     /// a step at such a time, step control and the rates of the explicit scheme start afresh: what they know is from before.
-    #[cold]
+    #[inline]
     pub(super) fn stop_before(&mut self, end: f64) -> f64 {
+        if self.loads.stops.is_empty() {
+            return end;
+        }
+        self.next_stop(end)
+    }
+
+    #[cold]
+    fn next_stop(&mut self, end: f64) -> f64 {
         let time = self.time();
         let near = |stop: f64| {
             let rounding = STOP_ROUNDINGS * f64::EPSILON;

@@ -6,7 +6,6 @@ use std::collections::BTreeSet;
 use super::Simulation;
 use super::memory::Unresolved;
 use crate::element::handle::Element;
-use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
 
@@ -50,9 +49,10 @@ impl fmt::Display for Warning {
 }
 
 impl<const D: usize> Simulation<D> {
-    /// Notes a step that did not resolve a relaxation.
+    /// Notes that the last step did not resolve a relaxation.
     #[cold]
-    pub(super) fn note_unresolved(&mut self, report: &StepReport) {
+    pub(super) fn note_unresolved(&mut self) {
+        let report = &self.report;
         let largest = Scalar::maximum(self.unresolved.largest, report.step);
         self.unresolved = Unresolved {
             steps: self.unresolved.steps + 1,

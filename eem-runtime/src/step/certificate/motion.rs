@@ -99,6 +99,7 @@ impl<const D: usize> NodeStep<'_, D> {
 }
 
 impl<const D: usize> Motion<D> {
+    #[inline]
     pub(crate) fn new(kept: Kept<D>) -> Self {
         Self {
             kept,

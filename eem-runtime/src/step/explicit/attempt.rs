@@ -28,6 +28,7 @@ impl<const D: usize> Explicit<D> {
         attempt.map_err(|failure| self.explain(failure, view))
     }
 
+    #[inline]
     fn attempt(
         &mut self,
         view: &ExplicitView<'_, D>,
@@ -40,9 +41,7 @@ impl<const D: usize> Explicit<D> {
             self.prescribed
                 .evaluate(view.loads, [start, h], view.state)?;
         }
-        self.begin(view, next)?;
-        self.go_through_stages(view)?;
-        let scales = self.scales(time)?;
+        let scales = self.approach(view, next)?;
         let error = match demand {
             Demand::None => 0.0,
             Demand::Within(tolerance) => self.estimate(view, &tolerance, scales),
@@ -77,6 +76,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// The largest defect of all components before closing; an error unless it is small, or rounding.
+    #[inline]
     fn correction(
         &mut self,
         view: &ExplicitView<'_, D>,
@@ -111,6 +111,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Writes the closed state.
+    #[inline]
     fn store(&mut self, next: &mut State) {
         let masses = &self.stage.places[..self.components.masses];
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
@@ -122,7 +123,7 @@ impl<const D: usize> Explicit<D> {
             next.positions.set_point(moved.node.index, end);
         }
         for dashpot in 0..self.stage.temperatures {
-            next.viscous.set(dashpot, self.stage.inner[dashpot]);
+            next.viscous.set(dashpot, self.stage.inner[dashpot].now);
         }
         for (slot, theta) in next.temperatures.iter_mut().enumerate() {
             *theta = self.stage.theta(slot);

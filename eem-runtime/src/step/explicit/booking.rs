@@ -11,6 +11,7 @@ use eem_material::number::scalar::Scalar;
 
 impl<const D: usize> Explicit<D> {
     /// Entropies, books and targets at the end of the step, before it is closed.
+    #[inline]
     pub(super) fn book(&mut self, view: &ExplicitView<'_, D>, next: &mut State) {
         next.copy_books(view.state);
         next.time.add(view.step);
@@ -26,6 +27,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Moves the exchanged entropy of each path from its second end to its first one, and adds its production to the
     /// second.
+    #[inline]
     fn book_paths(&mut self, h: f64, next: &mut State) {
         let (stage, scratch) = (&mut self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
@@ -68,6 +70,7 @@ impl<const D: usize> Explicit<D> {
         }
     }
 
+    #[inline]
     fn book_dashpots(&mut self, h: f64, next: &mut State) {
         let scratch = &mut self.scratch;
         let integrals = self.stage.productions.iter();
@@ -152,6 +155,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Splits the productions of paths between their ends, by the heat capacities of the closing; if one end is a
     /// reservoir or has a thermostat, the other end receives all of it.
+    #[inline]
     pub(super) fn share_productions(&mut self) {
         let (stage, scratch) = (&self.stage, &mut self.scratch);
         let slots = scratch.produced.len();

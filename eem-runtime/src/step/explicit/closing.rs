@@ -47,6 +47,7 @@ enum Status {
 
 impl<const D: usize> Explicit<D> {
     /// Closes all components.
+    #[inline]
     pub(super) fn close(
         &mut self,
         view: &ExplicitView<'_, D>,
@@ -96,6 +97,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Finds temperatures and energies of the elements of open components, and the heat of their thermostats.
+    #[inline]
     fn find_energies(
         &mut self,
         explicit: &ExplicitView<'_, D>,

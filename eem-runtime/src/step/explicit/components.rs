@@ -52,6 +52,8 @@ impl Component {
 pub(super) struct Path {
     /// The thermal slots at both ends; reservoirs are numbered after all thermal slots.
     pub(super) ends: [u32; 2],
+    /// The indices of their temperatures among the internal variables.
+    pub(super) places: [u32; 2],
     pub(super) component: u32,
     /// Its first link in the list of all.
     pub(super) link: u32,
@@ -279,10 +281,14 @@ impl Components {
                     (self.elements.len() + reservoir, Some(share))
                 }
             };
+            let ends = [slot, compact(far)];
+            // Temperatures are numbered after the stretches of all dashpots.
+            let dashpots: u32 = compact(self.dashpots.len());
             self.paths.push(Path {
                 component: compact(component),
                 link: compact(place),
-                ends: [slot, compact(far)],
+                ends,
+                places: ends.map(|end| dashpots + end),
                 share,
                 conductance: link.conductance,
                 temperatures: [[1.0; _]; 2],

@@ -10,8 +10,20 @@ use crate::step::error::StepFailure;
 use eem_material::number::scalar::Scalar;
 
 impl<const D: usize> Explicit<D> {
+    /// Goes to the end of a step before it is closed; returns the magnitudes there.
+    pub(super) fn approach(
+        &mut self,
+        view: &ExplicitView<'_, D>,
+        next: &mut State,
+    ) -> Result<Scales, StepFailure> {
+        self.begin(view, next)?;
+        self.go_through_stages(view)?;
+        self.scales(view.state.time.value + view.step)
+    }
+
     /// The magnitudes of positions and momenta before the step is closed; an error unless all are finite.
-    pub(super) fn scales(&self, time: f64) -> Result<Scales, StepFailure> {
+    #[inline]
+    fn scales(&self, time: f64) -> Result<Scales, StepFailure> {
         if !time.is_finite() {
             let value = time;
             return Err(StepFailure::Time { value });
@@ -95,11 +107,8 @@ impl<const D: usize> Explicit<D> {
         tolerance: &Tolerance,
         next: &mut State,
     ) -> Result<Option<(Unknown, [f64; 2])>, StepFailure> {
-        let (time, was_ready) = (view.state.time.value + view.step, self.is_ready);
-        let tried = self.begin(view, next).and_then(|()| {
-            self.go_through_stages(view)?;
-            self.scales(time)
-        });
+        let was_ready = self.is_ready;
+        let tried = self.approach(view, next);
         // As before the attempt.
         self.is_ready = was_ready;
         let scales = tried?;

@@ -18,6 +18,7 @@ const ROUNDINGS: f64 = 64.0;
 
 impl<const D: usize> Explicit<D> {
     /// An error unless all defects, from the energies of the state, are rounding.
+    #[inline]
     pub(super) fn prove(
         &mut self,
         correction: f64,
@@ -87,6 +88,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// An error unless the conserved momenta of a component are their targets, in all planes.
+    #[inline]
     fn prove_momenta(&self, index: usize, time: f64) -> Result<(), StepFailure> {
         let support = self.components.all[index].support;
         if support == Support::Several {
@@ -107,6 +109,7 @@ impl<const D: usize> Explicit<D> {
 }
 
 /// An error if the defect of a law exceeds its bound or is NaN.
+#[inline]
 fn expect(law: Law, [defect, bound]: [f64; 2], time: f64) -> Result<(), StepFailure> {
     if defect.abs() <= bound {
         return Ok(());

@@ -6,7 +6,7 @@ use super::tableau::{
 };
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::{Apart, Past};
+use crate::element::group::{Inner, Past};
 use crate::step::error::StepFailure;
 
 /// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and the last two
@@ -102,19 +102,19 @@ impl<const D: usize> Explicit<D> {
             place.now = place.past.after(h, rows, a);
             place.begin_rates();
         }
-        let inner = self.stage.inner.as_chunks_mut::<2>().0.iter_mut();
-        let inner = inner.zip(self.stage.inner_rates.as_chunks_mut::<2>().0);
-        for ((now, rates), past) in inner.zip(&mut self.stage.inner_past) {
+        let pairs = self.stage.inner.as_chunks_mut::<2>().0;
+        for (pair, past) in pairs.iter_mut().zip(&mut self.stage.inner_past) {
             if last == 0 {
-                past.start = [*now];
+                past.start = [pair.map(|own| own.now)];
             }
-            past.rates[ROWS[last]] = [rates.map(|rate| rate.0)];
-            [*now] = past.after(h, rows, a);
-            *rates = [Apart(0.0); 2];
+            past.rates[ROWS[last]] = [pair.map(|own| own.rate)];
+            let [now] = past.after(h, rows, a);
+            *pair = now.map(Inner::new);
         }
     }
 
     /// Evaluates loads and weights at a time.
+    #[inline]
     pub(super) fn evaluate_loads(
         &mut self,
         view: &ExplicitView<'_, D>,
@@ -147,20 +147,8 @@ impl<const D: usize> Explicit<D> {
         weight: Option<usize>,
     ) -> Result<(), StateError> {
         self.stage.weight = weight.map_or(0.0, |at| WEIGHTS[at]);
-        let first = self.stage.temperatures;
-        let (inner, rates) = (&self.stage.inner[..], &mut self.stage.inner_rates[..]);
-        for path in &mut self.components.paths {
-            let [a, b] = path.ends.map(|end| first + end as usize);
-            let [near, far] = [inner[a], inner[b]];
-            let flow = path.conductance * (far - near);
-            rates[a].0 += flow;
-            // A reservoir keeps its temperature.
-            if path.share.is_none() {
-                rates[b].0 -= flow;
-            }
-            if let Some(at) = weight {
-                (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
-            }
+        if !self.components.paths.is_empty() {
+            self.conduct(weight);
         }
         for group in &self.groups {
             match from {
@@ -178,12 +166,35 @@ impl<const D: usize> Explicit<D> {
         Ok(())
     }
 
+    /// Initialises the rates of temperatures with the heat that flows along paths.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as above")]
+    fn conduct(&mut self, weight: Option<usize>) {
+        let inner = &mut self.stage.inner[..];
+        for path in &mut self.components.paths {
+            let [a, b] = path.places.map(|place| place as usize);
+            let [near, far] = [inner[a].now, inner[b].now];
+            let flow = path.conductance * (far - near);
+            inner[a].rate += flow;
+            // A reservoir keeps its temperature.
+            if path.share.is_none() {
+                inner[b].rate -= flow;
+            }
+            if let Some(at) = weight {
+                (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
+            }
+        }
+    }
+
     /// Finds the rates of the closed state.
+    #[inline]
     pub(super) fn finish(&mut self) -> Result<(), StepFailure> {
         for place in &mut self.stage.places[..self.components.masses] {
             place.begin_rates();
         }
-        self.stage.inner_rates.fill(Apart(0.0));
+        for own in &mut self.stage.inner {
+            own.rate = 0.0;
+        }
         if self.loads.has_total_force() {
             self.apply_loads();
         }

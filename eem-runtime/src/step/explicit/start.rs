@@ -7,13 +7,14 @@ use super::stages::From;
 use super::tableau::WEIGHTS;
 use super::vector::Origin;
 use super::{Explicit, ExplicitView};
-use crate::element::group::{Apart, ComponentEnergy, Place, points};
+use crate::element::group::{ComponentEnergy, Inner, Place, points};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Sum;
 
 impl<const D: usize> Explicit<D> {
     /// Sets the stage and the sums to the start of a step, and begins its integrals.
+    #[inline]
     pub(super) fn begin(
         &mut self,
         view: &ExplicitView<'_, D>,
@@ -77,9 +78,8 @@ impl<const D: usize> Explicit<D> {
             .chain(temperatures)
             .chain(&view.conduction.reservoirs);
         for (own, &value) in stage.inner.iter_mut().zip(inner) {
-            *own = value;
+            *own = Inner::new(value);
         }
-        stage.inner_rates.fill(Apart(0.0));
     }
 
     /// Finds rates and targets.
@@ -134,6 +134,7 @@ impl<const D: usize> Explicit<D> {
 
     /// The point about which the angular momentum of a component is conserved: its anchor or its centre of mass; the
     /// origin with several anchors, where none is.
+    #[inline]
     pub(super) fn origin(places: &[Place<D>], component: &Component) -> Origin<D> {
         match component.support {
             Support::Free => {

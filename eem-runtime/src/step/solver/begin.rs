@@ -30,6 +30,7 @@ pub(super) enum Start {
 
 impl<const D: usize> Solver<D> {
     /// Starts at the old state, or at a predicted motion if the scheme uses one.
+    #[inline]
     pub(super) fn begin(
         &mut self,
         groups: &mut [Box<dyn Group<D>>],
@@ -94,6 +95,7 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Sets moved anchors to their positions at the end of the step, or at the stage of each set.
+    #[inline]
     fn place_moved_anchors(&mut self, view: &StepView<'_>) {
         for set in 0..self.sets.len() {
             let first = self.trial.first_of_set(set);
@@ -108,6 +110,7 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Sets moving nodes to their predicted positions, and interface temperatures to the old ones.
+    #[inline]
     fn start(&mut self, view: &StepView<'_>, start: Start) {
         let is_coupled = !self.coupling.is_none();
         let momenta = points::<D>(view.state.momenta.values());

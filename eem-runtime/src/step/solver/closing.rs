@@ -19,20 +19,24 @@ use crate::step::scheme::Closing;
 impl<const D: usize> Solver<D> {
     /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and finds its
     /// certificate. It may be called again at another trial.
+    #[inline]
     pub(super) fn close(
         &mut self,
         groups: &mut [Box<dyn Group<D>>],
         view: &StepView<'_>,
         next: &mut State,
-    ) -> Result<Certificate, StepFailure> {
-        let mut certificate = self.close_with(Care::Quick, groups, view, next)?;
+    ) -> Result<(), StepFailure> {
+        self.close_with(Care::Quick, groups, view, next)?;
         if !self.scheme.is_exact() {
-            return Ok(certificate);
+            return Ok(());
         }
-        if !certificate.is_enough() {
-            certificate = certificate.sharpened_by(self.close_thoroughly(groups, view, next)?);
+        if !self.certificate.is_enough() {
+            self.close_thoroughly(groups, view, next)?;
         }
-        Ok(certificate.with_terms_of(groups, [view.state, next]))
+        if self.certificate.is_bound_wide() {
+            self.certificate.find_terms(groups, [view.state, next]);
+        }
+        Ok(())
     }
 
     /// Closes the step with thorough bounds; energy changes by discrete derivatives decide where those by values are too
@@ -43,17 +47,19 @@ impl<const D: usize> Solver<D> {
         groups: &mut [Box<dyn Group<D>>],
         view: &StepView<'_>,
         next: &mut State,
-    ) -> Result<Certificate, StepFailure> {
-        let certificate = self.close_with(Care::Thorough, groups, view, next)?;
-        if certificate.has_enough_energy() {
-            return Ok(certificate);
+    ) -> Result<(), StepFailure> {
+        let quick = self.certificate;
+        self.close_with(Care::Thorough, groups, view, next)?;
+        if !self.certificate.has_enough_energy() {
+            let mut reevaluation = Reevaluation::new();
+            for group in groups.iter() {
+                group.reevaluate([view.state, next], &mut reevaluation);
+            }
+            self.worst = reevaluation.worst();
+            self.certificate = self.certificate.reevaluated(&reevaluation);
         }
-        let mut reevaluation = Reevaluation::new();
-        for group in groups.iter() {
-            group.reevaluate([view.state, next], &mut reevaluation);
-        }
-        self.worst = reevaluation.worst();
-        Ok(certificate.reevaluated(&reevaluation))
+        self.certificate = quick.sharpened_by(self.certificate);
+        Ok(())
     }
 
     fn close_with(
@@ -62,7 +68,7 @@ impl<const D: usize> Solver<D> {
         groups: &mut [Box<dyn Group<D>>],
         view: &StepView<'_>,
         next: &mut State,
-    ) -> Result<Certificate, StepFailure> {
+    ) -> Result<(), StepFailure> {
         next.copy_books(view.state);
         if view.phase.heats() {
             next.time.add(view.step);
@@ -88,10 +94,12 @@ impl<const D: usize> Solver<D> {
             group.close(view, &self.trial, next, &mut tally)?;
         }
         let internal = Internal::new(&view.conduction.reservoirs, [view.state, next]);
-        Ok(Certificate::new(&motion, &tally, &internal))
+        self.certificate = Certificate::new(&motion, &tally, &internal);
+        Ok(())
     }
 
     /// The momenta that the scene conserves and the scheme proves.
+    #[inline]
     fn kept(&self, view: &StepView<'_>) -> Kept<D> {
         if !view.loads.moved.is_empty() || !self.scheme.is_exact() {
             return Kept::None;
@@ -104,6 +112,7 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Finds impulses, and displacements where these follow from impulses.
+    #[inline]
     pub(super) fn find_motion(
         &mut self,
         groups: &mut [Box<dyn Group<D>>],
@@ -130,6 +139,7 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Clears the magnitudes of the forces, and makes room for them if a thorough bound needs them.
+    #[inline]
     fn forget_magnitudes(&mut self, care: Care) {
         self.magnitudes.clear();
         if care == Care::Thorough {
@@ -138,6 +148,7 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Sets the new positions of moved anchors, and adds the work of their supports.
+    #[inline]
     fn move_anchors(&mut self, view: &StepView<'_>, next: &mut State, motion: &mut Motion<D>) {
         let old = &view.state.positions;
         let mut impulses = self.past.impulses();
@@ -161,6 +172,7 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Sets the impulses to `−h F`, with the forces F at the trial.
+    #[inline]
     fn find_impulse(
         &mut self,
         groups: &mut [Box<dyn Group<D>>],

@@ -5,7 +5,6 @@ use super::effort::Effort;
 use super::progress::{Conclusion, Progress, Target};
 use crate::element::error::StateError;
 use crate::element::group::{Group, StepView};
-use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use crate::step::newton::is_last;
@@ -81,24 +80,22 @@ impl<const D: usize> Solver<D> {
         let Target::State(next) = target else {
             return Conclusion::Found;
         };
-        let certificate = match self.close(groups, view, next) {
-            Ok(certificate) => certificate,
-            Err(failure) => {
-                progress.note_rejected(f64::MAX);
-                if !self.scheme.is_exact() || progress.is_over() {
-                    return Conclusion::Refused(failure);
-                }
-                return Conclusion::Open;
+        if let Err(failure) = self.close(groups, view, next) {
+            progress.note_rejected(f64::MAX);
+            if !self.scheme.is_exact() || progress.is_over() {
+                return Conclusion::Refused(failure);
             }
-        };
+            return Conclusion::Open;
+        }
+        let certificate = &self.certificate;
         if !self.scheme.is_exact() {
             return match certificate.unless_infinite(next.time.value) {
-                Ok(()) => self.found(certificate),
+                Ok(()) => Conclusion::Found,
                 Err(failure) => Conclusion::Refused(failure),
             };
         }
         if certificate.is_enough() {
-            return self.found(certificate);
+            return Conclusion::Found;
         }
         progress.note_rejected(self.final_residual);
         let is_settled = progress.has_stopped() && certificate.is_lawful();
@@ -111,18 +108,13 @@ impl<const D: usize> Solver<D> {
             });
         }
         match certificate.unexplained_law() {
-            None => self.found(certificate),
+            None => Conclusion::Found,
             Some((law, sizes)) => {
                 let element = self.worst.filter(|_| law == Law::Energy);
                 let time = view.state.time.value + view.step;
                 Conclusion::Refused(law.not_kept(sizes, element, time))
             }
         }
-    }
-
-    fn found(&mut self, certificate: Certificate) -> Conclusion {
-        self.certificate = Some(certificate);
-        Conclusion::Found
     }
 
     /// Evaluates the tangent for another iteration, at a trial where only responses have been evaluated.

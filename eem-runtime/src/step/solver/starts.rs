@@ -19,30 +19,23 @@ impl<const D: usize> Solver<D> {
         view: &StepView<'_>,
         effort: &mut Effort,
         next: &mut State,
-    ) -> Result<Certificate, StepFailure> {
+    ) -> Result<&Certificate, StepFailure> {
         let mut closing = Target::State(next);
         self.has_other_starts = self.scheme.is_exact();
         let found = self.start_and_converge(groups, view, effort, (Start::Predicted, &mut closing));
-        let failure = match found {
-            Err(failure) if self.scheme.follows_its_solution() => failure,
-            done => {
-                done?;
-                return self.kept_by(view);
+        if let Err(failure) = found {
+            if !self.scheme.follows_its_solution() {
+                return Err(failure);
             }
-        };
-        let found = self.try_other_starts(groups, view, effort, &mut closing);
-        found.map_err(|_| failure)?;
-        self.kept_by(view)
-    }
-
-    /// Commits the step: it becomes the history of the predictors.
-    fn kept_by(&mut self, view: &StepView<'_>) -> Result<Certificate, StepFailure> {
+            let found = self.try_other_starts(groups, view, effort, &mut closing);
+            found.map_err(|_| failure)?;
+        }
+        // The step becomes the history of the predictors.
         if view.phase.heats() && self.scheme.predicts_its_start() {
             let variables = [view.state.viscous.values(), &view.state.temperatures];
             self.past.keep(variables, view.step);
         }
-        let certificate = self.certificate.take();
-        certificate.ok_or(StepFailure::NotConverged { update: f64::NAN })
+        Ok(&self.certificate)
     }
 
     /// Exact schemes start with the old internal variables, from the old state, and from the solution for another form if

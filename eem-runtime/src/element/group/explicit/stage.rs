@@ -203,20 +203,31 @@ impl Thermostat {
     }
 }
 
-/// A number aligned like a vector: a vector load of two neighbours that have just been stored would wait for both stores.
+/// An internal variable: a viscous stretch, m, or a temperature, K.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
-pub(crate) struct Apart(pub(crate) f64);
+pub(crate) struct Inner {
+    pub(crate) now: f64,
+    /// `γ̇` or `θ̇`; before the elements have been evaluated the heat that flows into a thermal slot, W. Not used for a
+    /// reservoir.
+    pub(crate) rate: f64,
+}
 
-/// All variables at a stage. Internal ones are the viscous stretches, m, then the temperatures of thermal slots and of
-/// reservoirs, K.
+impl Inner {
+    /// With a rate of zero.
+    #[inline]
+    pub(crate) fn new(now: f64) -> Self {
+        Self { now, rate: 0.0 }
+    }
+}
+
+/// All variables at a stage.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage<const D: usize> {
     /// Masses, then anchors.
     pub(crate) places: Vec<Place<D>>,
-    pub(crate) inner: Vec<f64>,
-    /// `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into each thermal slot, W.
-    pub(crate) inner_rates: Vec<Apart>,
+    /// Viscous stretches, then the temperatures of thermal slots and of reservoirs.
+    pub(crate) inner: Vec<Inner>,
     /// Starts and earlier rates of the internal variables, two per entry.
     pub(crate) inner_past: Vec<Past<2, 1>>,
     /// The index of the first temperature among the internal variables.
@@ -243,10 +254,10 @@ impl<const D: usize> Stage<D> {
     ) -> Self {
         let size = layout.viscous + layout.thermal;
         let pairs = size.div_ceil(2);
+        let all = (size + reservoirs).max(2 * pairs);
         Self {
             places: masses.map(Place::new).collect(),
-            inner: vec![1.0; (size + reservoirs).max(2 * pairs)],
-            inner_rates: vec![Apart(0.0); 2 * pairs],
+            inner: vec![Inner::new(1.0); all],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
             productions: vec![Integral::none(); layout.viscous],
@@ -270,7 +281,7 @@ impl<const D: usize> Stage<D> {
     pub(crate) fn receive(&mut self, slot: usize, heat: f64) {
         self.thermostats[slot].received = heat;
         if self.thermostats[slot].holds {
-            self.inner_rates[self.temperatures + slot].0 = 0.0;
+            self.inner[self.temperatures + slot].rate = 0.0;
         }
     }
 
@@ -282,12 +293,12 @@ impl<const D: usize> Stage<D> {
     /// The temperature of a thermal slot or, with an index after those of the slots, of a reservoir, K.
     #[inline]
     pub(crate) fn theta(&self, slot: usize) -> f64 {
-        self.inner[self.temperatures + slot]
+        self.inner[self.temperatures + slot].now
     }
 
     #[inline]
     pub(crate) fn theta_mut(&mut self, slot: usize) -> &mut f64 {
-        &mut self.inner[self.temperatures + slot]
+        &mut self.inner[self.temperatures + slot].now
     }
 
     /// Pairs of all rates, at the start of the step and now; of places only the first `places`.
@@ -297,7 +308,7 @@ impl<const D: usize> Stage<D> {
             starts.zip(of.rates.as_flattened())
         });
         let inner = self.inner_past.iter().flat_map(|of| &of.rates[0][0]);
-        let inner = inner.zip(self.inner_rates.iter().map(|rate| &rate.0));
+        let inner = inner.zip(self.inner.iter().map(|own| &own.rate));
         let productions = self.productions.iter();
         let productions = productions.map(|of| (&of.start, &of.rate));
         let thermostats = self.thermostats.iter();
@@ -314,7 +325,7 @@ impl<const D: usize> Stage<D> {
         });
         let inner = self.inner_past.iter_mut();
         let inner = inner.flat_map(|of| &mut of.rates[0][0]);
-        let inner = inner.zip(self.inner_rates.iter_mut().map(|rate| &mut rate.0));
+        let inner = inner.zip(self.inner.iter_mut().map(|own| &mut own.rate));
         let productions = self.productions.iter_mut();
         let productions = productions.map(|of| (&mut of.start, &mut of.rate));
         let thermostats = self.thermostats.iter_mut();

@@ -52,7 +52,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
         }
         for k in 0..M::DASHPOTS {
             let at = M::MEASURES + k;
-            rate -= (own[at] - other[at]) * stage.inner_rates[self.slots().viscous + k].0;
+            rate -= (own[at] - other[at]) * stage.inner[self.slots().viscous + k].rate;
         }
         let (weight, thermostat) = (stage.weight, &mut stage.thermostats[slot]);
         thermostat.sum += weight * rate;

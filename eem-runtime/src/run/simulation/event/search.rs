@@ -216,7 +216,8 @@ impl<const D: usize> Simulation<D> {
         let mut report = self.advance(Aim::Again(whole.step))?;
         #[expect(clippy::float_cmp, reason = "whether the step ended there")]
         if whole.time == end {
-            self.arrive_at(end, &mut report);
+            self.arrive_at(end);
+            report.time = end;
         }
         Ok(report)
     }

@@ -19,6 +19,7 @@ const ENOUGH: f64 = 2.0;
 
 impl<const D: usize> Explicit<D> {
     /// Finds the sums over the masses of a component for their present positions and momenta.
+    #[inline]
     pub(in super::super) fn look_at_motion(&mut self, index: usize) {
         let gravity = self.gravity;
         self.sum_motion(index, |sum, place, arm| {
@@ -27,6 +28,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Sums what `add` adds for each mass of a component and its arm.
+    #[inline]
     pub(super) fn sum_motion(
         &mut self,
         index: usize,
@@ -42,6 +44,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// The energy of a component, and the magnitude of its terms, J.
+    #[inline]
     pub(in super::super) fn energy_of(&self, index: usize) -> [f64; 2] {
         let (motion, inner) = (&self.scratch.motions[index], &self.scratch.energies[index]);
         let (mut energy, mut magnitude) = (motion.energy, motion.magnitude + inner.magnitude);
@@ -78,6 +81,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// The defect of the energy of a component, and the magnitude of its terms, J.
+    #[inline]
     pub(in super::super) fn defect_of(&self, index: usize) -> [f64; 2] {
         let [energy, magnitude] = self.energy_of(index);
         let target = self.books.targets[index].energy;
@@ -85,6 +89,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Corrects the energy by heat as long as no element has to be evaluated for it.
+    #[inline]
     pub(super) fn balance(&mut self, index: usize, next: &mut State) -> Status {
         loop {
             let is_finite = self.look(index);
@@ -109,6 +114,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Finds the defect of a component; returns whether it is finite.
+    #[inline]
     fn look(&mut self, index: usize) -> bool {
         let present = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
@@ -127,6 +133,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Closes a component by heat if the heat is small compared with what is produced; then returns whether the result is
     /// known without another evaluation.
+    #[inline]
     fn heat_within_share(&mut self, index: usize, next: &mut State) -> Option<bool> {
         let defect = self.scratch.progress[index].defect;
         let produced = self.produced_heat(index);
@@ -138,6 +145,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.
+    #[inline]
     pub(super) fn produced_heat(&self, index: usize) -> f64 {
         let slots = &self.components.slots[self.components.all[index].slots.clone()];
         let lost = self.scratch.progress[index].lost;
@@ -149,6 +157,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Scales each element's entropy production by 1 + ε. Returns whether the second-order update is accurate to
     /// rounding.
+    #[inline]
     pub(super) fn heat(&mut self, index: usize, part: f64, next: &mut State) -> bool {
         let scratch = &mut self.scratch;
         let lost = &mut scratch.progress[index].lost;
@@ -178,6 +187,7 @@ impl<const D: usize> Explicit<D> {
     /// Gives the entropy x to an element as if it had produced it: θ becomes `θ (1 + r + r²/2)` with `r = x/c`, and e becomes
     /// `e + θ x (1 + r/2)`. The thermostat of a held element takes it, with the heat θ x.
     /// Returns whether that is exact to rounding, and θ matches the stored entropy.
+    #[inline]
     pub(super) fn warm(
         &mut self,
         index: usize,

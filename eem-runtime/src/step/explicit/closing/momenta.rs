@@ -44,6 +44,7 @@ struct Body<const D: usize> {
 
 impl<const D: usize> Body<D> {
     /// The rigid motion with these momenta.
+    #[inline]
     fn motion(
         &self,
         component: &Component,
@@ -68,6 +69,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// A component as a rigid body.
+    #[inline]
     fn body(&self, component: &Component) -> Body<D> {
         let mut body = Body {
             origin: Self::origin(&self.stage.places, component),
@@ -106,6 +108,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Adds a rigid motion to the momenta and updates the sums over the masses.
+    #[inline]
     fn add_rigid(&mut self, index: usize, rigid: &Rigid<D>) {
         let masses = self.components.all[index].masses.clone();
         let mut motion = Motion::none();
@@ -123,6 +126,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Corrects the momenta to their targets; in space repeatedly if the rounding of a correction matters. Positions
     /// are rotated if momenta alone cannot do it.
+    #[inline]
     pub(super) fn restore_momenta(&mut self, index: usize) {
         if self.components.all[index].support == Support::Several {
             self.look_at_motion(index);
@@ -138,6 +142,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Rotates the body if needed and corrects its momenta. Returns whether they are known to be accurate to rounding.
+    #[inline]
     fn approach_momenta(&mut self, index: usize) -> bool {
         let mut body = self.body(&self.components.all[index]);
         let is_weak = match &body.inertia {
@@ -168,6 +173,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// The defects of linear and angular momentum of a component.
+    #[inline]
     pub(in super::super) fn missing_momenta(&self, index: usize) -> ([f64; D], Bivector<f64, D>) {
         let (motion, target) = (&self.scratch.motions[index], &self.books.targets[index]);
         let linear = core::array::from_fn(|axis| target.linear[axis].beyond(motion.linear[axis]));

@@ -90,7 +90,7 @@ impl<const D: usize> Explicit<D> {
         for (dashpot, own) in self.components.dashpots.iter().enumerate() {
             let [rate, power] = self.scratch.creep[dashpot];
             if own.component as usize == index && rate != 0.0 {
-                let stretch = self.stage.inner[dashpot];
+                let stretch = self.stage.inner[dashpot].now;
                 sum += (power / rate * stretch).abs();
             }
         }

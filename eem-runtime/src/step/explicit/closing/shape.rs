@@ -180,7 +180,7 @@ impl<const D: usize> Explicit<D> {
         }
         for (dashpot, own) in self.components.dashpots.iter().enumerate() {
             if own.component as usize == index {
-                self.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
+                self.stage.inner[dashpot].now -= share * h * self.scratch.creep[dashpot][0];
             }
         }
         self.exchange_heat(index, share * h, next);
