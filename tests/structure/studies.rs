@@ -14,7 +14,7 @@ use std::thread;
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Programs that measure for minutes, and one whose short form is a test program: nobody runs them here.
-const NOT_RUN: [&str; 4] = ["cost_tables", "digests", "extremes", "hot_cases"];
+const NOT_RUN: [&str; 3] = ["cost_tables", "digests", "extremes"];
 
 /// The folder of the studies, built once. Together with this test they have the features of all tests, so that the library
 /// is not built again; examples have the names of some of them.
