@@ -58,6 +58,8 @@ pub(crate) struct Supports {
     pub(crate) to_stages: &'static [&'static [f64]],
     /// `∫_0^τ ℓ_j` for each time.
     pub(crate) integrals: &'static [&'static [f64]],
+    /// Lobatto's rule: the start of the step and the times, and their weights.
+    pub(crate) mean: [&'static [f64]; 2],
 }
 
 /// `Σ_i entropies_i s_i = old s⁰ + h Σ_i rates_i Φ_i`, with the entropies `s_i = s(λ_i, γ_i, θ_i)` of the stages
@@ -259,6 +261,10 @@ mod tests {
                     let known = supports.times.iter().map(|time| time.powi(power));
                     assert_near(dot(row, known), c.powi(power));
                 }
+                let [times, weights] = supports.mean;
+                assert_eq!(&times[1..], supports.times);
+                let known = times.iter().map(|time| time.powi(power));
+                assert_near(dot(weights, known), 1.0 / f64::from(power + 1));
                 let Ending::Increments {
                     displacements,
                     impulses,

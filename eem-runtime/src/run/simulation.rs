@@ -206,7 +206,9 @@ impl<const D: usize> Simulation<D> {
         })?;
         let loads = mem::replace(&mut scene.loads, Loads::none());
         layout.forget_places();
-        let least = LeastScales::new(stepper.all(), (&masses, &conduction), &state);
+        let moved = loads.moved_in_time();
+        let around = (&masses, &conduction);
+        let least = LeastScales::new(stepper.all(), around, (&state, &moved));
         let mut run = Self {
             scene: scene.lineage.clone(),
             scheme,

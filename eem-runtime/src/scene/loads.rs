@@ -1,5 +1,6 @@
 //! The loads of a scene: forces, moved anchors, prescribed temperatures.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use nalgebra::SVector;
@@ -153,6 +154,14 @@ impl<const D: usize> Loads<D> {
         let inside = INSIDE_ROUNDINGS * f64::EPSILON * (start.abs() + step);
         let (first, last) = (start + inside, (start + step) - inside);
         Scalar::minimum(Scalar::maximum(time, first), last)
+    }
+
+    /// The anchors that functions of time move, in ascending order.
+    pub(crate) fn moved_in_time(&self) -> Vec<usize> {
+        let motions = self.motions.iter();
+        let moved = motions.filter(|(_, motion)| motion.function().is_some());
+        let moved: BTreeSet<_> = moved.map(|(node, _)| node.index).collect();
+        moved.into_iter().collect()
     }
 
     /// The lines of all rockets.

@@ -1,6 +1,6 @@
 //! How a step integrates a load that is a function of time.
 
-use crate::step::explicit::load_rule;
+use crate::step::explicit::{load_rule, motion_rule};
 use crate::step::scheme::{Closing, Scheme};
 
 /// The times at which a step evaluates a load, as shares of the step, and their weights in its integral.
@@ -21,6 +21,24 @@ impl LoadRule {
             load_rule()
         } else {
             return Self::middle(order);
+        };
+        Self {
+            times,
+            weights,
+            order,
+        }
+    }
+
+    /// Of the displacement of moved anchors, whose integral acts on masses.
+    pub(crate) fn of_motions(scheme: Scheme, order: Option<f64>) -> Self {
+        let (times, weights) = match (scheme.tableau(), scheme.closing()) {
+            (Some(rule), _) => match rule.path {
+                Some(path) => path.supports.mean.into(),
+                None => (rule.times, rule.weights),
+            },
+            (None, Closing::Explicit) => motion_rule(),
+            // The anchor goes along a straight line.
+            (None, _) => (&[0.0, 1.0][..], &[0.5, 0.5][..]),
         };
         Self {
             times,
@@ -50,15 +68,17 @@ mod tests {
             .into_iter()
             .filter(|scheme| scheme.may_change_steps())
         {
-            let rule = LoadRule::of_forces(scheme, None);
             let order = i32::from(scheme.order());
-            for power in 0..order {
-                let terms = rule.times.iter().zip(rule.weights);
-                let mean: f64 = terms.map(|(time, weight)| weight * time.powi(power)).sum();
-                assert!(
-                    (mean * f64::from(power + 1) - 1.0).abs() < 1e-13,
-                    "{scheme} {power}"
-                );
+            for rule in [LoadRule::of_forces, LoadRule::of_motions] {
+                let rule = rule(scheme, None);
+                for power in 0..order {
+                    let terms = rule.times.iter().zip(rule.weights);
+                    let mean: f64 = terms.map(|(time, weight)| weight * time.powi(power)).sum();
+                    assert!(
+                        (mean * f64::from(power + 1) - 1.0).abs() < 1e-13,
+                        "{scheme} {power}"
+                    );
+                }
             }
         }
     }

@@ -211,6 +211,8 @@ pub(crate) struct Look<const N: usize> {
     last: [f64; N],
     /// The largest magnitude.
     largest: [f64; N],
+    /// The mean of the magnitudes of changes since the start.
+    deviation: [f64; N],
     /// Sums of the magnitudes of changes from sample to sample, and the largest change.
     variation: [f64; N],
     change: [f64; N],
@@ -232,6 +234,7 @@ impl<const N: usize> Look<N> {
             first: points[0],
             last: points[0],
             largest: points[0].map(Scalar::abs),
+            deviation: zeros,
             variation: zeros,
             change: zeros,
             sums: [zeros; 2],
@@ -252,6 +255,7 @@ impl<const N: usize> Look<N> {
         for at in 0..N {
             let change = (value[at] - self.last[at]).abs();
             self.variation[at] += change;
+            self.deviation[at] += (value[at] - self.first[at]).abs() / self.intervals;
             self.change[at] = Scalar::maximum(self.change[at], change);
             self.largest[at] = Scalar::maximum(self.largest[at], value[at].abs());
             for (degree, polynomial) in polynomials.into_iter().flatten().enumerate() {
@@ -295,7 +299,7 @@ impl<const N: usize> Look<N> {
     /// the unit of the function times s, and than its estimate says, in some component.
     ///
     /// ```text
-    /// |∫f dt − h Σ b f| > impulse + share Σ|Δf| h + 4 e + |∫P₈ dt − ∫f dt| + 16 ε (h max|f| + |t| Σ|Δf|)
+    /// |∫f dt − h Σ b f| > impulse + share ∫|f − f(t)| dt + 4 e + |∫P₈ dt − ∫f dt| + 16 ε (h max|f| + |t| Σ|Δf|)
     /// ```
     ///
     /// The estimate is `e = h |Σ b f (whole) − Σ b f (halves)|/(2ᵖ − 1)` for a step in two halves, zero otherwise.
@@ -309,7 +313,7 @@ impl<const N: usize> Look<N> {
         (0..N).any(|at| {
             let [coarse, fine] = self.means.map(|means| means[at]);
             let estimate = quotient * (whole[at] - kept[at]).abs();
-            let doubt = estimate + (coarse - fine).abs() + share * self.variation[at];
+            let doubt = estimate + (coarse - fine).abs() + share * self.deviation[at];
             let allowed = impulse + self.size * doubt + self.rounding(at);
             allowed < self.size * (fine - kept[at]).abs()
         })

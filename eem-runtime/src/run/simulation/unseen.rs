@@ -3,10 +3,10 @@
 use super::Simulation;
 use super::memory::Control;
 use crate::scene::loads::{OfTime, ScalarOfTime};
-use crate::step::control::{Controller, Scales};
+use crate::step::control::{Controller, Scales, Tolerance};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::load_rule::LoadRule;
-use crate::step::samples::{Grid, MOST};
+use crate::step::samples::{Grid, Look, MOST};
 use crate::step::timed::TimedLoad;
 use eem_material::number::scalar::{Scalar, is_positive};
 
@@ -122,8 +122,16 @@ impl<const D: usize> Simulation<D> {
                         None => Ok(value),
                     }
                 };
-                if let TimedLoad::Motion(_) = load {
-                    return Ok(grid.look(of)?.misses_height(scales.height()));
+                if let TimedLoad::Motion(anchor) = load {
+                    let look = grid.look(of)?;
+                    if look.misses_height(scales.height()) {
+                        return Ok(true);
+                    }
+                    // Times the stiffness, the displacement is a force on a mass.
+                    let allowed = scales.displacement(anchor.index);
+                    let order = control.accuracy.order_of_halves();
+                    let rule = LoadRule::of_motions(self.in_use, order);
+                    return passes_over_integral(&look, rule, (allowed, tolerance), (grid, of));
                 }
                 self.passes_over_force(load, (control, scales), (grid, &of))
             }
@@ -176,12 +184,13 @@ impl<const D: usize> Simulation<D> {
             return Ok(false);
         };
         let impulse = scales.momentum(node.index);
-        if look.misses_impulse(impulse) {
-            return Ok(true);
-        }
         let rule = LoadRule::of_forces(self.in_use, control.accuracy.order_of_halves());
-        let means = grid.means(rule, of)?;
-        Ok(look.differs(means, rule, [impulse, control.memory.tolerance.relative]))
+        passes_over_integral(
+            &look,
+            rule,
+            (impulse, &control.memory.tolerance),
+            (grid, of),
+        )
     }
 
     /// The end of the next step that is not later than `end`, s: `end` or an earlier time at which steps end. At the beginning of
@@ -217,4 +226,18 @@ impl<const D: usize> Simulation<D> {
             _ => end,
         }
     }
+}
+
+/// Whether samples or the rule of a step miss more of the integral of a function of time than allowed.
+fn passes_over_integral<const N: usize>(
+    look: &Look<N>,
+    rule: LoadRule,
+    (allowed, tolerance): (f64, &Tolerance),
+    (grid, of): (&Grid, impl Fn(f64) -> Result<[f64; N], StepFailure>),
+) -> Result<bool, StepFailure> {
+    if look.misses_impulse(allowed) {
+        return Ok(true);
+    }
+    let means = grid.means(rule, of)?;
+    Ok(look.differs(means, rule, [allowed, tolerance.relative]))
 }

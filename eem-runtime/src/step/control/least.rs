@@ -1,5 +1,7 @@
 //! The least scales of errors, from what a scene holds: no unknown is the reason for tiny steps because it starts at zero.
 
+use std::collections::BTreeMap;
+
 use crate::element::conduction::Conduction;
 use crate::element::group::Elements;
 use crate::element::masses::Masses;
@@ -35,6 +37,17 @@ pub(crate) struct LeastScales {
     nodes: Box<[AtNode]>,
     /// The largest entries of all nodes.
     most: AtNode,
+    /// Between moved anchors and masses, in the order of the anchors.
+    links: Box<[Link]>,
+}
+
+/// What pulls a mass when an anchor moves.
+#[derive(Clone, Copy, Debug)]
+struct Link {
+    anchor: usize,
+    mass: usize,
+    /// The sum of the stiffnesses between them, N/m.
+    stiffness: f64,
 }
 
 /// What is around a mass.
@@ -51,17 +64,18 @@ struct AtNode {
 }
 
 impl LeastScales {
-    /// Of elements in a state.
+    /// Of elements in a state, with these anchors, in ascending order, that are moved by functions of time.
     pub(crate) fn new<'a, const D: usize>(
         groups: impl Iterator<Item = &'a dyn Elements<D>>,
         (masses, conduction): (&Masses, &Conduction),
-        state: &State,
+        (state, moved): (&State, &[usize]),
     ) -> Self {
         let size = norm(state.positions.values().iter().copied());
         let size = if size > 0.0 { size } else { 1.0 };
         // Stiffness, damping, shortest length and terms of forces at each node.
         let mut around = vec![([0.0; 3], f64::MAX); masses.len()];
         let mut rate = 0.0;
+        let mut links = BTreeMap::new();
         for group in groups {
             group.stiffness(
                 state,
@@ -79,6 +93,14 @@ impl LeastScales {
                             *sum += term;
                         }
                         *length = Scalar::minimum(*length, point.length);
+                    }
+                    for &anchor in point.nodes {
+                        if moved.binary_search(&(anchor as usize)).is_err() {
+                            continue;
+                        }
+                        for &node in point.nodes {
+                            *links.entry([anchor, node]).or_insert(0.0) += point.elastic;
+                        }
                     }
                 }),
             );
@@ -116,9 +138,16 @@ impl LeastScales {
                 .iter()
                 .fold(0.0, |most, node| Scalar::maximum(most, of(node)))
         };
+        let links = links.into_iter().map(|([anchor, mass], stiffness)| Link {
+            anchor: anchor as usize,
+            mass: mass as usize,
+            stiffness,
+        });
+        let links = links.filter(|link| masses.get(link.mass).is_some());
         Self {
             size,
             rate,
+            links: links.collect(),
             most: AtNode {
                 period: 0.0,
                 bound: largest(&|node| node.bound),
@@ -150,6 +179,14 @@ impl LeastScales {
     /// The scale of the momentum of a node in a step of this size, given that of all, kg m/s.
     pub(crate) fn momentum(&self, node: usize, all: f64, step: Step) -> f64 {
         self.nodes[node].scale(all, step)
+    }
+
+    /// The masses that a moved anchor pulls, with the stiffness between them, N/m.
+    pub(crate) fn pulled_by(&self, anchor: usize) -> impl Iterator<Item = (usize, f64)> {
+        let first = self.links.partition_point(|link| link.anchor < anchor);
+        let links = self.links[first..].iter();
+        let links = links.take_while(move |link| link.anchor == anchor);
+        links.map(|link| (link.mass, link.stiffness))
     }
 
     /// Whether the scale of all momenta is that of every node.

@@ -236,6 +236,15 @@ impl<'a> Scales<'a> {
         relative * momentum + absolute
     }
 
+    /// What the tolerance allows the integral of the displacement of a moved anchor, m s: multiplied by the stiffness, it is an
+    /// impulse on the mass at the other end.
+    pub(crate) fn displacement(&self, anchor: usize) -> f64 {
+        let pulled = self.least.pulled_by(anchor);
+        pulled.fold(f64::MAX, |least, (mass, stiffness)| {
+            Scalar::minimum(least, self.momentum(mass) / stiffness)
+        })
+    }
+
     /// What the tolerance of the state, not of this step, allows a position, m.
     pub(crate) fn height(&self) -> f64 {
         self.position * (self.step.relative / self.step.own)

@@ -52,6 +52,13 @@ impl<const D: usize> Explicit<D> {
         }
         self.book(view, next);
         self.close(view, (demand, scales), next)?;
+        if let Demand::Within(tolerance) = demand {
+            let error = self.moved(view, &tolerance, scales);
+            if !(error <= 1.0) {
+                let outcome = None;
+                return Ok(Attempt { error, outcome });
+            }
+        }
         if next.meters.are_on {
             self.meter(h, next);
         }

@@ -140,13 +140,7 @@ impl<const D: usize> Explicit<D> {
         let positions = Scalar::maximum(scales.position, of_all);
         let positions = Scalar::maximum(positions, least.position(tolerance.relative));
         let position = per_scale(positions, tolerance.position);
-        let step = Step {
-            size: view.step,
-            relative: tolerance.relative,
-            own: tolerance.relative,
-            // Its estimate is careful enough.
-            growth: 0.0,
-        };
+        let step = step_of(view, tolerance);
         let momentum = per_scale(scales.momentum, tolerance.momentum);
         let are_alike = least.are_below(scales.momentum, step);
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
@@ -180,4 +174,27 @@ impl<const D: usize> Explicit<D> {
             }
         }
     }
+}
+
+/// A step with this tolerance.
+fn step_of<const D: usize>(view: &ExplicitView<'_, D>, tolerance: &Tolerance) -> Step {
+    Step {
+        size: view.step,
+        relative: tolerance.relative,
+        own: tolerance.relative,
+        // Its estimate is careful enough.
+        growth: 0.0,
+    }
+}
+
+/// What the tolerance allows the momentum of a node, kg m/s.
+pub(super) fn momentum_scale<const D: usize>(
+    view: &ExplicitView<'_, D>,
+    tolerance: &Tolerance,
+    scales: Scales,
+    node: usize,
+) -> f64 {
+    let step = step_of(view, tolerance);
+    let scale = view.least.momentum(node, scales.momentum, step);
+    tolerance.relative * scale + tolerance.momentum
 }

@@ -203,6 +203,21 @@ impl<const D: usize> Moved<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::step::explicit::{load_rule, motion_rule};
+
+    #[test]
+    fn the_integral_of_a_motion_is_that_of_the_polynomial_at_the_stages() {
+        let interpolation = Interpolation::new();
+        let ((times, weights), (points, of_motion)) = (load_rule(), motion_rule());
+        for (m, &of_motion) in of_motion.iter().enumerate() {
+            assert!((interpolation.points[m] - points[m]).abs() < 1e-15, "{m}");
+            let terms = times.iter().zip(weights).map(|(time, weight)| {
+                let stage = TIMES.iter().position(|own| own.to_bits() == time.to_bits());
+                weight * interpolation.values[stage.unwrap()][m]
+            });
+            assert!((terms.sum::<f64>() - of_motion).abs() < 1e-14, "{m}");
+        }
+    }
 
     #[test]
     fn polynomials_of_the_degree_are_exact() {

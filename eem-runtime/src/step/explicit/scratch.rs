@@ -27,6 +27,8 @@ pub(super) struct Progress {
     pub(super) scale: f64,
     /// The first defect over the scale.
     pub(super) correction: f64,
+    /// The sum of the magnitudes of the relative changes of the motion that is not rigid.
+    pub(super) moved: f64,
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: f64,
     /// The total entropy production, and the smallest one before the closing, `f64::MAX` without any, J/K.
@@ -132,6 +134,7 @@ impl Progress {
             present: None,
             scale: 0.0,
             correction: 0.0,
+            moved: 0.0,
             lost: 0.0,
             production: Total::default(),
             least: f64::MAX,

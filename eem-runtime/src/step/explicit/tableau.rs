@@ -119,6 +119,42 @@ pub(crate) const fn load_rule() -> (&'static [f64], &'static [f64]) {
     (&AT, &WEIGHTS)
 }
 
+/// The times and the weights of the positions of a moved anchor in a step: those of the stages, of the polynomial through its
+/// positions at Chebyshev points.
+pub(crate) const fn motion_rule() -> (&'static [f64], &'static [f64]) {
+    (&MOTION_TIMES, &MOTION_WEIGHTS)
+}
+
+/// `½ − ½ cos(π m/10)`
+const MOTION_TIMES: [f64; 11] = [
+    0.0,
+    0.024471741852423214,
+    0.09549150281252629,
+    0.20610737385376343,
+    0.3454915028125263,
+    0.5,
+    0.6545084971874737,
+    0.7938926261462366,
+    0.9045084971874737,
+    0.9755282581475768,
+    1.0,
+];
+
+/// `Σ_i b_i ℓ_m(c_i)`
+const MOTION_WEIGHTS: [f64; 11] = [
+    0.14728800641727063,
+    -0.19698081950613017,
+    0.2299212230363745,
+    0.1284271131856906,
+    0.02202838316402516,
+    0.36038499577940664,
+    -0.06285353388708252,
+    0.2898821138398522,
+    0.0076974791663234725,
+    0.06425885920594179,
+    0.009946179598327833,
+];
+
 /// Positive weights of order 5 of the same stages, for the guard of productions (found by linear
 /// programming: the least weight is as large as possible).
 pub(super) const POSITIVE_WEIGHTS: [f64; 8] = [
