@@ -101,6 +101,9 @@ fn impossible_ends_are_errors() {
             "{failure}"
         );
     }
+    // 1e16 steps.
+    let failure = run.run_until(1e15).unwrap_err().failure;
+    assert!(matches!(failure, StepFailure::End { .. }), "{failure}");
     assert_eq!(before, bits(&run));
 }
 

@@ -211,7 +211,7 @@ pub enum StepFailure {
         too_large: Option<TooLarge>,
     },
     /// The end time of a run is invalid.
-    #[error("the end time is {end} s, it must not lie before the present time, and be finite unless an observer or an event can end the run", end = Readable(*end))]
+    #[error("the end time is {end} s, it must not lie before the present time, and be finite and in reach of the steps unless an observer or an event can end the run", end = Readable(*end))]
     End {
         /// The end time, s.
         end: f64,

@@ -5,6 +5,7 @@ use core::ops::ControlFlow;
 use super::Simulation;
 use super::compiled::Aim;
 use super::guard::Guard;
+use super::memory::SMALLEST;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use eem_material::number::compensated::Sum;
@@ -35,7 +36,8 @@ impl<const D: usize> Simulation<D> {
     /// # Errors
     ///
     /// The error of the failed step, with the simulation as it was before that step; [`StepFailure::End`] if `end`
-    /// is not finite or lies in the past.
+    /// is not finite, lies in the past, or so far ahead that the [largest](Self::limit_steps) or constant step is rounding of the
+    /// time until then.
     ///
     /// ```
     /// use eem::{Scene, Scheme, Simulation};
@@ -133,9 +135,13 @@ impl<const D: usize> Simulation<D> {
         Ok(RunEnd::Reached)
     }
 
-    /// An error if nothing would end a run until this time, s.
+    /// An error if nothing would end a run until this time, s: it is infinite, or the largest step is rounding of the time until
+    /// then.
     pub(super) fn expect_finite(&self, end: f64) -> Result<(), StepError> {
-        if end.is_finite() {
+        let control = self.control.as_ref();
+        let largest = control.map_or(self.step, |control| control.memory.largest);
+        let left = end - self.time();
+        if end.is_finite() && SMALLEST * f64::EPSILON * left <= largest {
             return Ok(());
         }
         Err(self.refused(StepFailure::End { end }))
