@@ -51,8 +51,7 @@ use scratch::Scratch;
 
 pub(crate) use demand::Demand;
 pub(crate) use past::SavedExplicit;
-pub(crate) use stability::REAL_LIMIT;
-pub(crate) use tableau::{load_rule, motion_rule};
+pub(crate) use tableau::{REAL_LIMIT, load_rule, motion_rule};
 
 /// The explicit scheme for a scene.
 #[expect(

@@ -1,16 +1,12 @@
 //! Why an explicit step failed: it is longer than the fastest motion allows, or an element is too cold.
 
 use super::scratch::RowSums;
+use super::tableau::{IMAGINARY_LIMIT, REAL_LIMIT};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
-
-/// Up to these products with the step the stability function of DOP853 is at most 1: on the imaginary axis,
-/// vibrations, and on the real one, conduction and dashpots.
-const IMAGINARY_LIMIT: f64 = 5.96;
-pub(crate) const REAL_LIMIT: f64 = 6.39;
 
 /// The limits for the fastest vibration, conduction and dashpot.
 const LIMITS: [f64; 3] = [IMAGINARY_LIMIT, REAL_LIMIT, REAL_LIMIT];

@@ -12,6 +12,11 @@
 /// Number of stages.
 pub(super) const STAGES: usize = 12;
 
+/// Up to these products with the step the stability function is at most 1: on the imaginary axis, vibrations, and on the real
+/// one, conduction and dashpots.
+pub(super) const IMAGINARY_LIMIT: f64 = 5.96;
+pub(crate) const REAL_LIMIT: f64 = 6.39;
+
 /// c: the times of the stages, as fractions of the step.
 pub(super) const TIMES: [f64; STAGES] = [
     0.0,
