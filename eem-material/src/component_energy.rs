@@ -34,7 +34,7 @@ use chain::Chain;
 /// struct Fluid;
 ///
 /// // E:E, five components of E and five of Γ, for E = 0.1 b_0 and Γ = 0.04 b_0.
-/// let energy = Fluid.at_point::<f64>();
+/// let energy = Fluid.at_point();
 /// let mut x = [0.0; 11];
 /// (x[0], x[1], x[6]) = (0.01, 0.1, 0.04);
 /// assert!((energy.free_energy(&x) - 3.0_f64 * 0.06 * 0.06).abs() < 1e-15);

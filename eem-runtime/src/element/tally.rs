@@ -28,7 +28,7 @@ pub(crate) struct Tally {
     pub(crate) heat: f64,
     /// `Σ h |f*|`, N s.
     pub(crate) impulse: f64,
-    /// `Σ h k λ` of the forces at all nodes, whose rounding their balances leave, if bounds are thorough, N s.
+    /// The terms of the balances of all nodes and directions, whose rounding is left in their momenta, if bounds are thorough, N s.
     pub(crate) residues: f64,
     /// The contribution of the forces to A* and A⁺ of `step/certificate.rs`, J.
     pub(crate) forces: f64,
@@ -105,6 +105,9 @@ impl Tally {
         }
         for (&residual, &terms) in residual.iter().zip(terms) {
             self.balance(residual, flowing + terms);
+            if self.care == Care::Thorough {
+                self.residues += flowing + terms;
+            }
         }
     }
 

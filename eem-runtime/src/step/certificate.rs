@@ -43,8 +43,9 @@
 //! step where it is many periods long.
 //!
 //! The residuals r change momenta, too. Iterations go on until momenta hold to the rounding of Σ |p| and of the impulses
-//! h|f*|; where none helps any more, what is left may be the rounding of the terms `h k λ` of the forces at all nodes, which are
-//! far above h|f*| where stiff springs are nearly relaxed.
+//! h|f*|; where none helps any more, what is left may be as large as the r that the balances of the nodes allow: the rounding of
+//! their terms, among them `h k λ`, which is far above h|f*| where stiff springs are nearly relaxed. In the angular momentum
+//! each has the arm of the farthest node.
 //!
 //! Nothing limits A*, A⁺ and the impulses in the bounds of momenta: where energies vanish, as when a Maxwell element
 //! is relaxed (`g → 0`), the rounding `|g| ε |γ|` of what is left vanishes more slowly than the energies `g²/2k`. Every term
@@ -122,7 +123,7 @@ pub(crate) struct Certificate {
     /// The largest component of the defect of each momentum, and the magnitude of its terms, kg m/s and kg m²/s.
     linear: [f64; 2],
     angular: [f64; 2],
-    /// The terms of the forces at the nodes in the linear and the angular momentum, if bounds are thorough.
+    /// The terms of the balances of nodes in the linear and the angular momentum, if bounds are thorough.
     residues: [f64; 2],
     is_balanced: bool,
 }

@@ -10,7 +10,7 @@ use eem_material::number::scalar::Scalar;
 /// ```
 /// use eem::NewtonSettings;
 ///
-/// let settings = NewtonSettings::<f64>::default();
+/// let settings = NewtonSettings::default();
 /// assert_eq!(settings.max_iterations, 50);
 /// assert!((settings.tolerance - 1.5e-8).abs() < 1e-9);
 /// ```

@@ -25,7 +25,7 @@ use eem_mesh::{Points, Shape};
 ///
 /// let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 /// let measures = [Measure::Trace, Measure::Dilatation];
-/// let points = SolidPoint::<Quad4, f64, 2, 2>::points(&square, 1.0, measures);
+/// let points = SolidPoint::<Quad4, 2, 2>::points(&square, 1.0, measures);
 /// let [first, ..] = points.unwrap();
 ///
 /// // Twice as long: E₁₁ = (2² − 1)/2, J = 2.

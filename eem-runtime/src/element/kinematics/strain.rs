@@ -53,7 +53,7 @@ impl<const D: usize> Measure<D> {
     /// let strains = [Strain::Trace, Strain::Fibre];
     /// let measures = Measure::along(strains, &[[3.0, 4.0]]);
     /// assert_eq!(measures, Some([Measure::Trace, Measure::Fibre([0.6, 0.8])]));
-    /// assert_eq!(Measure::<f64, 2>::along(strains, &[]), None);
+    /// assert_eq!(Measure::<2>::along(strains, &[]), None);
     /// assert_eq!(Measure::along(strains, &[[0.0, 0.0]]), None);
     /// ```
     ///

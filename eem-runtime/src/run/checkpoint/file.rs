@@ -75,7 +75,7 @@ impl Checkpoint {
     /// ```
     /// use eem::{Checkpoint, LoadError};
     ///
-    /// let found = Checkpoint::<f64>::load("no such file");
+    /// let found = Checkpoint::load("no such file");
     /// assert!(matches!(found, Err(LoadError::File { .. })));
     /// ```
     pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {

@@ -19,7 +19,7 @@ pub(crate) struct Motion<const D: usize> {
     /// `Σ (Δp − hF)` of the loads F, and `Σ |p|`, kg m/s.
     pub(super) linear: [f64; D],
     pub(super) momenta: f64,
-    /// `Σ (q_m − o) × (Δp − hF) + Δq × p_m`, and `Σ |q_m − o||p|`, kg m²/s.
+    /// `Σ (q_m − o) × (Δp − hF) + Δq × p_m`, and `Σ |q_m − o||p|` with |q| where that is larger, kg m²/s.
     pub(super) angular: Bivector<f64, D>,
     pub(super) moments: f64,
     /// The largest `|q_m − o|`, m.
@@ -185,7 +185,9 @@ impl<const D: usize> Motion<D> {
             mean[axis] = p + 0.5 * change;
             net[axis] = change - load[axis];
             self.linear[axis] += net[axis];
-            length += arm[axis].abs() + node.displacement[axis].abs();
+            // Positions, and with them arms, are rounded to ε of their coordinates.
+            let extent = Scalar::maximum(arm[axis].abs(), node.position[axis].abs());
+            length += extent + node.displacement[axis].abs();
             size += p.abs() + (p + change).abs() + load[axis].abs();
         }
         self.farthest = Scalar::maximum(self.farthest, length);

@@ -49,7 +49,6 @@ impl<const D: usize> Solver<D> {
                         None => 0.0,
                         Some(&magnitude) => {
                             motion.fall_short(&residual, displacement, view.per_step);
-                            tally.residues += magnitude;
                             magnitude
                         }
                     };

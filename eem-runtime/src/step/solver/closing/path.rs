@@ -54,10 +54,6 @@ impl<const D: usize> Solver<D> {
                             }
                         }
                         motion.fall_short(&residual, &way, view.per_step);
-                        if set == 0 {
-                            // Those of all stages.
-                            tally.residues += magnitude;
-                        }
                         magnitude
                     }
                 };
