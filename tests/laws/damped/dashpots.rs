@@ -19,26 +19,35 @@ struct Ladder {
     eta2: f64,
 }
 
+/// A branch of τ = 10 ms, held at a strain of 0.1.
+fn strained() -> (Scene<1>, Element) {
+    let body = Body {
+        mu: 1e3,
+        eta: 10.0,
+        c: 15.0,
+    };
+    let mut scene = Scene::new();
+    let element = held(&mut scene, body, 1.1, 300.0);
+    (scene, element)
+}
+
+/// The strain of the spring of a branch.
+fn left(run: &Simulation<1>, element: Element) -> f64 {
+    run.stretch(element).unwrap() - 1.0 - run.viscous_stretch(element, 0).unwrap()
+}
+
 /// `e = c (θ − 300) + ½ μ s²` and `s = c ln(θ/300)` at every step, from the states.
 #[test]
 fn a_held_dashpot_decays_exactly_and_its_heat_closes_both_laws() {
     for x in [1e-3, 0.5, 2.0, 20.0, 1e3, 1e9] {
-        let body = Body {
-            mu: 1e3,
-            eta: 10.0,
-            c: 15.0,
-        };
-        let mut scene = Scene::<1>::new();
-        let element = held(&mut scene, body, 1.1, 300.0);
-        // τ = 10 ms
+        let (scene, element) = strained();
         let mut run = Simulation::new(scene, Scheme::EemDamped, 0.01 * x).unwrap();
         let start = 0.5 * 1e3 * (run.stretch(element).unwrap() - 1.0).powi(2);
         for step in 1..4 {
             let before = run.temperature(element).unwrap();
             let report = run.step().unwrap();
             assert!(report.iterations <= 4, "x = {x}: {}", report.iterations);
-            let left =
-                run.stretch(element).unwrap() - 1.0 - run.viscous_stretch(element, 0).unwrap();
+            let left = left(&run, element);
             let expected = 0.1 * (-x * f64::from(step)).exp();
             assert!(
                 (left - expected).abs() <= 4.0 * f64::EPSILON,
@@ -224,13 +233,7 @@ fn random_chains_keep_both_laws_and_momentum() {
 #[test]
 fn auto_damps_constant_steps_that_do_not_resolve_a_dashpot() {
     for (step, expected) in [(0.02, Scheme::EemExplicit), (2.0, Scheme::EemDamped)] {
-        let body = Body {
-            mu: 1e3,
-            eta: 10.0,
-            c: 15.0,
-        };
-        let mut scene = Scene::<1>::new();
-        let element = held(&mut scene, body, 1.1, 300.0);
+        let (scene, element) = strained();
         let mut run = Simulation::new(scene, Scheme::Auto, step).unwrap();
         assert_eq!(run.scheme_in_use(), Scheme::EemExplicit);
         run.fix_steps();
@@ -240,7 +243,7 @@ fn auto_damps_constant_steps_that_do_not_resolve_a_dashpot() {
         run.step().unwrap();
         run.restore(&saved).unwrap();
         assert_eq!((run.scheme_in_use(), report.unresolved), (expected, 0));
-        let left = run.stretch(element).unwrap() - 1.0 - run.viscous_stretch(element, 0).unwrap();
+        let left = left(&run, element);
         assert!((left - 0.1 * (-step / 0.01).exp()).abs() < 1e-6);
         run.control_steps(Tolerance::new(1e-6)).unwrap();
         assert_eq!(run.scheme_in_use(), Scheme::EemExplicit);

@@ -27,12 +27,8 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
         }
         if M::DASHPOTS > 0 {
             let x0 = &self.start.x0;
-            let theta = if M::THERMAL {
-                x0[Self::TEMPERATURE]
-            } else {
-                0.0
-            };
-            let (viscosities, _) = self.model.viscosity(theta);
+            // Models without temperature ignore it.
+            let (viscosities, _) = self.model.viscosity(x0[M::Variables::LEN - 1]);
             let (_, hessian) = self.model.hessian(x0);
             let (mut modes, rates) = relaxation_modes::<M>(&hessian, &viscosities);
             for k in 0..M::DASHPOTS {
@@ -94,7 +90,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
 
     /// The sign of a row of the response: f is a derivative of the energy, g of the negative energy.
     #[inline]
-    fn sign(row: usize) -> f64 {
+    pub(super) fn sign(row: usize) -> f64 {
         if row < M::MEASURES { 1.0 } else { -1.0 }
     }
 

@@ -20,9 +20,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         self.drag.viscosity = self.model.drag(theta);
         self.start.x0 = x;
         for index in 0..M::MEASURES + M::DASHPOTS {
-            let is_force = index < M::MEASURES;
-            let sign = if is_force { 1.0 } else { -1.0 };
-            self.response[index] = sign * gradient[index];
+            self.response[index] = Self::sign(index) * gradient[index];
         }
         if M::THERMAL {
             self.response[M::MEASURES + M::DASHPOTS] = theta;

@@ -203,6 +203,7 @@ impl<const D: usize> Simulation<D> {
         self.next_stop(end)
     }
 
+    /// The same where times are given at which steps end.
     #[cold]
     fn next_stop(&mut self, end: f64) -> f64 {
         let time = self.time();

@@ -37,8 +37,8 @@ impl<const D: usize> Explicit<D> {
             }
         }
         let mut sizes = squares.map(Scalar::sqrt);
-        let are_normal = squares.map(|sum| sum > f64::MIN_POSITIVE && sum <= f64::MAX);
-        if !are_normal.into_iter().all(|is_normal| is_normal) {
+        let is_normal = |sum: &f64| *sum > f64::MIN_POSITIVE && *sum <= f64::MAX;
+        if !squares.iter().all(is_normal) {
             self.expect_finite()?;
             sizes = [
                 norm(masses.iter().flat_map(|place| place.past.start[0])),
@@ -131,8 +131,7 @@ impl<const D: usize> Explicit<D> {
         let per_scale = |size: f64, absolute: f64| {
             let scale = tolerance.relative * size + absolute;
             // Where the scale is zero nothing moves.
-            let has_scale = scale > 0.0;
-            if has_scale { scale.recip() } else { 0.0 }
+            if scale > 0.0 { scale.recip() } else { 0.0 }
         };
         let masses = &self.stage.places[..self.components.masses];
         let of_all = norm(view.state.positions.values().iter().copied());

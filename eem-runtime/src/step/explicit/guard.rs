@@ -85,27 +85,21 @@ impl PathRates {
     }
 }
 
-/// Flow and production, combined with the positive sums so that a negative production becomes zero.
+/// Flow and a negative production, combined with the positive sums so that the production becomes zero.
 #[cold]
 fn mixed([flow, production]: [f64; 2], positive: [f64; 2]) -> ([f64; 2], Shift) {
-    let is_negative = production < 0.0;
     // φ with Π + φ (Π⁺ − Π) = 0
     let all = positive[1] - production;
     let has_positive = positive[1] > 0.0;
     let share = if has_positive { -production / all } else { 1.0 };
     let mixed = flow + share * (positive[0] - flow);
-    let guarded = [
-        if is_negative { mixed } else { flow },
-        if is_negative { 0.0 } else { production },
-    ];
-    (guarded, Shift(if is_negative { share } else { 0.0 }))
+    ([mixed, 0.0], Shift(share))
 }
 
 /// The guarded production of a dashpot, J/K, or its heat, J.
 #[inline]
 pub(super) fn guarded(production: f64) -> f64 {
-    let is_negative = production < 0.0;
-    if is_negative { 0.0 } else { production }
+    if production < 0.0 { 0.0 } else { production }
 }
 
 #[cfg(test)]
