@@ -12,6 +12,7 @@ mod double_pendulums;
 mod explicit;
 mod explicit_at_rest;
 mod explicit_momenta;
+mod explicit_supports;
 mod explicit_thermostats;
 mod free_bodies;
 mod generic;

@@ -1,6 +1,8 @@
 //! Stiffness, damping, heat capacity and relaxation rates of a point: what limits an explicit step, and from what the scales
 //! of small errors follow.
 
+use core::ops::Range;
+
 use super::arms::measures_in;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::layout::Slots;
@@ -8,7 +10,7 @@ use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::Scalar;
 
 /// Stiffness and rates of a point.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Stiffness<'a> {
     /// The nodes of its element.
     pub(crate) nodes: &'a [u32],
@@ -24,6 +26,10 @@ pub(crate) struct Stiffness<'a> {
     pub(crate) force: f64,
     /// The thermal slot and its heat capacity, J/K.
     pub(crate) capacity: Option<(usize, f64)>,
+    /// Its dashpots among those of all elements.
+    pub(crate) dashpots: Range<usize>,
+    /// How much the force of one of them changes with a displacement of a node, per length, and the terms `Σ |∂²ψ/∂γ²||γ|` of it.
+    pub(crate) pull: [f64; 2],
     /// The largest rate of relaxation of a dashpot, 1/s.
     pub(crate) relaxation: f64,
 }
@@ -61,6 +67,12 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: us
         }
         across += (gradient[a] / length).abs() * slopes[a];
     }
+    let mut pull = [0.0; 2];
+    for row in (M::MEASURES..last).map(|row| &hessian[row]) {
+        let by_nodes = (0..M::MEASURES).fold(0.0, |sum, a| sum + row[a].abs() * slopes[a]);
+        let own = (M::MEASURES..last).fold(0.0, |sum, k| sum + (row[k] * x[k]).abs());
+        pull = [(pull[0], by_nodes), (pull[1], own)].map(|(a, b)| Scalar::maximum(a, b));
+    }
     let theta = if M::THERMAL { x[last] } else { 0.0 };
     let capacity = slots
         .thermal
@@ -80,6 +92,8 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: us
         length,
         force,
         capacity,
+        dashpots: slots.viscous..slots.viscous + M::DASHPOTS,
+        pull,
         relaxation,
     }
 }

@@ -3,7 +3,7 @@
 use super::components::Support;
 use super::guard::{PathRates, guarded, mean_drop};
 use super::thermostats::shift_weights;
-use super::vector::{add, dot};
+use super::vector::{add, difference, dot};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
 use crate::element::state::State;
@@ -130,9 +130,20 @@ impl<const D: usize> Explicit<D> {
     }
 
     fn book_loads(&mut self, h: f64, next: &mut State) {
-        let targets = self.books.targets.iter_mut().zip(&self.load_sums);
-        for ((target, sums), component) in targets.zip(&self.components.all) {
+        for anchor in self.components.masses..self.kept_places {
+            let place = &self.stage.places[anchor];
+            let way = difference(place.q(), &place.past.start[0]);
+            let sums = &mut self.load_sums[self.components.of_place[anchor] as usize];
+            sums.work -= dot(&place.past.rates[0][1], &way) / h;
+        }
+        let progress = self.scratch.progress.iter_mut();
+        let targets = self.books.targets.iter_mut().zip(progress);
+        let driven = targets.zip(&self.load_sums).zip(&self.components.all);
+        for (((target, progress), sums), component) in driven {
             let masses = &self.stage.places[component.masses.clone()];
+            if masses.is_empty() {
+                progress.carried = h * sums.effort;
+            }
             let mut work = h * sums.work;
             if let (Support::Free, [mass], None) = (component.support, masses, self.gravity) {
                 // The change of its kinetic energy, `I·(p + I/2)/m`, follows from the impulse I alone: a quadrature of the power

@@ -68,7 +68,7 @@ impl<const D: usize> Explicit<D> {
                 if !self.scratch.open[index] {
                     continue;
                 }
-                let status = self.balance(index, next);
+                let status = self.balance(index, demand, next);
                 self.scratch.open[index] = status == Status::Changed;
                 self.scratch.needs_forces[index] = status == Status::NeedsForces;
                 needs_forces |= status == Status::NeedsForces;

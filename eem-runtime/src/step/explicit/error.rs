@@ -1,13 +1,16 @@
 //! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
 
 use super::demand::Scales;
-use super::stages::errors;
-use super::vector::dot;
+use super::stages::{errors, unclosed};
+use super::vector::{difference, dot, length};
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
 use crate::step::control::{Step, Tolerance, Unknown, Worst, norm};
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::Scalar;
+
+/// How often heat may correct the energy in a closing, which has ten iterations.
+const MOST_HEATINGS: f64 = 10.0;
 
 impl<const D: usize> Explicit<D> {
     /// Goes to the end of a step before it is closed; returns the magnitudes there.
@@ -119,6 +122,78 @@ impl<const D: usize> Explicit<D> {
         Ok(worst.found)
     }
 
+    /// By how much the correction of the energy has changed unknowns, in units of the tolerance: of a mass that is nearly at rest,
+    /// while a support does work on its spring, a small defect of the energy is a large part of the motion; and that of a stiff
+    /// spring is a large part of a weak one in series with a dashpot.
+    pub(super) fn moved(
+        &mut self,
+        view: &ExplicitView<'_, D>,
+        tolerance: &Tolerance,
+        scales: Scales,
+    ) -> f64 {
+        let mut largest = 0.0;
+        for index in 0..self.scratch.progress.len() {
+            let progress = self.scratch.progress[index];
+            // No momentum is larger than that of all.
+            let is_small = progress.moved <= tolerance.relative
+                && MOST_HEATINGS * progress.warmed <= tolerance.relative;
+            if progress.is_rigid || is_small && !progress.has_shifted {
+                continue;
+            }
+            let change = self.change_by_closing(index, (view, tolerance), scales);
+            let (defect, scale) = (progress.correction * progress.scale, progress.scale);
+            let is_change = change > 1.0 && !(defect.abs() <= self.explained(index, scale, view));
+            largest = Scalar::maximum(largest, if is_change { change } else { 0.0 });
+        }
+        largest
+    }
+
+    /// The largest change of an unknown of a component by its closing, in units of the tolerance.
+    #[cold]
+    fn change_by_closing(
+        &self,
+        index: usize,
+        (view, tolerance): (&ExplicitView<'_, D>, &Tolerance),
+        scales: Scales,
+    ) -> f64 {
+        let mut largest = 0.0;
+        let mut see = |change: f64, allowed: f64| {
+            let has_scale = allowed > 0.0;
+            let part = if has_scale { change / allowed } else { 0.0 };
+            largest = Scalar::maximum(largest, part);
+        };
+        let Tolerance { relative, .. } = *tolerance;
+        let position = position_size(view, tolerance, scales);
+        let position = relative * position + tolerance.position;
+        for at in self.components.all[index].masses.clone() {
+            let place = &self.stage.places[at];
+            let node = self.components.nodes[at] as usize;
+            let momentum = momentum_scale(view, tolerance, scales, node);
+            let before = unclosed(&place.past, view.step);
+            for ((now, before), allowed) in place.now.iter().zip(&before).zip([position, momentum])
+            {
+                see(length(&difference(now, before)), allowed);
+            }
+        }
+        let change = |at: usize| {
+            let [before] = unclosed(&self.stage.inner_past[at / 2], view.step);
+            (self.stage.inner[at].now - before[at % 2]).abs()
+        };
+        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
+            if own.component as usize == index {
+                see(change(dashpot), position);
+            }
+        }
+        for slot in self.slots_of(index) {
+            let slot = self.components.slots[slot] as usize;
+            if !self.stage.is_held(slot) {
+                let allowed = relative * self.stage.theta(slot) + tolerance.temperature;
+                see(change(self.stage.temperatures + slot), allowed);
+            }
+        }
+        largest
+    }
+
     /// Calls `see` with the errors of fifth and third order of every unknown, per time, and the reciprocal of its scale.
     #[inline]
     fn each_error(
@@ -134,11 +209,8 @@ impl<const D: usize> Explicit<D> {
             if scale > 0.0 { scale.recip() } else { 0.0 }
         };
         let masses = &self.stage.places[..self.components.masses];
-        let of_all = norm(view.state.positions.values().iter().copied());
         let least = view.least;
-        let positions = Scalar::maximum(scales.position, of_all);
-        let positions = Scalar::maximum(positions, least.position(tolerance.relative));
-        let position = per_scale(positions, tolerance.position);
+        let position = per_scale(position_size(view, tolerance, scales), tolerance.position);
         let step = step_of(view, tolerance);
         let momentum = per_scale(scales.momentum, tolerance.momentum);
         let are_alike = least.are_below(scales.momentum, step);
@@ -175,6 +247,17 @@ impl<const D: usize> Explicit<D> {
     }
 }
 
+/// The magnitude to which errors of positions and viscous stretches are relative.
+fn position_size<const D: usize>(
+    view: &ExplicitView<'_, D>,
+    tolerance: &Tolerance,
+    scales: Scales,
+) -> f64 {
+    let of_all = norm(view.state.positions.values().iter().copied());
+    let largest = Scalar::maximum(scales.position, of_all);
+    Scalar::maximum(largest, view.least.position(tolerance.relative))
+}
+
 /// A step with this tolerance.
 fn step_of<const D: usize>(view: &ExplicitView<'_, D>, tolerance: &Tolerance) -> Step {
     Step {
@@ -187,7 +270,7 @@ fn step_of<const D: usize>(view: &ExplicitView<'_, D>, tolerance: &Tolerance) ->
 }
 
 /// What the tolerance allows the momentum of a node, kg m/s.
-pub(super) fn momentum_scale<const D: usize>(
+fn momentum_scale<const D: usize>(
     view: &ExplicitView<'_, D>,
     tolerance: &Tolerance,
     scales: Scales,

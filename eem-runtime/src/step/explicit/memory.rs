@@ -13,6 +13,10 @@ pub(super) struct LoadSums<const D: usize> {
     pub(super) impulse: [f64; D],
     /// N m s.
     pub(super) torque: Bivector<f64, D>,
+    /// `Σ |b| |f·ẋ|` of moved anchors, W, and `Σ |b| Σ_m |ℓ'_m| |f − f⁰||x|`, J: times ε/2, what the rounding of their positions x
+    /// does to their work.
+    pub(super) effort: f64,
+    pub(super) noise: f64,
 }
 
 /// The targets of energy and momenta of a component, to twice the precision.
@@ -105,6 +109,8 @@ impl<const D: usize> LoadSums<D> {
             work: 0.0,
             impulse: [0.0; D],
             torque: Bivector::zero(),
+            effort: 0.0,
+            noise: 0.0,
         }
     }
 }

@@ -3,8 +3,8 @@
 use super::Explicit;
 use super::components::Support;
 use super::memory::LoadSums;
-use super::tableau::WEIGHTS;
-use super::vector::{add, dot};
+use super::tableau::{MOTION_SLOPES, WEIGHTS};
+use super::vector::{add, difference, dot, size};
 use crate::algebra::bivector::Bivector;
 use crate::element::loads::StepLoads;
 
@@ -39,13 +39,17 @@ impl<const D: usize> Explicit<D> {
         self.stage.weight = WEIGHTS[0];
         self.begin_thermostats();
         for place in &mut self.stage.places[self.components.masses..self.kept_places] {
+            place.past.start[0] = place.now[0];
             place.past.rates[0] = place.rates;
         }
-        self.integrate_outside();
+        self.integrate_outside(0);
     }
 
-    /// Adds power, force and torque of loads and moved anchors at the present stage.
-    pub(super) fn integrate_outside(&mut self) {
+    /// Adds power, force and torque of loads and moved anchors at the present stage, one of those that have weights.
+    ///
+    /// The force f⁰ on an anchor at the start of the step does the work `f⁰·(x¹ − x⁰)`, see [`book`](Self::book): only the power
+    /// of its change is integrated, so that what rounds the velocities is no part of a large force.
+    pub(super) fn integrate_outside(&mut self, at: usize) {
         let weight = self.stage.weight;
         for index in 0..self.load_sums.len() {
             let component = &self.components.all[index];
@@ -72,10 +76,14 @@ impl<const D: usize> Explicit<D> {
                 sums.torque.add(-weight, &change);
             }
         }
-        for at in self.components.masses..self.kept_places {
-            let component = self.components.of_place[at] as usize;
-            let [velocity, reaction] = &self.stage.places[at].rates;
-            self.load_sums[component].work -= weight * dot(reaction, velocity);
+        for anchor in self.components.masses..self.kept_places {
+            let sums = &mut self.load_sums[self.components.of_place[anchor] as usize];
+            let place = &self.stage.places[anchor];
+            let [velocity, reaction] = &place.rates;
+            let change = difference(reaction, &place.past.rates[0][1]);
+            sums.work -= weight * dot(&change, velocity);
+            sums.effort += (weight * dot(reaction, velocity)).abs();
+            sums.noise += weight.abs() * MOTION_SLOPES[at] * size(&change) * size(place.q());
         }
     }
 }

@@ -203,6 +203,7 @@ impl<const D: usize> Moved<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::step::explicit::tableau::{MOTION_SLOPES, WEIGHTED};
     use crate::step::explicit::{load_rule, motion_rule};
 
     #[test]
@@ -216,6 +217,11 @@ mod tests {
                 weight * interpolation.values[stage.unwrap()][m]
             });
             assert!((terms.sum::<f64>() - of_motion).abs() < 1e-14, "{m}");
+        }
+        for (stage, expected) in WEIGHTED.into_iter().zip(MOTION_SLOPES) {
+            let slopes = interpolation.slopes[stage].iter();
+            let sum: f64 = slopes.map(|slope| slope.abs()).sum();
+            assert!((sum - expected).abs() < 1e-11, "{stage}: {sum}");
         }
     }
 

@@ -23,14 +23,20 @@ pub(super) struct Progress {
     pub(super) defect: f64,
     /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
     pub(super) present: Option<[f64; 2]>,
-    /// The magnitude of the terms of the energy where the closing began; zero before, J.
+    /// The magnitude of the terms of the energy where the closing began, with what was carried; zero before, J.
     pub(super) scale: f64,
     /// The first defect over the scale.
     pub(super) correction: f64,
     /// The sum of the magnitudes of the relative changes of the motion that is not rigid.
     pub(super) moved: f64,
+    /// The largest relative change of a temperature by one correction.
+    pub(super) warmed: f64,
+    /// Whether positions and viscous stretches have been changed.
+    pub(super) has_shifted: bool,
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: f64,
+    /// What moved anchors of a component without masses have taken and given in this step, J.
+    pub(super) carried: f64,
     /// The total entropy production, and the smallest one before the closing, `f64::MAX` without any, J/K.
     pub(super) production: Total,
     pub(super) least: f64,
@@ -122,6 +128,8 @@ pub(super) struct Scratch<const D: usize> {
     pub(super) stability: RowSums,
     /// The sum of the stiffnesses of elements at each node of the scene, N/m, and whether it is known in this step.
     pub(super) stiffnesses: Vec<f64>,
+    /// The terms of the force of each dashpot, N.
+    pub(super) pulls: Vec<f64>,
     pub(super) has_stiffnesses: bool,
 }
 
@@ -135,7 +143,10 @@ impl Progress {
             scale: 0.0,
             correction: 0.0,
             moved: 0.0,
+            warmed: 0.0,
+            has_shifted: false,
             lost: 0.0,
+            carried: 0.0,
             production: Total::default(),
             least: f64::MAX,
             factor: 1.0,
@@ -212,6 +223,7 @@ impl<const D: usize> Scratch<D> {
                 flows: vec![0.0; thermal],
             },
             stiffnesses: vec![0.0; nodes],
+            pulls: vec![0.0; layout.viscous],
             has_stiffnesses: false,
         }
     }

@@ -43,6 +43,12 @@ pub(super) fn errors<const N: usize, const P: usize>(past: &Past<N, P>) -> [[[f6
     ]
 }
 
+/// The variables at the end of a step of the size h, before it is closed.
+#[inline]
+pub(super) fn unclosed<const N: usize, const P: usize>(past: &Past<N, P>, h: f64) -> [[f64; N]; P] {
+    past.after(h, WEIGHTED_ROWS, &WEIGHTS)
+}
+
 impl<const D: usize> Explicit<D> {
     /// Goes through all stages to the end of the step, before it is closed.
     pub(super) fn go_through_stages(
@@ -157,11 +163,13 @@ impl<const D: usize> Explicit<D> {
             }
         }
         self.evaluations += u64::from(from == From::Model);
-        if self.is_driven && weight.is_some() {
+        if self.is_driven
+            && let Some(at) = weight
+        {
             if self.stage.has_thermostats {
                 self.integrate_thermostats(false);
             }
-            self.integrate_outside();
+            self.integrate_outside(at);
         }
         Ok(())
     }

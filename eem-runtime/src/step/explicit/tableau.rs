@@ -160,6 +160,18 @@ const MOTION_WEIGHTS: [f64; 11] = [
     0.009946179598327833,
 ];
 
+/// `Σ_m |ℓ'_m(c_i)|` of the [weighted](WEIGHTED) stages: times ε/2 of positions, the rounding of a velocity times the step.
+pub(super) const MOTION_SLOPES: [f64; 8] = [
+    200.0,
+    33.42597574704832,
+    28.980596918800966,
+    31.179853538985814,
+    31.868646728050926,
+    25.272144356176977,
+    28.428710226572807,
+    200.0,
+];
+
 /// Positive weights of order 5 of the same stages, for the guard of productions (found by linear
 /// programming: the least weight is as large as possible).
 pub(super) const POSITIVE_WEIGHTS: [f64; 8] = [

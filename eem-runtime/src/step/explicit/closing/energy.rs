@@ -1,12 +1,14 @@
 //! The energy of a component, and its correction by heat.
 
 use super::super::Explicit;
+use super::super::demand::Demand;
 use super::super::scratch::Motion;
 use super::super::vector::dot;
-use super::Status;
+use super::{FROZEN, Status};
 use crate::element::group::{Place, is_met};
 use crate::element::state::State;
 use core::ops::Range;
+use eem_material::number::scalar::Scalar;
 
 /// The fraction of the entropy production of a step by which a correction by heat may change it.
 const HEAT_SHARE: f64 = 0.003;
@@ -90,7 +92,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Corrects the energy by heat as long as no element has to be evaluated for it.
     #[inline]
-    pub(super) fn balance(&mut self, index: usize, next: &mut State) -> Status {
+    pub(super) fn balance(&mut self, index: usize, demand: Demand, next: &mut State) -> Status {
         loop {
             let is_finite = self.look(index);
             let progress = &mut self.scratch.progress[index];
@@ -99,13 +101,19 @@ impl<const D: usize> Explicit<D> {
             }
             let iterations = progress.iterations;
             progress.iterations += 1;
-            let tries_heat = iterations < HEAT_ITERATIONS && is_finite && !self.is_motion_first;
+            let allowed = demand.largest_correction() * progress.carried;
+            let rounding = FROZEN * f64::EPSILON * progress.scale;
+            let is_carried = progress.carried > 0.0 && progress.defect.abs() <= allowed + rounding;
+            let carried = if is_carried { progress.carried } else { 0.0 };
+            let most = if is_carried { 1 } else { HEAT_ITERATIONS };
+            let tries_heat = iterations < most && is_finite && !self.is_motion_first;
             let heated = if tries_heat {
-                self.heat_within_share(index, next)
+                self.heat_within_share(index, carried, next)
             } else {
                 None
             };
             match heated {
+                None if is_carried => return self.carry(index, next),
                 None => return Status::NeedsForces,
                 Some(false) => return Status::Changed,
                 Some(true) => {}
@@ -122,26 +130,39 @@ impl<const D: usize> Explicit<D> {
         let [defect, magnitude] = present;
         progress.defect = defect;
         if progress.scale == 0.0 {
-            let has_terms = magnitude > 0.0;
-            progress.correction = if has_terms { defect / magnitude } else { 0.0 };
-            progress.scale = magnitude;
+            let terms = magnitude + progress.carried;
+            let has_terms = terms > 0.0;
+            progress.correction = if has_terms { defect / terms } else { 0.0 };
+            progress.scale = terms;
         }
         let enough = 0.5 * ENOUGH * f64::EPSILON * progress.scale;
         progress.is_closed = progress.is_closed || defect.abs() <= enough;
         defect.is_finite()
     }
 
-    /// Closes a component by heat if the heat is small compared with what is produced; then returns whether the result is
-    /// known without another evaluation.
+    /// Closes a component by heat if the heat is small compared with what is produced, and with what moved anchors have carried;
+    /// then returns whether the result is known without another evaluation.
     #[inline]
-    fn heat_within_share(&mut self, index: usize, next: &mut State) -> Option<bool> {
+    fn heat_within_share(&mut self, index: usize, carried: f64, next: &mut State) -> Option<bool> {
         let defect = self.scratch.progress[index].defect;
-        let produced = self.produced_heat(index);
-        if !(defect.abs() <= HEAT_SHARE * produced) {
+        let all = self.produced_heat(index) + carried;
+        if !(defect.abs() <= HEAT_SHARE * all) {
             return None;
         }
         self.scratch.progress[index].has_heated = true;
-        Some(self.heat(index, defect / produced, next))
+        Some(self.heat(index, defect / all, next))
+    }
+
+    /// Closes a component without masses by the work of its moved anchors, of which the defect is a part that is within the
+    /// demand: positions are given, and the quadrature of the power of a stiff spring may be off by far more than a weak dashpot beside
+    /// it dissipates.
+    fn carry(&mut self, index: usize, next: &mut State) -> Status {
+        let progress = &mut self.scratch.progress[index];
+        let missing = -progress.defect;
+        progress.present = None;
+        self.books.targets[index].energy.add(missing);
+        next.work.add(missing);
+        Status::Closed
     }
 
     /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.
@@ -180,7 +201,7 @@ impl<const D: usize> Explicit<D> {
         is_small
     }
 
-    pub(super) fn slots_of(&self, index: usize) -> Range<usize> {
+    pub(in super::super) fn slots_of(&self, index: usize) -> Range<usize> {
         self.components.all[index].slots.clone()
     }
 
@@ -204,6 +225,8 @@ impl<const D: usize> Explicit<D> {
         let (theta, scratch) = (self.stage.theta_mut(slot), &mut self.scratch);
         let [capacity, bend] = scratch.capacities[slot];
         let ratio = entropy / capacity;
+        let warmed = &mut scratch.progress[index].warmed;
+        *warmed = Scalar::maximum(*warmed, ratio.abs());
         let energy = *theta * entropy * (1.0 + 0.5 * ratio);
         next.entropies.add(slot, entropy);
         scratch.energies[index].value.add(energy);

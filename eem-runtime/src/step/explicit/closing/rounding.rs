@@ -10,18 +10,28 @@
 //! as the positions q are rounded to ε of their coordinates. Near rest the forces F, the momenta and with them these terms
 //! vanish, but not the rounding of q and of viscous stretches γ: it is then `k ε |q|` of a force, with the energy
 //! `k (ε |q|)²`, however small all energies are. Nor do the momenta at the start of a step and the work in it vanish where a body is
-//! brought to rest. Counted are, then, the terms A* of the [certificate](crate::step::certificate), too:
+//! brought to rest. Counted are, then, the terms A* and A⁺ of the [certificate](crate::step::certificate), too, with both ends:
 //!
 //! ```text
-//! T⁰ + |work| + Σ |g||γ| + ε Σ k |q|²
+//! T⁰ + |work| + Σ (|f⁰|λ⁰ + |f¹|λ¹ + |g⁰||γ⁰| + |g¹||γ¹|) + Σ k |q| (|Δq| + ε |q|) + Σ g̃ (|Δγ| + ε |γ|)
 //! ```
 //!
-//! with the stiffness k of each element and the coordinates of its masses. They are found only where the others are not
-//! enough. What is accepted for them is no debt of later steps, of which it is not the rounding.
+//! with the stiffness k of each element, the coordinates of its nodes, masses and anchors, and the terms `g̃ = Σ |∂g/∂q||q| + |∂g/∂γ||γ|` of
+//! the force of a dashpot. The velocity of a moved anchor is the
+//! slope of a polynomial through its positions x, of which each is rounded: `½ε Σ_m |ℓ'_m||x|/h`, with up to 200 as the sum. Its work
+//! in a step has the rounding
+//!
+//! ```text
+//! ½ε Σ_j |b_j| Σ_m |ℓ'_m(c_j)| |f_j − f⁰||x|
+//! ```
+//!
+//! All are found only where the others are not enough. What is accepted for them is no debt of later steps, of which it is
+//! not the rounding.
 
-use super::super::vector::dot;
+use super::super::vector::{difference, dot, size};
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
+use crate::element::group::points;
 
 impl<const D: usize> Explicit<D> {
     /// Closed if the remaining defect is rounding, failed otherwise.
@@ -74,42 +84,59 @@ impl<const D: usize> Explicit<D> {
         })
     }
 
-    /// `T⁰ + |work| + Σ |g||γ| + ε Σ k |q|²`: terms that do not vanish with the energy, J.
+    /// The terms that do not vanish with the energy, J.
     #[cold]
     fn terms_at_rest(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
         self.find_stiffnesses(view);
-        let loads = self.load_sums.get(index);
-        let mut sum = loads.map_or(0.0, |sums| (view.step * sums.work).abs());
-        for at in self.components.all[index].masses.clone() {
-            let place = &self.stage.places[at];
-            let start = &place.past.start[1];
-            let stiffness = self.scratch.stiffnesses[self.components.nodes[at] as usize];
-            sum += 0.5 * dot(start, start) * place.per_mass;
-            sum += f64::EPSILON * stiffness * dot(place.q(), place.q());
+        let mut sum = self.scratch.energies[index].excess;
+        if let Some(loads) = self.load_sums.get(index) {
+            sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
+        }
+        let elements = self.components.of_element.iter().zip(&view.state.energies);
+        for (_, energy) in elements.filter(|&(&own, _)| own as usize == index) {
+            sum += energy.excess;
+        }
+        let nodes = self.components.nodes.iter().zip(&self.components.of_place);
+        let places = self.stage.places.iter().zip(nodes);
+        for (place, (&node, _)) in places.filter(|&(_, (_, &own))| own as usize == index) {
+            let old = points::<D>(view.state.positions.values())[node as usize];
+            let way = difference(place.q(), &old);
+            let position = size(place.q());
+            let stiffness = self.scratch.stiffnesses[node as usize];
+            sum += stiffness * position * (size(&way) + f64::EPSILON * position);
+            if place.mass > 0.0 {
+                let start = &place.past.start[1];
+                sum += 0.5 * dot(start, start) * place.per_mass;
+            }
         }
         for (dashpot, own) in self.components.dashpots.iter().enumerate() {
-            let [rate, power] = self.scratch.creep[dashpot];
-            if own.component as usize == index && rate != 0.0 {
-                let stretch = self.stage.inner[dashpot].now;
-                sum += (power / rate * stretch).abs();
+            if own.component as usize == index {
+                let now = self.stage.inner[dashpot].now;
+                let way = (now - self.stage.inner_start(dashpot)).abs();
+                sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
             }
         }
         sum
     }
 
-    /// Sums the stiffnesses of the elements at each node, once in a step.
+    /// Finds the stiffnesses of the elements at each node, and the terms of the force of each dashpot, once in a step.
     fn find_stiffnesses(&mut self, view: &ExplicitView<'_, D>) {
         if self.scratch.has_stiffnesses {
             return;
         }
         self.scratch.has_stiffnesses = true;
-        let sums = &mut self.scratch.stiffnesses;
+        let (sums, pulls) = (&mut self.scratch.stiffnesses, &mut self.scratch.pulls);
         sums.fill(0.0);
+        let positions = points::<D>(view.state.positions.values());
         for group in &self.groups {
             group.elements().stiffness(view.state, &mut |point| {
+                let mut coordinates = 0.0;
                 for &node in point.nodes {
                     sums[node as usize] += point.elastic;
+                    coordinates += size(&positions[node as usize]);
                 }
+                let [by_nodes, own] = point.pull;
+                pulls[point.dashpots].fill(by_nodes * coordinates + own);
             });
         }
     }

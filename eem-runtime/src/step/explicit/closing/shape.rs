@@ -1,14 +1,11 @@
 //! Corrections of the energy by motion, by shape and, as a last resort, by entropy.
 
 use super::super::components::{Component, Support};
-use super::super::demand::Scales;
-use super::super::error::momentum_scale;
 use super::super::vector::{add, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use super::{MOST_ITERATIONS, Status};
 use crate::element::state::State;
-use crate::step::control::Tolerance;
 use eem_material::number::scalar::Scalar;
 
 /// Motion corrects the energy only if it is at least this fraction of all that can give energy.
@@ -76,38 +73,6 @@ impl<const D: usize> Explicit<D> {
             return Status::Changed;
         }
         self.unless_rounding(index, view)
-    }
-
-    /// By how much the correction of the energy has changed momenta, in units of the tolerance: of a mass that is nearly at rest,
-    /// while a support does work on its spring, a small defect of the energy is a large part of the motion.
-    pub(in super::super) fn moved(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-        tolerance: &Tolerance,
-        scales: Scales,
-    ) -> f64 {
-        let mut largest = 0.0;
-        for index in 0..self.scratch.progress.len() {
-            let progress = self.scratch.progress[index];
-            // No momentum is larger than that of all.
-            if progress.moved <= tolerance.relative {
-                continue;
-            }
-            let (defect, scale) = (progress.correction * progress.scale, progress.scale);
-            if defect.abs() <= self.explained(index, scale, view) {
-                continue;
-            }
-            let rigid = self.rigid(index);
-            for at in self.components.all[index].masses.clone() {
-                let own = self.inner_momentum(at, &rigid);
-                let node = self.components.nodes[at] as usize;
-                let allowed = momentum_scale(view, tolerance, scales, node);
-                let change = progress.moved * dot(&own, &own).sqrt();
-                let has_scale = allowed > 0.0;
-                largest = Scalar::maximum(largest, if has_scale { change / allowed } else { 0.0 });
-            }
-        }
-        largest
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, D>) -> Means<D> {
@@ -205,7 +170,9 @@ impl<const D: usize> Explicit<D> {
         next: &mut State,
     ) {
         let h = view.step;
-        self.scratch.progress[index].moved += share.abs();
+        let progress = &mut self.scratch.progress[index];
+        progress.moved += share.abs();
+        progress.has_shifted = true;
         let masses = self.components.all[index].masses.clone();
         for at in masses.clone() {
             let own = self.inner_momentum(at, &means.rigid);
