@@ -21,6 +21,7 @@ mod build;
 mod by_rows;
 mod certify;
 mod closing;
+mod condensed;
 mod correct;
 mod damp;
 mod damping;
@@ -38,6 +39,7 @@ mod member;
 mod modes;
 #[cfg(feature = "gradients")]
 mod past;
+mod placed;
 mod point;
 #[cfg(feature = "gradients")]
 mod point_step;

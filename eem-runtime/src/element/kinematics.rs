@@ -31,8 +31,12 @@ mod stretch;
 
 #[doc(inline)]
 pub use eem_mesh::{Hex8, Hex20, Points, Quad4, Quad8, Shape};
-pub use measures::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Weights};
-pub(crate) use measures::{PerStrain, QuadraticStrain, StrainMatrix, add_blocks};
+pub use measures::{
+    Arms, Blocks, Ends, Gradient, Kinematics, Length, MeasureSet, Measures, StrainSet, Weights,
+};
+pub(crate) use measures::{
+    Numbers, PerStrain, QuadraticStrain, StrainMatrix, StrainSlopes, add_blocks,
+};
 pub use solid::SolidPoint;
 pub use solid_state::SolidState;
 pub use strain::{Measure, Strain, StrainEnergy};

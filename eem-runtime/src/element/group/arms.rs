@@ -1,7 +1,7 @@
 //! Arithmetic with the arms of an element, the edge vectors from node 0, and with quantities per arm.
 
 use crate::element::group::view::Trial;
-use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
+use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Measures, Numbers};
 use eem_material::free_energy::Array;
 use eem_material::number::compensated::Compensated;
 
@@ -108,10 +108,8 @@ pub(super) fn resultant<K: Kinematics<D>, const D: usize>(
 
 /// The first entries of an array, one per measure.
 #[inline]
-pub(super) fn measures_in<K: Kinematics<D>, const D: usize>(
-    values: &impl Array<f64>,
-) -> Measures<K, D> {
-    let mut measures = Measures::<K, D>::filled(0.0);
+pub(super) fn measures_in<Q: MeasureSet>(values: &impl Array<f64>) -> Numbers<Q> {
+    let mut measures = Numbers::<Q>::filled(0.0);
     for (a, measure) in measures.as_mut().iter_mut().enumerate() {
         *measure = values[a];
     }

@@ -4,7 +4,7 @@ use super::kelvin_voigt::check_drag;
 use super::point::Point;
 use crate::element::conjugates::{ElementScheme, Infeasible};
 use crate::element::error::StateError;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::MeasureSet;
 use crate::element::state::State;
 use eem_material::free_energy::Material;
 use eem_material::number::scalar::{Scalar, is_positive};
@@ -37,7 +37,7 @@ impl From<StateError> for Misfit {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// An error unless energy and forces are finite and viscosities positive.
     pub(super) fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {
         self.unless_infinite(self.model.free_energy(x))?;
@@ -55,7 +55,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             0.0
         };
         let (drag, _) = self.model.drag(theta);
-        check_drag::<M, K, D>(drag, theta).map_err(|error| error.of(self.element))?;
+        check_drag::<M, Q>(drag, theta).map_err(|error| error.of(self.element))?;
         let (viscosities, _) = self.model.viscosity(theta);
         let mut viscosities = viscosities.as_ref().iter().enumerate();
         match viscosities.find(|&(_, &eta)| !is_positive(eta)) {
@@ -64,7 +64,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
                 element: self.element,
                 dashpot,
                 value: *eta,
-                unit: K::VISCOSITY_UNIT,
+                unit: Q::VISCOSITY_UNIT,
                 temperature: M::THERMAL.then_some(theta),
             }),
         }

@@ -1,13 +1,14 @@
 //! The old state of the elements, where a step and its trial start.
 
-use super::arms::{along, measures_in, spread};
+use super::arms::spread;
 use super::member::Member;
+use super::placed::PlacedPoint;
 use super::point::{Point, grown, variables};
 use super::pose::Pose;
-use crate::element::conjugates::{ElementScheme, Placement};
+use crate::element::conjugates::ElementScheme;
 use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
-use crate::element::kinematics::{Arms, Kinematics, Measures};
+use crate::element::kinematics::{Kinematics, MeasureSet, Numbers};
 use eem_material::free_energy::{Array, Material};
 
 /// Reduces the unit of length of each node to that of its elements, if that is shorter.
@@ -58,8 +59,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         let velocities = self.old_velocities(view);
         let share = 1.0 - self.scheme().implicit();
         for point in self.points.as_mut() {
-            let gradient = point.take_old_share(view, &self.r0, &velocities)?;
-            let measures0 = measures_in::<K, D>(&point.start.x0);
+            let measures0 = point.old_measures();
+            let by_arm = point.kinematics.gradient(&self.r0, &measures0);
+            let rates = PlacedPoint::<M, K, C, D>::rates_along(&by_arm, &velocities);
+            let gradient = point.take_old_share(view, &rates)?;
             let ends = [&self.r0, &self.r0];
             let pose = Pose::between(&point.kinematics, point.scheme.placement(), ends, measures0);
             for (a, row) in pose.direction.as_ref().iter().enumerate() {
@@ -75,7 +78,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted. What the scheme keeps
     /// of the old state may be known.
     #[inline]
@@ -83,7 +86,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         &mut self,
         view: &StepView<'_>,
         before: Option<&Before<'_>>,
-        measures: &Measures<K, D>,
+        measures: &Numbers<Q>,
         old: Option<C::Old>,
     ) {
         let slots = self.slots();
@@ -133,12 +136,11 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         }
     }
 
-    /// Finds the part of the rates that the scheme takes from the old state; returns the old gradient.
+    /// Finds the part of the rates that the scheme takes from the old state, given `π̇⁰`; returns the old gradient.
     fn take_old_share(
         &mut self,
         view: &StepView<'_>,
-        r0: &Arms<K, D>,
-        velocities: &Arms<K, D>,
+        speeds: &Numbers<Q>,
     ) -> Result<M::Variables, StateError> {
         let share = 1.0 - self.scheme.implicit();
         let x0 = self.start.x0;
@@ -146,7 +148,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         self.find_viscosities(theta, None)?;
         let mut gradient = self.model.gradient(&x0);
         let mut rates = M::Variables::filled(0.0);
-        let mut heat = self.add_old_drag((r0, velocities), &mut gradient, &mut rates)?;
+        let mut heat = self.add_old_drag(speeds, &mut gradient, &mut rates)?;
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
             let g = -gradient[index];
@@ -164,15 +166,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             (at_point.old_rates, at_point.old_power) = (rates, old_power);
         }
         if M::THERMAL && self.scheme.is_in_temperature() {
-            let measures0 = measures_in::<K, D>(&x0);
-            let at_rest = Pose::between(&self.kinematics, Placement::End, [r0, r0], measures0);
-            self.find_old_heating(&at_rest, heat / theta, velocities);
+            self.find_old_heating(speeds, heat / theta);
         }
         Ok(gradient)
     }
 
     /// Finds `(1 − w) θ̇⁰`, which a scheme in temperature uses instead of `(1 − w) ṡ⁰`.
-    fn find_old_heating(&mut self, pose: &Pose<K, D>, entropy_rate: f64, velocities: &Arms<K, D>) {
+    fn find_old_heating(&mut self, speeds: &Numbers<Q>, entropy_rate: f64) {
         let share = 1.0 - self.scheme.implicit();
         let last = Self::TEMPERATURE;
         let (_, hessian) = self.model.hessian(&self.start.x0);
@@ -180,8 +180,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         let slope = |index: usize| -hessian[last][index];
         let mut rest = share * entropy_rate;
         for a in 0..M::MEASURES {
-            let rate = along::<K, D>(&pose.direction[a], velocities);
-            rest -= slope(a) * share * rate;
+            rest -= slope(a) * share * speeds[a];
         }
         for at_point in self.single.as_mut() {
             for index in M::MEASURES..last {

@@ -9,7 +9,7 @@ use super::loose::LooseElements;
 use super::stages::{Projections, Source, StageGroup, Values};
 use super::view::Placed;
 use crate::element::conjugates::{Conjugates, EemEntropy, EemTemperature, ElementScheme};
-use crate::element::kinematics::QuadraticStrain;
+use crate::element::kinematics::{MeasureSet, QuadraticStrain};
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
 use eem_material::free_energy::Material;
@@ -57,7 +57,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
                 staged::<M, K, Projections<M, K, D>, D>(rule, *self, placed)
             }
             // Not compiled for solids, which these schemes refuse, nor are explicit ones below.
-            Conjugates::Stages(rule) if K::IS_SPRING => {
+            Conjugates::Stages(rule) if K::Measures::IS_SPRING => {
                 staged::<M, K, Values<M, K, D>, D>(rule, *self, placed)
             }
             Conjugates::Stages(_) => unreachable!("they are refused in scenes with solids"),
@@ -65,7 +65,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
     }
 
     fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
-        if K::IS_SPRING {
+        if K::Measures::IS_SPRING {
             Box::new(ExplicitElements::new(*self, placed))
         } else {
             unreachable!("they are refused in scenes with solids")

@@ -209,7 +209,7 @@ fn find_viscosities<'a, M, K, C, const D: usize>(
         return;
     }
     // Models without temperature ignore it, so that any entry will do.
-    let theta = Point::<M, K, C, D>::TEMPERATURE * usize::from(M::THERMAL);
+    let theta = Point::<M, K::Measures, C>::TEMPERATURE * usize::from(M::THERMAL);
     let each = |index: usize| (&members[index].only().model, &response(index)[theta]);
     (model.viscosity)(&each, viscosities);
 }

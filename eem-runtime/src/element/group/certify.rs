@@ -2,12 +2,14 @@
 
 use super::arms::measures_in;
 use super::member::Member;
+use super::placed::PlacedPoint;
 use super::point::Point;
-use super::site::Contact;
+use super::site::HeatPath;
 use crate::element::balances::Received;
+use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::ElementScheme;
-use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::group::view::StepView;
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
 use eem_material::free_energy::{Array, Material};
@@ -41,13 +43,12 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     }
 }
 
-/// Magnitudes of the terms of variables and responses, and the checks of a point by the certificate.
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// The magnitudes of the terms of the variables in a state with these arms: times ε, their errors by rounding.
     #[inline]
-    fn sizes(&self, r: &Arms<K, D>, x: &M::Variables) -> M::Variables {
+    pub(super) fn sizes(&self, r: &Arms<K, D>, x: &M::Variables) -> M::Variables {
         let mut sizes = *x;
-        let own = self.kinematics.sizes(r, &measures_in::<K, D>(x));
+        let own = self.kinematics.sizes(r, &measures_in::<K::Measures>(x));
         for (a, &size) in own.as_ref().iter().enumerate() {
             sizes[a] = size;
         }
@@ -57,7 +58,9 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
     /// A bound of the force between its nodes, `Σ |∂π/∂r| |f*|`, N.
     #[inline]
     pub(super) fn largest_pull(&self, r1: &Arms<K, D>) -> f64 {
-        let slopes = self.kinematics.slopes(r1, &measures_in::<K, D>(&self.x));
+        let slopes = self
+            .kinematics
+            .slopes(r1, &measures_in::<K::Measures>(&self.x));
         let forces = self.pulls();
         let forces = forces.as_ref().iter().zip(slopes.as_ref());
         forces.fold(0.0, |sum, (&force, &slope)| sum + slope * force.abs())
@@ -65,7 +68,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
 
     fn magnitude_of_pull(&self, r1: &Arms<K, D>, motion: f64) -> f64 {
         let sizes = self.sizes(r1, &self.x);
-        let [old, new] = [&self.start.x0, &self.x].map(measures_in::<K, D>);
+        let [old, new] = [&self.start.x0, &self.x].map(measures_in::<K::Measures>);
         let slopes = self.kinematics.slopes(r1, &new);
         let slope_sizes = self.kinematics.slope_sizes(r1, &new);
         let mut sum = 0.0;
@@ -77,6 +80,29 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         sum * (1.0 + motion / Scalar::minimum(lengths[0], lengths[1]))
     }
 
+    /// Adds the terms that the bound of the next step needs of a state with these arms: those of the forces and, except
+    /// for schemes with discrete derivatives, those of the value of the energy.
+    #[cold]
+    pub(super) fn add_bounds(&self, r: &Arms<K, D>, x: &M::Variables, energy: &mut Energy) {
+        energy.add_forces(self.work_of(&self.model.gradient(x), r, x));
+        if !C::EXACT {
+            energy.add_values(self.model.energy_magnitude(x));
+        }
+    }
+
+    /// `Σ|f||π| + Σ|g||γ|` of forces in a state with these arms, J.
+    #[inline]
+    pub(super) fn work_of(&self, forces: &M::Variables, r: &Arms<K, D>, x: &M::Variables) -> f64 {
+        let sizes = self.sizes(r, x);
+        let forces = forces.as_ref()[..M::MEASURES + M::DASHPOTS].iter();
+        forces
+            .zip(sizes.as_ref())
+            .fold(0.0, |sum, (&force, &size)| sum + (force * size).abs())
+    }
+}
+
+/// Magnitudes of the terms of variables and responses, and the checks of a point by the certificate.
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// `Σ_j |T_ij| |x_j|`: times ε, the error of a response by rounding of the variables.
     fn magnitude_of_row(&self, row: usize, sizes: &M::Variables) -> f64 {
         let terms = self.slopes[row].as_ref().iter().zip(sizes.as_ref());
@@ -92,7 +118,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
     ///
     /// With a small heat capacity c the temperature has an error of `ε θ |∂s/∂λ| λ/c`, far above its own rounding.
     #[cold]
-    fn resolution_of_row(&self, row: usize, sizes: &M::Variables) -> f64 {
+    pub(super) fn resolution_of_row(&self, row: usize, sizes: &M::Variables) -> f64 {
         let mut sum = self.magnitude_of_row(row, sizes);
         for a in 0..M::MEASURES {
             let by_measure = &self.condensed.by_measure[a];
@@ -127,11 +153,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
     #[inline]
     pub(super) fn amplitude(
         &self,
-        [r0, r1]: [&Arms<K, D>; 2],
+        [sizes0, sizes1]: &[M::Variables; 2],
         care: Care,
-        way: impl Fn() -> f64,
+        of_sums: impl Fn() -> f64,
     ) -> [f64; 2] {
-        let (sizes0, sizes1) = (self.sizes(r0, &self.start.x0), self.sizes(r1, &self.x));
         let (mut sum, mut at_end) = (0.0, 0.0);
         for row in 0..M::MEASURES + M::DASHPOTS {
             let size = sizes1[row].abs();
@@ -149,33 +174,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             at_end += force.abs() * size;
         }
         if matches!(care, Care::Quick) {
-            if !K::IS_SPRING {
-                sum += self.work_of_arguments(&sizes1);
+            if !Q::IS_SPRING {
+                sum += self.work_of_arguments(sizes1);
             }
             return [sum, at_end];
         }
-        sum += self.work_of_arguments(&sizes1) + self.largest_pull(r1) * way();
+        sum += self.work_of_arguments(sizes1) + of_sums();
         [sum, at_end]
-    }
-
-    /// Adds the terms that the bound of the next step needs of a state with these arms: those of the forces and, except
-    /// for schemes with discrete derivatives, those of the value of the energy.
-    #[cold]
-    pub(super) fn add_bounds(&self, r: &Arms<K, D>, x: &M::Variables, energy: &mut Energy) {
-        energy.add_forces(self.work_of(&self.model.gradient(x), r, x));
-        if !C::EXACT {
-            energy.add_values(self.model.energy_magnitude(x));
-        }
-    }
-
-    /// `Σ|f||π| + Σ|g||γ|` of forces in a state with these arms, J.
-    #[inline]
-    pub(super) fn work_of(&self, forces: &M::Variables, r: &Arms<K, D>, x: &M::Variables) -> f64 {
-        let sizes = self.sizes(r, x);
-        let forces = forces.as_ref()[..M::MEASURES + M::DASHPOTS].iter();
-        forces
-            .zip(sizes.as_ref())
-            .fold(0.0, |sum, (&force, &size)| sum + (force * size).abs())
     }
 
     #[cold]
@@ -193,13 +198,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
 
     /// The conditioning error of a response, in units of ε.
     #[inline]
-    fn known_to(&self, row: usize, r1: &Arms<K, D>, care: Care) -> f64 {
+    fn known_to(&self, row: usize, sizes: &M::Variables, care: Care) -> f64 {
         match care {
             Care::Quick => self.response[row].abs(),
-            Care::Thorough => {
-                let sizes = self.sizes(r1, &self.x);
-                self.response[row].abs() + self.resolution_of_row(row, &sizes)
-            }
+            Care::Thorough => self.response[row].abs() + self.resolution_of_row(row, sizes),
         }
     }
 
@@ -209,8 +211,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
     pub(super) fn judge(
         &self,
         view: &StepView<'_>,
-        (contact, trial): (Option<&Contact<K, D>>, &Trial<D>),
-        r1: &Arms<K, D>,
+        (paths, interface): (Option<&[HeatPath]>, &InterfaceTemperatures),
+        sizes: &M::Variables,
         (received, [magnitude, capacity]): (Received, [f64; 2]),
         tally: &mut Tally,
     ) {
@@ -218,7 +220,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             if view.phase.heats() {
                 let row = M::MEASURES + k;
                 let drag = self.viscosities.0[k] * self.creep_rate(k, view);
-                let terms = drag.abs() + self.known_to(row, r1, tally.care);
+                let terms = drag.abs() + self.known_to(row, sizes, tally.care);
                 tally.balance(drag - self.pull_of_row(row), terms);
                 if C::Damping::<()>::LEN == 0 {
                     // g* is a divided difference, with half the slope of g.
@@ -239,14 +241,14 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             let terms = magnitude + theta * received.terms;
             tally.balance(taken - theta * received.entropy, terms);
         }
-        if contact.is_some()
+        if paths.is_some()
             && let Some(slot) = self.slots().thermal
         {
             // A damped temperature is known as well as θ*: Δs is known to ε of the heat capacity.
             let conducting = self.conducting_temperature(&self.response);
-            let terms = self.known_to(Self::TEMPERATURE, r1, tally.care);
+            let terms = self.known_to(Self::TEMPERATURE, sizes, tally.care);
             let terms = terms + (conducting - theta).abs();
-            tally.balance(trial.interface.values()[slot] - conducting, terms);
+            tally.balance(interface.values()[slot] - conducting, terms);
         }
     }
 }

@@ -10,16 +10,17 @@
 
 use super::arms::{mean, measures_in, spread};
 use super::member::Member;
+use super::placed::PlacedPoint;
 use super::point::Point;
 use super::pose::Pose;
-use super::site::Contact;
+use super::site::{Contact, HeatPath};
 use super::ways::way_of_nodes;
 use crate::element::balances::{Balances, Received, reservoir_correction};
-use crate::element::conduction::Partner;
+use crate::element::conduction::{InterfaceTemperatures, Partner};
 use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
+use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Weights};
 use crate::element::state::State;
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, Caloric, Material};
@@ -71,22 +72,29 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     ) -> Result<(), StateError> {
         let r1 = self.arms_in(next);
         for point in self.points.as_mut() {
-            let contact = point.contact_in(contacts);
-            let received = point.book(view, (contact, trial), next, tally);
+            let paths = point.contact_in(contacts).map(|contact| &contact.paths[..]);
+            let received = point.book(view, (paths, &trial.interface), next, tally);
             let near = (point.x[M::Variables::LEN - 1], known);
-            if let Some(entropy) = point.recover_temperature(&r1, view, near, next)? {
+            let measures = point.admissible_measures(&r1)?;
+            if let Some(entropy) = point.recover_temperature(&measures, view, near, next)? {
                 point.book_thermostat(view, [entropy, received.entropy], next);
             }
             if C::EXACT {
-                let [forces, at_end] = point.amplitude([&self.r0, &r1], tally.care, || {
-                    way_of_nodes(self.site.nodes.as_ref(), trial)
+                let sizes = [
+                    point.sizes(&self.r0, &point.start.x0),
+                    point.sizes(&r1, &point.x),
+                ];
+                let largest = point.largest_pull(&r1);
+                let [forces, at_end] = point.amplitude(&sizes, tally.care, || {
+                    largest * way_of_nodes(self.site.nodes.as_ref(), trial)
                 });
                 tally.force(forces);
-                tally.exchange(view.step * point.largest_pull(&r1));
+                tally.exchange(view.step * largest);
                 let energy = &mut next.energies[point.element.index()];
                 energy.add_secants(at_end, M::THERMAL);
-                let sizes = [energy.magnitude + forces, energy.heat_capacity];
-                point.judge(view, (contact, trial), &r1, (received, sizes), tally);
+                let terms = [energy.magnitude + forces, energy.heat_capacity];
+                let outside = (paths, &trial.interface);
+                point.judge(view, outside, &sizes[1], (received, terms), tally);
             }
         }
         Ok(())
@@ -135,15 +143,15 @@ pub(super) fn pull_of_arms<K: Kinematics<D>, const D: usize>(
     force
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// The matrix A of the force `A r_m` at the last response.
     #[inline]
     fn secant(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
-        let measures1 = measures_in::<K, D>(&self.x);
+        let measures1 = measures_in::<K::Measures>(&self.x);
         let (arms, measures0) = match self.scheme.placement() {
             Placement::Middle => ([mean::<K, D>(r0, r1); 2], measures1),
             Placement::Ends | Placement::End | Placement::Start => {
-                ([*r0, *r1], measures_in::<K, D>(&self.start.x0))
+                ([*r0, *r1], self.old_measures())
             }
         };
         let ends = Ends::new(&self.kinematics, arms, [measures0, measures1]);
@@ -152,18 +160,20 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
 
     /// The nodal forces of the last response along the gradient between two configurations, N.
     pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
-        let measures0 = measures_in::<K, D>(&self.start.x0);
+        let measures0 = self.old_measures();
         let pose = Pose::between(&self.kinematics, at, ends, measures0);
         spread::<K, D>(&pose.pull(&self.kinematics, at, &self.pulls()))
     }
+}
 
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Adds the increments of the internal variables and of the reservoirs' entropies; returns heat and entropy
     /// received from dashpots and conduction.
     #[inline]
     pub(super) fn book(
         &self,
         view: &StepView<'_>,
-        (contact, trial): (Option<&Contact<K, D>>, &Trial<D>),
+        outside: (Option<&[HeatPath]>, &InterfaceTemperatures),
         next: &mut State,
         tally: &mut Tally,
     ) -> Received {
@@ -207,13 +217,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         if M::DASHPOTS + Self::DRAGS > 0 {
             next.meters.produce(slot, dissipated * per_theta);
         }
-        self.book_heat(
-            view,
-            slot,
-            (contact, trial),
-            &mut Balances { next, tally },
-            received,
-        )
+        self.book_heat(view, slot, outside, &mut Balances { next, tally }, received)
     }
 
     /// Books entropy and heat flows, given what the dashpots contribute; returns all heat and entropy received.
@@ -222,7 +226,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         &self,
         view: &StepView<'_>,
         slot: usize,
-        (contact, trial): (Option<&Contact<K, D>>, &Trial<D>),
+        (paths, interface): (Option<&[HeatPath]>, &InterfaceTemperatures),
         balances: &mut Balances<'_>,
         mut received: Received,
     ) -> Received {
@@ -233,13 +237,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         }
         let old = &view.state.entropies;
         (balances.next.entropies).advance(slot, old, received.entropy);
-        if let Some(contact) = contact {
-            for partner in &contact.partners {
-                let other = partner.slot as usize;
-                let path = (trial.interface).exchange(share * partner.conductance, slot, other);
-                let path = (partner.link, &path);
-                balances.conduct([slot, other], path, &mut received);
-            }
+        for path in paths.into_iter().flatten() {
+            let other = path.slot as usize;
+            let exchange = interface.exchange(share * path.conductance, slot, other);
+            balances.conduct([slot, other], (path.link, &exchange), &mut received);
         }
         if self.meets_reservoirs {
             let theta = self.conducting_temperature(&self.response);

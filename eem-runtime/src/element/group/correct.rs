@@ -1,15 +1,16 @@
 //! From the solution of the global system to the internal variables of the elements.
 
 use super::arms::along;
+use super::placed::PlacedPoint;
 use super::point::Point;
 use super::share::run;
 use super::site::{Contact, Site};
 use crate::element::conjugates::ElementScheme;
-use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Scalar;
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// Applies the corrections of the local unknowns for a motion of the arms; returns the largest in their units.
     #[inline]
     pub(super) fn correct(
@@ -18,24 +19,34 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         contact: Option<&Contact<K, D>>,
         solution: &[[f64; 1]],
     ) -> f64 {
-        for a in 0..M::MEASURES {
-            self.correction[a] = along::<K, D>(&self.sensitivity[a], motion);
-        }
+        let changes = Self::rates_along(&self.sensitivity, motion);
         let mut heat = 0.0;
         if M::THERMAL
             && let Some(contact) = contact
         {
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
-        for at_point in self.single.as_ref() {
-            heat += along::<K, D>(&at_point.by_increment, motion);
+        for by_increment in self.by_increment.as_ref() {
+            heat += along::<K, D>(by_increment, motion);
+        }
+        self.point.correct(&changes, heat, contact.is_some())
+    }
+}
+
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+    /// Applies the corrections of the local unknowns, given the changes of the measures and `δr_s`; returns the largest in
+    /// their units.
+    #[inline]
+    fn correct(&mut self, changes: &Numbers<Q>, heat: f64, is_coupled: bool) -> f64 {
+        for a in 0..M::MEASURES {
+            self.correction[a] = changes[a];
         }
         for u in 0..Self::UNKNOWNS {
             let mut change = self.condensed.constant.get(u);
             for a in 0..M::MEASURES {
                 change += self.condensed.by_measure[a].get(u) * self.correction[a];
             }
-            if self.depends_on_heat(contact.is_some()) {
+            if self.depends_on_heat(is_coupled) {
                 change += self.condensed.by_heat.get(u) * heat;
             }
             self.correction[M::MEASURES + u] = -change;
@@ -93,8 +104,8 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     #[inline]
     pub(super) fn heat(&self, solution: &[[f64; 1]]) -> f64 {
         let own = solution[self.unknown as usize][0];
-        self.partners.iter().fold(0.0, |sum, partner| {
-            sum + partner.conductance * (solution[partner.unknown as usize][0] - own)
+        self.paths.iter().fold(0.0, |sum, path| {
+            sum + path.conductance * (solution[path.unknown as usize][0] - own)
         })
     }
 }

@@ -8,10 +8,10 @@ use crate::element::conjugates::{ElementScheme, Form, Placement, end_weight, end
 use crate::element::error::StateError;
 use crate::element::group::respond::check_temperature;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::MeasureSet;
 use eem_material::free_energy::{Array, FreeEnergy};
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Finds the damping of a step from its old state.
     #[inline]
     pub(super) fn begin_damping(&mut self, view: &StepView<'_>) {

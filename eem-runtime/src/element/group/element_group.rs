@@ -5,6 +5,7 @@ use super::arms::change_in;
 use super::interface::{Elements, Group, Loose};
 use super::loose::LooseElements;
 use super::member::Member;
+use super::placed::PlacedPoint;
 use super::point::Point;
 #[cfg(feature = "gradients")]
 use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
@@ -58,20 +59,20 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
     }
 
     /// All points.
-    pub(super) fn points(&self) -> impl Iterator<Item = &Point<M, K, C, D>> {
+    pub(super) fn points(&self) -> impl Iterator<Item = &PlacedPoint<M, K, C, D>> {
         let members = self.members.iter();
         members.flat_map(|member| member.points.as_ref())
     }
 
     /// All points, mutable.
-    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut Point<M, K, C, D>> {
+    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut PlacedPoint<M, K, C, D>> {
         let members = self.members.iter_mut();
         members.flat_map(|member| member.points.as_mut())
     }
 
     /// The element of the point with this index in the group, and the index of the point in the element.
     pub(super) fn at(&self, place: usize) -> (&Member<M, K, C, D>, usize) {
-        let points = K::PerPoint::<Point<M, K, C, D>>::LEN;
+        let points = K::PerPoint::<PlacedPoint<M, K, C, D>>::LEN;
         (&self.members[place / points], place % points)
     }
 
@@ -162,7 +163,7 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
 
     fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
         let mut largest = 0.0;
-        if Point::<M, K, C, D>::UNKNOWNS == 0 {
+        if Point::<M, K::Measures, C>::UNKNOWNS == 0 {
             return largest;
         }
         for member in &mut self.members {
@@ -181,7 +182,7 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
     }
 
     fn hold(&mut self) {
-        self.points_mut().for_each(Point::hold);
+        self.points_mut().for_each(|point| point.hold());
     }
 
     fn add_impulse(
@@ -241,7 +242,7 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
         for member in &self.members {
             for point in member.points.as_ref() {
                 let own = point.balance_between(&member.site.nodes, ends);
-                let found = Point::<M, K, C, D>::change_of(&point.response, &own.increments);
+                let found = Point::<M, K::Measures, C>::change_of(&point.response, &own.increments);
                 reevaluation.element(point.element, own.by_values, own.by_differences, found);
             }
         }

@@ -1,7 +1,7 @@
 //! Elimination of the local unknowns of an element: Gauss–Jordan with partial pivoting.
 
 use crate::algebra::lu::Singular;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::MeasureSet;
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::is_positive;
 
@@ -40,21 +40,21 @@ impl<V: Array<f64>> PerUnknown<V> {
 }
 
 /// The solved local system: `δu = −(constant + by_measure δπ + by_heat δr_s)`.
-pub(super) struct Condensed<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> {
+pub(super) struct Condensed<M: FreeEnergy<f64>, Q: MeasureSet> {
     pub(super) constant: PerUnknown<M::Viscosities>,
-    pub(super) by_measure: K::PerMeasure<PerUnknown<M::Viscosities>>,
+    pub(super) by_measure: Q::Per<PerUnknown<M::Viscosities>>,
     /// Only for elements whose heat depends on global unknowns other than through the measures.
     pub(super) by_heat: PerUnknown<M::Viscosities>,
     /// `∂r_s/∂Q = −h w/θ*`, by which heat from other elements enters.
     pub(super) heat_factor: f64,
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> Condensed<M, K, D> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet> Condensed<M, Q> {
     /// Before the first elimination.
     pub(super) fn zero() -> Self {
         Self {
             constant: PerUnknown::zero(),
-            by_measure: K::PerMeasure::filled(PerUnknown::zero()),
+            by_measure: Q::Per::filled(PerUnknown::zero()),
             by_heat: PerUnknown::zero(),
             heat_factor: 0.0,
         }

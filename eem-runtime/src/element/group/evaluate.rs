@@ -151,12 +151,15 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         let arms = self.trial_arms(view, trial);
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
-            let measures = point.locate_trial(&arms.placed, trial, known.map(|known| known.0))?;
+            let measures = {
+                let prepared = known.map(|known| known.0);
+                point.locate_trial(&arms.placed, trial.is_start, prepared)?
+            };
             let pose = point.pose(&arms, &measures);
             point.sensitivity = pose.sensitivity;
             let by_rate = point.extend(&pose, &arms.motion);
             // Used in place: copies would cost a good part of the time.
-            let mut form = known.map_or_else(|| point.form(trial), |known| *known.1);
+            let mut form = known.map_or_else(|| point.form(trial.is_start), |known| *known.1);
             if M::THERMAL && point.scheme.is_in_temperature() {
                 point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
             }
@@ -164,7 +167,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
             let elastic = point.add_drag(view.per_step, &mut form);
             let undamped = point.add_damping(&mut form);
             let contact = point.contact_in(contacts);
-            point.condense(view, &trial.interface, &form, contact)?;
+            let paths = contact.map(|contact| &contact.paths[..]);
+            point.condense(view, &trial.interface, &form, paths)?;
             if let Some(by_rate) = &by_rate {
                 point.warm_by_rates(view, by_rate);
             }

@@ -1,6 +1,7 @@
 //! The contribution of one element to the GENERIC form of the equations.
 
 use super::arms::{measures_in, spread};
+use super::placed::PlacedPoint;
 use super::point::Point;
 use super::pose::Pose;
 use super::view::{ElementGeneric, EntropySlopes};
@@ -10,20 +11,20 @@ use crate::element::layout::Slots;
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// Replaces the response by the derivatives of the energy in a state.
     pub(super) fn take_derivatives(&mut self, r: &Arms<K, D>, state: &State) {
         let x = self.variables_in(r, state);
-        let gradient = self.model.gradient(&x);
+        let gradient = self.point.model.gradient(&x);
         let theta = x[M::Variables::LEN - 1];
-        self.viscosities = self.model.viscosity(theta);
-        self.drag.viscosity = self.model.drag(theta);
-        self.start.x0 = x;
+        self.point.viscosities = self.point.model.viscosity(theta);
+        self.point.drag.viscosity = self.point.model.drag(theta);
+        self.point.start.x0 = x;
         for index in 0..M::MEASURES + M::DASHPOTS {
-            self.response[index] = Self::sign(index) * gradient[index];
+            self.point.response[index] = Point::<M, K::Measures, C>::sign(index) * gradient[index];
         }
         if M::THERMAL {
-            self.response[M::MEASURES + M::DASHPOTS] = theta;
+            self.point.response[M::MEASURES + M::DASHPOTS] = theta;
         }
     }
 
@@ -33,13 +34,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         nodes: &K::PerNode<u32>,
         (at, ends): (Placement, [&Arms<K, D>; 2]),
     ) -> ElementGeneric {
-        let measures0 = measures_in::<K, D>(&self.start.x0);
+        let measures0 = self.old_measures();
         let pose = Pose::between(&self.kinematics, at, ends, measures0);
         let on_nodes = |forces: &Measures<K, D>| {
             let pulled = pose.pull(&self.kinematics, at, forces);
             by_coordinate::<K, D>(nodes, &spread::<K, D>(&pulled))
         };
-        let drags = (0..Self::DRAGS).map(|a| {
+        let drags = (0..M::Drag::LEN).map(|a| {
             let mut unit = Measures::<K, D>::filled(0.0);
             unit[a] = 1.0;
             (self.drag.viscosity.0[a], on_nodes(&unit))
@@ -49,7 +50,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             (self.slots().viscous + k, g, self.viscosities.0[k])
         });
         ElementGeneric {
-            forces: on_nodes(&measures_in::<K, D>(&self.response)),
+            forces: on_nodes(&measures_in::<K::Measures>(&self.response)),
             dashpots: dashpots.collect(),
             drags: drags.collect(),
             temperature: self.slots().thermal.map(|slot| (slot, self.temperature())),
@@ -67,7 +68,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         let x = self.start.x0;
         let (_, hessian) = self.model.hessian(&x);
         let theta = M::Variables::LEN - 1;
-        let pose = Pose::between(&self.kinematics, at, ends, measures_in::<K, D>(&x));
+        let pose = Pose::between(&self.kinematics, at, ends, measures_in::<K::Measures>(&x));
         let mut by_measure = Measures::<K, D>::filled(0.0);
         for a in 0..M::MEASURES {
             by_measure[a] = -hessian[theta][a];

@@ -2,7 +2,8 @@
 
 use super::arms::measures_in;
 use super::interface::Elements;
-use super::point::{Point, variables};
+use super::placed::PlacedPoint;
+use super::point::Point;
 use super::stiffness::{Stiffness, stiffness_of};
 use crate::element::conjugates::{ElementScheme, Infeasible, Placement};
 use crate::element::error::StateError;
@@ -10,7 +11,7 @@ use crate::element::group::audit::Misfit;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{ElementGeneric, ElementTotals, ElementView};
 use crate::element::handle::Element;
-use crate::element::kinematics::{Arms, Kinematics, SolidState};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet, SolidState};
 use crate::element::layout::Slots;
 use crate::element::state::{Energy, State};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
@@ -79,7 +80,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
         let point = &member.points.as_ref()[point];
         let r = member.arms_in(state);
         let gradient = point.model.gradient(&point.variables_in(&r, state));
-        let force = measures_in::<K, D>(&gradient);
+        let force = measures_in::<K::Measures>(&gradient);
         point.kinematics.solid_state(&r, &force)
     }
 
@@ -104,7 +105,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
         let nodes = member.site.nodes.as_ref();
         let first = velocity(nodes[0] as usize);
         for (a, &drag) in drags.as_ref().iter().enumerate() {
-            let slopes = K::gradient(&point.kinematics, &r, &measures_in::<K, D>(&x));
+            let slopes = K::gradient(&point.kinematics, &r, &measures_in::<K::Measures>(&x));
             let mut rate = 0.0;
             for (&node, slope) in nodes[1..].iter().zip(slopes[a].as_ref()) {
                 for (axis, speed) in velocity(node as usize).into_iter().enumerate() {
@@ -216,47 +217,52 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// Finds entropy and energy in an initial state with these arms.
     fn initialize(&mut self, r: &Arms<K, D>, state: &mut State) -> Result<(), StateError> {
         let x = self.locate(r, state)?;
-        let slot = self.slots().thermal;
-        let theta = slot.map_or(0.0, |slot| state.temperatures[slot]);
-        self.find_viscosities(theta, None)?;
-        self.find_drag_viscosity(theta)?;
-        let caloric = self.model.caloric(&x);
-        let mut energy = self.energy_at(&x, caloric)?;
-        check_gradient::<M>(self.element, &self.model.gradient(&x))?;
+        let mut energy = self.point.initialize(&x, state)?;
         self.add_bounds(r, &x, &mut energy);
         state.energies[self.element.index()] = energy;
-        let Some(slot) = slot else {
-            return Ok(());
-        };
-        Infeasible::unless_stable(caloric.heat_capacity, theta)
-            .map_err(|infeasible| infeasible.of(self.element))?;
-        state.entropies.set(slot, caloric.entropy);
         Ok(())
     }
 
     /// The energy in a state with these arms whose temperature and entropy are known.
     fn energy_in(&self, r: &Arms<K, D>, state: &State) -> Energy {
         let x = self.variables_in(r, state);
-        let psi = self.model.free_energy(&x);
-        let mut energy = match self.slots().thermal {
-            None => Energy::without_temperature(psi),
-            Some(slot) => {
-                let theta = state.temperatures[slot];
-                let entropy = state.entropies.values()[slot];
-                Energy::new(psi, [theta, entropy], &self.model.caloric(&x))
-            }
-        };
+        let mut energy = self.point.energy_in(&x, state);
         self.add_bounds(r, &x, &mut energy);
         energy
     }
+}
 
-    /// The variables in a state with these arms.
-    pub(super) fn variables_in(&self, r: &Arms<K, D>, state: &State) -> M::Variables {
-        variables::<M>(self.kinematics.measure(r).as_ref(), self.slots(), state)
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+    /// Finds the entropy of an initial state, whose variables are given; returns its energy.
+    fn initialize(&mut self, x: &M::Variables, state: &mut State) -> Result<Energy, StateError> {
+        let slot = self.slots().thermal;
+        let theta = slot.map_or(0.0, |slot| state.temperatures[slot]);
+        self.find_viscosities(theta, None)?;
+        self.find_drag_viscosity(theta)?;
+        let caloric = self.model.caloric(x);
+        let energy = self.energy_at(x, caloric)?;
+        check_gradient::<M>(self.element, &self.model.gradient(x))?;
+        if let Some(slot) = slot {
+            Infeasible::unless_stable(caloric.heat_capacity, theta)
+                .map_err(|infeasible| infeasible.of(self.element))?;
+            state.entropies.set(slot, caloric.entropy);
+        }
+        Ok(energy)
+    }
+
+    /// The energy in a state whose temperature and entropy are known.
+    fn energy_in(&self, x: &M::Variables, state: &State) -> Energy {
+        let psi = self.model.free_energy(x);
+        let Some(slot) = self.slots().thermal else {
+            return Energy::without_temperature(psi);
+        };
+        let theta = state.temperatures[slot];
+        let entropy = state.entropies.values()[slot];
+        Energy::new(psi, [theta, entropy], &self.model.caloric(x))
     }
 
     /// `ψ + θ s` with the stored entropy, J.

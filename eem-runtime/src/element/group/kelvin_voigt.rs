@@ -11,44 +11,24 @@
 
 use super::arms::{add_scaled, along, measures_in, scale};
 use super::local::Dissipation;
+use super::placed::PlacedPoint;
 use super::point::{Point, temperature_in};
 use super::pose::Pose;
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
+use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Numbers};
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::is_positive;
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Number of measures with a dashpot of their own.
     pub(super) const DRAGS: usize = M::Drag::LEN;
 
     /// Whether `λ̇` is the rate of a classical scheme, with its own derivatives with respect to the arms, and not a
     /// difference of lengths.
     pub(super) const HAS_RATES: bool = Self::DRAGS > 0 && !C::EXACT;
-
-    /// Finds `Δλ` along the gradients of the trial. For a classical scheme it is `w h λ̇`, with the rate λ̇ of the
-    /// trial, and its derivatives with respect to the new arms are returned.
-    #[inline]
-    pub(super) fn extend(
-        &mut self,
-        pose: &Pose<K, D>,
-        motion: &Arms<K, D>,
-    ) -> Option<Gradient<K, D>> {
-        if Self::HAS_RATES {
-            let (own, by_arm) = pose.increase(&self.kinematics, self.scheme.placement(), motion);
-            for a in 0..Self::DRAGS {
-                self.drag.extension[a] = own[a];
-            }
-            return Some(by_arm);
-        }
-        for a in 0..Self::DRAGS {
-            self.drag.extension[a] = along::<K, D>(&pose.direction[a], motion);
-        }
-        None
-    }
 
     /// `λ̇` of the trial, m/s.
     #[inline]
@@ -58,7 +38,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
 
     /// `1/(w h)`, 1/s.
     #[inline]
-    fn per_share(&self, per_step: f64) -> f64 {
+    pub(super) fn per_share(&self, per_step: f64) -> f64 {
         per_step * self.scheme.implicit().recip()
     }
 
@@ -69,7 +49,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
             return Ok(());
         }
         self.drag.viscosity = self.model.drag(theta);
-        check_drag::<M, K, D>(self.drag.viscosity.0, theta).map_err(|error| error.of(self.element))
+        check_drag::<M, Q>(self.drag.viscosity.0, theta).map_err(|error| error.of(self.element))
     }
 
     /// Finds the force for a response, given 1/h, 1/s.
@@ -151,43 +131,11 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
         }
     }
 
-    /// For a classical scheme: finds the derivatives of the heat balance with respect to the new arms through the rates.
-    pub(super) fn warm_by_rates(&mut self, view: &StepView<'_>, by_arm: &Gradient<K, D>) {
-        let per_share = self.per_share(view.per_step);
-        for at_point in self.single.as_mut() {
-            for a in 0..Self::DRAGS {
-                let force = self.drag.force[a];
-                let mut by = by_arm[a];
-                let by_extension = self.condensed.heat_factor * (force + force) * per_share;
-                scale::<K, D>(&mut by, by_extension);
-                if self.scheme.is_in_temperature() {
-                    add_scaled::<K, D>(&mut at_point.by_increment, 1.0, &by);
-                } else {
-                    at_point.by_increment = by;
-                }
-            }
-        }
-    }
-
-    /// The derivative of a force with respect to the new arms through its rate, times a factor.
-    pub(super) fn force_by_rate(
-        &self,
-        a: usize,
-        per_step: f64,
-        factor: f64,
-        by_arm: &Gradient<K, D>,
-    ) -> Arms<K, D> {
-        let mut by = by_arm[a];
-        let eta = self.drag.viscosity.0[a];
-        scale::<K, D>(&mut by, factor * eta * self.per_share(per_step));
-        by
-    }
-
-    /// For a scheme with old forces: adds the force of the old state and its rate, with the weight `1 − w`; returns its
-    /// power, W.
+    /// For a scheme with old forces: adds the force of the old state and its rate, with the weight `1 − w`, given `π̇⁰`; returns
+    /// its power, W.
     pub(super) fn add_old_drag(
         &mut self,
-        (r0, velocities): (&Arms<K, D>, &Arms<K, D>),
+        speeds: &Numbers<Q>,
         gradient: &mut M::Variables,
         rates: &mut M::Variables,
     ) -> Result<f64, StateError> {
@@ -197,11 +145,9 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
         }
         let x0 = self.start.x0;
         self.find_drag_viscosity(x0[Self::VARIABLES - 1])?;
-        let measures0 = measures_in::<K, D>(&x0);
-        let by_arm = self.kinematics.gradient(r0, &measures0);
         let share = 1.0 - self.scheme.implicit();
         for a in 0..Self::DRAGS {
-            let rate = along::<K, D>(&by_arm[a], velocities);
+            let rate = speeds[a];
             let force = self.drag.viscosity.0[a] * rate;
             gradient[a] += force;
             rates[a] = share * rate;
@@ -224,8 +170,8 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
 
     /// The forces between the nodes: those of the response plus those of Kelvin–Voigt dashpots and of damping, N.
     #[inline]
-    pub(super) fn pulls(&self) -> Measures<K, D> {
-        let mut forces = measures_in::<K, D>(&self.response);
+    pub(super) fn pulls(&self) -> Numbers<Q> {
+        let mut forces = measures_in::<Q>(&self.response);
         for a in 0..Self::DRAGS {
             forces[a] += self.drag.force[a];
         }
@@ -250,6 +196,64 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
     }
 }
 
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize>
+    PlacedPoint<M, K, C, D>
+{
+    /// Finds `Δλ` along the gradients of the trial. For a classical scheme it is `w h λ̇`, with the rate λ̇ of the
+    /// trial, and its derivatives with respect to the new arms are returned.
+    #[inline]
+    pub(super) fn extend(
+        &mut self,
+        pose: &Pose<K, D>,
+        motion: &Arms<K, D>,
+    ) -> Option<Gradient<K, D>> {
+        if Point::<M, K::Measures, C>::HAS_RATES {
+            let (own, by_arm) =
+                pose.increase(&self.kinematics, self.point.scheme.placement(), motion);
+            for a in 0..M::Drag::LEN {
+                self.point.drag.extension[a] = own[a];
+            }
+            return Some(by_arm);
+        }
+        for a in 0..M::Drag::LEN {
+            self.point.drag.extension[a] = along::<K, D>(&pose.direction[a], motion);
+        }
+        None
+    }
+
+    /// For a classical scheme: finds the derivatives of the heat balance with respect to the new arms through the rates.
+    pub(super) fn warm_by_rates(&mut self, view: &StepView<'_>, by_arm: &Gradient<K, D>) {
+        let per_share = self.per_share(view.per_step);
+        for by_increment in self.by_increment.as_mut() {
+            for a in 0..M::Drag::LEN {
+                let force = self.point.drag.force[a];
+                let mut by = by_arm[a];
+                let by_extension = self.point.condensed.heat_factor * (force + force) * per_share;
+                scale::<K, D>(&mut by, by_extension);
+                if self.point.scheme.is_in_temperature() {
+                    add_scaled::<K, D>(by_increment, 1.0, &by);
+                } else {
+                    *by_increment = by;
+                }
+            }
+        }
+    }
+
+    /// The derivative of a force with respect to the new arms through its rate, times a factor.
+    pub(super) fn force_by_rate(
+        &self,
+        a: usize,
+        per_step: f64,
+        factor: f64,
+        by_arm: &Gradient<K, D>,
+    ) -> Arms<K, D> {
+        let mut by = by_arm[a];
+        let eta = self.drag.viscosity.0[a];
+        scale::<K, D>(&mut by, factor * eta * self.per_share(per_step));
+        by
+    }
+}
+
 /// An invalid viscosity.
 pub(super) struct WrongDrag {
     value: f64,
@@ -271,7 +275,7 @@ impl WrongDrag {
 
 /// An error unless the viscosity of a Kelvin–Voigt dashpot is positive and finite.
 #[inline]
-pub(super) fn check_drag<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize>(
+pub(super) fn check_drag<M: FreeEnergy<f64>, Q: MeasureSet>(
     drag: M::Drag,
     theta: f64,
 ) -> Result<(), WrongDrag> {
@@ -279,7 +283,7 @@ pub(super) fn check_drag<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize>(
         None => Ok(()),
         Some(eta) => Err(WrongDrag {
             value: *eta,
-            unit: K::VISCOSITY_UNIT,
+            unit: Q::VISCOSITY_UNIT,
             temperature: M::THERMAL.then_some(theta),
         }),
     }

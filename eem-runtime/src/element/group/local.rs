@@ -13,14 +13,14 @@
 
 use super::eliminate::{LocalSystem, eliminate};
 use super::point::Point;
-use super::site::Contact;
+use super::site::HeatPath;
 use crate::algebra::lu::Singular;
 use crate::element::conduction::{HeatFlow, InterfaceTemperatures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
 use crate::element::group::point::temperature_in;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::MeasureSet;
 use eem_material::free_energy::{Array, FreeEnergy};
 
 /// The power dissipated by the dashpots, `Σ η γ̇²`, W, and its derivatives with respect to the variables.
@@ -29,7 +29,7 @@ pub(super) struct Dissipation<M: FreeEnergy<f64>> {
     pub(super) by: M::Variables,
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Eliminates the internal variables of an element, given its response with tangent and its viscosities.
     #[inline]
     pub(super) fn condense(
@@ -37,7 +37,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
         view: &StepView<'_>,
         interface: &InterfaceTemperatures,
         form: &Form<f64, M>,
-        contact: Option<&Contact<K, D>>,
+        paths: Option<&[HeatPath]>,
     ) -> Result<(), StateError> {
         if Self::UNKNOWNS == 0 {
             return Ok(());
@@ -45,10 +45,10 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
         // Called first: the call would spill the registers used below.
         let theta = temperature_in::<M>(&form.0);
         let conducting = self.conducting_temperature(&form.0);
-        let flow = self.heat_flow(view, contact, interface, conducting);
+        let flow = self.heat_flow(view, paths, interface, conducting);
         let mut system = LocalSystem::<M>::empty(self.pivot_units(theta));
         self.balances::<true>(view, &flow, form, &mut system);
-        let depends_on_heat = self.depends_on_heat(contact.is_some());
+        let depends_on_heat = self.depends_on_heat(paths.is_some());
         let solved = if depends_on_heat {
             eliminate::<M, true>(&mut system)
         } else {
@@ -139,7 +139,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
     pub(super) fn heat_flow(
         &self,
         view: &StepView<'_>,
-        contact: Option<&Contact<K, D>>,
+        paths: Option<&[HeatPath]>,
         interface: &InterfaceTemperatures,
         theta: f64,
     ) -> HeatFlow {
@@ -150,10 +150,8 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
         if self.meets_reservoirs {
             flow = view.conduction.reservoir_flow(slot, theta);
         }
-        if let Some(contact) = contact {
-            for partner in &contact.partners {
-                flow.heat += partner.conductance * interface.drop(slot, partner.slot as usize);
-            }
+        for path in paths.into_iter().flatten() {
+            flow.heat += path.conductance * interface.drop(slot, path.slot as usize);
         }
         flow
     }

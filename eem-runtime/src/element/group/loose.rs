@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::element::handle::Element;
-use crate::element::kinematics::{Kinematics, Points};
+use crate::element::kinematics::{Kinematics, MeasureSet, Points};
 use crate::element::layout::Shape;
 use eem_material::free_energy::{Array, Material};
 
@@ -42,9 +42,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
             dashpots: M::DASHPOTS,
             thermal: M::THERMAL,
             drag: <M::Drag as Array<f64>>::LEN > 0,
-            is_spring: K::IS_SPRING,
+            is_spring: K::Measures::IS_SPRING,
             viscous_strain: M::VISCOUS_STRAIN,
-            viscous_unit: K::VISCOUS_UNIT,
+            viscous_unit: K::Measures::VISCOUS_UNIT,
         }
     }
 

@@ -1,6 +1,7 @@
 //! One element of a group: its nodes, and the points at which its free energy is evaluated.
 
 use super::arms::{add_scaled, arms_in, change_in};
+use super::placed::PlacedPoint;
 use super::point::Point;
 use super::pose::placed_arms;
 use super::respond::TrialArms;
@@ -17,7 +18,7 @@ pub(crate) struct Member<M: Material, K: Kinematics<D>, C: ElementScheme<M>, con
     pub(super) site: Site<K, D>,
     /// The old arms.
     pub(super) r0: Arms<K, D>,
-    pub(super) points: K::PerPoint<Point<M, K, C, D>>,
+    pub(super) points: K::PerPoint<PlacedPoint<M, K, C, D>>,
 }
 
 impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
@@ -34,7 +35,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
             points: K::PerPoint::from_fn(|point| {
                 let element = first.after(point);
                 let slots = placed.layout.elements[element.index()];
-                Point::new(scheme, element, next_of(&mut parts), slots)
+                let (model, kinematics) = next_of(&mut parts);
+                PlacedPoint::new(kinematics, Point::new(scheme, element, model, slots))
             }),
         }
     }
@@ -45,13 +47,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         let mut points = self.points.into_iter();
         let parts = K::PerPoint::from_fn(|_| {
             let point = next_of(&mut points);
-            (point.model, point.kinematics)
+            (point.point.model, point.kinematics)
         });
         (first, parts)
     }
 
     /// The first point, the only one of a spring.
-    pub(super) fn only(&self) -> &Point<M, K, C, D> {
+    pub(super) fn only(&self) -> &PlacedPoint<M, K, C, D> {
         &self.points.as_ref()[0]
     }
 

@@ -6,11 +6,12 @@
 
 use super::arms::measures_in;
 use super::member::Member;
+use super::placed::PlacedPoint;
 use super::point::Point;
 use super::point_step::PastStep;
 use crate::element::conjugates::{ElementScheme, Form, Start};
 use crate::element::error::StateError;
-use crate::element::kinematics::{Arms, Ends, Kinematics};
+use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
 use eem_material::free_energy::Material;
 
 impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
@@ -21,7 +22,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// Sets both states, and what depends on them, to those of a step.
     #[inline]
     pub(super) fn return_to(
@@ -31,7 +32,33 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
     ) -> Result<(), StateError> {
         let [r0, r1] = arms;
         let x0 = self.variables_in(r0, step.view.state);
-        self.x = self.variables_in(r1, step.new);
+        let x1 = self.variables_in(r1, step.new);
+        self.point.return_to(step, [x0, x1])
+    }
+
+    /// The arms and measures of both states.
+    #[inline]
+    pub(super) fn ends(&self, arms: [Arms<K, D>; 2]) -> Ends<K, D> {
+        let measures = [&self.start.x0, &self.x].map(measures_in::<K::Measures>);
+        Ends::new(&self.kinematics, arms, measures)
+    }
+
+    /// The same with the two states exchanged.
+    #[inline]
+    pub(super) fn ends_back(&self, [r0, r1]: [Arms<K, D>; 2]) -> Ends<K, D> {
+        let measures = [&self.x, &self.start.x0].map(measures_in::<K::Measures>);
+        Ends::new(&self.kinematics, [r1, r0], measures)
+    }
+}
+
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+    /// Sets both states, and what depends on them.
+    fn return_to(
+        &mut self,
+        step: &PastStep<'_>,
+        [x0, x1]: [M::Variables; 2],
+    ) -> Result<(), StateError> {
+        self.x = x1;
         self.start = Start {
             x0,
             old: C::old(&self.model, &x0, 0.0),
@@ -51,20 +78,6 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             self.drag.extension[a] = self.x[a] - x0[a];
         }
         Ok(())
-    }
-
-    /// The arms and measures of both states.
-    #[inline]
-    pub(super) fn ends(&self, arms: [Arms<K, D>; 2]) -> Ends<K, D> {
-        let measures = [&self.start.x0, &self.x].map(|x| measures_in::<K, D>(x));
-        Ends::new(&self.kinematics, arms, measures)
-    }
-
-    /// The same with the two states exchanged.
-    #[inline]
-    pub(super) fn ends_back(&self, [r0, r1]: [Arms<K, D>; 2]) -> Ends<K, D> {
-        let measures = [&self.x, &self.start.x0].map(|x| measures_in::<K, D>(x));
-        Ends::new(&self.kinematics, [r1, r0], measures)
     }
 
     /// Its response with tangent, including Kelvin–Voigt dashpots.

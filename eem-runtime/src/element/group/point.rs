@@ -4,11 +4,10 @@
 use super::arms::measures_in;
 use super::damping::Damping;
 use super::eliminate::{Condensed, PerUnknown};
-use super::site::Contact;
 use crate::element::conjugates::{ElementScheme, Form, Placement, Start};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::{Arms, Gradient, Kinematics};
+use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy};
@@ -37,9 +36,9 @@ impl<A: Copy> Drag<A> {
     }
 }
 
-/// Variables of a scheme that evaluates the model at one point of the step; `V` is per variable, `A` per arm.
+/// Variables of a scheme that evaluates the model at one point of the step; `V` is per variable.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PointMemory<V, A> {
+pub(super) struct PointMemory<V> {
     /// The contribution of the old state to the rates of the internal variables.
     pub(super) old_rates: V,
     /// Its contribution to the power of the dashpots, `(1 − w) (Σ g⁰ γ̇⁰ + Σ η (λ̇⁰)²)`, W.
@@ -52,18 +51,11 @@ pub(super) struct PointMemory<V, A> {
     pub(super) entropy_correction: f64,
     /// The derivative of the Δs of the response with respect to the variables.
     pub(super) entropy_by: V,
-    /// The derivative of `r_s` with respect to the new arms, without that through the measures: through the increments for
-    /// a scheme in temperature, through the rates of Kelvin–Voigt dashpots for all classical schemes.
-    pub(super) by_increment: A,
 }
 
-/// The same for an element with this model and these kinematics.
-pub(super) type MemoryAtPoint<M, K, const D: usize> =
-    PointMemory<<M as FreeEnergy<f64>>::Variables, Arms<K, D>>;
-
-impl<V: Array<f64>, A> PointMemory<V, A> {
-    /// Before the first step, of an element whose arms are all zero.
-    pub(super) fn zero(arms: A) -> Self {
+impl<V: Array<f64>> PointMemory<V> {
+    /// Before the first step.
+    pub(super) fn zero() -> Self {
         Self {
             old_rates: V::filled(0.0),
             old_power: 0.0,
@@ -72,7 +64,6 @@ impl<V: Array<f64>, A> PointMemory<V, A> {
             previous_entropy_change: 0.0,
             entropy_correction: 0.0,
             entropy_by: V::filled(0.0),
-            by_increment: arms,
         }
     }
 }
@@ -90,13 +81,12 @@ pub(super) type Known<P, T, M> = Option<(P, T, Viscosities<M>)>;
 pub(super) type DampingOf<M> =
     Damping<<M as FreeEnergy<f64>>::Variables, <M as FreeEnergy<f64>>::Hessian>;
 
-/// A point with its variables in a step of the scheme `C`.
-pub(crate) struct Point<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> {
+/// A point with its variables in a step of the scheme `C`. It knows the numbers of its measures `Q`, and no nodes.
+pub(crate) struct Point<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> {
     pub(super) scheme: C,
     /// Its handle.
     pub(super) element: Element,
     pub(super) model: M,
-    pub(super) kinematics: K,
     /// Its thermal slot, if it has a temperature, and the offset of its viscous stretches.
     slot: u32,
     viscous: u32,
@@ -126,17 +116,15 @@ pub(crate) struct Point<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M
     pub(super) viscosities: Viscosities<M>,
     /// The Kelvin–Voigt dashpot, if there is one.
     pub(super) drag: Drag<M::Drag>,
-    /// The derivative of the measures with respect to the new arms.
-    pub(super) sensitivity: Gradient<K, D>,
     /// Local unknowns as functions of the global ones.
-    pub(super) condensed: Condensed<M, K, D>,
+    pub(super) condensed: Condensed<M, Q>,
     /// Only for schemes that evaluate the model at one point of the step.
-    pub(super) single: C::AtPoint<MemoryAtPoint<M, K, D>>,
+    pub(super) single: C::AtPoint<PointMemory<M::Variables>>,
     /// Only for a damped scheme.
     pub(super) damping: C::Damping<DampingOf<M>>,
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Number of variables.
     pub(super) const VARIABLES: usize = M::Variables::LEN;
 
@@ -149,21 +137,14 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
     /// The index of Δs in the response.
     pub(super) const ENTROPY: usize = Self::TEMPERATURE + 1;
 
-    pub(super) fn new(
-        scheme: C,
-        element: Element,
-        (model, kinematics): (M, K),
-        slots: Slots,
-    ) -> Self {
+    pub(super) fn new(scheme: C, element: Element, model: M, slots: Slots) -> Self {
         let zeros = M::Variables::filled(0.0);
         let viscosities = M::Viscosities::filled(0.0);
-        let nowhere = Arms::<K, D>::filled([0.0; D]);
         let old = C::old(&model, &zeros, 0.0);
         Self {
             scheme,
             element,
             model,
-            kinematics,
             slot: compact(slots.thermal.unwrap_or(0)),
             viscous: compact(slots.viscous),
             contact: u32::MAX,
@@ -180,9 +161,8 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
             slopes: M::Hessian::filled(zeros),
             viscosities: (viscosities, viscosities),
             drag: Drag::zero(M::Drag::filled(0.0)),
-            sensitivity: Gradient::<K, D>::filled(nowhere),
             condensed: Condensed::zero(),
-            single: C::AtPoint::filled(MemoryAtPoint::<M, K, D>::zero(nowhere)),
+            single: C::AtPoint::filled(PointMemory::zero()),
             damping: C::Damping::filled(DampingOf::<M>::none()),
         }
     }
@@ -199,16 +179,18 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
     /// The unit of its viscous stretches.
     #[inline]
     pub(super) fn viscous_unit(&self) -> f64 {
-        let measures = measures_in::<K, D>(&self.start.x0);
-        self.kinematics.unit(&measures)
+        Q::unit(&self.old_measures())
+    }
+
+    /// The old measures.
+    #[inline]
+    pub(super) fn old_measures(&self) -> Numbers<Q> {
+        measures_in::<Q>(&self.start.x0)
     }
 
     /// Its contact, if it conducts heat to other elements.
     #[inline]
-    pub(super) fn contact_in<'a>(
-        &self,
-        contacts: &'a [Contact<K, D>],
-    ) -> Option<&'a Contact<K, D>> {
+    pub(super) fn contact_in<'a, T>(&self, contacts: &'a [T]) -> Option<&'a T> {
         if M::THERMAL {
             contacts.get(self.contact as usize)
         } else {
@@ -284,7 +266,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
                 element: self.element,
                 dashpot,
                 value: viscosities[dashpot],
-                unit: K::VISCOSITY_UNIT,
+                unit: Q::VISCOSITY_UNIT,
                 temperature: M::THERMAL.then_some(theta),
             }),
         }

@@ -100,12 +100,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
                 let around = Surroundings {
                     step,
                     interface,
-                    contact,
+                    paths: contact.map(|contact| &contact.paths[..]),
                     theta: contact.map_or(0.0, |own| solution[own.unknown as usize][0]),
                 };
                 let [by_end, by_start] = &mut by_arms;
                 let ends = point.ends(arms);
-                let of_point = point.weigh(&around, &ends, &w);
+                let along = point.kinematics.discrete_rates(&ends, &w);
+                let of_point = point.weigh(&around, &along);
                 let by = point.by_old(&of_point.rho, &of_point.increments);
                 let back = point.ends_back(arms);
                 point.add_by_arms(&back, &by, &w, h, by_start);
@@ -159,7 +160,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
                 point.return_to(past, &arms)?;
             }
             let form = point.tangent_in(past.view.per_step)?;
-            let reduced = point.condense_transposed(step, interface, &form, contact)?;
+            let reduced = {
+                let paths = contact.map(|contact| &contact.paths[..]);
+                point.condense_transposed(step, interface, &form, paths)?
+            };
             let pose = Pose::new(
                 &point.kinematics,
                 point.scheme.placement(),
@@ -242,14 +246,14 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     ) {
         site.add_column(&self.column, &heat.by_arm, values);
         let mut sum = 0.0;
-        for partner in &self.partners {
-            let conductance = partner.conductance;
+        for (path, partner) in self.paths.iter().zip(&self.partners) {
+            let conductance = path.conductance;
             sum += conductance;
             let mut pull = heat.pull;
             scale::<K, D>(&mut pull, conductance);
             site.subtract_arms(&pull, &partner.row, values);
-            values[partner.entry_back as usize] -= conductance * heat.slope;
-            right[partner.unknown as usize][0] += conductance * heat.residual;
+            values[path.entry_back as usize] -= conductance * heat.slope;
+            right[path.unknown as usize][0] += conductance * heat.residual;
         }
         let mut pull = heat.pull;
         scale::<K, D>(&mut pull, -sum);

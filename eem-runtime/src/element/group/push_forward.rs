@@ -15,6 +15,7 @@ mod changes;
 use super::arms::{along, dot};
 use super::element_group::ElementGroup;
 use super::member::Member;
+use super::placed::PlacedPoint;
 use super::point::temperature_in;
 use super::point_step::{Direction, PastStep};
 use super::pose::Pose;
@@ -25,7 +26,7 @@ use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::ElementScheme;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, points, scale};
-use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures};
+use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics};
 use eem_material::free_energy::{Array, Material};
 
 impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
@@ -51,7 +52,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
                 let ends = point.ends(arms);
                 let pose = Pose::new(&point.kinematics, point.scheme.placement(), ends);
                 let ends = point.ends_back(arms);
-                let linear = point.linearize_past(step, interface, contact, (&pose, &ends))?;
+                let paths = contact.map(|contact| &contact.paths[..]);
+                point.sensitivity = pose.sensitivity;
+                let by_old_arms = point.kinematics.new_gradient(&ends);
+                let linear = point.linearize_past(step, interface, paths)?;
                 *heat = contact.map(|_| point.heat(interface, &linear.form));
                 let form = (&linear.form, None);
                 point.add_momentum(step.view.step, &pose, form, heat, &mut share.momentum);
@@ -61,9 +65,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
                 }
                 for direction in &mut *directions {
                     let moved = member.site.changes_in(&direction.old.positions);
-                    let change =
-                        point.change(step, (interface, contact), &moved, &linear, direction);
-                    let forces = point.push(&linear, &change, contact, direction)?;
+                    let moved = PlacedPoint::<M, K, C, D>::rates_along(&by_old_arms, &moved);
+                    let change = point.change(step, (interface, paths), &moved, &linear, direction);
+                    let unknown = contact.map(|contact| contact.unknown as usize);
+                    let forces = point.push(&linear, &change, unknown, direction)?;
                     let mut pull = pose.pull(&point.kinematics, point.scheme.placement(), &forces);
                     scale::<K, D>(&mut pull, step.view.step);
                     let right = direction.right.as_flattened_mut();
@@ -84,7 +89,12 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
             for direction in &mut *directions {
                 let moved = member.site.changes_in(&direction.new.positions);
                 for point in member.points.as_ref() {
-                    point.follow(&moved, point.contact_in(&self.contacts), direction);
+                    let changes =
+                        PlacedPoint::<M, K, C, D>::rates_along(&point.sensitivity, &moved);
+                    let heat = point.contact_in(&self.contacts).map(|contact| {
+                        point.condensed.heat_factor * contact.heat(&direction.right)
+                    });
+                    point.follow(&changes, heat, direction);
                 }
             }
         }
@@ -154,9 +164,4 @@ fn applied<K: Kinematics<D>, const D: usize>(
 /// Gradients of zeros.
 fn still<K: Kinematics<D>, const D: usize>() -> Gradient<K, D> {
     Gradient::<K, D>::filled(Arms::<K, D>::filled([0.0; D]))
-}
-
-/// Per measure, zeros.
-fn no_forces<K: Kinematics<D>, const D: usize>() -> Measures<K, D> {
-    Measures::<K, D>::filled(0.0)
 }

@@ -1,9 +1,10 @@
 //! The energy changes of elements between two states, evaluated again where differences of values are too inaccurate.
 
 use super::arms::{along, arms_in, measures_in};
+use super::placed::PlacedPoint;
 use super::point::Point;
 use crate::element::conjugates::ElementScheme;
-use crate::element::kinematics::{Arms, Ends, Kinematics};
+use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 
@@ -36,7 +37,7 @@ fn change_between<K: Kinematics<D>, const D: usize>(
     change
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// The change of its energy between two states, given its nodes.
     pub(super) fn balance_between(
         &self,
@@ -69,7 +70,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         [old, new]: [&State; 2],
     ) -> M::Variables {
         let mut increments = M::Variables::filled(0.0);
-        let measures = [x0, x1].map(measures_in::<K, D>);
+        let measures = [x0, x1].map(measures_in::<K::Measures>);
         let ends = Ends::new(&self.kinematics, [*r0, *r1], measures);
         let gradient = self.kinematics.discrete_gradient(&ends);
         for (a, row) in gradient.as_ref().iter().enumerate() {
@@ -80,11 +81,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             increments[M::MEASURES + k] = new.viscous.change(slots.viscous + k, &old.viscous);
         }
         if let Some(slot) = slots.thermal {
-            increments[Self::TEMPERATURE] = new.entropies.change(slot, &old.entropies);
+            increments[M::MEASURES + M::DASHPOTS] = new.entropies.change(slot, &old.entropies);
         }
         increments
     }
+}
 
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
     pub(super) fn change_of(response: &M::Response, increments: &M::Variables) -> f64 {
         let mut sum = 0.0;

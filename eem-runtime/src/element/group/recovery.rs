@@ -1,36 +1,28 @@
 //! The new state of each element: its temperature, energy and checks.
 
 use super::point::{Point, variables};
-use super::respond::{check_measures, check_temperature};
+use super::respond::check_temperature;
 use crate::element::conjugates::{ElementScheme, Infeasible, Placement, recovered_at};
 use crate::element::error::StateError;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::{Energy, State};
 use eem_material::free_energy::{Caloric, Material};
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
-    /// The variables in a state with these arms; an error if the deformation is inadmissible.
-    #[inline]
-    pub(super) fn locate(&self, r: &Arms<K, D>, state: &State) -> Result<M::Variables, StateError> {
-        let measures = self.kinematics.measure(r);
-        check_measures::<K, D>(&self.kinematics, self.element, &measures, r)?;
-        Ok(variables::<M>(measures.as_ref(), self.slots(), state))
-    }
-
-    /// Finds the new temperature from the new entropy, starting at `near`, where the caloric quantities may be known. If the
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+    /// Finds the new temperature from the new entropy at new measures, starting at `near`, where the caloric quantities may be known. If the
     /// scheme integrates the temperature, or it is prescribed, finds the entropy from the temperature instead.
     ///
     /// Returns the new entropy if a thermostat prescribes the temperature.
     #[inline]
     pub(super) fn recover_temperature(
         &mut self,
-        r: &Arms<K, D>,
+        measures: &Numbers<Q>,
         view: &StepView<'_>,
         (near, known): (f64, Option<&(Caloric<f64>, f64)>),
         state: &mut State,
     ) -> Result<Option<f64>, StateError> {
-        let mut x = self.locate(r, state)?;
+        let mut x = variables::<M>(measures.as_ref(), self.slots(), state);
         self.check_viscous(&x)?;
         let at = self.element.index();
         let Some(slot) = self.slots().thermal else {
@@ -114,7 +106,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
                     element: self.element,
                     dashpot,
                     value: stretch,
-                    unit: K::VISCOUS_UNIT,
+                    unit: Q::VISCOUS_UNIT,
                 });
             }
         }

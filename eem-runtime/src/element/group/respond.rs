@@ -1,13 +1,10 @@
 //! The response of the elements at a trial state, and its checks.
 
-use super::arms::{add_scaled, measures_in};
-use super::point::{Known, Point, Viscosities, temperature_in};
-use super::pose::{Pose, placed_measures};
+use super::point::{Point, Viscosities, temperature_in};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
-use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
-use crate::element::kinematics::{Arms, Ends, Kinematics, Measures};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::is_positive;
 
@@ -20,18 +17,16 @@ pub(super) struct TrialArms<K: Kinematics<D>, const D: usize> {
     pub(super) motion: Arms<K, D>,
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
-    /// Finds the measures of the trial state, its temperature if that is not an unknown, and other values that the form
-    /// of the scheme needs, unless they are known. Returns the measures of the arms that the scheme uses.
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+    /// Takes the measures of a trial, and finds its temperature if that is not an unknown, and other values that the form of
+    /// the scheme needs, unless they are known.
     #[inline]
     pub(super) fn locate_trial(
         &mut self,
-        r1: &Arms<K, D>,
-        trial: &Trial<D>,
+        measures: &Numbers<Q>,
+        is_start: bool,
         prepared: Option<C::Memory>,
-    ) -> Result<Measures<K, D>, StateError> {
-        let [measures1, measures] = self.placed(r1);
-        check_measures::<K, D>(&self.kinematics, self.element, &measures, r1)?;
+    ) -> Result<(), StateError> {
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
@@ -47,36 +42,17 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         }
         if let Some(prepared) = prepared {
             self.memory = prepared;
-        } else if !trial.is_start {
+        } else if !is_start {
             C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
                 .map_err(|infeasible| infeasible.of(self.element))?;
         }
-        Ok(measures1)
-    }
-
-    /// The measures of arms, and those at which the scheme evaluates the model.
-    #[inline]
-    pub(super) fn placed(&self, r1: &Arms<K, D>) -> [Measures<K, D>; 2] {
-        let measures1 = self.kinematics.measure(r1);
-        let measures0 = measures_in::<K, D>(&self.start.x0);
-        let placed = placed_measures::<K, D>(self.scheme.placement(), &measures0, measures1);
-        [measures1, placed]
-    }
-
-    /// The gradients in the configuration that the scheme uses, which has these measures.
-    #[inline]
-    pub(super) fn pose(&self, arms: &TrialArms<K, D>, measures: &Measures<K, D>) -> Pose<K, D> {
-        let measures = [measures_in::<K, D>(&self.start.x0), *measures];
-        let ends = Ends::new(&self.kinematics, [arms.old, arms.placed], measures);
-        Pose::new(&self.kinematics, self.scheme.placement(), ends)
+        Ok(())
     }
 
     /// The response and its tangent at the trial that has been located.
     #[inline]
-    pub(super) fn form(&self, trial: &Trial<D>) -> Form<f64, M> {
-        if trial.is_start
-            && let Some(form) = C::starting_form(&self.model, &self.start, &self.x)
-        {
+    pub(super) fn form(&self, is_start: bool) -> Form<f64, M> {
+        if is_start && let Some(form) = C::starting_form(&self.model, &self.start, &self.x) {
             return form;
         }
         self.scheme
@@ -96,49 +72,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         self.accept_response(per_step, &form.0, known)
     }
 
-    /// Finds the response at a trial, without its tangent, at the end of a step. The response may be known.
     #[inline]
-    pub(super) fn respond_alone(
-        &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        arms: &TrialArms<K, D>,
-        known: Known<C::Memory, M::Response, M>,
-    ) -> Result<(), StateError> {
-        let per_step = view.per_step;
-        let prepared = known.map(|(prepared, ..)| prepared);
-        let measures = self.locate_trial(&arms.placed, trial, prepared)?;
-        if Self::DRAGS > 0 {
-            let pose = self.pose(arms, &measures);
-            self.extend(&pose, &arms.motion);
-        }
-        if trial.is_start {
-            let form = self.form(trial);
-            self.accept(per_step, &form, None)?;
-            self.response = form.0;
-            return Ok(());
-        }
-        if M::THERMAL && self.scheme.is_in_temperature() {
-            let mut form = self.form(trial);
-            let pose = self.pose(arms, &measures);
-            self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
-            self.accept(per_step, &form, None)?;
-            self.response = form.0;
-            return Ok(());
-        }
-        self.response = known.map_or_else(
-            || {
-                self.scheme
-                    .response(&self.model, &self.start, &self.x, &self.memory)
-            },
-            |(_, response, _)| response,
-        );
-        let response = self.response;
-        self.accept_response(per_step, &response, known.map(|known| known.2))
-    }
-
-    #[inline]
-    fn accept_response(
+    pub(super) fn accept_response(
         &mut self,
         per_step: f64,
         response: &M::Response,
@@ -151,27 +86,22 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         self.find_viscosities(temperature_in::<M>(response), known)
     }
 
-    /// For a scheme in temperature: calls [`ElementScheme::change_entropy_at_rates`] with the increments of the trial.
+    /// For a scheme in temperature: calls [`ElementScheme::change_entropy_at_rates`], given the increments of the measures;
+    /// returns `∂s/∂x`.
     pub(super) fn change_entropy_at_rates(
-        &mut self,
+        &self,
         step: f64,
-        pose: &Pose<K, D>,
-        motion: &Arms<K, D>,
+        measures: &Numbers<Q>,
         form: &mut Form<f64, M>,
-    ) {
-        let (own, by_arm) = pose.increase(&self.kinematics, self.scheme.placement(), motion);
-        let increments = self.increments(&own, step);
+    ) -> M::Variables {
+        let increments = self.increments(measures, step);
         let (model, start) = (&self.model, &self.start);
-        let slopes = self
-            .scheme
-            .change_entropy_at_rates(model, start, &self.x, &increments, form);
-        for at_point in self.single.as_mut() {
-            at_point.by_increment = combined::<K, M, D>(&slopes, by_arm.as_ref());
-        }
+        self.scheme
+            .change_entropy_at_rates(model, start, &self.x, &increments, form)
     }
 
     /// The increments of measures, viscous stretches and temperature, less the contribution of the old state.
-    fn increments(&self, measures: &Measures<K, D>, step: f64) -> M::Variables {
+    fn increments(&self, measures: &Numbers<Q>, step: f64) -> M::Variables {
         let mut increments = M::Variables::filled(0.0);
         let (old, last) = (&self.start.x0, Self::VARIABLES - 1);
         for (a, &increment) in measures.as_ref().iter().enumerate() {
@@ -189,32 +119,6 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         }
         increments
     }
-}
-
-/// `Σ_a slope_a ∂Λ_a/∂r¹`.
-fn combined<K: Kinematics<D>, M: FreeEnergy<f64>, const D: usize>(
-    slopes: &M::Variables,
-    by_arm: &[Arms<K, D>],
-) -> Arms<K, D> {
-    let mut sum = Arms::<K, D>::filled([0.0; D]);
-    for (&slope, row) in slopes.as_ref().iter().zip(by_arm) {
-        add_scaled::<K, D>(&mut sum, slope, row);
-    }
-    sum
-}
-
-/// An error unless the deformation given by these arms is admissible.
-#[inline]
-pub(super) fn check_measures<K: Kinematics<D>, const D: usize>(
-    kinematics: &K,
-    element: Element,
-    measures: &Measures<K, D>,
-    r: &Arms<K, D>,
-) -> Result<(), StateError> {
-    if kinematics.is_admissible(r, measures) {
-        return Ok(());
-    }
-    Err(kinematics.refusal(element, r))
 }
 
 /// An error unless the temperature of a response is positive and the response finite.

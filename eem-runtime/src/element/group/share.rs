@@ -2,7 +2,8 @@
 //! element. Anchors have no equations.
 
 use super::arms::{add_scaled, scale};
-use super::point::Point;
+use super::condensed::CondensedRow;
+use super::placed::PlacedPoint;
 use super::pose::Pose;
 use super::site::{Contact, Site};
 use crate::element::conduction::InterfaceTemperatures;
@@ -50,54 +51,19 @@ impl<K: Kinematics<D>, const D: usize> Share<K, D> {
     }
 }
 
-/// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
-struct CondensedRow<K: Kinematics<D>, const D: usize> {
-    value: f64,
-    by_measure: Measures<K, D>,
-    by_heat: f64,
-}
-
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
-    #[inline]
-    fn condensed_row(
-        &self,
-        row: usize,
-        (response, tangent): &Form<f64, M>,
-        is_coupled: bool,
-    ) -> CondensedRow<K, D> {
-        let mut condensed = CondensedRow::<K, D> {
-            value: response[row],
-            by_measure: Measures::<K, D>::filled(0.0),
-            by_heat: 0.0,
-        };
-        for a in 0..M::MEASURES {
-            condensed.by_measure[a] = tangent[row][a];
-        }
-        for u in 0..Self::UNKNOWNS {
-            let by_unknown = tangent[row][M::MEASURES + u];
-            condensed.value -= by_unknown * self.condensed.constant.get(u);
-            for a in 0..M::MEASURES {
-                condensed.by_measure[a] -= by_unknown * self.condensed.by_measure[a].get(u);
-            }
-            if self.depends_on_heat(is_coupled) {
-                condensed.by_heat += by_unknown * self.condensed.by_heat.get(u);
-            }
-        }
-        condensed
-    }
-
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// The derivative of a condensed response with respect to the new arms, times a factor.
     #[inline]
-    fn by_arm(&self, row: &CondensedRow<K, D>, factor: f64) -> Arms<K, D> {
+    fn by_arm(&self, row: &CondensedRow<K::Measures>, factor: f64) -> Arms<K, D> {
         let mut sum = self.sensitivity[0];
         scale::<K, D>(&mut sum, factor * row.by_measure[0]);
         for a in 1..M::MEASURES {
             let by = factor * row.by_measure[a];
             add_scaled::<K, D>(&mut sum, by, &self.sensitivity[a]);
         }
-        for at_point in self.single.as_ref() {
+        for by_increment in self.by_increment.as_ref() {
             let by = -factor * row.by_heat;
-            add_scaled::<K, D>(&mut sum, by, &at_point.by_increment);
+            add_scaled::<K, D>(&mut sum, by, by_increment);
         }
         sum
     }
@@ -126,7 +92,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             forces[a] = impulse * form.0[a];
             forces_by_arm[a] = self.by_arm(&row, impulse);
             if let Some(by_rate) = by_rate
-                && a < Self::DRAGS
+                && a < M::Drag::LEN
             {
                 let by = self.force_by_rate(a, step.recip(), impulse, by_rate);
                 add_scaled::<K, D>(&mut forces_by_arm[a], 1.0, &by);
@@ -163,9 +129,9 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         form: &Form<f64, M>,
     ) -> Heat<K, D> {
         let row = if C::Damping::<()>::LEN > 0 {
-            self.condensed_row(Self::TEMPERATURE, &self.conducting(form), true)
+            self.condensed_row(M::MEASURES + M::DASHPOTS, &self.conducting(form), true)
         } else {
-            self.condensed_row(Self::TEMPERATURE, form, true)
+            self.condensed_row(M::MEASURES + M::DASHPOTS, form, true)
         };
         let interface = interface.values()[self.slots().thermal.unwrap_or_default()];
         Heat {
@@ -228,10 +194,10 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     #[inline]
     pub(super) fn add_pull(&self, site: &Site<K, D>, arms: &Arms<K, D>, values: &mut [f64]) {
         let mut sum = 0.0;
-        for partner in &self.partners {
+        for (path, partner) in self.paths.iter().zip(&self.partners) {
             let mut by_partner = *arms;
-            scale::<K, D>(&mut by_partner, partner.conductance);
-            sum += partner.conductance;
+            scale::<K, D>(&mut by_partner, path.conductance);
+            sum += path.conductance;
             site.add_column(&partner.column, &by_partner, values);
         }
         let mut by_own = *arms;
@@ -251,9 +217,9 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
         right[self.unknown as usize][0] += heat.residual;
         site.subtract_arms(&heat.by_arm, &self.row, values);
         let mut diagonal = 1.0;
-        for partner in &self.partners {
-            let entry = heat.slope * partner.conductance;
-            values[partner.entry as usize] += entry;
+        for path in &self.paths {
+            let entry = heat.slope * path.conductance;
+            values[path.entry as usize] += entry;
             diagonal -= entry;
         }
         values[self.diagonal as usize] += diagonal;

@@ -33,12 +33,14 @@ pub(super) struct Contact<K: Kinematics<D>, const D: usize> {
     pub(super) row: K::PerNode<u32>,
     /// The entry of the first row of each node in the column of Θ.
     pub(super) column: K::PerNode<u32>,
+    pub(super) paths: Vec<HeatPath>,
+    /// Of each path.
     pub(super) partners: Vec<PartnerSite<K, D>>,
 }
 
 /// A path of heat to another element.
-#[derive(Clone, Debug)]
-pub(super) struct PartnerSite<K: Kinematics<D>, const D: usize> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HeatPath {
     /// The partner's thermal slot, and the row of its Θ.
     pub(super) slot: u32,
     pub(super) unknown: u32,
@@ -48,13 +50,19 @@ pub(super) struct PartnerSite<K: Kinematics<D>, const D: usize> {
     pub(super) link: u32,
     /// κ, W/K.
     pub(super) conductance: f64,
-    /// The entry of the first row of each node in the column of the partner's Θ.
-    pub(super) column: K::PerNode<u32>,
-    /// For the transposed system: the first entry of each node, and that of the own Θ, in the row of the partner's Θ.
-    #[cfg(feature = "gradients")]
-    pub(super) row: K::PerNode<u32>,
+    /// For the transposed system: the entry of the own Θ in the row of the partner's Θ.
     #[cfg(feature = "gradients")]
     pub(super) entry_back: u32,
+}
+
+/// The matrix indices of the nodes of an element with the interface temperature of a partner.
+#[derive(Clone, Debug)]
+pub(super) struct PartnerSite<K: Kinematics<D>, const D: usize> {
+    /// The entry of the first row of each node in the column of the partner's Θ.
+    pub(super) column: K::PerNode<u32>,
+    /// For the transposed system: the first entry of each node in the row of the partner's Θ.
+    #[cfg(feature = "gradients")]
+    pub(super) row: K::PerNode<u32>,
 }
 
 impl<K: Kinematics<D>, const D: usize> Site<K, D> {
@@ -116,30 +124,36 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
         let column_of = |theta: usize| per_node(&|node| sites.place(node, Some(theta)));
         let links = sites.conduction.links(slot).iter();
         let links = links.zip(sites.conduction.first_link(slot)..);
-        let partners = links.filter_map(|(link, place)| {
+        let (mut paths, mut partners) = (Vec::new(), Vec::new());
+        for (link, place) in links {
             let Partner::Slot(partner) = link.partner else {
-                return None;
+                continue;
             };
-            let theta = sites.layout.coupled[partner]?;
-            Some(PartnerSite {
+            let Some(theta) = sites.layout.coupled[partner] else {
+                continue;
+            };
+            paths.push(HeatPath {
                 slot: compact(partner),
                 unknown: compact(sites.row(Some(theta))),
                 entry: compact(sites.place(Some(unknown), Some(theta))),
                 link: compact(place),
                 conductance: link.conductance,
+                #[cfg(feature = "gradients")]
+                entry_back: compact(sites.place(Some(theta), Some(unknown))),
+            });
+            partners.push(PartnerSite {
                 column: column_of(theta),
                 #[cfg(feature = "gradients")]
                 row: per_node(&|node| sites.place(Some(theta), node)),
-                #[cfg(feature = "gradients")]
-                entry_back: compact(sites.place(Some(theta), Some(unknown))),
-            })
-        });
+            });
+        }
         Some(Self {
             unknown: compact(sites.row(Some(unknown))),
             diagonal: compact(sites.place(Some(unknown), Some(unknown))),
             row: per_node(&|node| sites.place(Some(unknown), node)),
             column: column_of(unknown),
-            partners: partners.collect(),
+            paths,
+            partners,
         })
     }
 }

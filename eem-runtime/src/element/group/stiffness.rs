@@ -48,7 +48,7 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: us
     (r, x): (&Arms<K, D>, &M::Variables),
     slots: Slots,
 ) -> Stiffness<'a> {
-    let measures = measures_in::<K, D>(x);
+    let measures = measures_in::<K::Measures>(x);
     let length = kinematics.length(&measures);
     let slopes = kinematics.slopes(r, &measures);
     let sizes = kinematics.sizes(r, &measures);

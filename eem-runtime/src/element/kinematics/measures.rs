@@ -9,11 +9,15 @@ use eem_mesh::Points;
 /// The arms of an element, m.
 pub type Arms<K, const D: usize> = <K as Kinematics<D>>::PerArm<[f64; D]>;
 
+/// `[T; number of measures]`.
+pub(crate) type PerMeasure<K, T, const D: usize> =
+    <<K as Kinematics<D>>::Measures as MeasureSet>::Per<T>;
+
 /// A number per measure: the measures themselves, or their conjugate forces.
-pub type Measures<K, const D: usize> = <K as Kinematics<D>>::PerMeasure<f64>;
+pub type Measures<K, const D: usize> = PerMeasure<K, f64, D>;
 
 /// Derivatives of measures with respect to the arms: per measure and arm.
-pub type Gradient<K, const D: usize> = <K as Kinematics<D>>::PerMeasure<Arms<K, D>>;
+pub type Gradient<K, const D: usize> = PerMeasure<K, Arms<K, D>, D>;
 
 /// Second derivatives with respect to the arms: a square block per pair of arms.
 pub type Blocks<K, const D: usize> =
@@ -56,14 +60,67 @@ impl<K: Kinematics<D>, const D: usize> Ends<K, D> {
     }
 }
 
+/// The measures of a point, apart from its nodes: all that the balances of its internal variables know of them.
+pub trait MeasureSet: Copy + Send + Sync + core::fmt::Debug + 'static {
+    /// `[T; number of measures]`.
+    type Per<T: Entry>: Array<T>;
+
+    /// Whether the measure is a length, whose conjugate is a force.
+    const IS_SPRING: bool;
+    /// Unit of a viscous stretch, whose rate times the viscosity is the force of a dashpot.
+    const VISCOUS_UNIT: &'static str;
+    /// Unit of a viscosity.
+    const VISCOSITY_UNIT: &'static str;
+
+    /// The factor that makes an energy of the force of a dashpot: the measure, m, for a force in N; one for strains.
+    fn unit(measures: &Self::Per<f64>) -> f64;
+}
+
+/// A number per measure of a set.
+pub(crate) type Numbers<Q> = <Q as MeasureSet>::Per<f64>;
+
+/// The length of a spring.
+#[derive(Clone, Copy, Debug)]
+pub struct Length;
+
+impl MeasureSet for Length {
+    type Per<T: Entry> = [T; 1];
+
+    const IS_SPRING: bool = true;
+    const VISCOUS_UNIT: &'static str = "m";
+    const VISCOSITY_UNIT: &'static str = "N s/m";
+
+    #[inline]
+    fn unit(&[lambda]: &[f64; 1]) -> f64 {
+        lambda
+    }
+}
+
+/// The N strains at a point of a solid.
+#[derive(Clone, Copy, Debug)]
+pub struct StrainSet<const N: usize>;
+
+impl<const N: usize> MeasureSet for StrainSet<N> {
+    type Per<T: Entry> = [T; N];
+
+    const IS_SPRING: bool = false;
+    const VISCOUS_UNIT: &'static str = "";
+    const VISCOSITY_UNIT: &'static str = "J s";
+
+    #[inline]
+    fn unit(_: &[f64; N]) -> f64 {
+        1.0
+    }
+}
+
 /// The measures at a point of an element as functions of its edge vectors from node 0 (arms), in `D` dimensions.
 pub trait Kinematics<const D: usize>: Copy + Send + Sync + core::fmt::Debug + 'static {
     /// `[T; number of nodes]`.
     type PerNode<T: Entry>: Array<T>;
     /// `[T; number of nodes − 1]`.
     type PerArm<T: Entry>: Array<T>;
-    /// `[T; number of measures]`.
-    type PerMeasure<T: Entry>: Array<T>;
+    /// Its measures.
+    type Measures: MeasureSet;
 
     /// `[T; number of points]`, at which the free energy is evaluated.
     type PerPoint<T: Send + Sync>: Points<T>;
@@ -71,21 +128,11 @@ pub trait Kinematics<const D: usize>: Copy + Send + Sync + core::fmt::Debug + 's
     /// The common part of the mean-value gradients between two states.
     type Between: Copy + core::fmt::Debug;
 
-    /// Whether its measure is a length, whose conjugate is a force.
-    const IS_SPRING: bool;
-    /// Unit of a viscous stretch, whose rate times the viscosity is the force of a dashpot.
-    const VISCOUS_UNIT: &'static str;
-    /// Unit of a viscosity.
-    const VISCOSITY_UNIT: &'static str;
-
     /// Whether an element can have these arms, whose measures are given.
     fn is_admissible(&self, r: &Arms<Self, D>, measures: &Measures<Self, D>) -> bool;
 
     /// Why an element cannot have these arms.
     fn refusal(&self, element: Element, r: &Arms<Self, D>) -> StateError;
-
-    /// The factor that makes an energy of the force of a dashpot: the measure, m, for a force in N; one for strains.
-    fn unit(&self, measures: &Measures<Self, D>) -> f64;
 
     /// The displacement that changes its gradients by their own size, m.
     fn length(&self, measures: &Measures<Self, D>) -> f64;
@@ -231,7 +278,7 @@ pub trait Kinematics<const D: usize>: Copy + Send + Sync + core::fmt::Debug + 's
 pub(crate) type PerStrain<K, const D: usize> = <K as QuadraticStrain<D>>::PerStrain<f64>;
 
 /// Derivatives of measures with respect to the strain.
-pub(crate) type StrainSlopes<K, const D: usize> = <K as Kinematics<D>>::PerMeasure<PerStrain<K, D>>;
+pub(crate) type StrainSlopes<K, const D: usize> = PerMeasure<K, PerStrain<K, D>, D>;
 
 /// A square matrix of the components of the strain.
 pub(crate) type StrainMatrix<K, const D: usize> =

@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::between::{Between, Deformed};
-use crate::element::kinematics::measures::{Ends, Kinematics};
+use crate::element::kinematics::measures::{Ends, Kinematics, StrainSet};
 use crate::element::kinematics::solid::{Deformations, PerArm, PerPair, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 #[cfg(feature = "gradients")]
@@ -21,14 +21,10 @@ use eem_mesh::tensor::{Symmetric, plus, pushed, scaled};
 impl<H: Shape<D>, const N: usize, const D: usize> Kinematics<D> for SolidPoint<H, N, D> {
     type PerNode<T: Entry> = H::PerNode<T>;
     type PerArm<T: Entry> = H::PerArm<T>;
-    type PerMeasure<T: Entry> = [T; N];
+    type Measures = StrainSet<N>;
     type PerPoint<T: Send + Sync> = H::PerPoint<T>;
 
     type Between = Deformations<H, D>;
-
-    const IS_SPRING: bool = false;
-    const VISCOUS_UNIT: &'static str = "";
-    const VISCOSITY_UNIT: &'static str = "J s";
 
     #[inline]
     fn is_admissible(&self, r: &PerArm<H, D>, measures: &[f64; N]) -> bool {
@@ -42,11 +38,6 @@ impl<H: Shape<D>, const N: usize, const D: usize> Kinematics<D> for SolidPoint<H
             element,
             value: H::Tensor::determinant(&self.deformation(r)),
         }
-    }
-
-    #[inline]
-    fn unit(&self, _: &[f64; N]) -> f64 {
-        1.0
     }
 
     #[inline]

@@ -4,7 +4,7 @@ use core::array;
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::measures::{Ends, Kinematics, QuadraticStrain};
+use crate::element::kinematics::measures::{Ends, Kinematics, Length, QuadraticStrain};
 use eem_material::free_energy::Entry;
 use eem_material::number::scalar::{Scalar, is_positive};
 use eem_mesh::tensor::dot;
@@ -54,15 +54,11 @@ fn block<const D: usize>(t: f64, a: [f64; D], b: [f64; D]) -> [[f64; D]; D] {
 impl<const D: usize> Kinematics<D> for Stretch<D> {
     type PerNode<T: Entry> = [T; 2];
     type PerArm<T: Entry> = [T; 1];
-    type PerMeasure<T: Entry> = [T; 1];
+    type Measures = Length;
 
     type PerPoint<T: Send + Sync> = [T; 1];
 
     type Between = ();
-
-    const IS_SPRING: bool = true;
-    const VISCOUS_UNIT: &'static str = "m";
-    const VISCOSITY_UNIT: &'static str = "N s/m";
 
     #[inline]
     fn is_admissible(&self, _: &[[f64; D]; 1], &[lambda]: &[f64; 1]) -> bool {
@@ -83,11 +79,6 @@ impl<const D: usize> Kinematics<D> for Stretch<D> {
             least,
             most,
         }
-    }
-
-    #[inline]
-    fn unit(&self, &[lambda]: &[f64; 1]) -> f64 {
-        lambda
     }
 
     #[inline]

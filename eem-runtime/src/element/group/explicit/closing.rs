@@ -10,7 +10,7 @@ use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::explicit::temperature::Recovered;
 use crate::element::group::explicit::view::ClosingView;
-use crate::element::group::point::Point;
+use crate::element::group::placed::PlacedPoint;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use eem_material::free_energy::{Array, Material};
@@ -71,7 +71,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, PointRule, D> {
     /// Finds temperature and energy with these arms.
     #[inline]
     fn close_at(

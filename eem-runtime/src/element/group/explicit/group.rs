@@ -8,7 +8,7 @@ use crate::element::group::explicit::stage::Stage;
 use crate::element::group::explicit::view::ClosingView;
 use crate::element::group::interface::{Elements, ExplicitGroup, Loose};
 use crate::element::group::loose::LooseElements;
-use crate::element::group::point::Point;
+use crate::element::group::placed::PlacedPoint;
 use crate::element::group::view::Placed;
 use crate::element::kinematics::{Kinematics, QuadraticStrain};
 use eem_material::free_energy::{Array, Material};
@@ -38,7 +38,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     #[inline]
     pub(super) fn placed(
         &self,
-    ) -> impl Iterator<Item = (&Point<M, K, PointRule, D>, K::PerNode<u32>)> {
+    ) -> impl Iterator<Item = (&PlacedPoint<M, K, PointRule, D>, K::PerNode<u32>)> {
         let members = self.elements.members.iter().zip(&self.places);
         members.map(|(member, &(_, nodes))| (member.only(), nodes))
     }

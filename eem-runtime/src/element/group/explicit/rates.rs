@@ -10,8 +10,8 @@ use crate::element::group::arms::{add_scaled, along, scale};
 use crate::element::group::explicit::closed::Found;
 use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::stage::{Place, Stage};
-use crate::element::group::point::Point;
-use crate::element::kinematics::{Arms, Kinematics, Measures};
+use crate::element::group::placed::PlacedPoint;
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Measures};
 use eem_material::free_energy::{Array, Material, Rates};
 use eem_material::number::scalar::is_positive;
 
@@ -53,7 +53,7 @@ fn is_number(value: f64) -> bool {
     value.abs() <= f64::MAX
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, PointRule, D> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what was found stays in registers")]
     fn found_at(
@@ -201,7 +201,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
                     element,
                     dashpot,
                     value: eta,
-                    unit: K::VISCOSITY_UNIT,
+                    unit: K::Measures::VISCOSITY_UNIT,
                     temperature: M::THERMAL.then_some(theta),
                 };
             }

@@ -5,7 +5,7 @@ use crate::element::group::arms::along;
 use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
-use crate::element::group::point::Point;
+use crate::element::group::placed::PlacedPoint;
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Material;
 
@@ -22,7 +22,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Point<M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, PointRule, D> {
     /// Adds the present stage to the integrals of its [thermostat](crate::element::group::explicit::stage::Thermostat).
     fn integrate_thermostat(
         &self,

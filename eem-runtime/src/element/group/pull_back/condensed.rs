@@ -5,25 +5,26 @@ use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, measures_in};
 use crate::element::group::eliminate::{LocalSystem, eliminate};
+use crate::element::group::placed::PlacedPoint;
 use crate::element::group::point::{Point, temperature_in};
 use crate::element::group::point_step::StepBack;
 use crate::element::group::pose::Pose;
 use crate::element::group::share::{Heat, Momentum};
-use crate::element::group::site::Contact;
+use crate::element::group::site::HeatPath;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
+use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Measures, Numbers};
 use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
 
 /// The transposed equations of a point after the elimination of its own weights:
 /// `Σ_a h (D*π_a·w_v) moduli_a + w_Θ by_heat + constant`, by measure.
-pub(super) struct Reduced<K: Kinematics<D>, const D: usize> {
-    moduli: K::PerMeasure<Measures<K, D>>,
-    by_heat: Measures<K, D>,
-    constant: Measures<K, D>,
+pub(super) struct Reduced<Q: MeasureSet> {
+    moduli: Q::Per<Numbers<Q>>,
+    by_heat: Numbers<Q>,
+    constant: Numbers<Q>,
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// `Σ λ_σ h κ_r/θ_r`.
     #[inline]
     pub(super) fn of_reservoirs(&self, step: &StepBack<'_>) -> f64 {
@@ -52,22 +53,23 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         step: &StepBack<'_>,
         interface: &InterfaceTemperatures,
         form: &Form<f64, M>,
-        contact: Option<&Contact<K, D>>,
-    ) -> Result<Reduced<K, D>, StateError> {
+        paths: Option<&[HeatPath]>,
+    ) -> Result<Reduced<Q>, StateError> {
         let (response, tangent) = form;
-        let mut reduced = Reduced::<K, D> {
-            moduli: K::PerMeasure::filled(Measures::<K, D>::filled(0.0)),
-            by_heat: Measures::<K, D>::filled(0.0),
-            constant: Measures::<K, D>::filled(0.0),
+        let zeros = Numbers::<Q>::filled(0.0);
+        let mut reduced = Reduced::<Q> {
+            moduli: Q::Per::filled(zeros),
+            by_heat: zeros,
+            constant: zeros,
         };
         for a in 0..M::MEASURES {
-            reduced.moduli[a] = measures_in::<K, D>(&tangent[a]);
+            reduced.moduli[a] = measures_in::<Q>(&tangent[a]);
         }
         if Self::UNKNOWNS == 0 {
             return Ok(reduced);
         }
         let theta = temperature_in::<M>(response);
-        let flow = self.heat_flow(&step.past.view, contact, interface, theta);
+        let flow = self.heat_flow(&step.past.view, paths, interface, theta);
         let mut system = LocalSystem::<M>::empty(self.pivot_units(theta));
         self.balances::<false>(&step.past.view, &flow, form, &mut system);
         let mut transposed = LocalSystem::<M>::empty(system.unit);
@@ -92,13 +94,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
                 transposed.by_heat[u] = -by_theta;
             }
         }
-        let solved = if contact.is_some() {
+        let solved = if paths.is_some() {
             eliminate::<M, true>(&mut transposed)
         } else {
             eliminate::<M, false>(&mut transposed)
         };
         solved.map_err(|singular| self.unsolved(singular))?;
-        self.keep_solved(&transposed, contact.is_some());
+        self.keep_solved(&transposed, paths.is_some());
         for b in 0..M::MEASURES {
             if M::THERMAL {
                 let by_theta = tangent[Self::TEMPERATURE][b];
@@ -108,7 +110,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             for u in 0..Self::UNKNOWNS {
                 let by = system.rows[u][b];
                 reduced.constant[b] -= by * self.condensed.constant.get(u);
-                if contact.is_some() {
+                if paths.is_some() {
                     reduced.by_heat[b] -= by * self.condensed.by_heat.get(u);
                 }
                 for a in 0..M::MEASURES {
@@ -118,14 +120,16 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         }
         Ok(reduced)
     }
+}
 
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
     /// Adds the derivatives of `wᵀR` with respect to the arms: the constant part, and that linear in `w_v`, its rows.
     #[inline]
     pub(super) fn add_transposed(
         &self,
         step: f64,
         pose: &Pose<K, D>,
-        (form, reduced): (&Form<f64, M>, &Reduced<K, D>),
+        (form, reduced): (&Form<f64, M>, &Reduced<K::Measures>),
         sum: &mut Option<Momentum<K, D>>,
     ) {
         let (kinematics, at) = (&self.kinematics, self.scheme.placement());
@@ -156,7 +160,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         &self,
         step: f64,
         pose: &Pose<K, D>,
-        reduced: &Reduced<K, D>,
+        reduced: &Reduced<K::Measures>,
     ) -> Heat<K, D> {
         let (own, factor) = (M::DASHPOTS, self.condensed.heat_factor);
         let mut by_measure = Measures::<K, D>::filled(0.0);

@@ -3,19 +3,20 @@
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::ElementScheme;
 use crate::element::group::arms::{add_scaled, measures_in};
+use crate::element::group::placed::PlacedPoint;
 use crate::element::group::point::Point;
 use crate::element::group::point_step::{PerVariable, StepBack, StepWeights};
-use crate::element::group::site::Contact;
+use crate::element::group::site::HeatPath;
 use crate::element::group::terms::Terms;
-use crate::element::kinematics::{Arms, Ends, Kinematics};
+use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
 
 /// The inputs of the weights of a point besides its own values.
-pub(super) struct Surroundings<'a, K: Kinematics<D>, const D: usize> {
+pub(super) struct Surroundings<'a> {
     pub(super) step: &'a StepBack<'a>,
     pub(super) interface: &'a InterfaceTemperatures,
-    pub(super) contact: Option<&'a Contact<K, D>>,
+    pub(super) paths: Option<&'a [HeatPath]>,
     /// `w_Θ`.
     pub(super) theta: f64,
 }
@@ -31,8 +32,8 @@ pub(super) struct OfPoint<M: Material> {
     own: f64,
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
-    /// The weights of its equations, given those of the motion of its arms, and its terms of `−(∂R/∂h)ᵀ w`. The forces
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+    /// The weights of its equations, given `D*π·w_v`, and its terms of `−(∂R/∂h)ᵀ w`. The forces
     /// there are replaced by inertia, by means of the momentum balances,
     ///
     /// ```text
@@ -41,20 +42,14 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
     ///
     /// The term with M is not included.
     #[inline]
-    pub(super) fn weigh(
-        &self,
-        around: &Surroundings<'_, K, D>,
-        ends: &Ends<K, D>,
-        w: &Arms<K, D>,
-    ) -> OfPoint<M> {
+    pub(super) fn weigh(&self, around: &Surroundings<'_>, along: &Numbers<Q>) -> OfPoint<M> {
         let (h, per_step) = (around.step.past.view.step, around.step.past.view.per_step);
-        let along = self.kinematics.discrete_rates(ends, w);
         let own = |u: usize| {
             let mut sum = self.condensed.constant.get(u);
             for a in 0..M::MEASURES {
                 sum += self.condensed.by_measure[a].get(u) * (h * along[a]);
             }
-            if around.contact.is_some() {
+            if around.paths.is_some() {
                 sum += self.condensed.by_heat.get(u) * around.theta;
             }
             -sum
@@ -105,7 +100,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         if M::THERMAL {
             let flow = self.heat_flow(
                 &around.step.past.view,
-                around.contact,
+                around.paths,
                 around.interface,
                 theta,
             );
@@ -133,25 +128,6 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             .scheme
             .form(&self.model, &self.start, &self.x, &self.memory);
         pulled::<M>(rho, &tangent, increments, 1.0)
-    }
-
-    /// Adds the derivatives of `wᵀR` with respect to the arms of the second of two ends, given those to its variables.
-    #[inline]
-    pub(super) fn add_by_arms(
-        &self,
-        ends: &Ends<K, D>,
-        by: &M::Variables,
-        w: &Arms<K, D>,
-        step: f64,
-        sum: &mut Arms<K, D>,
-    ) {
-        let mut forces = self.pulls();
-        for force in forces.as_mut() {
-            *force *= step;
-        }
-        let by = measures_in::<K, D>(by);
-        let pulled = self.kinematics.pull_back(ends, &by, (&forces, w));
-        add_scaled::<K, D>(sum, 1.0, &pulled);
     }
 
     /// Writes the derivatives with respect to its old internal variables, and the weights of its balance of heat.
@@ -194,6 +170,27 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             *entry = -*entry;
         }
         sum
+    }
+}
+
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+    /// Adds the derivatives of `wᵀR` with respect to the arms of the second of two ends, given those to its variables.
+    #[inline]
+    pub(super) fn add_by_arms(
+        &self,
+        ends: &Ends<K, D>,
+        by: &M::Variables,
+        w: &Arms<K, D>,
+        step: f64,
+        sum: &mut Arms<K, D>,
+    ) {
+        let mut forces = self.pulls();
+        for force in forces.as_mut() {
+            *force *= step;
+        }
+        let by = measures_in::<K::Measures>(by);
+        let pulled = self.kinematics.pull_back(ends, &by, (&forces, w));
+        add_scaled::<K, D>(sum, 1.0, &pulled);
     }
 }
 

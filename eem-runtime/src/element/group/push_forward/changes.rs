@@ -1,27 +1,24 @@
 //! The changes of the equations of a point along a direction, and of its internal variables.
 
-use super::{no_forces, still};
+use super::still;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
-use crate::element::group::arms::along;
 use crate::element::group::eliminate::{LocalSystem, eliminate};
+use crate::element::group::placed::PlacedPoint;
 use crate::element::group::point::{Point, temperature_in};
 use crate::element::group::point_step::{Direction, PastStep};
-use crate::element::group::pose::Pose;
-use crate::element::group::site::Contact;
-use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures};
+use crate::element::group::site::HeatPath;
+use crate::element::kinematics::{Blocks, Ends, Kinematics, MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::free_energy::{Array, Material};
 
 /// The derivatives of the equations of a point, the same for all directions.
-pub(super) struct Linearized<M: Material, G> {
+pub(super) struct Linearized<M: Material> {
     /// With the forces of Kelvin–Voigt dashpots.
     pub(super) form: Form<f64, M>,
     /// Of the response with respect to the variables of the old state.
     by_old: M::Tangent,
-    /// Of the old measures by the old arms.
-    gradient: G,
     /// The local equations before the elimination.
     local: LocalSystem<M>,
 }
@@ -39,21 +36,19 @@ struct ViscosityChanges<M: Material> {
     drag: M::Drag,
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M, K, C, D> {
+impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Linearizes its equations at both states, set by `return_to`, and eliminates its unknowns.
     #[inline]
     pub(super) fn linearize_past(
         &mut self,
         step: &PastStep<'_>,
         interface: &InterfaceTemperatures,
-        contact: Option<&Contact<K, D>>,
-        (pose, back): (&Pose<K, D>, &Ends<K, D>),
-    ) -> Result<Linearized<M, Gradient<K, D>>, StateError> {
+        paths: Option<&[HeatPath]>,
+    ) -> Result<Linearized<M>, StateError> {
         let form = self.tangent_in(step.view.per_step)?;
-        self.sensitivity = pose.sensitivity;
         self.slopes_of(&form);
         let theta = temperature_in::<M>(&form.0);
-        let flow = self.heat_flow(&step.view, contact, interface, theta);
+        let flow = self.heat_flow(&step.view, paths, interface, theta);
         let mut local = LocalSystem::<M>::empty(self.pivot_units(theta));
         self.balances::<false>(&step.view, &flow, &form, &mut local);
         if Self::UNKNOWNS > 0 {
@@ -63,12 +58,11 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
                 ..LocalSystem::empty(local.unit)
             };
             eliminate::<M, true>(&mut solved).map_err(|singular| self.unsolved(singular))?;
-            self.keep_solved(&solved, contact.is_some());
+            self.keep_solved(&solved, paths.is_some());
         }
         Ok(Linearized {
             form,
             by_old: self.slopes_by_old(),
-            gradient: self.kinematics.new_gradient(back),
             local,
         })
     }
@@ -80,40 +74,21 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         }
     }
 
-    /// Adds the derivative of its impulses with respect to the old arms at given forces.
-    #[inline]
-    pub(super) fn add_old_curvature(
-        &self,
-        step: f64,
-        back: &Ends<K, D>,
-        sum: &mut Option<Blocks<K, D>>,
-    ) {
-        let mut forces = self.pulls();
-        for force in forces.as_mut() {
-            *force *= step;
-        }
-        let (kinematics, still) = (&self.kinematics, still::<K, D>());
-        match sum {
-            None => *sum = Some(kinematics.discrete_tangent(back, &forces, &still)),
-            Some(sum) => kinematics.add_discrete_tangent(back, &forces, &still, sum),
-        }
-    }
-
-    /// The changes of its equations along a direction, in which its old arms change by `moved`.
+    /// The changes of its equations along a direction, in which its old measures change by `moved`.
     #[inline]
     pub(super) fn change(
         &self,
         step: &PastStep<'_>,
-        (interface, contact): (&InterfaceTemperatures, Option<&Contact<K, D>>),
-        moved: &Arms<K, D>,
-        linear: &Linearized<M, Gradient<K, D>>,
+        (interface, paths): (&InterfaceTemperatures, Option<&[HeatPath]>),
+        moved: &Numbers<Q>,
+        linear: &Linearized<M>,
         direction: &Direction,
     ) -> Change<M> {
         let (h, per_step) = (step.view.step, step.view.per_step);
         let Slots { viscous, thermal } = self.slots();
         let mut x = M::Variables::filled(0.0);
         for a in 0..M::MEASURES {
-            x[a] = along::<K, D>(&linear.gradient[a], moved);
+            x[a] = moved[a];
         }
         for k in 0..M::DASHPOTS {
             x[M::MEASURES + k] = direction.old.viscous[viscous + k];
@@ -162,7 +137,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         } else {
             let own = self.temperature();
             let per_theta = own.recip();
-            let flow = self.heat_flow(&step.view, contact, interface, own);
+            let flow = self.heat_flow(&step.view, paths, interface, own);
             heat += flow.heat;
             d_heat -= flow.conductance * theta;
             if let Some(&[given, per_degree]) = direction.heat.get(slot) {
@@ -214,14 +189,15 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
     }
 
     /// Eliminates its unknowns: keeps their constants in the new state of the direction, and returns the change of the forces.
+    /// `unknown` is the row of its interface temperature.
     #[inline]
     pub(super) fn push(
         &self,
-        linear: &Linearized<M, Gradient<K, D>>,
+        linear: &Linearized<M>,
         change: &Change<M>,
-        contact: Option<&Contact<K, D>>,
+        unknown: Option<usize>,
         direction: &mut Direction,
-    ) -> Result<Measures<K, D>, StateError> {
+    ) -> Result<Numbers<Q>, StateError> {
         let mut solved = LocalSystem::<M> {
             constant: change.local,
             rows: linear.local.rows,
@@ -236,7 +212,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
                 value - slopes[M::MEASURES + u] * solved.constant[u]
             })
         };
-        let mut forces = no_forces::<K, D>();
+        let mut forces = Numbers::<Q>::filled(0.0);
         for a in 0..M::MEASURES {
             forces[a] = condensed(a, change.forces[a]);
         }
@@ -247,20 +223,20 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         if let Some(slot) = thermal {
             direction.new.temperatures[slot] = solved.constant[M::DASHPOTS];
             direction.middle[slot] = change.theta;
-            if let Some(contact) = contact {
+            if let Some(unknown) = unknown {
                 let theta = condensed(Self::TEMPERATURE, change.theta);
-                direction.right[contact.unknown as usize][0] += theta;
+                direction.right[unknown][0] += theta;
             }
         }
         Ok(forces)
     }
 
-    /// Finds the changes of its internal variables and of θ*, given that of its arms.
+    /// Finds the changes of its internal variables and of θ*, given those of its measures and `δr_s` of a contact.
     #[inline]
     pub(super) fn follow(
         &self,
-        moved: &Arms<K, D>,
-        contact: Option<&Contact<K, D>>,
+        changes: &Numbers<Q>,
+        heat: Option<f64>,
         direction: &mut Direction,
     ) {
         if Self::UNKNOWNS == 0 {
@@ -268,11 +244,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         }
         let mut x = M::Variables::filled(0.0);
         for a in 0..M::MEASURES {
-            x[a] = along::<K, D>(&self.sensitivity[a], moved);
+            x[a] = changes[a];
         }
-        let heat = contact.map_or(0.0, |contact| {
-            self.condensed.heat_factor * contact.heat(&direction.right)
-        });
         let Slots { viscous, thermal } = self.slots();
         for u in 0..Self::UNKNOWNS {
             let place = match thermal.filter(|_| u == M::DASHPOTS) {
@@ -283,7 +256,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
             for a in 0..M::MEASURES {
                 change += self.condensed.by_measure[a].get(u) * x[a];
             }
-            if contact.is_some() {
+            if let Some(heat) = heat {
                 change += self.condensed.by_heat.get(u) * heat;
             }
             *place = -change;
@@ -291,6 +264,27 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Point<M
         }
         if let Some(slot) = thermal {
             direction.middle[slot] += sum_of(&self.slopes[Self::TEMPERATURE], &x);
+        }
+    }
+}
+
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+    /// Adds the derivative of its impulses with respect to the old arms at given forces.
+    #[inline]
+    pub(super) fn add_old_curvature(
+        &self,
+        step: f64,
+        back: &Ends<K, D>,
+        sum: &mut Option<Blocks<K, D>>,
+    ) {
+        let mut forces = self.pulls();
+        for force in forces.as_mut() {
+            *force *= step;
+        }
+        let (kinematics, still) = (&self.kinematics, still::<K, D>());
+        match sum {
+            None => *sum = Some(kinematics.discrete_tangent(back, &forces, &still)),
+            Some(sum) => kinematics.add_discrete_tangent(back, &forces, &still, sum),
         }
     }
 }

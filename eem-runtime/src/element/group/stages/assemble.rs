@@ -149,8 +149,8 @@ impl<K: Kinematics<D>, const D: usize> Target<'_, K, D> {
                     sum + rule.share(stage, column) * by
                 });
                 self.values[contact.diagonal as usize] += by * contact.conductance();
-                for partner in &contact.partners {
-                    self.values[partner.entry as usize] -= by * partner.conductance;
+                for path in &contact.paths {
+                    self.values[path.entry as usize] -= by * path.conductance;
                 }
             }
         }

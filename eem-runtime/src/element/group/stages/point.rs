@@ -18,7 +18,7 @@ use crate::element::conduction::Partner;
 use crate::element::conjugates::PointRule;
 use crate::element::group::arms::{add_scaled, arms_in, change_in_set};
 use crate::element::group::member::Member;
-use crate::element::group::point::Point;
+use crate::element::group::placed::PlacedPoint;
 use crate::element::group::site::Contact;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics};
@@ -29,7 +29,7 @@ use eem_material::free_energy::Array;
 pub(super) type StateMember<M, K, const D: usize> = Member<M, K, PointRule, D>;
 
 /// One of its points.
-pub(super) type StatePoint<M, K, const D: usize> = Point<M, K, PointRule, D>;
+pub(super) type StatePoint<M, K, const D: usize> = PlacedPoint<M, K, PointRule, D>;
 
 /// An element, whose points are [sources](super::source::Source) of conjugates.
 pub(crate) struct StageMember<K: Kinematics<D>, C, const D: usize> {
@@ -174,9 +174,9 @@ impl<K: Kinematics<D>, const D: usize> StagePoint<K, D> {
         for (set, contacts) in contacts.take(self.rule.sets()) {
             let share = self.rule.share(stage, set);
             let near = solution[contacts[set].unknown as usize][0];
-            for partner in &contacts[set].partners {
-                let far = solution[partner.unknown as usize][0];
-                change += share * partner.conductance * (far - near);
+            for path in &contacts[set].paths {
+                let far = solution[path.unknown as usize][0];
+                change += share * path.conductance * (far - near);
             }
         }
         change
@@ -219,7 +219,7 @@ fn excess(rule: &Tableau, stage: usize, slot: usize, view: &StepView<'_>) -> f64
 impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     /// `Σ κ`, W/K.
     pub(super) fn conductance(&self) -> f64 {
-        let partners = self.partners.iter();
-        partners.fold(0.0, |sum, partner| sum + partner.conductance)
+        let paths = self.paths.iter();
+        paths.fold(0.0, |sum, path| sum + path.conductance)
     }
 }

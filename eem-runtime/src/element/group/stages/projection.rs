@@ -362,7 +362,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
     ) -> Result<(), StateError> {
         let booked = self.book(in_state, (view, trial), next, tally);
         let near = self.temperatures[MOST_POINTS];
-        if let Some(entropy) = in_state.recover_temperature(r1, view, (near, None), next)? {
+        let measures = in_state.admissible_measures(r1)?;
+        if let Some(entropy) = in_state.recover_temperature(&measures, view, (near, None), next)? {
             self.book_thermostat(&booked, entropy, next);
         }
         let energy = &mut next.energies[in_state.element.index()];

@@ -20,7 +20,7 @@ use crate::element::group::point::variables;
 use crate::element::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
 use crate::element::group::ways::StageWays;
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Arms, Kinematics, QuadraticStrain, add_blocks};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet, QuadraticStrain, add_blocks};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::element::tally::{Care, Reevaluation, Tally};
@@ -149,7 +149,7 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
                 let measures = point.kinematics.measure(&r0);
                 let length = point.kinematics.length(&measures);
                 shorten::<K, D>(nodes, length, old.lengths);
-                point.viscous_unit = point.kinematics.unit(&measures);
+                point.viscous_unit = K::Measures::unit(&measures);
                 if let Some(slot) = slots.thermal {
                     point.entropy = view.state.entropies.values()[slot];
                     point.prescribed = view.prescribed_at_stages(slot);

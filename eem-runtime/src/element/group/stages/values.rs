@@ -18,9 +18,9 @@ use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, measures_in, resultant};
 use crate::element::group::closing::pull;
 use crate::element::group::point::grown;
-use crate::element::group::respond::{check_measures, check_temperature};
+use crate::element::group::respond::check_temperature;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Weights};
+use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Weights};
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::element::tableau::{Ending, EntropyBalance, MOST_SETS, MOST_STAGES};
@@ -73,7 +73,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
     }
 
     fn begin(&mut self, _: &StatePoint<M, K, D>, x0: &M::Variables, r0: &Arms<K, D>) {
-        let gradient = (self.point.kinematics).gradient(r0, &measures_in::<K, D>(x0));
+        let gradient = (self.point.kinematics).gradient(r0, &measures_in::<K::Measures>(x0));
         self.gradients = [gradient; MOST_STAGES];
         (self.old, self.x) = (*x0, [*x0; MOST_STAGES]);
         let prescribed = self.point.prescribed.into_iter().flatten();
@@ -93,8 +93,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
             // The measures of a known stage are those of the old state.
             if let Some(set) = rule.set_of(stage) {
                 let r = arms.of_set(set);
-                let measures = kinematics.measure(&r);
-                check_measures::<K, D>(&kinematics, in_state.element, &measures, &r)?;
+                let measures = in_state.admissible_measures(&r)?;
                 self.gradients[stage] = kinematics.gradient(&r, &measures);
                 self.x[stage].as_mut()[..M::MEASURES].copy_from_slice(measures.as_ref());
             }
@@ -260,7 +259,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
     ) -> Result<(), StateError> {
         let received = self.book(in_state.slots(), view, next);
         let near = self.theta(self.point.rule.stages() - 1);
-        if let Some(entropy) = in_state.recover_temperature(r1, view, (near, None), next)? {
+        let measures = in_state.admissible_measures(r1)?;
+        if let Some(entropy) = in_state.recover_temperature(&measures, view, (near, None), next)? {
             self.book_thermostat(view.step, [entropy, received], next);
         }
         Ok(())
@@ -276,8 +276,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
         self.x[stage][Self::TEMPERATURE]
     }
 
-    fn measures_and_forces(&self, stage: usize) -> [K::PerMeasure<f64>; 2] {
-        [&self.x[stage], &self.stages[stage].gradient].map(measures_in::<K, D>)
+    fn measures_and_forces(&self, stage: usize) -> [Measures<K, D>; 2] {
+        [&self.x[stage], &self.stages[stage].gradient].map(measures_in::<K::Measures>)
     }
 
     /// Evaluates the model at a stage whose variables are known, with the heat from other elements, W.

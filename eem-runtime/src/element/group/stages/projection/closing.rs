@@ -12,7 +12,7 @@ use super::Projections;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::group::stages::point::StatePoint;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, PerStrain, QuadraticStrain};
+use crate::element::kinematics::{Arms, MeasureSet, PerStrain, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tableau::MOST_STAGES;
 use crate::element::tally::{Care, Tally};
@@ -111,13 +111,11 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         let Some(contacts) = &self.point.contacts else {
             return;
         };
-        for partner in &contacts[stage][stage].partners {
-            let other = partner.slot as usize;
+        for site in &contacts[stage][stage].paths {
+            let other = site.slot as usize;
             let [own, far] = [slot, other].map(|slot| trial.interface_of_set(stage, slot));
-            let path = trial
-                .interface
-                .exchange(share * partner.conductance, own, far);
-            let path = (partner.link, &path);
+            let path = trial.interface.exchange(share * site.conductance, own, far);
+            let path = (site.link, &path);
             balances.conduct([slot, other], path, received);
         }
     }
@@ -258,7 +256,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             }
         }
         // Strains of solids are ratios, whose sizes are unrelated to the motion.
-        if K::IS_SPRING && care == Care::Quick {
+        if K::Measures::IS_SPRING && care == Care::Quick {
             return sum;
         }
         for (stage, &weight) in weights.iter().enumerate() {

@@ -4,7 +4,6 @@ use super::vector::{Matrix, Vector, chained, derivatives};
 use super::{Projections, combined};
 use crate::element::conjugates::{Infeasible, temperature_at};
 use crate::element::error::StateError;
-use crate::element::group::respond::check_measures;
 use crate::element::group::stages::point::{StageArms, StatePoint};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
@@ -25,8 +24,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         let kinematics = &self.point.kinematics;
         for (stage, row) in self.point.rule.motion.iter().enumerate() {
             let r = arms.of_set(stage);
-            let measures = kinematics.measure(&r);
-            check_measures::<K, D>(kinematics, in_state.element, &measures, &r)?;
+            in_state.admissible_measures(&r)?;
             let motion = combined::<K, D>(row, &arms.changes);
             self.rates[stage].strain = kinematics.strain_rate(&r, &motion);
             (self.arms[stage], self.motions[stage]) = (r, motion);

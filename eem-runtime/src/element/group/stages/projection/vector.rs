@@ -9,7 +9,7 @@
 use core::ops::{Index, IndexMut, Range};
 
 use crate::element::group::arms::measures_in;
-use crate::element::kinematics::{PerStrain, QuadraticStrain, StrainMatrix};
+use crate::element::kinematics::{PerStrain, QuadraticStrain, StrainMatrix, StrainSlopes};
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::Scalar;
 
@@ -149,7 +149,7 @@ pub(super) fn derivatives<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: us
         rest: first,
     };
     let mut curvatures = Matrix::zero();
-    let geometric = kinematics.strain_curvature(strain, &measures_in::<K, D>(&first));
+    let geometric = kinematics.strain_curvature(strain, &measures_in::<K::Measures>(&first));
     let strains = Vector::<M, K, D>::STRAINS;
     for column in 0..M::Variables::LEN {
         let by_strain = chained::<K, D>(&along, second[column].as_ref());
@@ -205,7 +205,7 @@ fn by_entropy<M: FreeEnergy<f64>>(
 
 /// `Σ_a f_a P_a`.
 pub(super) fn chained<K: QuadraticStrain<D>, const D: usize>(
-    slopes: &K::PerMeasure<PerStrain<K, D>>,
+    slopes: &StrainSlopes<K, D>,
     by_measure: &[f64],
 ) -> PerStrain<K, D> {
     let mut sum = PerStrain::<K, D>::filled(0.0);

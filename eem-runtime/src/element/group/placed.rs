@@ -1,0 +1,202 @@
+//! A point among the nodes of its element.
+
+use core::ops::{Deref, DerefMut};
+
+use super::arms::{add_scaled, along};
+use super::point::{Known, Point, variables};
+use super::pose::{Pose, placed_measures};
+use super::respond::TrialArms;
+use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::error::StateError;
+use crate::element::group::view::{StepView, Trial};
+use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
+use crate::element::state::State;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+
+/// A point, and what it takes to find its measures from the nodes and to bring its forces to them.
+pub(crate) struct PlacedPoint<
+    M: FreeEnergy<f64>,
+    K: Kinematics<D>,
+    C: ElementScheme<M>,
+    const D: usize,
+> {
+    pub(super) kinematics: K,
+    /// The derivative of the measures with respect to the new arms.
+    pub(super) sensitivity: Gradient<K, D>,
+    /// The derivative of `r_s` with respect to the new arms, without that through the measures: through the increments for
+    /// a scheme in temperature, through the rates of Kelvin–Voigt dashpots for all classical schemes.
+    pub(super) by_increment: C::AtPoint<Arms<K, D>>,
+    pub(super) point: Point<M, K::Measures, C>,
+}
+
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Deref
+    for PlacedPoint<M, K, C, D>
+{
+    type Target = Point<M, K::Measures, C>;
+
+    #[inline]
+    fn deref(&self) -> &Self::Target {
+        &self.point
+    }
+}
+
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> DerefMut
+    for PlacedPoint<M, K, C, D>
+{
+    #[inline]
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.point
+    }
+}
+
+impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+    /// The index of the temperature among the variables.
+    pub(super) const TEMPERATURE: usize = M::MEASURES + M::DASHPOTS;
+
+    pub(super) fn new(kinematics: K, point: Point<M, K::Measures, C>) -> Self {
+        let nowhere = Arms::<K, D>::filled([0.0; D]);
+        Self {
+            kinematics,
+            sensitivity: Gradient::<K, D>::filled(nowhere),
+            by_increment: C::AtPoint::filled(nowhere),
+            point,
+        }
+    }
+
+    /// Its measures with these arms; an error if the deformation is inadmissible.
+    #[inline]
+    pub(super) fn admissible_measures(&self, r: &Arms<K, D>) -> Result<Measures<K, D>, StateError> {
+        let measures = self.kinematics.measure(r);
+        self.check_measures(&measures, r)?;
+        Ok(measures)
+    }
+
+    /// An error unless the deformation given by these arms is admissible.
+    #[inline]
+    pub(super) fn check_measures(
+        &self,
+        measures: &Measures<K, D>,
+        r: &Arms<K, D>,
+    ) -> Result<(), StateError> {
+        if self.kinematics.is_admissible(r, measures) {
+            return Ok(());
+        }
+        Err(self.kinematics.refusal(self.point.element, r))
+    }
+
+    /// The variables in a state with these arms.
+    pub(super) fn variables_in(&self, r: &Arms<K, D>, state: &State) -> M::Variables {
+        let measures = self.kinematics.measure(r);
+        variables::<M>(measures.as_ref(), self.point.slots(), state)
+    }
+
+    /// The same; an error if the deformation is inadmissible.
+    #[inline]
+    pub(super) fn locate(&self, r: &Arms<K, D>, state: &State) -> Result<M::Variables, StateError> {
+        let measures = self.admissible_measures(r)?;
+        Ok(variables::<M>(measures.as_ref(), self.point.slots(), state))
+    }
+
+    /// The measures of arms, and those at which the scheme evaluates the model.
+    #[inline]
+    pub(super) fn placed(&self, r1: &Arms<K, D>) -> [Measures<K, D>; 2] {
+        let measures1 = self.kinematics.measure(r1);
+        let at = self.point.scheme.placement();
+        let placed = placed_measures::<K, D>(at, &self.point.old_measures(), measures1);
+        [measures1, placed]
+    }
+
+    /// Locates a trial with these arms, see [`Point::locate_trial`]. Returns the measures of the arms that the scheme uses.
+    #[inline]
+    pub(super) fn locate_trial(
+        &mut self,
+        r1: &Arms<K, D>,
+        is_start: bool,
+        prepared: Option<C::Memory>,
+    ) -> Result<Measures<K, D>, StateError> {
+        let [measures1, measures] = self.placed(r1);
+        self.check_measures(&measures, r1)?;
+        self.point.locate_trial(&measures, is_start, prepared)?;
+        Ok(measures1)
+    }
+
+    /// The gradients in the configuration that the scheme uses, which has these measures.
+    #[inline]
+    pub(super) fn pose(&self, arms: &TrialArms<K, D>, measures: &Measures<K, D>) -> Pose<K, D> {
+        let measures = [self.point.old_measures(), *measures];
+        let ends = Ends::new(&self.kinematics, [arms.old, arms.placed], measures);
+        Pose::new(&self.kinematics, self.point.scheme.placement(), ends)
+    }
+
+    /// Finds the response at a trial, without its tangent, at the end of a step. The response may be known.
+    #[inline]
+    pub(super) fn respond_alone(
+        &mut self,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        arms: &TrialArms<K, D>,
+        known: Known<C::Memory, M::Response, M>,
+    ) -> Result<(), StateError> {
+        let per_step = view.per_step;
+        let prepared = known.map(|(prepared, ..)| prepared);
+        let measures = self.locate_trial(&arms.placed, trial.is_start, prepared)?;
+        if M::Drag::LEN > 0 {
+            let pose = self.pose(arms, &measures);
+            self.extend(&pose, &arms.motion);
+        }
+        if trial.is_start {
+            let form = self.form(trial.is_start);
+            self.accept(per_step, &form, None)?;
+            self.point.response = form.0;
+            return Ok(());
+        }
+        if M::THERMAL && self.scheme.is_in_temperature() {
+            let mut form = self.form(trial.is_start);
+            let pose = self.pose(arms, &measures);
+            self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
+            self.accept(per_step, &form, None)?;
+            self.point.response = form.0;
+            return Ok(());
+        }
+        self.point.response = known.map_or_else(
+            || {
+                self.scheme
+                    .response(&self.model, &self.start, &self.x, &self.memory)
+            },
+            |(_, response, _)| response,
+        );
+        let response = self.point.response;
+        self.accept_response(per_step, &response, known.map(|known| known.2))
+    }
+
+    /// For a scheme in temperature: calls [`ElementScheme::change_entropy_at_rates`] with the increments of the trial.
+    pub(super) fn change_entropy_at_rates(
+        &mut self,
+        step: f64,
+        pose: &Pose<K, D>,
+        motion: &Arms<K, D>,
+        form: &mut Form<f64, M>,
+    ) {
+        let at = self.point.scheme.placement();
+        let (own, by_arm) = pose.increase(&self.kinematics, at, motion);
+        let slopes = self.point.change_entropy_at_rates(step, &own, form);
+        // Σ_a slope_a ∂Λ_a/∂r¹
+        let mut sum = Arms::<K, D>::filled([0.0; D]);
+        for (&slope, row) in slopes.as_ref().iter().zip(by_arm.as_ref()) {
+            add_scaled::<K, D>(&mut sum, slope, row);
+        }
+        for by_increment in self.by_increment.as_mut() {
+            *by_increment = sum;
+        }
+    }
+
+    /// `D*π·w` per measure, for a motion w of the arms along given gradients.
+    #[inline]
+    pub(super) fn rates_along(gradient: &Gradient<K, D>, motion: &Arms<K, D>) -> Measures<K, D> {
+        let mut rates = Measures::<K, D>::filled(0.0);
+        for (rate, row) in rates.as_mut().iter_mut().zip(gradient.as_ref()) {
+            *rate = along::<K, D>(row, motion);
+        }
+        rates
+    }
+}
