@@ -4,18 +4,17 @@
 //! point into algorithmic quantities `f*`, `g*`, `θ*`, `Δs` with their exact tangent. It knows nothing of
 //! nodes, neighbours or solvers.
 
-mod eem_entropy;
-mod eem_temperature;
+mod corners;
 mod element;
+mod exact;
 mod fitting;
 mod point;
 mod temperature;
 
 use crate::element::tableau::Tableau;
 
-pub(crate) use eem_entropy::EemEntropy;
-pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use element::{ElementScheme, Form, Infeasible, Placement, Start};
+pub(crate) use exact::{Exact, ExactForm};
 pub(crate) use fitting::{end_weight, end_weight_over};
 pub(crate) use point::PointRule;
 pub(crate) use temperature::{recovered_at, temperature_at};
@@ -23,12 +22,10 @@ pub(crate) use temperature::{recovered_at, temperature_at};
 /// The families of conjugates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Conjugates {
-    /// [`EemEntropy`].
-    EntropyForm,
-    /// [`EemTemperature`].
-    TemperatureForm,
-    /// The same, damped towards the end of the step.
-    DampedTemperatureForm,
+    /// Discrete derivatives.
+    Exact(ExactForm),
+    /// Those in temperature form, damped towards the end of the step.
+    Damped,
     /// Values at one point of the step.
     Point(PointRule),
     /// Values at the stages of a rule.

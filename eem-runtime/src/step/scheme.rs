@@ -2,7 +2,7 @@
 
 use core::{fmt, str::FromStr};
 
-use crate::element::conjugates::{Conjugates, PointRule};
+use crate::element::conjugates::{Conjugates, ExactForm, PointRule};
 use crate::element::tableau::{Tableau, UnknownSet};
 use crate::step::control::{Accuracy, Estimate};
 use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
@@ -197,12 +197,13 @@ impl Rule {
 
 impl Scheme {
     const fn rule(self) -> Rule {
-        use Conjugates::{DampedTemperatureForm, EntropyForm, Point, Stages, TemperatureForm};
+        use Conjugates::{Damped, Exact, Point, Stages};
+        use ExactForm::{Entropy, Temperature};
         use PointRule::{Midpoint, MidpointTemperature, Trapezoidal, TrapezoidalTemperature};
         match self {
-            Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
-            Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
-            Self::EemDamped => Rule::exact("eem-damped", DampedTemperatureForm),
+            Self::EemEntropy => Rule::exact("eem-entropy", Exact(Entropy)),
+            Self::EemTemperature => Rule::exact("eem-temperature", Exact(Temperature)),
+            Self::EemDamped => Rule::exact("eem-damped", Damped),
             // Explicit elements are built without conjugates.
             Self::EemExplicit => Rule::exact("eem-explicit", Point(PointRule::Variational))
                 .of_order(8)
@@ -212,7 +213,7 @@ impl Scheme {
                 name: "auto",
                 ..Self::EemExplicit.rule()
             },
-            Self::Staggered => Rule::exact("staggered", EntropyForm).of_order(1),
+            Self::Staggered => Rule::exact("staggered", Exact(Entropy)).of_order(1),
             Self::Variational => Rule::variational("variational", Point(PointRule::Variational)),
             Self::Variational4 => {
                 Rule::variational("variational-4", Stages(&variational_4::TABLEAU))
@@ -319,13 +320,13 @@ impl Scheme {
 
     /// Whether it damps conduction and dashpots that relax within a step.
     pub(crate) const fn is_damped(self) -> bool {
-        matches!(self.conjugates(), Conjugates::DampedTemperatureForm)
+        matches!(self.conjugates(), Conjugates::Damped)
     }
 
     /// Whether its elements have a
     /// [starting form](crate::element::conjugates::ElementScheme::starting_form).
     pub(crate) const fn has_starting_form(self) -> bool {
-        matches!(self.conjugates(), Conjugates::EntropyForm)
+        matches!(self.conjugates(), Conjugates::Exact(ExactForm::Entropy))
     }
 
     /// Whether mechanics and heat are stepped one after the other.

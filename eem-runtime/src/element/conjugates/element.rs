@@ -40,10 +40,6 @@ pub(crate) trait ElementScheme<M: FreeEnergy<f64>>: Copy + Send + Sync + 'static
     /// What it keeps from one iteration to the next, as starting values.
     type Memory: Copy + Send + Sync;
 
-    /// [`old`](Self::old), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
-    /// has them.
-    const ROWS: Option<FormRows<f64, M, Self::Old, Self::Memory>> = None;
-
     /// `[T; 1]` for a rule that evaluates the model at one point of the step, `[T; 0]` for others.
     type AtPoint<T: Entry>: Array<T>;
 
@@ -65,8 +61,27 @@ pub(crate) trait ElementScheme<M: FreeEnergy<f64>>: Copy + Send + Sync + 'static
         false
     }
 
-    /// Computes [`Old`](Self::Old) from the old variables and the old entropy, once per step.
-    fn old(model: &M, x0: &M::Variables, entropy: f64) -> Self::Old;
+    /// Computes [`Old`](Self::Old) from the old variables and the old entropy, once per step, and whether a thermostat
+    /// prescribes the temperature.
+    fn old(self, model: &M, x0: &M::Variables, entropy: f64, is_prescribed: bool) -> Self::Old;
+
+    /// The same in place.
+    #[inline]
+    fn keep(
+        self,
+        model: &M,
+        x0: &M::Variables,
+        (entropy, is_prescribed): (f64, bool),
+        old: &mut Self::Old,
+    ) {
+        *old = self.old(model, x0, entropy, is_prescribed);
+    }
+
+    /// [`old`](Self::old), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
+    /// has them. The elements of a call have no thermostats.
+    fn rows(self) -> Option<FormRows<f64, M, Self::Old, Self::Memory>> {
+        None
+    }
 
     /// The first starting values of a step, from the old temperature.
     fn memory(theta0: f64) -> Self::Memory;
@@ -94,7 +109,7 @@ pub(crate) trait ElementScheme<M: FreeEnergy<f64>>: Copy + Send + Sync + 'static
         Ok(())
     }
 
-    /// [`prepare`](Self::prepare) of several elements, with [rows](Self::ROWS).
+    /// [`prepare`](Self::prepare) of several elements, with [rows](Self::rows).
     #[inline]
     fn prepare_rows<'a>(
         _: impl Fn(usize) -> (&'a M, &'a Start<M, Self::Old>, &'a M::Variables),
@@ -170,7 +185,8 @@ pub(crate) trait ElementScheme<M: FreeEnergy<f64>>: Copy + Send + Sync + 'static
     fn form_adjoint(
         self,
         _: &M,
-        _: [&M::Variables; 2],
+        _: &Start<M, Self::Old>,
+        _: &M::Variables,
         _: &Self::Memory,
         _weights: &M::Response,
     ) -> M::Parameters {
@@ -182,7 +198,8 @@ pub(crate) trait ElementScheme<M: FreeEnergy<f64>>: Copy + Send + Sync + 'static
     fn form_tangent(
         self,
         _: &M,
-        _: [&M::Variables; 2],
+        _: &Start<M, Self::Old>,
+        _: &M::Variables,
         _: &Self::Memory,
         _direction: &M::Parameters,
     ) -> M::Response {

@@ -90,7 +90,7 @@ impl<M: Material> ElementScheme<M> for PointRule {
         )
     }
 
-    fn old(_: &M, _: &M::Variables, entropy: f64) -> Self::Old {
+    fn old(self, _: &M, _: &M::Variables, entropy: f64, _: bool) -> Self::Old {
         entropy
     }
 

@@ -8,7 +8,7 @@ use super::interface::{ExplicitGroup, Group, Loose};
 use super::loose::LooseElements;
 use super::stages::{Projections, Source, StageGroup, Values};
 use super::view::Placed;
-use crate::element::conjugates::{Conjugates, EemEntropy, EemTemperature, ElementScheme};
+use crate::element::conjugates::{Conjugates, ElementScheme, Exact, ExactForm};
 use crate::element::kinematics::{MeasureSet, QuadraticStrain};
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
@@ -49,9 +49,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
 
     fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<D>> {
         match by {
-            Conjugates::EntropyForm => single(EemEntropy, *self, placed),
-            Conjugates::TemperatureForm => single(EemTemperature::<0>, *self, placed),
-            Conjugates::DampedTemperatureForm => single(EemTemperature::<1>, *self, placed),
+            Conjugates::Exact(form) => single(Exact::<0>(form), *self, placed),
+            Conjugates::Damped => single(Exact::<1>(ExactForm::Temperature), *self, placed),
             Conjugates::Point(rule) => single(rule, *self, placed),
             Conjugates::Stages(rule) if rule.path.is_some() => {
                 staged::<M, K, Projections<M, K, D>, D>(rule, *self, placed)

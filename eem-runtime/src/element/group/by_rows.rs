@@ -24,7 +24,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
-        let Some((model, form)) = M::ROWS.zip(C::ROWS) else {
+        let Some((model, form)) = M::ROWS.zip(self.scheme.rows()) else {
             return self.begin_one_by_one(view, old);
         };
         let ahead = &mut self.ahead;
@@ -38,7 +38,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
             ahead.old.resize(count, first);
             let each = |index: usize| (&members[index].only().model, &ahead.x[index]);
             (form.old)(&each, &mut ahead.old);
-            for (member, &known) in members.iter_mut().zip(&ahead.old) {
+            for (member, known) in members.iter_mut().zip(&ahead.old) {
                 member.begin(view, old, Some(known))?;
             }
         }
@@ -52,13 +52,14 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
         trial: &Trial<D>,
         system: &mut LinearSystem<1>,
     ) -> Result<(), StateError> {
-        let Some((model, form)) = M::ROWS.zip(C::ROWS).filter(|_| !trial.is_start) else {
+        let rows = M::ROWS.zip(self.scheme.rows());
+        let Some((model, form)) = rows.filter(|_| !trial.is_start) else {
             return self.linearize_one_by_one(view, trial, system);
         };
         let (values, right) = system.parts();
         let ahead = &mut self.ahead;
         for members in self.members.chunks_mut(model.most) {
-            let is_known = prepare(members, trial, ahead).is_ok();
+            let is_known = are_free(members) && prepare(members, trial, ahead).is_ok();
             if is_known {
                 let zeros = M::Variables::filled(0.0);
                 let none = (M::Response::filled(0.0), M::Tangent::filled(zeros));
@@ -86,12 +87,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
         view: &StepView<'_>,
         trial: &Trial<D>,
     ) -> Result<(), StateError> {
-        let Some((model, form)) = M::ROWS.zip(C::ROWS).filter(|_| !trial.is_start) else {
+        let rows = M::ROWS.zip(self.scheme.rows());
+        let Some((model, form)) = rows.filter(|_| !trial.is_start) else {
             return self.respond_one_by_one(view, trial);
         };
         let ahead = &mut self.ahead;
         for members in self.members.chunks_mut(model.most) {
-            let is_known = prepare(members, trial, ahead).is_ok();
+            let is_known = are_free(members) && prepare(members, trial, ahead).is_ok();
             if is_known {
                 let none = M::Response::filled(0.0);
                 ahead.responses.resize(members.len(), none);
@@ -150,6 +152,16 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
         }
         Ok(())
     }
+}
+
+/// Whether no thermostat prescribes the temperature of a spring, with which its form may be another one.
+fn are_free<M, K, C, const D: usize>(members: &[Member<M, K, C, D>]) -> bool
+where
+    M: Material,
+    K: Kinematics<D>,
+    C: ElementScheme<M>,
+{
+    members.iter().all(|member| !member.only().is_prescribed)
 }
 
 /// Finds the variables at a trial and the memories of the scheme. On an error, the caller evaluates the springs one by one,

@@ -136,7 +136,7 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
     }
 
     fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
-        if const { C::ROWS.is_some() } {
+        if const { M::ROWS.is_some() } {
             return self.begin_by_rows(view, old);
         }
         self.begin_one_by_one(view, old)
@@ -152,11 +152,11 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
             Some(system) if K::PerPoint::<()>::LEN > 1 => {
                 self.linearize_in_rounds(view, trial, system)
             }
-            Some(system) if const { C::ROWS.is_some() } => {
+            Some(system) if const { M::ROWS.is_some() } => {
                 self.linearize_by_rows(view, trial, system)
             }
             Some(system) => self.linearize_one_by_one(view, trial, system),
-            None if const { C::ROWS.is_some() } => self.respond_by_rows(view, trial),
+            None if const { M::ROWS.is_some() } => self.respond_by_rows(view, trial),
             None => self.respond_one_by_one(view, trial),
         }
     }

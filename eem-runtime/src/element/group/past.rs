@@ -59,15 +59,15 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         [x0, x1]: [M::Variables; 2],
     ) -> Result<(), StateError> {
         self.x = x1;
-        self.start = Start {
-            x0,
-            old: C::old(&self.model, &x0, 0.0),
-        };
         let mut theta = 1.0;
         if let Some(slot) = self.slots().thermal {
             theta = x0[Self::TEMPERATURE];
             self.is_prescribed = step.held[slot];
         }
+        self.start = Start {
+            x0,
+            old: (self.scheme).old(&self.model, &x0, 0.0, self.is_prescribed),
+        };
         self.memory = C::memory(theta);
         C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
             .map_err(|infeasible| infeasible.of(self.element))?;
@@ -97,7 +97,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     pub(super) fn slopes_by_old(&self) -> M::Tangent {
         let start = Start {
             x0: self.x,
-            old: C::old(&self.model, &self.x, 0.0),
+            old: (self.scheme).old(&self.model, &self.x, 0.0, self.is_prescribed),
         };
         let memory = C::exchanged(&self.memory);
         let (_, mut tangent) = self

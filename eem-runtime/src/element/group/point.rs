@@ -140,7 +140,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     pub(super) fn new(scheme: C, element: Element, model: M, slots: Slots) -> Self {
         let zeros = M::Variables::filled(0.0);
         let viscosities = M::Viscosities::filled(0.0);
-        let old = C::old(&model, &zeros, 0.0);
+        let old = scheme.old(&model, &zeros, 0.0, false);
         Self {
             scheme,
             element,

@@ -20,7 +20,11 @@ pub(super) struct TrialArms<K: Kinematics<D>, const D: usize> {
 impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Takes the measures of a trial, and finds its temperature if that is not an unknown, and other values that the form of
     /// the scheme needs, unless they are known.
-    #[inline]
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
     pub(super) fn locate_trial(
         &mut self,
         measures: &Numbers<Q>,
@@ -72,7 +76,11 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         self.accept_response(per_step, &form.0, known)
     }
 
-    #[inline]
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1.5 % of a step of a spring"
+    )]
+    #[inline(always)]
     pub(super) fn accept_response(
         &mut self,
         per_step: f64,

@@ -84,6 +84,10 @@ impl<const D: usize> Simulation<D> {
 
     /// Replaces the scheme in use, but not its step control. If there is no memory for it, nothing changes.
     pub(super) fn use_scheme(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
+        (Functions::get().use_scheme)(self, scheme)
+    }
+
+    pub(super) fn use_scheme_here(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
         let (layout, ends) = (self.numbering(), self.ends());
         let automatic = &mut self.automatic;
         let parts = Parts {

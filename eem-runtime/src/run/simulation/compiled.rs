@@ -10,6 +10,7 @@ use core::any::Any;
 use super::event::Event;
 use super::start::Begin;
 use super::{Simulation, StepResult};
+use crate::algebra::memory::TooLarge;
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
@@ -159,6 +160,7 @@ pub(super) struct Functions<const D: usize> {
     pub(super) checkpoint: fn(&Simulation<D>) -> Checkpoint,
     pub(super) restore: fn(&mut Simulation<D>, &Checkpoint) -> Result<(), RestoreError>,
     pub(super) change_scheme: fn(&mut Simulation<D>, Scheme) -> Result<(), SceneError>,
+    pub(super) use_scheme: fn(&mut Simulation<D>, Scheme) -> Result<(), TooLarge>,
     pub(super) ledger: fn(&Simulation<D>) -> Ledger<D>,
 }
 
@@ -180,6 +182,7 @@ impl<const D: usize> Functions<D> {
         checkpoint: Simulation::checkpoint_here,
         restore: Simulation::restore_here,
         change_scheme: Simulation::change_scheme,
+        use_scheme: Simulation::use_scheme_here,
         ledger: Simulation::ledger_here,
     };
 

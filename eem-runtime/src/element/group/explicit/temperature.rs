@@ -60,7 +60,8 @@ pub(crate) fn is_met(change: f64, [capacity, bend]: [f64; 2]) -> bool {
 
 impl<M: Material, Q: MeasureSet> Point<M, Q, PointRule> {
     /// The temperature of an entropy near a guess by Newton's method in ln θ.
-    #[inline]
+    #[expect(clippy::inline_always, reason = "the logarithms of `at` are shared")]
+    #[inline(always)]
     pub(super) fn temperature_of<T>(
         &self,
         x: &M::Variables,

@@ -156,8 +156,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// The derivatives of the number with respect to the parameters in this step.
     #[inline]
     pub(super) fn by_parameters(&self, of: &OfPoint<M>) -> M::Parameters {
-        let x = [&self.start.x0, &self.x];
-        let mut sum = (self.scheme).form_adjoint(&self.model, x, &self.memory, &of.rho);
+        let (start, x) = (&self.start, &self.x);
+        let mut sum = (self.scheme).form_adjoint(&self.model, start, x, &self.memory, &of.rho);
         let theta = self.temperature();
         if M::DASHPOTS > 0 {
             let by = self.model.viscosity_adjoint(theta, &of.viscosities);

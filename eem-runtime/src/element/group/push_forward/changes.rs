@@ -168,8 +168,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         for (parameter, &own) in parameters.as_mut().iter_mut().zip(own) {
             *parameter = own;
         }
-        let x = [&self.start.x0, &self.x];
-        let by = (self.scheme).form_tangent(&self.model, x, &self.memory, &parameters);
+        let (start, x) = (&self.start, &self.x);
+        let by = (self.scheme).form_tangent(&self.model, start, x, &self.memory, &parameters);
         for (sum, &by) in response.as_mut().iter_mut().zip(by.as_ref()) {
             *sum += by;
         }
