@@ -133,3 +133,26 @@ fn a_violent_expansion_is_within_the_bound_that_it_reports() {
         assert_lawful(&format!("{} {result:?}", scheme.name()), &watched.record);
     }
 }
+
+/// In entropy form, heat was taken at the temperatures of mixed states: this spring gained 42 J of free energy in seven steps.
+#[test]
+fn a_strongly_coupled_spring_gains_no_free_energy_from_a_thermostat() {
+    let model = TwoLinearDashpots {
+        stiffness: 10.0,
+        first: 10.0,
+        coupling: 0.3,
+        capacity: 0.04,
+        ..TwoLinearDashpots::of_viscosity(1.0)
+    };
+    for scheme in Scheme::ALL.into_iter().filter(|scheme| scheme.is_exact()) {
+        let held = |world: &mut World<2>, ends| {
+            let element = world.warm(model, ends, 400.0);
+            world.hold_temperature(element, 400.0);
+        };
+        let world = on_anchor(held, [1.05, 0.0], [0.0, 0.1]);
+        let mut watched = world.start(scheme, 0.03).unwrap();
+        let record = watched.steps(20);
+        assert_lawful(scheme.name(), record);
+        assert_eq!(record.steps, 20, "{}", scheme.name());
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! E = Σ p²/2m − Σ m g·q + Σ (ψ(λ, γ, θ) + θ s) + Σ θ_r σ_r + lost heat       s the entropy that is kept
-//! S = Σ s + Σ σ_r + entropy of the thermostats
+//! S = Σ s + Σ σ_r + entropy of the thermostats          −Q/θ if all have one θ, Q = ΔE − work; else as booked
 //!
 //! |ΔE − work − heat|          ≤ 64 ε (A + A⁺)
 //! ΔS                          ≥ −64 ε² Σ |s|      and −64 ε (A + A⁺)/θ for a thermostat
@@ -80,15 +80,23 @@ impl Complaints {
 }
 
 impl Complaints {
-    /// Holds a step to the laws of entropy, given its report and the bound of its energy; returns ΔS.
+    /// Holds a step to the laws of entropy, given its report and the defect and the bound of its energy; returns ΔS.
     fn hold_entropy<const D: usize>(
         &mut self,
         facts: &Facts<D>,
         states: [&Stored; 2],
         elements: &[Ends<'_>],
-        (report, bound): (&StepReport, f64),
+        (report, defect, bound): (&StepReport, Digits, f64),
     ) -> f64 {
-        let (entropy, magnitude) = entropy_change(states);
+        let booked = states[1].thermostats - states[0].thermostats;
+        let received = match books::temperatures(facts, states[0].time, report.step) {
+            Some([least, most]) if least >= most => {
+                let heat = states[1].heat - states[0].heat + defect;
+                -(heat / least)
+            }
+            _ => booked,
+        };
+        let (entropy, magnitude) = entropy_change(states, received);
         // The heat of a thermostat is what the balance of energy leaves, with its rounding.
         let kept = facts
             .kept
@@ -130,7 +138,8 @@ pub(crate) fn check_step<const D: usize>(
         time: report.time,
         broken: Vec::new(),
     };
-    let mut defect = energy_change(facts, [before, after], &elements).value();
+    let exact_defect = energy_change(facts, [before, after], &elements);
+    let mut defect = exact_defect.value();
     let mut bound = energy_bound(facts, [before, after], &elements, report.step);
     // A length beyond the end of a model by its rounding: only the rounded one has an energy.
     let is_beyond = defect.is_nan() && report.defect.is_finite();
@@ -156,7 +165,13 @@ pub(crate) fn check_step<const D: usize>(
     if has_known_forces && !(is_wide || is_beyond || facts.has_halves) {
         complaints.hold("bound without a flag", report.bound, SAME * WIDE * energies);
     }
-    let entropy = complaints.hold_entropy(facts, [before, after], &elements, (report, bound));
+    let lacking = if is_beyond {
+        Digits::ZERO
+    } else {
+        exact_defect
+    };
+    let of_energy = (report, lacking, bound);
+    let entropy = complaints.hold_entropy(facts, [before, after], &elements, of_energy);
     complaints.hold_books(facts, [before, after], &elements, (report.step, bound));
     let mut momentum = 0.0;
     for law in momenta(facts, [before, after], &elements, report.step) {
@@ -259,19 +274,17 @@ fn energies<const D: usize>(
     kinetic + elements.iter().map(|ends| ends.energies(step)).sum::<f64>()
 }
 
-/// ΔS of the states, and Σ |s|.
-fn entropy_change(states: [&Stored; 2]) -> (f64, f64) {
+/// ΔS of the states and of the thermostats, which received this much, and Σ |s|.
+fn entropy_change(states: [&Stored; 2], received: Digits) -> (f64, f64) {
     let terms = |state: &Stored| {
         let lists = state.entropies.iter().chain(&state.reservoirs);
-        lists
-            .copied()
-            .chain([state.thermostats])
-            .collect::<Vec<_>>()
+        lists.copied().collect::<Vec<_>>()
     };
     let [old, new] = states.map(terms);
     let change: Digits = old.iter().zip(&new).map(|(&old, &new)| new - old).sum();
-    let magnitude = new.iter().map(|s| s.value().abs()).sum();
-    (change.value(), magnitude)
+    let magnitude: f64 = new.iter().map(|s| s.value().abs()).sum();
+    let thermostats = states[1].thermostats.value().abs();
+    ((change + received).value(), magnitude + thermostats)
 }
 
 #[cfg(test)]

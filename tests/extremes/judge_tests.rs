@@ -148,6 +148,8 @@ fn books_that_do_not_fit_the_states_are_seen() {
         after.work = after.work - part;
     });
     assert!(heated.contains("heat is not θ times") && heated.contains("work is off"));
+    // The books give no more entropy than before: it is that of the heat at 300 K.
+    assert!(heated.contains("entropy lost"), "{heated}");
     let lost = complaints(&|after, part| {
         after.lost = after.lost - part;
         after.work = after.work - part;

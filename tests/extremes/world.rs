@@ -42,22 +42,20 @@ pub(crate) struct Facts<const D: usize> {
 }
 
 impl<const D: usize> Facts<D> {
-    /// Whether a step has one force per spring, that at its middle, and one temperature.
+    /// Whether a step has one force per spring, that at its middle.
     pub(crate) fn has_one_force(&self) -> bool {
         let is_of_middle = EXACT.contains(&self.scheme) || self.scheme == Scheme::EemDamped;
         is_of_middle && !self.has_halves
     }
 
+    /// Whether a thermostat gives the heat of a step at one temperature, not in a part of mechanics and one of heat.
+    pub(crate) fn has_one_temperature(&self) -> bool {
+        self.has_one_force() && self.scheme != Scheme::Staggered
+    }
+
     /// Whether its dashpots have also their own viscosity.
     pub(crate) fn has_own_viscosity(&self) -> bool {
         self.has_one_force() && self.scheme != Scheme::EemDamped
-    }
-
-    /// Whether the temperature of an element in a step is one of its energy over entropy, which differs from that of a
-    /// thermostat by the error of the scheme.
-    pub(crate) fn has_own_temperatures(&self) -> bool {
-        use Scheme::{EemDamped, EemExplicit, EemTemperature};
-        !matches!(self.scheme, EemTemperature | EemDamped | EemExplicit)
     }
 
     /// Whether the heat of a step is a sum with positive weights, that of each part of a step then being one of its mean

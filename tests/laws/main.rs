@@ -29,6 +29,7 @@ mod several_dashpots;
 mod single_pendulum;
 mod solids;
 mod spoilt_force;
+mod thermostats;
 #[cfg(feature = "typed")]
 mod typed;
 mod variational_4;

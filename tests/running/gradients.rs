@@ -282,15 +282,23 @@ fn gradients_are_differences_of_runs() {
 }
 
 /// A pushed mass on a spring at a moved anchor, and another one on a spring at a given temperature, with these amplitudes of
-/// force (N), motion (m) and temperature (K).
-fn driven([force, motion, heating]: [f64; 3]) -> (Scene<2>, [Node; 2], [Element; 2]) {
+/// force (N), motion (m) and temperature (K), and the coupling, μ₁ and η₁ of the latter, of small capacity.
+fn driven(values: [f64; 6]) -> (Scene<2>, [Node; 2], [Element; 2]) {
+    let [force, motion, heating, coupling, mu1, eta1] = values;
+    let held = TwoDashpots {
+        coupling,
+        capacity: 0.2,
+        mu1,
+        eta1,
+        ..TWO
+    };
     let mut scene = Scene::<2>::new();
     let support = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [1.1, 0.0], [0.0, 1.0]);
     let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
     let springs = [
         scene.spring(VOIGT, [support, bob]),
-        scene.spring(TWO, [bob, tail]),
+        scene.spring(held, [bob, tail]),
     ];
     scene.set_temperature(springs[0], 320.0);
     scene.prescribe_temperature(springs[1], move |t| 310.0 + heating * (4.0 * t).sin());
@@ -301,13 +309,13 @@ fn driven([force, motion, heating]: [f64; 3]) -> (Scene<2>, [Node; 2], [Element;
     (scene, [support, bob], springs)
 }
 
-const AMPLITUDES: [f64; 3] = [2.0, 0.1, 5.0];
+const DRIVEN: [f64; 6] = [2.0, 0.1, 5.0, 1.0, 20.0, 3.0];
 
 #[test]
-fn values_of_loads_have_derivatives() {
+fn values_of_loads_and_parameters_of_held_springs_have_derivatives() {
     for scheme in FORMS {
-        let end = |amplitudes| {
-            let (scene, [support, bob], springs) = driven(amplitudes);
+        let end = |values| {
+            let (scene, [support, bob], springs) = driven(values);
             let mut run = Simulation::new(scene, scheme, 0.02).unwrap();
             run.keep_history(History::default());
             run.run_until(0.5).unwrap();
@@ -317,7 +325,7 @@ fn values_of_loads_have_derivatives() {
                 + Objective::at_end(Quantity::Temperature(springs[0])).times(0.1);
             run.gradient(&objective).unwrap()
         };
-        let (scene, [support, bob], [free, held]) = driven(AMPLITUDES);
+        let (scene, [support, bob], [free, held]) = driven(DRIVEN);
         let mut run = Simulation::new(scene, scheme, 0.02).unwrap();
         run.keep_history(History::default());
         run.run_until(0.5).unwrap();
@@ -340,13 +348,16 @@ fn values_of_loads_have_derivatives() {
                 .sum::<f64>(),
             motions.iter().map(|(t, by)| by[0] * (5.0 * t).sin()).sum(),
             thermostat.iter().map(|(t, by)| by * (4.0 * t).sin()).sum(),
+            gradient.by_parameter(held, "coupling").unwrap(),
+            gradient.by_parameter(held, "mu1").unwrap(),
+            gradient.by_parameter(held, "eta1").unwrap(),
         ];
         for (at, found) in found.into_iter().enumerate() {
             let size = 1e-3;
             let value = |steps: f64| {
-                let mut amplitudes = AMPLITUDES;
-                amplitudes[at] += steps * size;
-                end(amplitudes).value()
+                let mut values = DRIVEN;
+                values[at] += steps * size;
+                end(values).value()
             };
             let expected =
                 (8.0 * (value(1.0) - value(-1.0)) - (value(2.0) - value(-2.0))) / (12.0 * size);

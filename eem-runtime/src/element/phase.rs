@@ -5,6 +5,8 @@
 //! heat        γ and s evolve at fixed q and p:  g* = −D_γ e, θ* = D_s e
 //! ```
 //!
+//! A prescribed temperature is that of both parts.
+//!
 //! Each part is a step of [`EemEntropy`](crate::element::conjugates::EemEntropy) with the other part switched off, so that
 //! each satisfies both laws and conserves the momenta; together they are of first order (Romero 2010, part II; Kern,
 //! Romero, Conde Martín & García Orden 2021, §I). Only the solver distinguishes the parts.
@@ -32,11 +34,6 @@ impl Phase {
     /// Viscous stretches and entropies change with time.
     pub(crate) const fn heats(self) -> bool {
         matches!(self, Self::Whole | Self::Heat | Self::Relaxed)
-    }
-
-    /// Prescribed temperatures apply.
-    pub(crate) const fn prescribes(self) -> bool {
-        !matches!(self, Self::Mechanics)
     }
 
     /// The new state is at rest.

@@ -211,7 +211,8 @@ impl<const D: usize> Scene<D> {
     }
 
     /// Prescribes the temperature of an element as a function of time, K of s (a thermostat). The ledger counts the
-    /// heat and the entropy that the thermostat supplies.
+    /// heat and the entropy that the thermostat supplies: in [exact](crate::Scheme::is_exact) schemes `∫ θ ds` to their order. In
+    /// those of order 2, the heat of a step is given at one temperature between those of both ends.
     ///
     /// The initial temperature must be set as well, and must equal the prescribed one at the start to rounding;
     /// otherwise the error is [`SceneError::TemperatureJump`].
@@ -228,9 +229,8 @@ impl<const D: usize> Scene<D> {
 
     /// Sets the initial temperature of an element, K, and holds it there (a thermostat), unless a controller
     /// [sets](crate::Simulation::set_temperature_of) another one. The ledger counts the heat and the entropy that the
-    /// thermostat supplies. In [`EemTemperature`](crate::Scheme::EemTemperature) and
-    /// [`EemExplicit`](crate::Scheme::EemExplicit) the heat is exactly the temperature times the entropy. Other exact schemes
-    /// use the temperature of the element in the step, `∂e/∂s` between its ends, which differs by the error of the scheme.
+    /// thermostat supplies. In [exact](crate::Scheme::is_exact) schemes the heat is the temperature times the entropy, so that
+    /// the sum of kinetic and free energy grows by the work at most.
     ///
     /// ```
     /// use eem::materials::ThermoelasticSpring;

@@ -1,10 +1,9 @@
 //! What is booked beside the state: heat and entropy of thermostats, lost heat, the work of a support.
 //!
 //! ```text
-//! heat        = θ · entropy given          all thermostats and ovens at one constant θ; schemes with temperatures
+//! heat        = θ · entropy given          all thermostats and ovens at one constant θ
 //! heat        = θ* · entropy given         one of them, in a step with one temperature θ* between the least and the largest
-//!                                          that the element has for any of its lengths and entropies in the step:
-//!                                          θ e^(±|Δs|/c), with the heat capacity c
+//!                                          that are prescribed in the step
 //! lost heat   ≥ Σ η Δγ²/h                  no way from one end to the other dissipates less; η constant
 //!             = Σ (η Δγ²/h + η Δλ²/h)      in a step with one rate
 //! work        = Σ F·Δq + R·Δx/h            R = ΔL − Σ h F the impulse of the one support, x its position
@@ -53,25 +52,13 @@ impl Complaints {
             states[1].heat - states[0].heat,
             states[0].thermostats - states[1].thermostats,
         ];
-        let sources = facts
-            .kept
-            .iter()
-            .map(|(_, theta)| theta)
-            .chain(&facts.ovens);
-        let time = |part: u32| states[0].time + step * f64::from(part) / f64::from(PARTS);
-        let all = sources.flat_map(|theta| (0..=PARTS).map(move |part| theta(time(part))));
-        let ends = all.fold(None, |ends: Option<[f64; 2]>, theta| {
-            let [least, most] = ends.unwrap_or([theta; 2]);
-            Some([least.min(theta), most.max(theta)])
-        });
-        let Some([least, most]) = ends else {
+        let Some([least, most]) = temperatures(facts, states[0].time, step) else {
             self.hold("heat without a thermostat", heat.value().abs(), 0.0);
             self.hold("entropy without a thermostat", given.value().abs(), 0.0);
             return;
         };
-        let is_one = facts.kept.len() + facts.ovens.len() == 1 && facts.has_one_force();
-        // Schemes with temperatures of their own in a step give heat at these.
-        if facts.has_own_temperatures() || most > least && !is_one {
+        let is_one = facts.kept.len() + facts.ovens.len() == 1 && facts.has_one_temperature();
+        if most > least && !is_one {
             return;
         }
         let middle = least + 0.5 * (most - least);
@@ -103,6 +90,23 @@ impl Complaints {
             self.hold("lost heat is off by", (lost - all).abs(), rounding);
         }
     }
+}
+
+/// The least and the largest temperature of all thermostats and ovens in a step, if there are any.
+pub(super) fn temperatures<const D: usize>(
+    facts: &Facts<D>,
+    start: f64,
+    step: f64,
+) -> Option<[f64; 2]> {
+    let kept = facts.kept.iter().map(|(_, theta)| theta);
+    let time = |part: u32| start + step * f64::from(part) / f64::from(PARTS);
+    let all = kept
+        .chain(&facts.ovens)
+        .flat_map(|theta| (0..=PARTS).map(move |part| theta(time(part))));
+    all.fold(None, |ends: Option<[f64; 2]>, theta| {
+        let [least, most] = ends.unwrap_or([theta; 2]);
+        Some([least.min(theta), most.max(theta)])
+    })
 }
 
 /// The work of loads and of the one support in a step with one force, J, and the magnitude of its terms.

@@ -69,9 +69,6 @@ impl StepView<'_> {
     /// The temperature prescribed on a thermal slot, at the time that a scheme with this placement uses.
     #[inline]
     pub(super) fn prescribed(&self, slot: usize, at: Placement) -> Option<f64> {
-        if !self.phase.prescribes() {
-            return None;
-        }
         let prescribed = self.loads.prescribed(slot)?;
         Some(match at {
             Placement::Ends | Placement::End => prescribed.end,

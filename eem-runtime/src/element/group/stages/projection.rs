@@ -15,6 +15,17 @@
 //! of the element. `Δê` comes from discrete derivatives between the ends, without a difference of energies.
 //!
 //! The local unknowns are the increments of γ and s at all stages, the inputs those of C and heat.
+//!
+//! Where a thermostat prescribes the temperature, `θ(τ)` is the polynomial through the prescribed values, and the path is one of
+//! `(C, γ)` at these temperatures:
+//!
+//! ```text
+//! (N, −G)_i = Σ_r projection_ir ∇ψ(C, γ, θ)(τ_r) + μ W R_i     Θ_i = θ(c_i)     μ = (Δê − Σ b_i a_i·R_i)/(Σ b_i R_i·W R_i + w)
+//! w = Σ b_i (hθ̇)_i² c/θ        heat = Σ b_i Θ_i R_s,i + μ w
+//! ```
+//!
+//! At a constant temperature w vanishes: the work of N and G is then `Δψ`, and the heat `θ Δs`. Where nothing moves, the heat is
+//! `Δê`.
 
 mod closing;
 mod exact;
@@ -54,8 +65,11 @@ pub(crate) struct Projections<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D
     /// R before the last correction, and the correction, both without C.
     previous: [Vector<M, K, D>; MOST_STAGES],
     correction: [Vector<M, K, D>; MOST_STAGES],
-    /// The temperatures of the points of the path, and that of its end, K.
+    /// The temperatures of the points of the path, and that of its end, K; constant in a step if they are prescribed.
     temperatures: [f64; MOST_POINTS + 1],
+    /// w, of prescribed temperatures, and μ w, J.
+    warming: f64,
+    heat_beyond: f64,
     /// y¹, and `∇ê` and the magnitudes of the terms of C at both ends.
     end: Vector<M, K, D>,
     end_slopes: [Vector<M, K, D>; 2],
@@ -108,6 +122,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
             previous: [zeros; MOST_STAGES],
             correction: [zeros; MOST_STAGES],
             temperatures: [none; MOST_POINTS + 1],
+            warming: none,
+            heat_beyond: none,
             end: zeros,
             end_slopes: [zeros; 2],
             end_sizes: [strain; 2],
@@ -143,7 +159,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
             self.stiffness[k] = hessian[row][row].abs();
         }
         let strain = &self.old.strain;
-        let (slopes, curvatures) = derivatives(kinematics, strain, (x0, &gradient, &hessian));
+        let of_model = (x0, &gradient, &hessian);
+        let (slopes, curvatures) = derivatives(kinematics, strain, of_model, self.is_held());
         self.end_slopes[0] = slopes;
         self.end_sizes[0] = kinematics.strain_sizes(strain);
         let strains = 0..Self::STRAINS;
@@ -172,6 +189,10 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
             self.units[entropy] = -theta * hessian[last][last];
             self.metric[entropy] = curvatures.at([entropy, entropy]);
             self.temperatures = [theta; MOST_POINTS + 1];
+            self.warming = 0.0;
+            if let Some(prescribed) = self.point.prescribed {
+                self.follow_course(theta, -hessian[last][last], &prescribed);
+            }
         }
         self.rates = [Vector::zero(); MOST_STAGES];
     }
@@ -388,6 +409,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
             let work = work.fold(0.0, |sum, (a, rate)| sum + a * rate);
             found += weight * (work - self.viscous_heat[stage]);
         }
+        found += self.heat_beyond;
         reevaluation.element(in_state.element, own.by_values, own.by_differences, found);
     }
 }
@@ -397,6 +419,11 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     const LEN: usize = Vector::<M, K, D>::LEN;
     const STRAINS: usize = Vector::<M, K, D>::STRAINS;
     const ENTROPY: usize = Vector::<M, K, D>::ENTROPY;
+
+    /// Whether a thermostat prescribes its temperature.
+    fn is_held(&self) -> bool {
+        self.point.prescribed.is_some()
+    }
 
     /// Θ of a stage, K; zero without temperature.
     fn mean_temperature(&self, stage: usize) -> f64 {

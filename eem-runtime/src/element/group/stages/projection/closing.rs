@@ -144,7 +144,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     pub(super) fn book_thermostat(&self, booked: &Booked, entropy: f64, next: &mut State) {
         let rule = self.point.rule;
         let mut total = entropy - self.point.entropy;
-        let mut heat = 0.0;
+        let mut heat = self.heat_beyond;
         let mut rest = total;
         for ((stage, &weight), received) in rule.weights.iter().enumerate().zip(booked) {
             let taken = weight * self.rates[stage][Self::ENTROPY];

@@ -18,9 +18,9 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Δê − Σ b a·R = Σ b (ē − a)·R
     /// ```
     ///
-    /// Without increments there is nothing to correct.
+    /// Without increments there is nothing to correct. What the given increments of a prescribed temperature do is heat.
     pub(super) fn make_exact(&mut self, [slopes, mean]: &[Vector<M, K, D>; 2]) {
-        let (mut defect, mut norm, mut terms) = (0.0, 0.0, 0.0);
+        let (mut defect, mut norm, mut terms) = (0.0, self.warming, 0.0);
         for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
             let (a, rates) = (&self.conjugates[stage], &self.rates[stage]);
             for index in 0..Self::LEN {
@@ -33,6 +33,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         // A smaller sum of squares has lost digits.
         let is_moving = norm > f64::MIN_POSITIVE / f64::EPSILON;
         let factor = if is_moving { defect / norm } else { 0.0 };
+        self.heat_beyond = factor * self.warming;
         let noise = DEFECT_ROUNDINGS * f64::EPSILON * terms;
         let is_noise = !is_moving || defect.abs() <= noise;
         let per_norm = if is_noise { 0.0 } else { norm.recip() };

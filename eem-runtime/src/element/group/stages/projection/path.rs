@@ -55,7 +55,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             }
             check_finite(in_state.element, gradient.as_ref().iter().copied())?;
             let of_model = (&x, &gradient, &hessian);
-            let of_energy = derivatives(&self.point.kinematics, &y.strain, of_model);
+            let kinematics = &self.point.kinematics;
+            let of_energy = derivatives(kinematics, &y.strain, of_model, self.is_held());
             self.take((&path, r), &y, &of_energy);
         }
         Ok(())
@@ -112,7 +113,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         let measures = self.measures_in_path(in_state.element, &y.strain)?;
         let near = self.temperatures[point];
         let mut x = y.variables(measures.as_ref(), near);
-        if M::THERMAL {
+        if M::THERMAL && !self.is_held() {
             let entropy = y[Self::ENTROPY];
             let found = temperature_at(&in_state.model, x, entropy, near);
             let theta = found.map_err(|infeasible| infeasible.of(in_state.element))?;
@@ -121,8 +122,39 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         Ok((y, x))
     }
 
+    /// Finds the temperatures of the path from those that are given at its supports, and w, from the old temperature and the
+    /// old c/θ, J/K².
+    pub(super) fn follow_course(
+        &mut self,
+        old: f64,
+        per_square: f64,
+        prescribed: &[f64; MOST_STAGES],
+    ) {
+        let rule = self.point.rule;
+        let Some(path) = rule.path else {
+            return;
+        };
+        let sum = |shares: &[f64], terms: &[f64; MOST_STAGES]| {
+            let terms = shares.iter().zip(terms);
+            terms.fold(0.0, |sum, (share, term)| sum + share * term)
+        };
+        let changes = prescribed.map(|theta| theta - old);
+        let (mut at_stages, mut rates) = ([0.0; MOST_STAGES], [0.0; MOST_STAGES]);
+        for (at_stage, row) in at_stages.iter_mut().zip(path.supports.to_stages) {
+            *at_stage = sum(row, &changes);
+        }
+        for (rate, row) in rates.iter_mut().zip(rule.motion) {
+            *rate = sum(row, &at_stages);
+        }
+        for (theta, row) in self.temperatures.iter_mut().zip(path.integrals) {
+            *theta = old + sum(row, &rates);
+        }
+        self.temperatures[MOST_POINTS] = prescribed[rule.stages() - 1];
+        self.warming = per_square * sum(rule.weights, &rates.map(|rate| rate * rate));
+    }
+
     /// Finds the end of the path; returns `∇ê` there, and the discrete derivatives between both ends, whose product with
-    /// the increments is Δê.
+    /// the increments is Δê. Of a prescribed temperature, the first are the derivatives of that product by the increments.
     pub(super) fn reach_end(
         &mut self,
         in_state: &StatePoint<M, K, D>,
@@ -148,10 +180,20 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             rest: by,
         };
         let slopes = between([&end.strain, &end.strain], gradient);
-        let mean = between([&self.old.strain, &end.strain], mean);
-        check_finite(in_state.element, slopes.entries().chain(mean.entries()))?;
+        let discrete = between([&self.old.strain, &end.strain], mean);
+        let entries = slopes.entries().chain(discrete.entries());
+        check_finite(in_state.element, entries)?;
         self.end_slopes[1] = slopes;
-        Ok([slopes, mean])
+        if !self.is_held() {
+            return Ok([slopes, discrete]);
+        }
+        // Δê + θ* (s − S), by (C, γ) and s: ψ_x + (θ − θ*) S_x, θ*
+        let (last, (_, hessian)) = (M::Variables::LEN - 1, model.hessian(&x));
+        for column in 0..last {
+            gradient[column] -= (x[last] - mean[last]) * hessian[last][column];
+        }
+        gradient[last] = mean[last];
+        Ok([between([&end.strain, &end.strain], gradient), discrete])
     }
 
     /// Finds the viscosities at the temperatures of the stages; an error unless both are positive.

@@ -30,8 +30,12 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             };
             let (gradient, hessian) = in_state.model.hessian(&x);
             let kinematics = &self.point.kinematics;
-            let (slopes, curvatures) =
-                derivatives::<M, K, D>(kinematics, &y.strain, (&x, &gradient, &hessian));
+            let (slopes, curvatures) = derivatives::<M, K, D>(
+                kinematics,
+                &y.strain,
+                (&x, &gradient, &hessian),
+                self.is_held(),
+            );
             let mut terms = Vector::<M, K, D>::zero();
             for (rates, &share) in self.rates.iter().zip(*shares) {
                 for index in 0..Self::LEN {
@@ -49,7 +53,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             }
         }
         self.temperatures = temperatures;
-        let (mut work, mut norm) = (0.0, 0.0);
+        let (mut work, mut norm) = (0.0, self.warming);
         for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
             let [old, new] = &self.end_slopes;
             for index in 0..Self::LEN {

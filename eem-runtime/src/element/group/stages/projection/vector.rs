@@ -136,13 +136,19 @@ impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> IndexMut<usize>
     }
 }
 
-/// `∇ê` and `∇²ê` with respect to `(C, γ, s)` from the derivatives of ψ with respect to `x = (π, γ, θ)`.
+/// `∇ê` and `∇²ê` with respect to `(C, γ, s)` from the derivatives of ψ with respect to `x = (π, γ, θ)`. If the temperature
+/// `is_given`, `∇ψ` with respect to `(C, γ)` and θ, which depends on none of them.
 pub(super) fn derivatives<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize>(
     kinematics: &K,
     strain: &PerStrain<K, D>,
     of_model: (&M::Variables, &M::Variables, &M::Hessian),
+    is_given: bool,
 ) -> (Vector<M, K, D>, Matrix<M, K, D>) {
-    let (first, second) = by_entropy::<M>(of_model);
+    let (first, second) = if is_given {
+        at_given_temperature::<M>(of_model)
+    } else {
+        by_entropy::<M>(of_model)
+    };
     let along = kinematics.strain_slopes([strain, strain]);
     let slopes = Vector {
         strain: chained::<K, D>(&along, first.as_ref()),
@@ -199,6 +205,20 @@ fn by_entropy<M: FreeEnergy<f64>>(
         (second[row][last], second[last][row]) = (response, response);
     }
     second[last][last] = per_capacity;
+    first[last] = x[last];
+    (first, second)
+}
+
+/// The derivatives of ψ with respect to `(π, γ)` at a given temperature, and that temperature.
+fn at_given_temperature<M: FreeEnergy<f64>>(
+    (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
+) -> (M::Variables, M::Hessian) {
+    let (mut first, mut second) = (*gradient, *hessian);
+    let last = M::Variables::LEN - 1;
+    second[last] = M::Variables::filled(0.0);
+    for row in &mut second.as_mut()[..last] {
+        row[last] = 0.0;
+    }
     first[last] = x[last];
     (first, second)
 }
