@@ -20,6 +20,7 @@ mod paraview;
 mod recording;
 mod rest;
 mod resuming;
+mod rounded;
 mod seeing;
 mod stopping;
 mod study;

@@ -58,7 +58,7 @@ use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use crate::scene::refused::RefusedScene;
-use crate::step::control::{LeastScales, Tolerance};
+use crate::step::control::{LeastScales, Tolerance, norm};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
@@ -208,7 +208,9 @@ impl<const D: usize> Simulation<D> {
         layout.forget_places();
         let moved = loads.moved_in_time();
         let around = (&masses, &conduction);
-        let least = LeastScales::new(stepper.all(), around, (&state, &moved));
+        let gravity = norm(loads.gravity.iter().copied());
+        let before = (&*state, gravity, &moved[..]);
+        let least = LeastScales::new(stepper.all(), around, before);
         let mut run = Self {
             scene: scene.lineage.clone(),
             scheme,

@@ -3,13 +3,15 @@
 mod controller;
 mod least;
 mod norm;
+mod rounding;
 mod statistics;
 mod tolerance;
 mod worst;
 
 pub(crate) use controller::{AFTER_FAILURE, Accuracy, Controller, Estimate};
 pub(crate) use least::{LeastScales, Step};
-pub(crate) use norm::norm;
+pub(crate) use norm::{ROUNDINGS, norm};
+pub(crate) use rounding::LoadRounding;
 pub use statistics::StepStatistics;
 pub use tolerance::Tolerance;
 pub(crate) use tolerance::{Kinds, Scales};

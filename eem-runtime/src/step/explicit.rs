@@ -43,7 +43,7 @@ use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::scene::loads::Loads;
-use crate::step::control::LeastScales;
+use crate::step::control::{LeastScales, LoadRounding};
 use components::Components;
 use memory::{Books, LoadSums};
 use prescribed::Prescribed;
@@ -90,6 +90,8 @@ pub(crate) struct Explicit<const D: usize> {
     has_left: bool,
     /// How often all elements have been evaluated.
     evaluations: u64,
+    /// The rounding of the loads of the last step where it was needed.
+    rounding: LoadRounding,
 }
 
 /// The input of a step.
@@ -131,6 +133,8 @@ impl<const D: usize> Explicit<D> {
             thermostats[held.slot] = Thermostat::new(true);
         }
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
+        let counts = [site.masses.len(), site.layout.thermal];
+        let rounding = LoadRounding::new(site.loads, loads.slots.clone(), counts);
         let moves = !prescribed.moved.is_empty();
         let has_loads = loads.has_total_force() || moves;
         let masses = components.masses_of(site.masses);
@@ -160,6 +164,7 @@ impl<const D: usize> Explicit<D> {
             was_ready: false,
             has_left: false,
             evaluations: 0,
+            rounding,
         }
     }
 

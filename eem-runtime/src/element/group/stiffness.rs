@@ -4,7 +4,7 @@
 use core::ops::Range;
 
 use super::arms::measures_in;
-use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
 use crate::element::layout::Slots;
 use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::Scalar;
@@ -32,6 +32,8 @@ pub(crate) struct Stiffness<'a> {
     pub(crate) pull: [f64; 2],
     /// The largest rate of relaxation of a dashpot, 1/s.
     pub(crate) relaxation: f64,
+    /// Whether it is a spring with dashpots in series, whose unknowns are lengths.
+    pub(crate) has_viscous_stretch: bool,
 }
 
 impl Stiffness<'_> {
@@ -95,5 +97,6 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: us
         dashpots: slots.viscous..slots.viscous + M::DASHPOTS,
         pull,
         relaxation,
+        has_viscous_stretch: K::Measures::IS_SPRING && M::DASHPOTS > 0,
     }
 }

@@ -163,10 +163,8 @@ impl<const D: usize> Simulation<D> {
     /// The implicit scheme whose trial is due, and the size of its step, s.
     fn implicit_trial(&mut self, control: &Control) -> Option<(Scheme, f64)> {
         let selection = &mut self.automatic.selection;
-        let is_due = match self.in_use {
-            Scheme::EemExplicit => selection.is_limited(),
-            _ => selection.has_settled(self.step),
-        };
+        let is_limited = self.in_use == Scheme::EemExplicit && selection.is_limited();
+        let is_due = is_limited || selection.has_settled(self.step);
         if !is_due || !selection.may_try_implicit() {
             return None;
         }

@@ -14,7 +14,7 @@ use super::guard::or_restore;
 use super::memory::{Control, Halves};
 use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
-use crate::step::control::{Kinds, Scales};
+use crate::step::control::{Kinds, LoadRounding, Scales};
 use crate::step::error::StepError;
 use crate::step::explicit::Demand;
 
@@ -22,6 +22,9 @@ impl<const D: usize> Simulation<D> {
     /// Work arrays for a whole step and for its two halves.
     pub(super) fn new_halves(&self) -> Halves {
         let (past, _) = self.stepper.past(&self.state);
+        let temperatures = self.loads.temperatures.iter();
+        let slots = temperatures.map(|(element, _)| self.thermal_slot(*element).ok());
+        let counts = [self.masses.len(), self.layout.thermal];
         Halves {
             before: State::clone(&self.state),
             past,
@@ -30,6 +33,7 @@ impl<const D: usize> Simulation<D> {
                 are_strains: self.viscous_strains(),
                 are_given: self.prescribed_momenta(),
             },
+            rounding: LoadRounding::new(&self.loads, slots.collect(), counts),
         }
     }
 
@@ -46,9 +50,15 @@ impl<const D: usize> Simulation<D> {
         let ends = [&halves.before, &*self.state];
         let accurate = (accuracy, size);
         let least = (memory.largest_momentum, &self.least);
-        let scales = Scales::new(&memory.tolerance, accurate, ends, least);
-        let share: f64 = accuracy.share_of_difference();
-        report.error = share * scales.error::<D>([&halves.whole, &self.state], &halves.kinds);
+        let scales = Scales::new::<D>(&memory.tolerance, accurate, ends, least);
+        let states = [&halves.whole, &*self.state];
+        let how = (&halves.kinds, accuracy.share_of_difference());
+        report.error = scales.error::<D>(states, how, None);
+        if accuracy.holds_back(report.error) {
+            let span = [halves.before.time.value, size];
+            halves.rounding.find(&self.loads, &self.least, span);
+            report.error = scales.error::<D>(states, how, Some(&halves.rounding));
+        }
         if accuracy.accepts(report.error) {
             return Ok(Tried::Made(report));
         }

@@ -5,7 +5,7 @@ use crate::algebra::memory::MemoryLimit;
 use crate::element::state::State;
 use crate::run::checkpoint::{SavedChoice, SavedControl};
 use crate::step::automatic::SchemeSelection;
-use crate::step::control::{Accuracy, Kinds};
+use crate::step::control::{Accuracy, Kinds, LoadRounding};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
@@ -60,6 +60,8 @@ pub(super) struct Halves {
     /// The state after the whole step.
     pub(super) whole: State,
     pub(super) kinds: Kinds,
+    /// Of the last step where it was needed.
+    pub(super) rounding: LoadRounding,
 }
 
 /// The history of `Scheme::Auto`, and what a change of the scheme needs.

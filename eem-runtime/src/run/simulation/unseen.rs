@@ -84,7 +84,7 @@ impl<const D: usize> Simulation<D> {
         // The scales of the error of a step that changes nothing.
         let (memory, accurate) = (&control.memory, (control.accuracy, size));
         let least = (memory.largest_momentum, &self.least);
-        let scales = Scales::new(&memory.tolerance, accurate, [&self.state; 2], least);
+        let scales = Scales::new::<D>(&memory.tolerance, accurate, [&self.state; 2], least);
         // A shorter step is cheaper than so many samples.
         let are_too_many = size > f64::from(MOST) * longest;
         for timed in self.timed_loads() {
@@ -128,7 +128,7 @@ impl<const D: usize> Simulation<D> {
                         return Ok(true);
                     }
                     // Times the stiffness, the displacement is a force on a mass.
-                    let allowed = scales.displacement(anchor.index);
+                    let allowed = scales.displacement::<D>(anchor.index);
                     let order = control.accuracy.order_of_halves();
                     let rule = LoadRule::of_motions(self.in_use, order);
                     return passes_over_integral(&look, rule, (allowed, tolerance), (grid, of));
@@ -183,7 +183,7 @@ impl<const D: usize> Simulation<D> {
         let (TimedLoad::Force(node) | TimedLoad::Thrust(node)) = load else {
             return Ok(false);
         };
-        let impulse = scales.momentum(node.index);
+        let impulse = scales.momentum::<D>(node.index);
         let rule = LoadRule::of_forces(self.in_use, control.accuracy.order_of_halves());
         passes_over_integral(
             &look,

@@ -23,13 +23,15 @@ impl<const D: usize> Simulation<D> {
                 let tolerance = &control.memory.tolerance;
                 let ends = [&halves.before, &*self.state];
                 let least = (control.memory.largest_momentum, &self.least);
-                let scales = Scales::new(tolerance, (control.accuracy, size), ends, least);
+                let accuracy = control.accuracy;
+                let scales = Scales::new::<D>(tolerance, (accuracy, size), ends, least);
                 let states = [&halves.whole, &*self.state];
-                let worst = scales.worst::<D>(states, &halves.kinds);
+                let how = (&halves.kinds, accuracy.share_of_difference());
+                let span = [halves.before.time.value, size];
+                halves.rounding.find(&self.loads, &self.least, span);
+                let worst = scales.worst::<D>(states, how, &halves.rounding);
                 self.return_to(halves);
-                let share: f64 = control.accuracy.share_of_difference();
-                worst
-                    .map(|(unknown, [difference, scale])| (unknown, [share * difference, scale]))?
+                worst?
             }
             (None, Stepper::Newton(_)) => return None,
         };

@@ -6,6 +6,9 @@ use eem_material::number::scalar::Scalar;
 /// The error that a step aims at, in units of the tolerance.
 const AIM: f64 = 0.8;
 
+/// The error that an embedded estimate settles at, where its steps keep their size: `0.8 e^(−1/p + 0.07) = 1` with p = 8.
+const SETTLED: f64 = 0.017;
+
 /// The error beyond which a step in two halves is rejected, in units of the tolerance.
 const MOST: f64 = 1.2;
 
@@ -89,6 +92,16 @@ impl Accuracy {
             Estimate::Embedded => 1.0,
         };
         error <= most
+    }
+
+    /// Whether an error, in units of the tolerance, can keep the next step from being longer.
+    pub(crate) fn holds_back(self, error: f64) -> bool {
+        let most = match self.estimate {
+            Estimate::Halves | Estimate::HalvesOverTime => AIM,
+            Estimate::Embedded => SETTLED,
+        };
+        // Also if it is not a number.
+        !(error <= most)
     }
 
     /// The fraction of its size with which a rejected step is tried again.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::element::conduction::Conduction;
-use crate::element::group::Elements;
+use crate::element::group::{Elements, points};
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::step::control::controller::Accuracy;
@@ -23,8 +23,15 @@ const MOST_AHEAD: f64 = 8.0;
 /// m r² ℓ ω,     ω = √(k/m), or k/d if a damper d in parallel makes the mass creep back;     m r² ℓ/h where k = 0
 /// ```
 ///
-/// with the sum k of the stiffnesses at the mass. It is local, so that heavy parts at rest do not blind light ones. Errors
-/// below `16 ε h Σ |∂²ψ/∂λ²| λ`, the rounding of the impulse, are none.
+/// with the sum k of the stiffnesses at the mass. It is local, so that heavy parts at rest do not blind light ones.
+///
+/// Errors below the rounding of the impulse are none. Forces follow from lengths, which are differences of rounded positions:
+///
+/// ```text
+/// 16 ε min(h, 2π/ω) (Σ |∂²ψ/∂λ²| λ + k |q| + m |g|)
+/// ```
+///
+/// It is proportional to the step, as what the tolerance allows may be, so that no step would be short enough for it.
 ///
 /// While |p|₂ grows beyond all that it has been, the scale is what it becomes in a period `2π/ω` if it goes on to grow like
 /// this, at most 8 times as much: the errors of a period add up to the tolerance of what the momentum is at its end.
@@ -39,6 +46,8 @@ pub(crate) struct LeastScales {
     most: AtNode,
     /// Between moved anchors and masses, in the order of the anchors.
     links: Box<[Link]>,
+    /// The ends of springs with dashpots in series.
+    viscous: Box<[[u32; 2]]>,
 }
 
 /// What pulls a mass when an anchor moves.
@@ -61,14 +70,19 @@ struct AtNode {
     free: f64,
     /// The terms of the forces, N.
     force: f64,
+    /// The sum of the stiffnesses, N/m.
+    stiffness: f64,
+    /// Zero for an anchor, kg.
+    mass: f64,
 }
 
 impl LeastScales {
-    /// Of elements in a state, with these anchors, in ascending order, that are moved by functions of time.
+    /// Of elements in a state with this acceleration of free fall, m/s², and these anchors, in ascending order, that are moved by
+    /// functions of time.
     pub(crate) fn new<'a, const D: usize>(
         groups: impl Iterator<Item = &'a dyn Elements<D>>,
         (masses, conduction): (&Masses, &Conduction),
-        (state, moved): (&State, &[usize]),
+        (state, gravity, moved): (&State, f64, &[usize]),
     ) -> Self {
         let size = norm(state.positions.values().iter().copied());
         let size = if size > 0.0 { size } else { 1.0 };
@@ -76,11 +90,15 @@ impl LeastScales {
         let mut around = vec![([0.0; 3], f64::MAX); masses.len()];
         let mut rate = 0.0;
         let mut links = BTreeMap::new();
+        let mut viscous = Vec::new();
         for group in groups {
             group.stiffness(
                 state,
                 &mut (|point| {
                     rate = Scalar::maximum(rate, point.relaxation);
+                    if point.has_viscous_stretch {
+                        viscous.push([point.nodes[0], point.nodes[1]]);
+                    }
                     if let Some((slot, capacity)) = point.capacity {
                         let links = conduction.links(slot).iter();
                         let flow = links.fold(0.0, |sum, link| sum + link.conductance);
@@ -129,7 +147,9 @@ impl LeastScales {
                     period: if has_period { period } else { f64::MAX },
                     bound: length * bound,
                     free: if is_free { mass * length } else { 0.0 },
-                    force,
+                    force: force + own.unwrap_or(0.0) * gravity,
+                    stiffness,
+                    mass: own.unwrap_or(0.0),
                 }
             })
             .collect();
@@ -148,11 +168,14 @@ impl LeastScales {
             size,
             rate,
             links: links.collect(),
+            viscous: viscous.into(),
             most: AtNode {
-                period: 0.0,
+                period: f64::MAX,
                 bound: largest(&|node| node.bound),
                 free: largest(&|node| node.free),
                 force: largest(&|node| node.force),
+                stiffness: largest(&|node| node.stiffness),
+                mass: 0.0,
             },
             nodes,
         }
@@ -181,6 +204,44 @@ impl LeastScales {
         self.nodes[node].scale(all, step)
     }
 
+    /// The time in which an error of the force on a node changes its momentum in a step of the size h, s: beyond a period the springs
+    /// balance it.
+    pub(crate) fn time_of_impulse(&self, node: usize, h: f64) -> f64 {
+        Scalar::minimum(h, self.nodes[node].period)
+    }
+
+    /// The rounding of the impulse of a step of the size h on a node at this distance from the origin, N s.
+    pub(crate) fn rounding(&self, node: usize, h: f64, distance: f64) -> f64 {
+        self.nodes[node].rounding(h, distance)
+    }
+
+    /// At least that of every node up to this distance from the origin, N s.
+    pub(crate) fn most_rounding(&self, h: f64, distance: f64) -> f64 {
+        self.most.rounding(h, distance)
+    }
+
+    /// How far an impulse of 1 N s moves a mass in a step of the size h, m: `h/m`, or `1/kh` where a spring holds it back.
+    pub(crate) fn mobility(&self, node: usize, h: f64) -> f64 {
+        let AtNode {
+            mass, stiffness, ..
+        } = self.nodes[node];
+        let is_mass = mass > 0.0;
+        if is_mass {
+            h / (mass + stiffness * h * h)
+        } else {
+            0.0
+        }
+    }
+
+    /// |λ|₂ of all springs with dashpots in series, m: the size of their viscous stretches, wherever the springs are.
+    pub(crate) fn stretches<const D: usize>(&self, positions: &[f64]) -> f64 {
+        let points = points::<D>(positions);
+        norm(self.viscous.iter().flat_map(|ends| {
+            let [a, b] = ends.map(|end| points[end as usize]);
+            (0..D).map(move |axis| b[axis] - a[axis])
+        }))
+    }
+
     /// The masses that a moved anchor pulls, with the stiffness between them, N/m.
     pub(crate) fn pulled_by(&self, anchor: usize) -> impl Iterator<Item = (usize, f64)> {
         let first = self.links.partition_point(|link| link.anchor < anchor);
@@ -202,20 +263,21 @@ pub(crate) struct Step {
     pub(crate) size: f64,
     /// The relative tolerance r.
     pub(crate) relative: f64,
-    /// The relative tolerance of this step alone.
-    pub(crate) own: f64,
     /// The relative rate at which |p|₂ has grown in it beyond all that it has been, 1/s.
     pub(crate) growth: f64,
 }
 
 impl AtNode {
-    /// The scale of the momentum, given that of all: at least that of the smallest vibration, and so large that an error within
-    /// the tolerance is no rounding.
+    /// The scale of the momentum, given that of all: at least that of the smallest vibration.
     fn scale(&self, all: f64, step: Step) -> f64 {
         let part = step.relative * step.relative;
         let unseen = part * (self.bound + self.free / step.size);
-        let rounding = ROUNDINGS * f64::EPSILON * step.size * self.force;
         let ahead = Scalar::minimum(1.0 + step.growth * self.period, MOST_AHEAD);
-        Scalar::maximum(Scalar::maximum(all, unseen) * ahead, rounding / step.own)
+        Scalar::maximum(all, unseen) * ahead
+    }
+
+    fn rounding(&self, h: f64, distance: f64) -> f64 {
+        let time = Scalar::minimum(h, self.period);
+        ROUNDINGS * f64::EPSILON * time * (self.force + self.stiffness * distance)
     }
 }

@@ -3,7 +3,7 @@
 use eem_material::number::scalar::Scalar;
 
 /// Errors of fewer roundings of their own terms cannot be distinguished from rounding.
-pub(super) const ROUNDINGS: f64 = 16.0;
+pub(crate) const ROUNDINGS: f64 = 16.0;
 
 /// `|x|₂`, scaled where squares would under- or overflow.
 pub(crate) fn norm(x: impl Iterator<Item = f64> + Clone) -> f64 {

@@ -1,10 +1,12 @@
 //! Tolerances of step control, and errors in units of them.
 
+use crate::element::group::points;
 use crate::element::state::State;
 use crate::scene::error::SceneError;
 use crate::step::control::controller::Accuracy;
 use crate::step::control::least::{LeastScales, Step};
 use crate::step::control::norm::{ROUNDINGS, norm};
+use crate::step::control::rounding::LoadRounding;
 use crate::step::control::worst::{Unknown, Worst};
 use eem_material::number::scalar::{Scalar, is_positive};
 
@@ -14,15 +16,17 @@ use eem_material::number::scalar::{Scalar, is_positive};
 /// temperature to itself:
 ///
 /// ```text
-/// error = max(|δq|/(r |q|₂ + a_q), |δγ|/(r |q|₂ + a_q), |δp|/(r max |p|₂ + a_p), |δθ|/(r θ + a_θ))
+/// error = max(|δq|/(r |q|₂ + a_q), |δγ|/(r |λ|₂ + a_q), |δp|/(r max |p|₂ + a_p), |δθ|/(r θ + a_θ))
 /// ```
 ///
-/// Viscous strains of solids are dimensionless and compared with `r + a_q`. Momenta of prescribed nodes are ignored.
+/// |λ|₂ is over the springs with dashpots in series. Viscous strains of solids are dimensionless and compared with `r + a_q`. Momenta of prescribed nodes are ignored.
 ///
 /// From rest |p|₂ is no scale: at each mass it counts as at least `m r² ℓ ω`, the momentum of a vibration whose amplitude is r²
 /// times the shortest length ℓ there; and |q|₂ as at least r times that of the start. While |p|₂ grows beyond all that it has been,
-/// the schemes with two halves take what it becomes in a period, at most 8 times as much. Errors below `16 ε h Σ k λ`, the
-/// rounding of the impulse of a step, are none.
+/// the schemes with two halves take what it becomes in a period, at most 8 times as much.
+///
+/// Errors that rounding explains are none, and neither reject a step nor make it shorter: of a momentum `16 ε h Σ k (λ + |q|)`, as
+/// lengths are differences of rounded positions, and `4 ε h |t| |ḟ|` of a load, as a function is evaluated at rounded times.
 ///
 /// A `Study` measures errors in the same way, in units of `|q|₂`, the largest `|p|₂` and θ.
 ///
@@ -174,24 +178,29 @@ pub(crate) struct Kinds {
 /// The scales of the errors of a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scales<'a> {
-    /// Of a coordinate, m, and of a viscous strain.
+    /// Of a coordinate, m, of a viscous stretch, m, and of a viscous strain.
     position: f64,
+    stretch: f64,
     strain: f64,
     /// Relative and absolute tolerance of momenta, their size, and the least scales.
     momentum: [f64; 2],
     momenta: f64,
     least: &'a LeastScales,
     step: Step,
+    /// The relative tolerance of this step alone.
+    own: f64,
     /// The relative and the absolute tolerance of temperatures.
     temperature: [f64; 2],
+    /// Both states.
+    states: [&'a State; 2],
 }
 
 impl<'a> Scales<'a> {
     /// For a step of this size between two states, given the largest momentum so far, kg m/s.
-    pub(crate) fn new(
+    pub(crate) fn new<const D: usize>(
         tolerance: &Tolerance,
         (accuracy, step): (Accuracy, f64),
-        [old, new]: [&State; 2],
+        [old, new]: [&'a State; 2],
         (largest_momentum, least): (f64, &'a LeastScales),
     ) -> Self {
         let part = tolerance.over.map_or(1.0, |time| step / time);
@@ -201,6 +210,7 @@ impl<'a> Scales<'a> {
         let of = |size: f64, absolute: f64| relative * size + share * absolute;
         let size = |of: &dyn Fn(&State) -> f64| Scalar::maximum(of(old), of(new));
         let positions = size(&|state| norm(state.positions.values().iter().copied()));
+        let stretches = size(&|state| least.stretches::<D>(state.positions.values()));
         let [start, end] = [old, new].map(|state| norm(state.momenta.values().iter().copied()));
         let before = Scalar::maximum(start, largest_momentum);
         let momenta = Scalar::maximum(end, before);
@@ -215,6 +225,7 @@ impl<'a> Scales<'a> {
                 Scalar::maximum(positions, least.position(tolerance.relative)),
                 tolerance.position,
             ),
+            stretch: of(stretches, tolerance.position),
             strain: of(1.0, tolerance.position),
             momentum: [relative, share * tolerance.momentum],
             momenta,
@@ -222,98 +233,148 @@ impl<'a> Scales<'a> {
             step: Step {
                 size: step,
                 relative: tolerance.relative,
-                own: relative,
                 growth,
             },
+            own: relative,
             temperature: [relative, share * tolerance.temperature],
+            states: [old, new],
         }
     }
 
-    /// What the tolerance allows a momentum of this node, kg m/s.
-    pub(crate) fn momentum(&self, node: usize) -> f64 {
+    /// What the tolerance allows a momentum of this node, kg m/s: at least its rounding.
+    pub(crate) fn momentum<const D: usize>(&self, node: usize) -> f64 {
+        Scalar::maximum(self.allowed_momentum(node), self.rounding::<D>(node))
+    }
+
+    fn allowed_momentum(&self, node: usize) -> f64 {
         let [relative, absolute] = self.momentum;
         let momentum = self.least.momentum(node, self.momenta, self.step);
         relative * momentum + absolute
     }
 
+    /// The rounding of the impulse on a node by that of positions, N s.
+    fn rounding<const D: usize>(&self, node: usize) -> f64 {
+        let distances = self.states.map(|state| {
+            let point = points::<D>(state.positions.values())[node];
+            norm(point.iter().copied())
+        });
+        let [start, end] = distances;
+        let distance = Scalar::maximum(start, end);
+        self.least.rounding(node, self.step.size, distance)
+    }
+
     /// What the tolerance allows the integral of the displacement of a moved anchor, m s: multiplied by the stiffness, it is an
     /// impulse on the mass at the other end.
-    pub(crate) fn displacement(&self, anchor: usize) -> f64 {
+    pub(crate) fn displacement<const D: usize>(&self, anchor: usize) -> f64 {
         let pulled = self.least.pulled_by(anchor);
         pulled.fold(f64::MAX, |least, (mass, stiffness)| {
-            Scalar::minimum(least, self.momentum(mass) / stiffness)
+            Scalar::minimum(least, self.momentum::<D>(mass) / stiffness)
         })
     }
 
     /// What the tolerance of the state, not of this step, allows a position, m.
     pub(crate) fn height(&self) -> f64 {
-        self.position * (self.step.relative / self.step.own)
+        self.position * (self.step.relative / self.own)
     }
 
-    /// The largest difference between two states, in units of the tolerance.
-    pub(crate) fn error<const D: usize>(&self, states: [&State; 2], kinds: &Kinds) -> f64 {
+    /// The largest error, in units of the tolerance, if it is this share of the difference between two states. With the rounding of
+    /// loads, what rounding explains is none.
+    pub(crate) fn error<const D: usize>(
+        &self,
+        states: [&State; 2],
+        (kinds, share): (&Kinds, f64),
+        rounding: Option<&LoadRounding>,
+    ) -> f64 {
         let mut largest = 0.0;
-        self.each_difference::<D>(states, kinds, |_, difference, scale| {
-            let error = difference / scale;
-            // No difference is no error, even at scale zero.
-            let is_equal = difference == 0.0;
-            largest = Scalar::maximum(largest, if is_equal { 0.0 } else { error });
-        });
+        self.each_difference::<D>(
+            states,
+            kinds,
+            rounding,
+            |_, difference, [scale, rounding]| {
+                let error = Scalar::maximum(share * difference - rounding, 0.0);
+                // No difference is no error, even at scale zero.
+                let is_equal = error == 0.0;
+                let scale = Scalar::maximum(scale, rounding);
+                largest = Scalar::maximum(largest, if is_equal { 0.0 } else { error / scale });
+            },
+        );
         largest
     }
 
-    /// The unknown with this difference, with the difference and what the tolerance allows.
+    /// The unknown with the largest error, with the error and what the tolerance and rounding allow.
     #[cold]
     pub(crate) fn worst<const D: usize>(
         &self,
         states: [&State; 2],
-        kinds: &Kinds,
+        (kinds, share): (&Kinds, f64),
+        rounding: &LoadRounding,
     ) -> Option<(Unknown, [f64; 2])> {
         let mut worst = Worst::none();
-        self.each_difference::<D>(states, kinds, |unknown, difference, scale| {
-            worst.see(unknown, [difference, scale]);
-        });
+        let rounding = Some(rounding);
+        self.each_difference::<D>(
+            states,
+            kinds,
+            rounding,
+            |unknown, difference, [scale, rounding]| {
+                let allowed = Scalar::maximum(scale, rounding) + rounding;
+                worst.see(unknown, [share * difference, allowed]);
+            },
+        );
         worst.found
     }
 
+    /// Calls `see` with each difference, its scale and, if that of loads is known, its rounding.
     #[inline]
     fn each_difference<const D: usize>(
         &self,
         [a, b]: [&State; 2],
         kinds: &Kinds,
-        mut see: impl FnMut(Unknown, f64, f64),
+        loads: Option<&LoadRounding>,
+        mut see: impl FnMut(Unknown, f64, [f64; 2]),
     ) {
         let mut each = |values: [&[f64]; 2],
                         unknown: fn(usize) -> Unknown,
-                        scale: &dyn Fn(usize, f64) -> f64| {
+                        scale: &dyn Fn(usize, f64) -> [f64; 2]| {
             for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
                 see(unknown(index), (a - b).abs(), scale(index, b));
             }
         };
+        let rounding = |of: &dyn Fn(&LoadRounding) -> f64| loads.map_or(0.0, of);
+        let impulse =
+            |node: usize| rounding(&|loads| self.rounding::<D>(node) + loads.impulse(node));
         each(
             [a.positions.values(), b.positions.values()],
             Unknown::Position,
-            &|_, _| self.position,
+            &|index, _| {
+                let node = index / D;
+                let moved = rounding(&|loads| {
+                    let mobility = self.least.mobility(node, self.step.size);
+                    mobility * impulse(node) + loads.position(node)
+                });
+                [self.position, moved]
+            },
         );
         each(
             [a.momenta.values(), b.momenta.values()],
             Unknown::Momentum,
             &(|index, _| {
                 if kinds.are_given.get(index) == Some(&true) {
-                    f64::MAX
+                    [f64::MAX, 0.0]
                 } else {
-                    self.momentum(index / D)
+                    [self.allowed_momentum(index / D), impulse(index / D)]
                 }
             }),
         );
+        let positions = norm(b.positions.values().iter().copied());
         each(
             [a.viscous.values(), b.viscous.values()],
             Unknown::Viscous,
             &|index, _| {
                 if kinds.are_strains[index] {
-                    self.strain
+                    [self.strain, 0.0]
                 } else {
-                    self.position
+                    let rounding = rounding(&|_| ROUNDINGS * f64::EPSILON * positions);
+                    [self.stretch, rounding]
                 }
             },
         );
@@ -321,7 +382,10 @@ impl<'a> Scales<'a> {
         each(
             [&a.temperatures, &b.temperatures],
             Unknown::Temperature,
-            &|_, theta| relative * theta + absolute,
+            &|index, theta| {
+                let rounding = rounding(&|loads| loads.temperature(index));
+                [relative * theta + absolute, rounding]
+            },
         );
     }
 }

@@ -4,9 +4,11 @@ use super::demand::Scales;
 use super::stages::{errors, unclosed};
 use super::vector::{difference, dot, length};
 use super::{Explicit, ExplicitView};
+use crate::element::group::Place;
 use crate::element::state::State;
-use crate::step::control::{Step, Tolerance, Unknown, Worst, norm};
+use crate::step::control::{Accuracy, ROUNDINGS, Step, Tolerance, Unknown, Worst, norm};
 use crate::step::error::StepFailure;
+use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
 
 /// How often heat may correct the energy in a closing, which has ten iterations.
@@ -80,26 +82,92 @@ impl<const D: usize> Explicit<D> {
     /// e₅²/√(e₅² + 0.01 e₃²),     e = |h Σ E k / scale|₂
     /// ```
     ///
-    /// with the scales of a [`Tolerance`]: |q| of all nodes, anchors among them, for positions and viscous stretches, which
-    /// does not vanish where no mass moves; the largest |p| so far for momenta, and θ.
+    /// with the scales of a [`Tolerance`]: |q| of all nodes, anchors among them, for positions; |λ| of the springs with dashpots for
+    /// viscous stretches, the largest |p| so far for momenta, and θ. What rounding explains of each e₅ is none; that is found only
+    /// where it could make the next step longer.
     pub(super) fn estimate(
+        &mut self,
+        view: &ExplicitView<'_, D>,
+        tolerance: &Tolerance,
+        scales: Scales,
+    ) -> f64 {
+        let mut sums = [0.0; 2];
+        self.each_error::<false>(view, tolerance, scales, |_, errors, [per_scale, _]| {
+            for (sum, error) in sums.iter_mut().zip(errors) {
+                let error = view.step * error * per_scale;
+                *sum += error * error;
+            }
+        });
+        let error = combined(sums);
+        let accuracy: Accuracy = Scheme::EemExplicit.accuracy();
+        if !accuracy.holds_back(error) {
+            return error;
+        }
+        self.find_rounding(view);
+        let may_explain = !self.rounding.is_none()
+            || ROUNDING_SHARE * error < self.most_rounding(view, tolerance, scales);
+        if may_explain {
+            self.estimate_beyond_rounding(view, tolerance, scales)
+        } else {
+            error
+        }
+    }
+
+    #[cold]
+    fn estimate_beyond_rounding(
         &self,
         view: &ExplicitView<'_, D>,
         tolerance: &Tolerance,
         scales: Scales,
     ) -> f64 {
         let mut sums = [0.0; 2];
-        self.each_error(view, tolerance, scales, |_, errors, per_scale| {
-            for (sum, error) in sums.iter_mut().zip(errors) {
-                let error = view.step * error * per_scale;
-                *sum += error * error;
-            }
-        });
-        let [five, three] = sums;
-        if five <= 0.0 {
-            return 0.0;
+        self.each_error::<true>(
+            view,
+            tolerance,
+            scales,
+            |_, errors, [per_scale, rounding]| {
+                let [fifth, third] = errors.map(|error| view.step * error);
+                let beyond = Scalar::maximum(fifth.abs() - rounding, 0.0);
+                for (sum, error) in sums.iter_mut().zip([beyond, third]) {
+                    let error = error * per_scale;
+                    *sum += error * error;
+                }
+            },
+        );
+        Scalar::maximum(combined(sums), HIDDEN)
+    }
+
+    /// At least what rounding of positions changes in the estimate.
+    fn most_rounding(
+        &self,
+        view: &ExplicitView<'_, D>,
+        tolerance: &Tolerance,
+        scales: Scales,
+    ) -> f64 {
+        let distance = self.farthest(view, scales);
+        let impulse = view.least.most_rounding(view.step, distance);
+        let momentum = tolerance.relative * scales.momentum + tolerance.momentum;
+        let stretches = view.least.stretches::<D>(view.state.positions.values());
+        let stretch = tolerance.relative * stretches + tolerance.position;
+        let count = self.components.masses * D + self.stage.temperatures;
+        #[expect(clippy::cast_precision_loss, reason = "a count of far less than 2⁵³")]
+        let all = (count as f64).sqrt();
+        let mut sum = 0.0;
+        for (rounding, scale) in [
+            (impulse, momentum),
+            (rounding_of_stretch(distance), stretch),
+        ] {
+            sum += if scale > 0.0 { rounding / scale } else { 0.0 };
         }
-        five / (five + 0.01 * three).sqrt()
+        all * sum
+    }
+
+    /// Finds the rounding of the loads of a step.
+    pub(super) fn find_rounding(&mut self, view: &ExplicitView<'_, D>) {
+        if !self.rounding.is_none() {
+            let span = [view.state.time.value, view.step];
+            self.rounding.find(view.loads, view.least, span);
+        }
     }
 
     /// The unknown with the largest error in a step, with its error and what the tolerance allows.
@@ -115,10 +183,17 @@ impl<const D: usize> Explicit<D> {
         // As before the attempt.
         self.is_ready = was_ready;
         let scales = tried?;
+        self.find_rounding(view);
         let mut worst = Worst::none();
-        self.each_error(view, tolerance, scales, |unknown, [fifth, _], per_scale| {
-            worst.see(unknown, [(view.step * fifth).abs(), per_scale.recip()]);
-        });
+        self.each_error::<true>(
+            view,
+            tolerance,
+            scales,
+            |unknown, [fifth, _], [per_scale, rounding]| {
+                let allowed = per_scale.recip() + rounding;
+                worst.see(unknown, [(view.step * fifth).abs(), allowed]);
+            },
+        );
         Ok(worst.found)
     }
 
@@ -163,12 +238,16 @@ impl<const D: usize> Explicit<D> {
             largest = Scalar::maximum(largest, part);
         };
         let Tolerance { relative, .. } = *tolerance;
-        let position = position_size(view, tolerance, scales);
-        let position = relative * position + tolerance.position;
+        let positions = self.farthest(view, scales);
+        let positions = Scalar::maximum(positions, view.least.position(relative));
+        let position = relative * positions + tolerance.position;
+        let stretches = view.least.stretches::<D>(view.state.positions.values());
+        let stretch = relative * stretches + tolerance.position;
         for at in self.components.all[index].masses.clone() {
             let place = &self.stage.places[at];
             let node = self.components.nodes[at] as usize;
-            let momentum = momentum_scale(view, tolerance, scales, node);
+            let rounding = self.rounding_of(view, place, node);
+            let momentum = momentum_scale(view, tolerance, scales, (node, rounding));
             let before = unclosed(&place.past, view.step);
             for ((now, before), allowed) in place.now.iter().zip(&before).zip([position, momentum])
             {
@@ -181,7 +260,7 @@ impl<const D: usize> Explicit<D> {
         };
         for (dashpot, own) in self.components.dashpots.iter().enumerate() {
             if own.component as usize == index {
-                see(change(dashpot), position);
+                see(change(dashpot), stretch);
             }
         }
         for slot in self.slots_of(index) {
@@ -194,68 +273,129 @@ impl<const D: usize> Explicit<D> {
         largest
     }
 
-    /// Calls `see` with the errors of fifth and third order of every unknown, per time, and the reciprocal of its scale.
+    /// Calls `see` with the errors of fifth and third order of every unknown, per time, the reciprocal of its scale and, if `ROUNDED`,
+    /// its rounding.
     #[inline]
-    fn each_error(
+    fn each_error<const ROUNDED: bool>(
         &self,
         view: &ExplicitView<'_, D>,
         tolerance: &Tolerance,
         scales: Scales,
-        mut see: impl FnMut(Unknown, [f64; 2], f64),
+        mut see: impl FnMut(Unknown, [f64; 2], [f64; 2]),
     ) {
         let per_scale = |size: f64, absolute: f64| {
             let scale = tolerance.relative * size + absolute;
             // Where the scale is zero nothing moves.
             if scale > 0.0 { scale.recip() } else { 0.0 }
         };
+        // No scale is below the rounding.
+        let rounded = |per_scale: f64, rounding: f64| {
+            let is_below = per_scale * rounding > 1.0;
+            let per_scale = if is_below {
+                rounding.recip()
+            } else {
+                per_scale
+            };
+            [per_scale, rounding]
+        };
         let masses = &self.stage.places[..self.components.masses];
         let least = view.least;
-        let position = per_scale(position_size(view, tolerance, scales), tolerance.position);
+        let far = self.farthest(view, scales);
+        let positions = Scalar::maximum(far, least.position(tolerance.relative));
+        let position = per_scale(positions, tolerance.position);
         let step = step_of(view, tolerance);
         let momentum = per_scale(scales.momentum, tolerance.momentum);
         let are_alike = least.are_below(scales.momentum, step);
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             let [fifth, third] = errors(&place.past);
+            let node = node as usize;
             let momentum = if are_alike {
                 momentum
             } else {
-                let own = least.momentum(node as usize, scales.momentum, step);
+                let own = least.momentum(node, scales.momentum, step);
                 per_scale(own, tolerance.momentum)
             };
+            let mut per_scales = [[position, 0.0], [momentum, 0.0]];
+            if ROUNDED {
+                let impulse = self.rounding_of(view, place, node);
+                let moved = least.mobility(node, view.step) * impulse;
+                per_scales = [rounded(position, moved), rounded(momentum, impulse)];
+            }
             let kinds = [Unknown::Position, Unknown::Momentum];
-            for (part, per_scale) in [position, momentum].into_iter().enumerate() {
+            for (part, per_scale) in per_scales.into_iter().enumerate() {
                 for axis in 0..D {
-                    let unknown = kinds[part](node as usize * D + axis);
+                    let unknown = kinds[part](node * D + axis);
                     see(unknown, [fifth[part][axis], third[part][axis]], per_scale);
                 }
             }
         }
         let first = self.stage.temperatures;
+        let mut stretch = [0.0; 2];
+        if first > 0 {
+            let stretches = least.stretches::<D>(view.state.positions.values());
+            stretch[0] = per_scale(stretches, tolerance.position);
+            if ROUNDED {
+                stretch = rounded(stretch[0], rounding_of_stretch(far));
+            }
+        }
         for (pair, past) in self.stage.inner_past.iter().enumerate() {
             let [[fifth], [third]] = errors(past);
             for at in 0..2 {
                 let index = 2 * pair + at;
                 let (unknown, per_scale) = if index < first {
-                    (Unknown::Viscous(index), position)
+                    (Unknown::Viscous(index), stretch)
                 } else {
+                    let slot = index - first;
                     let scale = per_scale(past.start[0][at], tolerance.temperature);
-                    (Unknown::Temperature(index - first), scale)
+                    let scale = if ROUNDED {
+                        rounded(scale, self.rounding.temperature(slot))
+                    } else {
+                        [scale, 0.0]
+                    };
+                    (Unknown::Temperature(slot), scale)
                 };
                 see(unknown, [fifth[at], third[at]], per_scale);
             }
         }
     }
+
+    /// The largest |q| of the step, that of all nodes included, m.
+    fn farthest(&self, view: &ExplicitView<'_, D>, scales: Scales) -> f64 {
+        let of_all = norm(view.state.positions.values().iter().copied());
+        Scalar::maximum(scales.position, of_all)
+    }
+
+    /// The rounding of the impulse on a mass, N s.
+    pub(super) fn rounding_of(
+        &self,
+        view: &ExplicitView<'_, D>,
+        place: &Place<D>,
+        node: usize,
+    ) -> f64 {
+        let [start, end] = [&place.past.start[0], place.q()].map(|q| norm(q.iter().copied()));
+        let distance = Scalar::maximum(start, end);
+        view.least.rounding(node, view.step, distance) + self.rounding.impulse(node)
+    }
 }
 
-/// The magnitude to which errors of positions and viscous stretches are relative.
-fn position_size<const D: usize>(
-    view: &ExplicitView<'_, D>,
-    tolerance: &Tolerance,
-    scales: Scales,
-) -> f64 {
-    let of_all = norm(view.state.positions.values().iter().copied());
-    let largest = Scalar::maximum(scales.position, of_all);
-    Scalar::maximum(largest, view.least.position(tolerance.relative))
+/// Rounding is looked at where it is more than this part of the error: less would change the size of a step by 1 %.
+const ROUNDING_SHARE: f64 = 0.1;
+
+/// An error that rounding explains counts as this one, so that steps grow by a third: what lies below is not seen before they are
+/// too long.
+const HIDDEN: f64 = 1e-4;
+
+/// The rounding of a viscous stretch whose ends are this far from the origin, m.
+fn rounding_of_stretch(distance: f64) -> f64 {
+    ROUNDINGS * f64::EPSILON * distance
+}
+
+/// `e₅²/√(e₅² + 0.01 e₃²)` from the squares.
+fn combined([five, three]: [f64; 2]) -> f64 {
+    if five <= 0.0 {
+        return 0.0;
+    }
+    five / (five + 0.01 * three).sqrt()
 }
 
 /// A step with this tolerance.
@@ -263,20 +403,19 @@ fn step_of<const D: usize>(view: &ExplicitView<'_, D>, tolerance: &Tolerance) ->
     Step {
         size: view.step,
         relative: tolerance.relative,
-        own: tolerance.relative,
         // Its estimate is careful enough.
         growth: 0.0,
     }
 }
 
-/// What the tolerance allows the momentum of a node, kg m/s.
+/// What the tolerance allows the momentum of a node, kg m/s, given the rounding of its impulse.
 fn momentum_scale<const D: usize>(
     view: &ExplicitView<'_, D>,
     tolerance: &Tolerance,
     scales: Scales,
-    node: usize,
+    (node, rounding): (usize, f64),
 ) -> f64 {
     let step = step_of(view, tolerance);
     let scale = view.least.momentum(node, scales.momentum, step);
-    tolerance.relative * scale + tolerance.momentum
+    Scalar::maximum(tolerance.relative * scale + tolerance.momentum, rounding)
 }

@@ -25,7 +25,7 @@
 //! ½ε Σ_j |b_j| Σ_m |ℓ'_m(c_j)| |f_j − f⁰||x|
 //! ```
 //!
-//! All are found only where the others are not enough. What is accepted for them is no debt of later steps, of which it is
+//! Where loads are functions of time, the work that the rounding of time explains counts, too. All are found only where the others are not enough. What is accepted for them is no debt of later steps, of which it is
 //! not the rounding.
 
 use super::super::vector::{difference, dot, size};
@@ -115,6 +115,30 @@ impl<const D: usize> Explicit<D> {
                 let way = (now - self.stage.inner_start(dashpot)).abs();
                 sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
             }
+        }
+        sum + self.rounding_of_work(index, view) / (FROZEN * f64::EPSILON)
+    }
+
+    /// The work that the rounding of loads explains, J: of the impulses on masses and of the positions of moved anchors.
+    fn rounding_of_work(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
+        self.find_rounding(view);
+        if self.rounding.is_none() {
+            return 0.0;
+        }
+        let size = |vector: &[f64; D]| dot(vector, vector).sqrt();
+        let mut sum = 0.0;
+        for at in self.components.all[index].masses.clone() {
+            let (place, node) = (&self.stage.places[at], self.components.nodes[at] as usize);
+            let impulse = self.rounding.impulse(node);
+            let momenta = size(&place.past.start[1]) + size(place.p()) + impulse;
+            sum += impulse * momenta * place.per_mass;
+            // The force of the springs is that on the mass less its load.
+            let mut load = [0.0; D];
+            if self.loads.has_total_force() {
+                load = self.loads.total_force(node);
+            }
+            let force = size(&self.scratch.forces[at]) + size(&load);
+            sum += force * self.rounding.pull(node);
         }
         sum
     }
