@@ -144,7 +144,7 @@ impl<const D: usize> Explicit<D> {
         tolerance: &Tolerance,
         scales: Scales,
     ) -> f64 {
-        let distance = self.farthest(view, scales);
+        let distance = farthest(view, scales);
         let impulse = view.least.most_rounding(view.step, distance);
         let momentum = tolerance.relative * scales.momentum + tolerance.momentum;
         let stretches = view.least.stretches::<D>(view.state.positions.values());
@@ -238,7 +238,7 @@ impl<const D: usize> Explicit<D> {
             largest = Scalar::maximum(largest, part);
         };
         let Tolerance { relative, .. } = *tolerance;
-        let positions = self.farthest(view, scales);
+        let positions = farthest(view, scales);
         let positions = Scalar::maximum(positions, view.least.position(relative));
         let position = relative * positions + tolerance.position;
         let stretches = view.least.stretches::<D>(view.state.positions.values());
@@ -300,7 +300,7 @@ impl<const D: usize> Explicit<D> {
         };
         let masses = &self.stage.places[..self.components.masses];
         let least = view.least;
-        let far = self.farthest(view, scales);
+        let far = farthest(view, scales);
         let positions = Scalar::maximum(far, least.position(tolerance.relative));
         let position = per_scale(positions, tolerance.position);
         let step = step_of(view, tolerance);
@@ -359,12 +359,6 @@ impl<const D: usize> Explicit<D> {
         }
     }
 
-    /// The largest |q| of the step, that of all nodes included, m.
-    fn farthest(&self, view: &ExplicitView<'_, D>, scales: Scales) -> f64 {
-        let of_all = norm(view.state.positions.values().iter().copied());
-        Scalar::maximum(scales.position, of_all)
-    }
-
     /// The rounding of the impulse on a mass, N s.
     pub(super) fn rounding_of(
         &self,
@@ -384,6 +378,12 @@ const ROUNDING_SHARE: f64 = 0.1;
 /// An error that rounding explains counts as this one, so that steps grow by a third: what lies below is not seen before they are
 /// too long.
 const HIDDEN: f64 = 1e-4;
+
+/// The largest |q| of the step, that of all nodes included, m.
+fn farthest<const D: usize>(view: &ExplicitView<'_, D>, scales: Scales) -> f64 {
+    let of_all = norm(view.state.positions.values().iter().copied());
+    Scalar::maximum(scales.position, of_all)
+}
 
 /// The rounding of a viscous stretch whose ends are this far from the origin, m.
 fn rounding_of_stretch(distance: f64) -> f64 {
