@@ -57,7 +57,9 @@ impl<const D: usize> Simulation<D> {
         if accuracy.holds_back(report.error) {
             let span = [halves.before.time.value, size];
             halves.rounding.find(&self.loads, &self.least, span);
-            report.error = scales.error::<D>(states, how, Some(&halves.rounding));
+            let beyond = scales.error::<D>(states, how, Some(&halves.rounding));
+            let accurate = (memory.tolerance.relative, accuracy);
+            report.error = self.least.hidden(beyond, size, accurate);
         }
         if accuracy.accepts(report.error) {
             return Ok(Tried::Made(report));

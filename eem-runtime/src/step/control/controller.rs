@@ -96,12 +96,16 @@ impl Accuracy {
 
     /// Whether an error, in units of the tolerance, can keep the next step from being longer.
     pub(crate) fn holds_back(self, error: f64) -> bool {
-        let most = match self.estimate {
+        // Also if it is not a number.
+        !(error <= self.settled())
+    }
+
+    /// The error, in units of the tolerance, after which steps keep their size.
+    pub(crate) fn settled(self) -> f64 {
+        match self.estimate {
             Estimate::Halves | Estimate::HalvesOverTime => AIM,
             Estimate::Embedded => SETTLED,
-        };
-        // Also if it is not a number.
-        !(error <= most)
+        }
     }
 
     /// The fraction of its size with which a rejected step is tried again.

@@ -189,6 +189,20 @@ impl LeastScales {
         time * Scalar::powf(relative, accuracy.order().recip())
     }
 
+    /// The error of a step of this size, in units of the tolerance, if all but the part `beyond` is explained by rounding. Steps up to
+    /// the [first one](Self::first_step) grow on it. Longer ones keep their size: what rounding hides of their error is not known.
+    pub(crate) fn hidden(
+        &self,
+        beyond: f64,
+        size: f64,
+        (relative, accuracy): (f64, Accuracy),
+    ) -> f64 {
+        if size < self.first_step(relative, accuracy) {
+            return beyond;
+        }
+        Scalar::maximum(beyond, accuracy.settled())
+    }
+
     /// The least scale of positions, `r |q|₂` of the start: they, too, may all be zero, m.
     pub(crate) fn position(&self, relative: f64) -> f64 {
         relative * self.size

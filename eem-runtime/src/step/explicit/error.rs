@@ -134,7 +134,9 @@ impl<const D: usize> Explicit<D> {
                 }
             },
         );
-        Scalar::maximum(combined(sums), HIDDEN)
+        let accurate = (tolerance.relative, Scheme::EemExplicit.accuracy());
+        let beyond = Scalar::maximum(combined(sums), HIDDEN);
+        view.least.hidden(beyond, view.step, accurate)
     }
 
     /// At least what rounding of positions changes in the estimate.
