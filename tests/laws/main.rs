@@ -11,6 +11,7 @@ mod dissipation;
 mod double_pendulums;
 mod explicit;
 mod explicit_at_rest;
+mod explicit_loads;
 mod explicit_momenta;
 mod explicit_supports;
 mod explicit_thermostats;

@@ -169,6 +169,12 @@ impl<const D: usize> Loads<D> {
         self.rockets.iter().map(|rocket| rocket.line).collect()
     }
 
+    /// Whether forces are functions of time.
+    pub(crate) fn have_forces_of_time(&self) -> bool {
+        let mut forces = self.forces.iter();
+        forces.any(|(_, force)| force.function().is_some())
+    }
+
     /// Whether gravity is not zero.
     pub(crate) fn have_weight(&self) -> bool {
         self.gravity.iter().any(|&component| component != 0.0)

@@ -64,8 +64,8 @@ pub(crate) struct Explicit<const D: usize> {
     /// Whether each thermal slot has a path of heat or a dashpot.
     produces: Vec<bool>,
     prescribed: Prescribed<D>,
-    /// The acceleration of free fall, m/s², if there is any.
-    gravity: Option<[f64; D]>,
+    /// Whether forces are functions of time.
+    has_functions: bool,
     /// The loads at the present stage, and at the start of the step.
     loads: StepLoads,
     start_loads: StepLoads,
@@ -158,7 +158,7 @@ impl<const D: usize> Explicit<D> {
             prescribed,
             start_loads: loads.clone(),
             loads,
-            gravity: site.loads.have_weight().then(|| site.loads.gravity.into()),
+            has_functions: site.loads.have_forces_of_time(),
             is_motion_first: false,
             is_ready: false,
             was_ready: false,

@@ -9,7 +9,7 @@ use crate::element::layout::Layout;
 use crate::element::loads::{Prescribed, Push, StepLoads, point};
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::scene::loads::{Course, Loads};
+use crate::scene::loads::{Course, Loads, VectorCourse};
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::is_positive;
 
@@ -91,8 +91,42 @@ impl StepLoads {
         masses: &Masses,
         time: f64,
     ) -> Result<(), StepFailure> {
+        self.evaluate_own_forces(loads, time, |_| true)?;
+        for (push, rocket) in self.pushes.iter_mut().zip(&loads.rockets) {
+            push.thrust = (rocket.thrust)(time);
+            if !push.thrust.is_finite() {
+                return Err(StepFailure::Thrust {
+                    node: push.line.node,
+                    value: push.thrust,
+                    time,
+                });
+            }
+        }
+        self.add_weights(loads, masses);
+        Ok(())
+    }
+
+    /// Evaluates forces that do not depend on time, and weights.
+    pub(crate) fn evaluate_constant_forces<const D: usize>(
+        &mut self,
+        loads: &Loads<D>,
+        masses: &Masses,
+        time: f64,
+    ) -> Result<(), StepFailure> {
+        self.evaluate_own_forces(loads, time, |force| force.function().is_none())?;
+        self.add_weights(loads, masses);
+        Ok(())
+    }
+
+    /// Sums the forces that count, at a time.
+    fn evaluate_own_forces<const D: usize>(
+        &mut self,
+        loads: &Loads<D>,
+        time: f64,
+        counts: impl Fn(&VectorCourse<D>) -> bool,
+    ) -> Result<(), StepFailure> {
         self.force.fill(0.0);
-        for (node, force) in &loads.forces {
+        for (node, force) in loads.forces.iter().filter(|(_, force)| counts(force)) {
             let value = match force {
                 Course::Function(of) => of(time),
                 Course::Constant(force) | Course::Set(force) => *force,
@@ -111,16 +145,11 @@ impl StepLoads {
                 }
             }
         }
-        for (push, rocket) in self.pushes.iter_mut().zip(&loads.rockets) {
-            push.thrust = (rocket.thrust)(time);
-            if !push.thrust.is_finite() {
-                return Err(StepFailure::Thrust {
-                    node: push.line.node,
-                    value: push.thrust,
-                    time,
-                });
-            }
-        }
+        Ok(())
+    }
+
+    /// Finds the total forces, from the forces and weights.
+    fn add_weights<const D: usize>(&mut self, loads: &Loads<D>, masses: &Masses) {
         let total = self.total_force.as_chunks_mut::<D>().0;
         for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
             *total = point(&self.force, node);
@@ -131,7 +160,6 @@ impl StepLoads {
                 weigh(total, mass, loads);
             }
         }
-        Ok(())
     }
 
     fn evaluate_motions<const D: usize>(

@@ -63,6 +63,7 @@ impl<const D: usize> Explicit<D> {
             self.meter(h, next);
         }
         let correction = self.correction(view, demand, time)?;
+        self.book_constant_loads(view, next);
         self.finish()?;
         self.store(next);
         self.books.largest_momentum = scales.momentum;

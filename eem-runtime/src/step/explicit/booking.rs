@@ -145,21 +145,45 @@ impl<const D: usize> Explicit<D> {
                 progress.carried = h * sums.effort;
             }
             let mut work = h * sums.work;
-            if let (Support::Free, [mass], None) = (component.support, masses, self.gravity) {
+            let is_pushed = sums.impulse.iter().any(|&sum| sum != 0.0);
+            if let (Support::Free, [mass], true) = (component.support, masses, is_pushed) {
                 // The change of its kinetic energy, `I·(p + I/2)/m`, follows from the impulse I alone: a quadrature of the power
                 // would have an error that nothing can close.
-                let impulse = sums.impulse.map(|sum| h * sum);
+                let mut impulse = mass.force;
+                add(&mut impulse, 1.0, &sums.impulse);
+                let impulse = impulse.map(|sum| h * sum);
                 let mut mean = mass.past.start[1];
                 add(&mut mean, 0.5, &impulse);
-                work = dot(&impulse, &mean) * mass.per_mass;
+                let way = difference(mass.q(), &mass.past.start[0]);
+                work = dot(&impulse, &mean) * mass.per_mass - dot(&mass.force, &way);
             }
             target.energy.add(work);
             next.work.add(work);
-            for (linear, &impulse) in target.linear.iter_mut().zip(&sums.impulse) {
-                linear.add(h * impulse);
+            let constant = masses.iter().map(|place| &place.force);
+            for impulse in constant.chain([&sums.impulse]) {
+                for (linear, &force) in target.linear.iter_mut().zip(impulse) {
+                    linear.add(h * force);
+                }
             }
             for plane in planes::<D>() {
                 target.angular.at_mut(plane).add(h * sums.torque.at(plane));
+            }
+        }
+    }
+
+    /// Adds the work `F·Δq` of constant loads, of which the closing has taken the potential: all of a constant force but the weight.
+    pub(super) fn book_constant_loads(&self, view: &ExplicitView<'_, D>, next: &mut State) {
+        if !self.loads.has_force() {
+            return;
+        }
+        for place in &self.stage.places[..self.components.masses] {
+            let way = difference(place.q(), &place.past.start[0]);
+            let weight = view.loads.gravity.iter().map(|g| place.mass * g);
+            for ((&force, weight), way) in place.force.iter().zip(weight).zip(way) {
+                let load = force - weight;
+                if load != 0.0 {
+                    next.work.add(load * way);
+                }
             }
         }
     }

@@ -78,7 +78,7 @@ impl<const D: usize> Explicit<D> {
                     self.expect_stable_dashpots(view)?;
                     has_looked = true;
                 }
-                self.find_forces(view);
+                self.find_forces();
                 for index in 0..self.components.all.len() {
                     if self.scratch.needs_forces[index] {
                         let status = self.reshape(index, view, next);
@@ -127,12 +127,11 @@ impl<const D: usize> Explicit<D> {
         Ok(())
     }
 
-    /// Finds the forces of elements and weights in the components that need them: the negative gradient of the energy.
-    fn find_forces(&mut self, view: &ExplicitView<'_, D>) {
+    /// Finds the constant forces and those of elements in the components that need them: the negative gradient of the energy.
+    fn find_forces(&mut self) {
         let scratch = &mut self.scratch;
-        let gravity: [f64; D] = view.loads.gravity.into();
         for (force, place) in scratch.forces.iter_mut().zip(&self.stage.places) {
-            *force = gravity.map(|g| place.mass * g);
+            *force = place.force;
         }
         for group in &self.groups {
             group.pull(

@@ -48,7 +48,8 @@ impl<const D: usize> Explicit<D> {
     /// Adds power, force and torque of loads and moved anchors at the present stage, one of those that have weights.
     ///
     /// The force f⁰ on an anchor at the start of the step does the work `f⁰·(x¹ − x⁰)`, see [`book`](Self::book): only the power
-    /// of its change is integrated, so that what rounds the velocities is no part of a large force.
+    /// of its change is integrated, so that what rounds the velocities is no part of a large force. Constant forces on masses have a
+    /// potential instead of a power, and an impulse that is known.
     pub(super) fn integrate_outside(&mut self, at: usize) {
         let weight = self.stage.weight;
         for index in 0..self.load_sums.len() {
@@ -60,12 +61,17 @@ impl<const D: usize> Explicit<D> {
                 let place = &self.stage.places[at];
                 let arm = origin.arm(place.q());
                 let node = self.components.nodes[at] as usize;
-                let (force, load) = (self.loads.force(node), self.loads.total_force(node));
-                sums.work += weight * dot(&force, place.velocity());
-                add(&mut sums.impulse, weight, &load);
+                let load = self.loads.total_force(node);
+                let varying = difference(&load, &place.force);
+                sums.work += weight * dot(&varying, place.velocity());
+                add(&mut sums.impulse, weight, &varying);
                 // Weights have no torque about the centre of mass.
                 let is_free = component.support == Support::Free;
-                let turning = if is_free { force } else { load };
+                let turning = if is_free {
+                    self.loads.force(node)
+                } else {
+                    load
+                };
                 sums.torque.add(weight, &Bivector::wedge(&arm, &turning));
                 add(&mut momentum, 1.0, place.p());
             }

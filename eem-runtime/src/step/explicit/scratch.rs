@@ -62,7 +62,7 @@ pub(super) struct Motion<const D: usize> {
     /// `Σ |p|` and `Σ |q||p|` by sums of magnitudes, with coordinates q or arms about the origin, whichever are larger:
     /// positions are rounded to ε of their coordinates.
     pub(super) terms: [f64; 2],
-    /// Kinetic energy and that of weights, and the magnitude of its terms, J.
+    /// Kinetic energy and that of constant forces, `−F·q`, and the magnitude of its terms, J.
     pub(super) energy: Total,
     pub(super) magnitude: f64,
     pub(super) kinetic: f64,
@@ -184,17 +184,19 @@ impl<const D: usize> Motion<D> {
 
     /// Adds momenta and energy of a mass at the end of an arm.
     #[inline]
-    pub(super) fn add(&mut self, place: &Place<D>, arm: &[f64; D], gravity: Option<&[f64; D]>) {
+    pub(super) fn add(&mut self, place: &Place<D>, arm: &[f64; D]) {
         self.add_momenta(place, arm);
         let (q, p) = (place.q(), place.p());
         let kinetic = 0.5 * dot(p, p) * place.per_mass;
         self.energy.add(kinetic);
         self.kinetic += kinetic;
         self.magnitude += kinetic;
-        for (&g, &q) in gravity.into_iter().flatten().zip(q) {
-            let potential = -place.mass * g * q;
-            self.energy.add(potential);
-            self.magnitude += potential.abs();
+        for (&force, &q) in place.force.iter().zip(q) {
+            if force != 0.0 {
+                let potential = -force * q;
+                self.energy.add(potential);
+                self.magnitude += potential.abs();
+            }
         }
     }
 }

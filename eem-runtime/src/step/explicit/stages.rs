@@ -119,7 +119,7 @@ impl<const D: usize> Explicit<D> {
         }
     }
 
-    /// Evaluates loads and weights at a time.
+    /// Initialises the forces on masses with loads and weights, at a time if they depend on it.
     #[inline]
     pub(super) fn evaluate_loads(
         &mut self,
@@ -129,9 +129,11 @@ impl<const D: usize> Explicit<D> {
         if !self.loads.has_total_force() {
             return Ok(());
         }
-        let time = view.loads.inside([view.state.time.value, view.step], time);
-        self.loads
-            .evaluate_forces_at(view.loads, view.masses, time)?;
+        if self.has_functions {
+            let time = view.loads.inside([view.state.time.value, view.step], time);
+            self.loads
+                .evaluate_forces_at(view.loads, view.masses, time)?;
+        }
         self.apply_loads();
         Ok(())
     }

@@ -23,7 +23,7 @@ impl<const D: usize> Explicit<D> {
         if self.has_left || !self.is_ready {
             // Steps write only variables that change; all others are equal in both states from now on.
             next.copy_from(view.state);
-            self.load(view);
+            self.load(view)?;
             if self.is_ready {
                 self.rewind();
             } else {
@@ -62,14 +62,20 @@ impl<const D: usize> Explicit<D> {
         }
     }
 
-    /// Takes the variables of a state.
+    /// Takes the variables of a state, and the constant forces of its loads.
     #[cold]
-    fn load(&mut self, view: &ExplicitView<'_, D>) {
+    fn load(&mut self, view: &ExplicitView<'_, D>) -> Result<(), StepFailure> {
+        if self.loads.has_total_force() {
+            let time = view.state.time.value;
+            self.loads
+                .evaluate_constant_forces(view.loads, view.masses, time)?;
+        }
         let (state, stage) = (view.state, &mut self.stage);
         let positions = points::<D>(state.positions.values());
         let momenta = points::<D>(state.momenta.values());
         for (place, &node) in stage.places.iter_mut().zip(&self.components.nodes) {
             place.now = [positions[node as usize], momenta[node as usize]];
+            place.force = self.loads.total_force(node as usize);
             place.begin_rates();
         }
         let viscous = state.viscous.values().iter();
@@ -80,6 +86,7 @@ impl<const D: usize> Explicit<D> {
         for (own, &value) in stage.inner.iter_mut().zip(inner) {
             *own = Inner::new(value);
         }
+        Ok(())
     }
 
     /// Finds rates and targets.

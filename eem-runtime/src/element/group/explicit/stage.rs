@@ -76,6 +76,8 @@ pub(crate) struct Place<const D: usize> {
     /// m and 1/m; zero for anchors.
     pub(crate) mass: f64,
     pub(crate) per_mass: f64,
+    /// Its weight and the constant loads on it, N.
+    pub(crate) force: [f64; D],
     pub(crate) past: Past<D, 2>,
 }
 
@@ -88,6 +90,7 @@ impl<const D: usize> Place<D> {
             rates: [[0.0; D]; 2],
             mass,
             per_mass: if is_anchor { 0.0 } else { mass.recip() },
+            force: [0.0; D],
             past: Past::none(),
         }
     }

@@ -23,10 +23,7 @@ impl<const D: usize> Explicit<D> {
     /// Finds the sums over the masses of a component for their present positions and momenta.
     #[inline]
     pub(in super::super) fn look_at_motion(&mut self, index: usize) {
-        let gravity = self.gravity;
-        self.sum_motion(index, |sum, place, arm| {
-            sum.add(place, arm, gravity.as_ref());
-        });
+        self.sum_motion(index, Motion::add);
     }
 
     /// Sums what `add` adds for each mass of a component and its arm.
@@ -70,13 +67,15 @@ impl<const D: usize> Explicit<D> {
     /// The magnitude by which the state at the start of a step enters the bound of the energy, and its energy terms, J.
     #[cold]
     pub(in super::super) fn terms_at_start(&self, state: &State) -> [f64; 2] {
-        let mut motion = 0.0;
+        let [mut motion, mut potential] = [0.0; 2];
         for place in &self.stage.places[..self.components.masses] {
-            let p = &place.past.start[1];
+            let [q, p] = &place.past.start;
             motion += 0.5 * dot(p, p) * place.per_mass;
+            let terms = place.force.iter().zip(q);
+            potential = terms.fold(potential, |sum, (force, q)| sum + (force * q).abs());
         }
         let energies = state.energies.iter();
-        energies.fold([motion; 2], |[counted, terms], energy| {
+        energies.fold([motion + potential, motion], |[counted, terms], energy| {
             let own = energy.magnitude + energy.excess;
             [counted + own, terms + energy.terms]
         })

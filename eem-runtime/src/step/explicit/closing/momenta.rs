@@ -119,7 +119,7 @@ impl<const D: usize> Explicit<D> {
             for axis in 0..D {
                 momentum[axis] += place.mass * (rigid.velocity[axis] + turning[axis]);
             }
-            motion.add(place, &arm, self.gravity.as_ref());
+            motion.add(place, &arm);
         }
         self.scratch.motions[index] = motion;
     }

@@ -21,7 +21,7 @@ impl<const D: usize> Explicit<D> {
         next: &mut State,
     ) -> Result<(), StepFailure> {
         let largest = demand.largest_turn();
-        let is_loaded = !self.load_sums.is_empty() || self.gravity.is_some();
+        let is_loaded = !self.load_sums.is_empty();
         let has_thermostat = self
             .slots_of(index)
             .any(|at| self.stage.is_held(self.components.slots[at] as usize));

@@ -68,7 +68,7 @@ impl<const D: usize> Explicit<D> {
     ) -> f64 {
         self.scratch.needs_forces.fill(false);
         self.scratch.needs_forces[index] = true;
-        self.find_forces(view);
+        self.find_forces();
         let terms = self.granularity(index) + self.terms_at_rest(index, view);
         FROZEN * f64::EPSILON * (magnitude + terms)
     }
@@ -132,12 +132,8 @@ impl<const D: usize> Explicit<D> {
             let impulse = self.rounding.impulse(node);
             let momenta = size(&place.past.start[1]) + size(place.p()) + impulse;
             sum += impulse * momenta * place.per_mass;
-            // The force of the springs is that on the mass less its load.
-            let mut load = [0.0; D];
-            if self.loads.has_total_force() {
-                load = self.loads.total_force(node);
-            }
-            let force = size(&self.scratch.forces[at]) + size(&load);
+            // The force of the springs is that on the mass less the constant one.
+            let force = size(&self.scratch.forces[at]) + size(&place.force);
             sum += force * self.rounding.pull(node);
         }
         sum
