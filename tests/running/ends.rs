@@ -1,7 +1,8 @@
 //! Runs end where they should: at an end time, where an observer stops them, at errors.
 
-use eem::StepFailure;
+use eem::materials::ThermoelasticSpring;
 use eem::prelude::*;
+use eem::{NewtonIteration, StepFailure};
 
 use crate::support::{Pendulum, single_pendulum};
 
@@ -179,4 +180,64 @@ fn a_failed_step_says_which_shorter_one_can_be_made() {
     scene.force(mass, |_| [f64::NAN, 0.0]);
     let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
     assert_eq!(run.step().unwrap_err().shorter, None);
+}
+
+/// Two masses on strongly coupled springs, at 10 m/s.
+fn coupled(coupling: f64) -> Scene<2> {
+    let mut scene = Scene::<2>::new();
+    let hook = scene.anchor([0.0, 0.0]);
+    let masses = [
+        scene.mass(1.0, [1.3, 0.0], [2.0, 3.0]),
+        scene.mass(1.0, [2.0, 1.0], [-2.0, 3.0]),
+    ];
+    let make = |natural_length| ThermoelasticSpring {
+        stiffness: 500.0,
+        coupling,
+        capacity: 2.0,
+        natural_length,
+        theta_ref: 300.0,
+    };
+    let springs = [
+        scene.spring(make(1.0), [hook, masses[0]]),
+        scene.spring(make(1.2), masses),
+    ];
+    for (spring, theta) in springs.into_iter().zip([300.0, 320.0]) {
+        scene.set_temperature(spring, theta);
+    }
+    scene.conduct(springs[0], springs[1], 5.0);
+    scene
+}
+
+/// Iterations of the attempts are told apart by the bits of their residuals and updates.
+#[test]
+fn no_attempt_at_a_step_that_fails_is_made_twice() {
+    let bits = |iteration: &NewtonIteration| {
+        let NewtonIteration { residual, update } = iteration;
+        [residual.to_bits(), update.to_bits()]
+    };
+    for scheme in [
+        Scheme::EemTemperature,
+        Scheme::EemEntropy,
+        Scheme::EemEntropy4,
+        Scheme::EemEntropy6,
+    ] {
+        let mut failures = 0;
+        for (coupling, step) in [(20.0, 1.0), (60.0, 1.0), (60.0, 10.0)] {
+            let mut run = Simulation::new(coupled(coupling), scheme, step).unwrap();
+            let Err(error) = run.step() else {
+                continue;
+            };
+            failures += 1;
+            let all: Vec<_> = error.history.iter().map(bits).collect();
+            println!("{scheme}, {coupling}, {step} s: {} iterations", all.len());
+            for count in 2..=all.len() / 2 {
+                let (first, rest) = all.split_at(count);
+                assert_ne!(first, &rest[..count], "{scheme}: the second is the first");
+                // An attempt may be given up after ten iterations, and be made to its end at last.
+                let is_repeated = count < 10 && rest.ends_with(first);
+                assert!(!is_repeated, "{scheme}: the last is the first");
+            }
+        }
+        assert!(failures > 0, "{scheme}");
+    }
 }

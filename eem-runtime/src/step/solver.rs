@@ -65,6 +65,8 @@ pub(crate) struct Solver<const D: usize> {
     lengths: Vec<f64>,
     /// Whether other initial guesses remain, so that an attempt may be given up early.
     has_other_starts: bool,
+    /// Whether the last attempt was.
+    is_given_up: bool,
     /// The nodes that are anchors.
     anchors: Vec<usize>,
     /// The magnitude of the terms of the impulses on each node, N s; empty unless needed.
@@ -139,6 +141,7 @@ impl<const D: usize> Solver<D> {
             old_force: vec![[0.0; D]; nodes_with(has_old_forces(scheme, loads))],
             lengths: vec![1.0; masses.len()],
             has_other_starts: false,
+            is_given_up: false,
             anchors: masses.anchors().collect(),
             magnitudes: Vec::with_capacity(nodes_with(scheme.is_exact())),
             final_residual: 0.0,

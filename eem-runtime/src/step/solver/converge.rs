@@ -32,6 +32,7 @@ impl<const D: usize> Solver<D> {
         let mut purpose = Purpose::Iterate;
         let mut progress = Progress::new();
         self.factors.renew();
+        self.is_given_up = false;
         for left in (0..=max_iterations).rev() {
             let is_full = self.advance(groups, view, purpose)?;
             if is_full && purpose == Purpose::Close {
@@ -60,6 +61,7 @@ impl<const D: usize> Solver<D> {
             self.factors.judge(update, previous);
             let is_stuck = self.is_stuck(&mut progress, update, previous);
             if self.has_other_starts && progress.is_hopeless() {
+                self.is_given_up = true;
                 break;
             }
             if is_stuck || ends {

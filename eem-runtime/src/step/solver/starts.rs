@@ -39,8 +39,9 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Exact schemes start with the old internal variables, from the old state, and from the solution for another form if
-    /// they have one; then the solution is followed from a small step to the full one. At last an exact scheme starts with
-    /// the old internal variables again, and takes all its iterations even where they seem hopeless.
+    /// they have one; then the solution is followed from a small step to the full one. If the first of these attempts was given up,
+    /// an exact scheme at last makes it again, and takes all its iterations even where they seem hopeless. What would repeat an
+    /// attempt bit by bit is left out: internal variables that are not predicted are the old ones, and heat starts from the old state.
     #[cold]
     fn try_other_starts(
         &mut self,
@@ -49,12 +50,20 @@ impl<const D: usize> Solver<D> {
         effort: &mut Effort,
         closing: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
-        if self.scheme.is_exact() {
-            for start in [Start::Motion, Start::Rest] {
-                let found = self.start_and_converge(groups, view, effort, (start, closing));
-                if found.is_ok() {
-                    return found;
-                }
+        let mut was_given_up = self.is_given_up;
+        if self.scheme.is_exact() && self.past.before(view.step).is_some() {
+            let start = (Start::Motion, &mut *closing);
+            let found = self.start_and_converge(groups, view, effort, start);
+            if found.is_ok() {
+                return found;
+            }
+            was_given_up = self.is_given_up;
+        }
+        if self.scheme.is_exact() && view.phase.moves() {
+            let start = (Start::Rest, &mut *closing);
+            let found = self.start_and_converge(groups, view, effort, start);
+            if found.is_ok() {
+                return found;
             }
         }
         if self.scheme.has_starting_form() {
@@ -64,7 +73,7 @@ impl<const D: usize> Solver<D> {
             }
         }
         let found = self.follow(groups, view, effort, closing);
-        if found.is_ok() || !self.scheme.is_exact() {
+        if found.is_ok() || !was_given_up {
             return found;
         }
         self.has_other_starts = false;
