@@ -9,6 +9,9 @@
 //! | shape | positions, viscous stretches and exchanged heat, downhill | at equilibrium |
 //! | sink | entropies of elements that produce | without production |
 //!
+//! Where step control would feel a correction by motion or shape, a defect that is [rounding](rounding) is left: its correction would be
+//! noise in the motion.
+//!
 //! None of them lowers the entropy: what an element gives is at most what it has produced in this step. The heat of an
 //! element with a thermostat goes to the thermostat, and the heat of a dashpot without temperature leaves the scene: these
 //! are sinks for at most as much again as they have produced.
@@ -81,7 +84,7 @@ impl<const D: usize> Explicit<D> {
                 self.find_forces();
                 for index in 0..self.components.all.len() {
                     if self.scratch.needs_forces[index] {
-                        let status = self.reshape(index, view, next);
+                        let status = self.reshape(index, (view, demand), next);
                         self.scratch.open[index] = status == Status::Changed;
                         if status == Status::Failed {
                             self.turn_rigidly(index, (view, demand, scales), next)?;

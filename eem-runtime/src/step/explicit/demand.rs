@@ -1,6 +1,7 @@
 //! The required accuracy of a step, and the magnitudes to which its errors are relative.
 
 use crate::step::control::Tolerance;
+use crate::step::scheme::Scheme;
 
 /// The required accuracy of a step.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,17 @@ impl Demand {
         match self {
             Self::None => LARGEST_FIXED_CORRECTION,
             Self::Within(tolerance) => tolerance.relative,
+        }
+    }
+
+    /// The largest relative change of motion and shape that step control does not feel: steps keep their size with an error of this
+    /// size. Those of a fixed size have none.
+    pub(super) fn largest_change(self) -> f64 {
+        match self {
+            Self::None => f64::INFINITY,
+            Self::Within(tolerance) => {
+                Scheme::EemExplicit.accuracy().settled() * tolerance.relative
+            }
         }
     }
 

@@ -34,16 +34,21 @@ impl<const D: usize> Explicit<D> {
         for index in 0..self.components.all.len() {
             let present = self.scratch.progress[index].present;
             let [defect, magnitude] = present.unwrap_or_else(|| self.defect_of(index));
-            let granularity = self.scratch.progress[index].granularity;
-            let magnitude = magnitude + FROZEN / ROUNDINGS * granularity;
-            expect(Law::Energy, [-defect, rounding * magnitude], time)?;
+            let progress = &self.scratch.progress[index];
+            let magnitude = magnitude + FROZEN / ROUNDINGS * progress.granularity;
+            // What the bound of the step counts with the energies of both ends.
+            let values = FROZEN / ROUNDINGS * progress.values;
+            expect(
+                Law::Energy,
+                [-defect, rounding * (magnitude + values)],
+                time,
+            )?;
             self.prove_momenta(index, time)?;
             residue -= defect;
-            let is_forgiven = self.scratch.progress[index].is_forgiven;
-            if self.is_driven && is_forgiven {
-                // The rounding of this step is not that of later ones.
-                self.books.targets[index].energy.add(-defect);
-                forgiven += defect;
+            if self.is_driven {
+                let own = self.scratch.progress[index].forgiven;
+                self.books.targets[index].energy.add(-own);
+                forgiven += own;
             }
             let energy = &self.scratch.energies[index];
             counted += magnitude + energy.excess;

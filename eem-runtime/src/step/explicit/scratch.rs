@@ -45,8 +45,11 @@ pub(super) struct Progress {
     /// Terms whose rounding explains the defect if no correction of the energy was possible, see
     /// [`rounding`](super::closing); zero otherwise, J.
     pub(super) granularity: f64,
-    /// Whether these are terms that do not vanish with the energy.
-    pub(super) is_forgiven: bool,
+    /// Terms of the energy, in addition to `scale`, whose rounding explains the defect if step control would feel its correction; zero
+    /// otherwise, J.
+    pub(super) values: f64,
+    /// The part of the defect that is not the rounding of later steps, J.
+    pub(super) forgiven: f64,
     /// Whether the energy is within tolerance.
     pub(super) is_closed: bool,
     /// Whether the component was rotated rigidly because no correction was possible.
@@ -151,7 +154,8 @@ impl Progress {
             least: f64::MAX,
             factor: 1.0,
             granularity: 0.0,
-            is_forgiven: false,
+            values: 0.0,
+            forgiven: 0.0,
             is_closed: false,
             is_rigid: false,
         }

@@ -25,15 +25,73 @@
 //! ½ε Σ_j |b_j| Σ_m |ℓ'_m(c_j)| |f_j − f⁰||x|
 //! ```
 //!
-//! Where loads are functions of time, the work that the rounding of time explains counts, too. All are found only where the others are not enough. What is accepted for them is no debt of later steps, of which it is
-//! not the rounding.
+//! Where loads are functions of time, the work that the rounding of time explains counts, too. All are found only where the others are not
+//! enough. What is accepted for them is no debt of later steps, of which it is not the rounding.
+//!
+//! Motion beside a large energy, a small vibration beside a prestress, is not told by that energy. There a defect is not corrected, though it
+//! could be, up to `8 ε` of
+//!
+//! ```text
+//! A¹ = Σ |terms of E¹| + Σ (|f¹|λ¹ + |g¹||γ¹|)
+//! ```
+//!
+//! if step control would feel the correction. It stays a debt, so that the energy does not drift: what is more than rounding is corrected. What
+//! `max(A⁰ − A¹, 0)` and the rounding of the work explain beyond that is no debt: the terms are gone, and the energy that is left tells the
+//! motion better.
 
+use super::super::memory::Books;
 use super::super::vector::{difference, dot, size};
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
 use crate::element::group::points;
+use eem_material::number::scalar::Scalar;
 
 impl<const D: usize> Explicit<D> {
+    /// Closes a component whose defect is the rounding of its energies; returns whether it is.
+    pub(super) fn leave_rounding(&mut self, index: usize, view: &ExplicitView<'_, D>) -> bool {
+        let (inner, progress) = (&self.scratch.energies[index], &self.scratch.progress[index]);
+        let (defect, scale) = (progress.defect.abs(), progress.scale);
+        let forces = Scalar::maximum(inner.terms - inner.magnitude, 0.0);
+        let rounding = FROZEN * f64::EPSILON;
+        let mut terms = scale + forces;
+        let beyond = defect - rounding * terms;
+        if beyond > 0.0 && self.is_driven {
+            terms += Scalar::maximum(self.vanishing(index, view), 0.0);
+            terms += self.terms_of_loads(index, view);
+        }
+        let is_closed = defect <= rounding * terms;
+        if is_closed {
+            let progress = &mut self.scratch.progress[index];
+            progress.values = terms - scale;
+            progress.forgiven = Scalar::maximum(beyond, 0.0).copysign(progress.defect);
+            progress.is_closed = true;
+        }
+        is_closed
+    }
+
+    /// `A⁰ − A¹`, J.
+    #[cold]
+    fn vanishing(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
+        let inner = &self.scratch.energies[index];
+        let inner = Scalar::maximum(inner.terms, inner.magnitude);
+        let now = inner + self.motion_and_target(index, &self.books);
+        self.swap_start(index);
+        self.look_at_motion(index);
+        let mut before = self.motion_and_target(index, &self.old_books);
+        self.swap_start(index);
+        self.look_at_motion(index);
+        let elements = self.components.of_element.iter().zip(&view.state.energies);
+        for (_, energy) in elements.filter(|&(&own, _)| own as usize == index) {
+            before += Scalar::maximum(energy.terms, energy.magnitude);
+        }
+        before - now
+    }
+
+    /// The magnitudes of the energy of masses and weights and of the target, J.
+    fn motion_and_target(&self, index: usize, books: &Books<D>) -> f64 {
+        self.scratch.motions[index].magnitude + books.targets[index].energy.value.abs()
+    }
+
     /// Closed if the remaining defect is rounding, failed otherwise.
     pub(super) fn unless_rounding(&mut self, index: usize, view: &ExplicitView<'_, D>) -> Status {
         let progress = &self.scratch.progress[index];
@@ -41,15 +99,15 @@ impl<const D: usize> Explicit<D> {
         let mut granularity = self.granularity(index);
         let is_rounding = |terms: f64| defect.abs() <= FROZEN * f64::EPSILON * (scale + terms);
         let mut is_closed = is_rounding(granularity);
-        let mut is_forgiven = false;
+        let mut forgiven = 0.0;
         if !is_closed {
             granularity += self.terms_at_rest(index, view);
-            is_forgiven = is_rounding(granularity);
-            is_closed = is_forgiven;
+            is_closed = is_rounding(granularity);
+            forgiven = if is_closed { defect } else { 0.0 };
         }
         let progress = &mut self.scratch.progress[index];
         progress.granularity = granularity;
-        progress.is_forgiven = is_forgiven;
+        progress.forgiven = forgiven;
         progress.is_closed = is_closed;
         if is_closed {
             Status::Closed
@@ -89,9 +147,6 @@ impl<const D: usize> Explicit<D> {
     fn terms_at_rest(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
         self.find_stiffnesses(view);
         let mut sum = self.scratch.energies[index].excess;
-        if let Some(loads) = self.load_sums.get(index) {
-            sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
-        }
         let elements = self.components.of_element.iter().zip(&view.state.energies);
         for (_, energy) in elements.filter(|&(&own, _)| own as usize == index) {
             sum += energy.excess;
@@ -116,7 +171,16 @@ impl<const D: usize> Explicit<D> {
                 sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
             }
         }
-        sum + self.rounding_of_work(index, view) / (FROZEN * f64::EPSILON)
+        sum + self.terms_of_loads(index, view)
+    }
+
+    /// The terms of the work of loads and moved anchors, J.
+    fn terms_of_loads(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
+        let mut sum = self.rounding_of_work(index, view) / (FROZEN * f64::EPSILON);
+        if let Some(loads) = self.load_sums.get(index) {
+            sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
+        }
+        sum
     }
 
     /// The work that the rounding of loads explains, J: of the impulses on masses and of the positions of moved anchors.

@@ -1,6 +1,7 @@
 //! Corrections of the energy by motion, by shape and, as a last resort, by entropy.
 
 use super::super::components::{Component, Support};
+use super::super::demand::Demand;
 use super::super::vector::{add, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
@@ -41,7 +42,7 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn reshape(
         &mut self,
         index: usize,
-        view: &ExplicitView<'_, D>,
+        (view, demand): (&ExplicitView<'_, D>, Demand),
         next: &mut State,
     ) -> Status {
         self.scratch.progress[index].present = None;
@@ -52,6 +53,9 @@ impl<const D: usize> Explicit<D> {
         }
         let means = self.means(index, view);
         let share = defect / means.all;
+        if share.abs() > demand.largest_change() && self.leave_rounding(index, view) {
+            return Status::Closed;
+        }
         let is_small = share.abs() < LARGEST_PART;
         let moves =
             LEAST_MOTION * means.all <= means.motion + means.motion && -means.motion < defect;
