@@ -16,7 +16,7 @@ impl<const D: usize> Explicit<D> {
         next.copy_books(view.state);
         next.time.add(view.step);
         next.entropies.copy_from(&view.state.entropies);
-        self.scratch.clear();
+        self.scratch.clear(view.step);
         self.book_paths(view.step, next);
         self.book_dashpots(view.step, next);
         if self.is_driven {

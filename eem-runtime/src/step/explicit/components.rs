@@ -37,6 +37,8 @@ pub(super) struct Component {
     pub(super) support: Support,
     /// The mass of all its masses, kg.
     pub(super) mass: f64,
+    /// `Σ (1 + 1/m)` of its masses, and one more for each element.
+    pub(super) products: f64,
 }
 
 impl Component {
@@ -209,11 +211,12 @@ impl Components {
         }
         for (component, own) in own.into_iter().enumerate() {
             let start = self.nodes.len();
-            let mut mass = 0.0;
+            let [mut mass, mut products] = [0.0; 2];
             for (node, own) in own {
                 self.nodes.push(node);
                 self.of_place.push(compact(component));
                 mass += own;
+                products += 1.0 + own.recip();
             }
             self.all.push(Component {
                 masses: start..self.nodes.len(),
@@ -222,7 +225,11 @@ impl Components {
                 shares: 0..0,
                 support: Support::Free,
                 mass,
+                products,
             });
+        }
+        for &component in &self.of_element {
+            self.all[component as usize].products += 1.0;
         }
         self.masses = self.nodes.len();
     }

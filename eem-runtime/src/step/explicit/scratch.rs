@@ -109,6 +109,8 @@ pub(super) struct RowSums {
 pub(super) struct Scratch<const D: usize> {
     /// Per component.
     pub(super) progress: Vec<Progress>,
+    /// The terms, in J, of which ε is the rounding of a product that is no normal number: of two momenta, or of a power, over the step.
+    pub(super) subnormal: f64,
     pub(super) motions: Vec<Motion<D>>,
     pub(super) energies: Vec<ComponentEnergy>,
     /// Whether a component has to be evaluated, and whether its forces are needed.
@@ -181,7 +183,8 @@ impl<const D: usize> Motion<D> {
         let p = place.p();
         add(&mut self.linear, 1.0, p);
         self.angular.add(1.0, &Bivector::wedge(arm, p));
-        let momentum = size(p);
+        // Below the smallest normal number, rounding is that of this number.
+        let momentum = size(p) + f64::MIN_POSITIVE;
         self.terms[0] += momentum;
         self.terms[1] += Scalar::maximum(size(arm), size(place.q())) * momentum;
     }
@@ -211,6 +214,7 @@ impl<const D: usize> Scratch<D> {
         let (count, thermal) = (components.all.len(), layout.thermal);
         Self {
             progress: vec![Progress::none(); count],
+            subnormal: f64::MIN_POSITIVE,
             motions: vec![Motion::none(); count],
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
@@ -234,8 +238,9 @@ impl<const D: usize> Scratch<D> {
         }
     }
 
-    /// Clears the workspace for the closing of a step.
-    pub(super) fn clear(&mut self) {
+    /// Clears the workspace for the closing of a step of the size h, s.
+    pub(super) fn clear(&mut self, h: f64) {
+        self.subnormal = f64::MIN_POSITIVE * (1.0 + h);
         self.progress.fill(Progress::none());
         self.produced.fill(0.0);
         self.held.fill(HeldBalance::none());

@@ -86,7 +86,12 @@ impl<const D: usize> Explicit<D> {
     pub(in super::super) fn defect_of(&self, index: usize) -> [f64; 2] {
         let [energy, magnitude] = self.energy_of(index);
         let target = self.books.targets[index].energy;
-        [target.beyond(energy), magnitude + target.value.abs()]
+        // Below the smallest normal number, rounding is that of this number.
+        let least = self.scratch.subnormal * self.components.all[index].products;
+        [
+            target.beyond(energy),
+            magnitude + target.value.abs() + least,
+        ]
     }
 
     /// Corrects the energy by heat as long as no element has to be evaluated for it.
@@ -130,8 +135,7 @@ impl<const D: usize> Explicit<D> {
         progress.defect = defect;
         if progress.scale == 0.0 {
             let terms = magnitude + progress.carried;
-            let has_terms = terms > 0.0;
-            progress.correction = if has_terms { defect / terms } else { 0.0 };
+            progress.correction = defect / terms;
             progress.scale = terms;
         }
         let enough = 0.5 * ENOUGH * f64::EPSILON * progress.scale;
