@@ -7,8 +7,8 @@ use crate::element::tableau::MOST_STAGES;
 use eem_material::free_energy::Material;
 
 /// `Δê − Σ b a·R` is rounding up to this many roundings of its terms: a product and two sums of a term, in each of the two
-/// parts. The tangent then takes the correction as constant: its derivative would be noise divided by
-/// small increments.
+/// parts. The tangent then takes the correction `μ W R_i` as constant: its derivatives, μ W among them, would be noise divided by
+/// small increments, a stiffness of 10¹²⁰ N/m where the increments are 10⁻¹⁴⁰ m.
 const DEFECT_ROUNDINGS: f64 = 8.0;
 
 impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
@@ -39,7 +39,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         let per_norm = if is_noise { 0.0 } else { norm.recip() };
         let slopes = self.slopes_of_factor(slopes, [factor, per_norm]);
         let conditioning = if is_moving { terms / norm } else { 0.0 };
-        self.apply_factor([factor, conditioning], &slopes);
+        let stiffness = if is_noise { 0.0 } else { factor };
+        self.apply_factor([factor, stiffness, conditioning], &slopes);
     }
 
     /// `∂μ/∂R_j`.
@@ -68,10 +69,10 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         by
     }
 
-    /// Adds `μ W R_i` and its derivatives to `a_i`, given μ and, in units of ε, its conditioning error.
+    /// Adds `μ W R_i` and its derivatives to `a_i`, given μ, that of the tangent and, in units of ε, its conditioning error.
     fn apply_factor(
         &mut self,
-        [factor, conditioning]: [f64; 2],
+        [factor, stiffness, conditioning]: [f64; 3],
         slopes: &[Vector<M, K, D>; MOST_STAGES],
     ) {
         let stages = self.point.rule.stages();
@@ -80,7 +81,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
                 let along = self.metric[index] * self.rates[i][index];
                 self.conjugates[i][index] += factor * along;
                 self.conditioning[i][index] += conditioning * along.abs();
-                *self.by_rates[i][i].at_mut([index, index]) += factor * self.metric[index];
+                *self.by_rates[i][i].at_mut([index, index]) += stiffness * self.metric[index];
                 for (by, slopes) in self.by_rates[i].iter_mut().zip(slopes).take(stages) {
                     for column in 0..Self::LEN {
                         *by.at_mut([index, column]) += along * slopes[column];
