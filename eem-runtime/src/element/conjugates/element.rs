@@ -61,23 +61,21 @@ pub(crate) trait ElementScheme<M: FreeEnergy<f64>>: Copy + Send + Sync + 'static
         false
     }
 
-    /// Computes [`Old`](Self::Old) from the old variables and the old entropy, once per step, and whether a thermostat
-    /// prescribes the temperature.
-    fn old(self, model: &M, x0: &M::Variables, entropy: f64, is_prescribed: bool) -> Self::Old;
+    /// What is kept before the first step.
+    fn nothing(self) -> Self::Old;
 
-    /// The same in place.
-    #[inline]
+    /// Computes [`Old`](Self::Old) in its place from the old variables and the old entropy, once per step, and whether a
+    /// thermostat prescribes the temperature.
     fn keep(
         self,
         model: &M,
         x0: &M::Variables,
-        (entropy, is_prescribed): (f64, bool),
+        entropy: f64,
+        is_prescribed: bool,
         old: &mut Self::Old,
-    ) {
-        *old = self.old(model, x0, entropy, is_prescribed);
-    }
+    );
 
-    /// [`old`](Self::old), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
+    /// [`keep`](Self::keep), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
     /// has them. The elements of a call have no thermostats.
     fn rows(self) -> Option<FormRows<f64, M, Self::Old, Self::Memory>> {
         None

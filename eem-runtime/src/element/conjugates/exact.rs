@@ -64,23 +64,16 @@ impl<M: Material, const DAMPINGS: usize> ElementScheme<M> for Exact<DAMPINGS> {
     }
 
     #[inline]
-    fn old(self, model: &M, x0: &M::Variables, _: f64, is_prescribed: bool) -> Self::Old {
-        if self.0 == ExactForm::Entropy && !is_prescribed {
-            Kept::Entropy(model.entropy_form_old(x0))
-        } else {
-            Kept::Temperature(model.temperature_form_old(x0))
+    fn nothing(self) -> Self::Old {
+        match self.0 {
+            ExactForm::Entropy => Kept::Entropy(M::EntropyFormOld::filled(0.0)),
+            ExactForm::Temperature => Kept::Temperature(M::TemperatureFormOld::filled(0.0)),
         }
     }
 
     // Each in its own place: one value for both forms would be copied as the larger one.
     #[inline]
-    fn keep(
-        self,
-        model: &M,
-        x0: &M::Variables,
-        (_, is_prescribed): (f64, bool),
-        old: &mut Self::Old,
-    ) {
+    fn keep(self, model: &M, x0: &M::Variables, _: f64, is_prescribed: bool, old: &mut Self::Old) {
         if self.0 == ExactForm::Entropy && !is_prescribed {
             *old = Kept::Entropy(model.entropy_form_old(x0));
         } else {

@@ -90,8 +90,12 @@ impl<M: Material> ElementScheme<M> for PointRule {
         )
     }
 
-    fn old(self, _: &M, _: &M::Variables, entropy: f64, _: bool) -> Self::Old {
-        entropy
+    fn nothing(self) -> Self::Old {
+        0.0
+    }
+
+    fn keep(self, _: &M, _: &M::Variables, entropy: f64, _: bool, old: &mut Self::Old) {
+        *old = entropy;
     }
 
     fn memory(_: f64) -> Self::Memory {}

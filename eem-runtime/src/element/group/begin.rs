@@ -112,8 +112,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
                 .thermal
                 .map(|slot| view.state.entropies.values()[slot]);
             let entropy = entropy.unwrap_or(0.0);
-            let (model, old) = (&self.model, &mut self.start.old);
-            (self.scheme).keep(model, &x0, (entropy, self.is_prescribed), old);
+            let (scheme, old) = (self.scheme, &mut self.start.old);
+            scheme.keep(&self.model, &x0, entropy, self.is_prescribed, old);
         }
         if C::EXACT
             && let Some(before) = before

@@ -13,7 +13,7 @@ use super::member::Member;
 use super::placed::PlacedPoint;
 use super::point::Point;
 use super::pose::Pose;
-use super::site::{Contact, HeatPath};
+use super::site::{Contact, HeatPath, paths_of};
 use super::ways::way_of_nodes;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::{InterfaceTemperatures, Partner};
@@ -72,7 +72,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     ) -> Result<(), StateError> {
         let r1 = self.arms_in(next);
         for point in self.points.as_mut() {
-            let paths = point.contact_in(contacts).map(|contact| &contact.paths[..]);
+            let paths = paths_of(point.contact_in(contacts));
             let received = point.book(view, (paths, &trial.interface), next, tally);
             let near = (point.x[M::Variables::LEN - 1], known);
             let measures = point.admissible_measures(&r1)?;

@@ -3,7 +3,7 @@
 use super::member::Member;
 use super::point::Known;
 use super::share::Share;
-use super::site::Contact;
+use super::site::{Contact, paths_of};
 use crate::algebra::system::LinearSystem;
 use crate::algebra::threads;
 use crate::element::conjugates::{ElementScheme, Form};
@@ -151,10 +151,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         let arms = self.trial_arms(view, trial);
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
-            let measures = {
-                let prepared = known.map(|known| known.0);
-                point.locate_trial(&arms.placed, trial.is_start, prepared)?
-            };
+            let prepared = known.map(|known| known.0);
+            let measures = point.locate_trial(&arms.placed, trial.is_start, prepared)?;
             let pose = point.pose(&arms, &measures);
             point.sensitivity = pose.sensitivity;
             let by_rate = point.extend(&pose, &arms.motion);
@@ -167,8 +165,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
             let elastic = point.add_drag(view.per_step, &mut form);
             let undamped = point.add_damping(&mut form);
             let contact = point.contact_in(contacts);
-            let paths = contact.map(|contact| &contact.paths[..]);
-            point.condense(view, &trial.interface, &form, paths)?;
+            point.condense(view, &trial.interface, &form, paths_of(contact))?;
             if let Some(by_rate) = &by_rate {
                 point.warm_by_rates(view, by_rate);
             }

@@ -64,10 +64,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             theta = x0[Self::TEMPERATURE];
             self.is_prescribed = step.held[slot];
         }
-        self.start = Start {
-            x0,
-            old: (self.scheme).old(&self.model, &x0, 0.0, self.is_prescribed),
-        };
+        self.start = self.start_from(&x0);
         self.memory = C::memory(theta);
         C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
             .map_err(|infeasible| infeasible.of(self.element))?;
@@ -78,6 +75,14 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             self.drag.extension[a] = self.x[a] - x0[a];
         }
         Ok(())
+    }
+
+    /// A step from these variables.
+    #[inline]
+    fn start_from(&self, x0: &M::Variables) -> Start<M, C::Old> {
+        let (scheme, mut old) = (self.scheme, self.scheme.nothing());
+        scheme.keep(&self.model, x0, 0.0, self.is_prescribed, &mut old);
+        Start { x0: *x0, old }
     }
 
     /// Its response with tangent, including Kelvin–Voigt dashpots.
@@ -95,10 +100,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// The derivatives of the response with respect to the variables of the old state.
     #[inline]
     pub(super) fn slopes_by_old(&self) -> M::Tangent {
-        let start = Start {
-            x0: self.x,
-            old: (self.scheme).old(&self.model, &self.x, 0.0, self.is_prescribed),
-        };
+        let start = self.start_from(&self.x);
         let memory = C::exchanged(&self.memory);
         let (_, mut tangent) = self
             .scheme

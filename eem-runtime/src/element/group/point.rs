@@ -140,7 +140,6 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     pub(super) fn new(scheme: C, element: Element, model: M, slots: Slots) -> Self {
         let zeros = M::Variables::filled(0.0);
         let viscosities = M::Viscosities::filled(0.0);
-        let old = scheme.old(&model, &zeros, 0.0, false);
         Self {
             scheme,
             element,
@@ -151,7 +150,10 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             meets_reservoirs: false,
             is_prescribed: false,
             settling: 0.0,
-            start: Start { x0: zeros, old },
+            start: Start {
+                x0: zeros,
+                old: scheme.nothing(),
+            },
             memory: C::memory(0.0),
             x: zeros,
             creep: viscosities,

@@ -21,7 +21,7 @@ use super::point::temperature_in;
 use super::point_step::{PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
 use super::pose::Pose;
 use super::share::{Heat, Momentum, Share};
-use super::site::{Contact, Site};
+use super::site::{Contact, Site, paths_of};
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::ElementScheme;
@@ -100,7 +100,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
                 let around = Surroundings {
                     step,
                     interface,
-                    paths: contact.map(|contact| &contact.paths[..]),
+                    paths: paths_of(contact),
                     theta: contact.map_or(0.0, |own| solution[own.unknown as usize][0]),
                 };
                 let [by_end, by_start] = &mut by_arms;
@@ -160,10 +160,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
                 point.return_to(past, &arms)?;
             }
             let form = point.tangent_in(past.view.per_step)?;
-            let reduced = {
-                let paths = contact.map(|contact| &contact.paths[..]);
-                point.condense_transposed(step, interface, &form, paths)?
-            };
+            let reduced = point.condense_transposed(step, interface, &form, paths_of(contact))?;
             let pose = Pose::new(
                 &point.kinematics,
                 point.scheme.placement(),

@@ -20,7 +20,7 @@ use super::point::temperature_in;
 use super::point_step::{Direction, PastStep};
 use super::pose::Pose;
 use super::share::Share;
-use super::site::{Contact, Site};
+use super::site::{Contact, Site, paths_of};
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::ElementScheme;
@@ -52,7 +52,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
                 let ends = point.ends(arms);
                 let pose = Pose::new(&point.kinematics, point.scheme.placement(), ends);
                 let ends = point.ends_back(arms);
-                let paths = contact.map(|contact| &contact.paths[..]);
+                let paths = paths_of(contact);
                 point.sensitivity = pose.sensitivity;
                 let by_old_arms = point.kinematics.new_gradient(&ends);
                 let linear = point.linearize_past(step, interface, paths)?;

@@ -158,6 +158,13 @@ impl<K: Kinematics<D>, const D: usize> Contact<K, D> {
     }
 }
 
+/// The paths of heat of a contact, if there is one.
+pub(super) fn paths_of<K: Kinematics<D>, const D: usize>(
+    contact: Option<&Contact<K, D>>,
+) -> Option<&[HeatPath]> {
+    contact.map(|contact| &contact.paths[..])
+}
+
 /// The distance between the entries of a column in the first two rows of a node.
 fn stride<const D: usize>(
     first: Option<usize>,
