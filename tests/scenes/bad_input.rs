@@ -133,12 +133,12 @@ fn parameters_and_steps() {
     assert_error!(
         |draft| draft.step = 0.0,
         SceneError::Step { .. },
-        "the time step is 0 s, it must be positive and finite"
+        "the time step is 0 s, it must be finite and at least 1.5e-154 s"
     );
     assert_error!(
         |draft| draft.step = -0.1,
         SceneError::Step { .. },
-        "the time step is -0.1 s, it must be positive and finite"
+        "the time step is -0.1 s, it must be finite and at least 1.5e-154 s"
     );
     assert_error!(
         |draft| (draft.model.eta0, draft.model.a) = (-100.0, 0.0),

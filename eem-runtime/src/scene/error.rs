@@ -224,8 +224,8 @@ pub enum SceneError {
         /// How many there are.
         dashpots: usize,
     },
-    /// The time step is not positive and finite.
-    #[error("the time step is {value} s, it must be positive and finite", value = Readable(*value))]
+    /// The time step is not finite, or below 2⁻⁵¹¹ s, the square of which is no normal number.
+    #[error("the time step is {value} s, it must be finite and at least 1.5e-154 s", value = Readable(*value))]
     Step {
         /// The step, s.
         value: f64,

@@ -198,6 +198,12 @@ pub enum StepFailure {
         /// The time, s.
         value: f64,
     },
+    /// The step is below 2⁻⁵¹¹ s, the square of which is no normal number.
+    #[error("the time that is left, {value} s, is too short for a step, which takes at least 1.5e-154 s", value = Readable(*value))]
+    TooShort {
+        /// The step, s.
+        value: f64,
+    },
     /// Step control needs a smaller step than allowed.
     #[error("{}: {limit}{}", needed(*is_set, *smallest), too_large.map_or_else(String::new, |error| format!("; no other scheme could be tried: {error}")))]
     TooSmall {
@@ -297,7 +303,10 @@ impl StepFailure {
 
     /// Whether a step of another size from the same state may succeed.
     pub(crate) const fn depends_on_step(&self) -> bool {
-        let is_final = matches!(self, Self::Time { .. } | Self::TooSmall { .. });
+        let is_final = matches!(
+            self,
+            Self::Time { .. } | Self::TooShort { .. } | Self::TooSmall { .. }
+        );
         self.is_of_a_step() && !is_final
     }
 }

@@ -36,7 +36,7 @@ fn no_message_has_more_digits_than_a_number() {
         });
         let mut scene = Scene::<2>::new();
         scene.anchor([0.0, 0.0]);
-        let mut run = Simulation::new(scene, Scheme::EemEntropy, 1e-300).unwrap();
+        let mut run = Simulation::new(scene, Scheme::EemEntropy, 1e-150).unwrap();
         texts.push(run.set_step_size(-size).unwrap_err().to_string());
         let go_on = |_: &Simulation<2>, _: &StepReport| ControlFlow::Continue(());
         texts.push(run.run_until_with(-size, go_on).unwrap_err().to_string());

@@ -1,5 +1,7 @@
 //! Every public number may be anything: there is a typed error, or a run whose numbers are finite.
 
+use eem::Tolerance;
+use eem::materials::Hooke;
 use eem::prelude::*;
 use eem_testkit::length::at_length;
 
@@ -207,6 +209,37 @@ fn time_does_not_run_over() {
     println!("{error}");
     assert!(matches!(error.failure, StepFailure::Time { .. }), "{error}");
     assert!(run.time().is_finite());
+}
+
+#[test]
+fn steps_have_squares() {
+    for scheme in Scheme::ALL {
+        let scene = || {
+            let mut scene = Scene::<1>::new();
+            let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+            let hooke = Hooke {
+                stiffness: 100.0,
+                natural_length: 1.0,
+            };
+            scene.spring(hooke, ends);
+            scene
+        };
+        for wild in [5e-324, 1e-300, 1e-160] {
+            let refused = Simulation::new(scene(), scheme, wild).unwrap_err();
+            let errors = refused.errors();
+            assert!(matches!(errors, [SceneError::Step { .. }]), "{errors:?}");
+            let mut run = Simulation::new(scene(), scheme, 0.01).unwrap();
+            let error = run.run_until(wild).unwrap_err();
+            let failure = error.failure;
+            assert_eq!(failure, StepFailure::TooShort { value: wild });
+            assert_eq!(run.time(), 0.0);
+        }
+        // From a step that is only just long enough, control leaves at once.
+        let mut run = Simulation::new(scene(), scheme, 1e-150).unwrap();
+        if run.control_steps(Tolerance::new(1e-6)).is_ok() {
+            run.run_until(0.1).unwrap();
+        }
+    }
 }
 
 #[test]

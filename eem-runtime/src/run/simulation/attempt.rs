@@ -2,6 +2,7 @@
 
 use core::mem;
 
+use super::check::SHORTEST;
 use super::stepper::{Newton, Stepper};
 use super::{Simulation, StepResult, Tried};
 use crate::element::phase::Phase;
@@ -127,6 +128,9 @@ impl<const D: usize> Simulation<D> {
         if !end.is_finite() {
             let value = end;
             return Err(StepFailure::Time { value });
+        }
+        if size < SHORTEST {
+            return Err(StepFailure::TooShort { value: size });
         }
         if self.has_loads {
             self.heat_ovens(size)?;

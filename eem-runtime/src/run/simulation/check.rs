@@ -90,9 +90,12 @@ pub(super) fn check_all<const D: usize>(
     errors
 }
 
-/// An error unless a step is positive and finite.
+/// The shortest step, s: its square, which the equations of a step contain, is the least normal number, 2⁻¹⁰²².
+pub(super) const SHORTEST: f64 = f64::from_bits((1023 - 511) << 52);
+
+/// An error unless a step is finite and at least the shortest one.
 pub(super) fn check_step(step: f64) -> Result<(), SceneError> {
-    if is_positive(step) {
+    if is_positive(step) && step >= SHORTEST {
         Ok(())
     } else {
         let value = step;

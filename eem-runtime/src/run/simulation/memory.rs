@@ -1,6 +1,6 @@
 //! Histories and work arrays of step control and of the choice of a scheme.
 
-use super::check::Needs;
+use super::check::{Needs, SHORTEST};
 use crate::algebra::memory::MemoryLimit;
 use crate::element::state::State;
 use crate::run::checkpoint::{SavedChoice, SavedControl};
@@ -48,7 +48,7 @@ impl Control {
     pub(super) fn smallest(&self, time: f64, usual: f64) -> f64 {
         let rounding = SMALLEST * f64::EPSILON;
         let least = rounding * Scalar::maximum(time.abs(), usual);
-        Scalar::maximum(self.memory.smallest, least)
+        Scalar::maximum(Scalar::maximum(self.memory.smallest, least), SHORTEST)
     }
 }
 

@@ -19,7 +19,7 @@ impl<const D: usize> Simulation<D> {
     ///
     /// # Errors
     ///
-    /// [`SceneError::Step`] if it is not positive and finite; the old size remains.
+    /// [`SceneError::Step`] unless it is finite and at least 2⁻⁵¹¹ s, 1.5e-154 s; the old size remains.
     pub fn set_step_size(&mut self, step: f64) -> Result<(), SceneError> {
         check_step(step)?;
         self.step = step;
