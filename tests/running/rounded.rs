@@ -300,7 +300,7 @@ fn beside_prestress(scheme: Scheme, distances: [f64; 2]) {
     for side in [-1.0, 1.0] {
         let anchor = scene.anchor([side * from]);
         scene.spring(spring, [anchor, mass]);
-        if from != to {
+        if (to - from).abs() > 0.0 {
             scene.move_anchor(anchor, move |t: f64| {
                 let t = t.min(1.0);
                 let smooth = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
