@@ -35,11 +35,9 @@
 //! A¹ = Σ |terms of E¹| + Σ (|f¹|λ¹ + |g¹||γ¹|)
 //! ```
 //!
-//! if step control would feel the correction. It stays a debt, so that the energy does not drift: what is more than rounding is corrected. What
-//! `max(A⁰ − A¹, 0)` and the rounding of the work explain beyond that is no debt: the terms are gone, and the energy that is left tells the
-//! motion better.
+//! if step control would feel the correction and no anchor is moved. It stays a debt, so that the energy does not drift: what is more than
+//! rounding is corrected. The work of moved anchors changes the prestress, which a debt would outlive.
 
-use super::super::memory::Books;
 use super::super::vector::{difference, dot, size};
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
@@ -48,48 +46,20 @@ use eem_material::number::scalar::Scalar;
 
 impl<const D: usize> Explicit<D> {
     /// Closes a component whose defect is the rounding of its energies; returns whether it is.
-    pub(super) fn leave_rounding(&mut self, index: usize, view: &ExplicitView<'_, D>) -> bool {
-        let (inner, progress) = (&self.scratch.energies[index], &self.scratch.progress[index]);
-        let (defect, scale) = (progress.defect.abs(), progress.scale);
+    pub(super) fn leave_rounding(&mut self, index: usize) -> bool {
+        let (inner, progress) = (
+            &self.scratch.energies[index],
+            &mut self.scratch.progress[index],
+        );
         let forces = Scalar::maximum(inner.terms - inner.magnitude, 0.0);
-        let rounding = FROZEN * f64::EPSILON;
-        let mut terms = scale + forces;
-        let beyond = defect - rounding * terms;
-        if beyond > 0.0 && self.is_driven {
-            terms += Scalar::maximum(self.vanishing(index, view), 0.0);
-            terms += self.terms_of_loads(index, view);
-        }
-        let is_closed = defect <= rounding * terms;
+        let terms = progress.scale + forces;
+        let is_closed = self.prescribed.moved.is_empty()
+            && progress.defect.abs() <= FROZEN * f64::EPSILON * terms;
         if is_closed {
-            let progress = &mut self.scratch.progress[index];
-            progress.values = terms - scale;
-            progress.forgiven = Scalar::maximum(beyond, 0.0).copysign(progress.defect);
+            progress.values = forces;
             progress.is_closed = true;
         }
         is_closed
-    }
-
-    /// `A⁰ − A¹`, J.
-    #[cold]
-    fn vanishing(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
-        let inner = &self.scratch.energies[index];
-        let inner = Scalar::maximum(inner.terms, inner.magnitude);
-        let now = inner + self.motion_and_target(index, &self.books);
-        self.swap_start(index);
-        self.look_at_motion(index);
-        let mut before = self.motion_and_target(index, &self.old_books);
-        self.swap_start(index);
-        self.look_at_motion(index);
-        let elements = self.components.of_element.iter().zip(&view.state.energies);
-        for (_, energy) in elements.filter(|&(&own, _)| own as usize == index) {
-            before += Scalar::maximum(energy.terms, energy.magnitude);
-        }
-        before - now
-    }
-
-    /// The magnitudes of the energy of masses and weights and of the target, J.
-    fn motion_and_target(&self, index: usize, books: &Books<D>) -> f64 {
-        self.scratch.motions[index].magnitude + books.targets[index].energy.value.abs()
     }
 
     /// Closed if the remaining defect is rounding, failed otherwise.

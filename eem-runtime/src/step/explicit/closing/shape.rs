@@ -53,7 +53,7 @@ impl<const D: usize> Explicit<D> {
         }
         let means = self.means(index, view);
         let share = defect / means.all;
-        if share.abs() > demand.largest_change() && self.leave_rounding(index, view) {
+        if share.abs() > demand.largest_change() && self.leave_rounding(index) {
             return Status::Closed;
         }
         let is_small = share.abs() < LARGEST_PART;
