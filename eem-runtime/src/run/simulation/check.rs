@@ -8,7 +8,6 @@ use crate::step::automatic::FIRST;
 use crate::step::control::Tolerance;
 use crate::step::features::Feature;
 use crate::step::scheme::{Closing, Scheme};
-use eem_material::number::scalar::is_positive;
 
 /// The features of a scene that not every scheme can step.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +94,7 @@ pub(super) const SHORTEST: f64 = f64::from_bits((1023 - 511) << 52);
 
 /// An error unless a step is finite and at least the shortest one.
 pub(super) fn check_step(step: f64) -> Result<(), SceneError> {
-    if is_positive(step) && step >= SHORTEST {
+    if (SHORTEST..=f64::MAX).contains(&step) {
         Ok(())
     } else {
         let value = step;

@@ -45,10 +45,11 @@ impl<const D: usize> Explicit<D> {
             )?;
             self.prove_momenta(index, time)?;
             residue -= defect;
-            if self.is_driven {
-                let own = self.scratch.progress[index].forgiven;
-                self.books.targets[index].energy.add(-own);
-                forgiven += own;
+            let is_forgiven = self.scratch.progress[index].is_forgiven;
+            if self.is_driven && is_forgiven {
+                // The rounding of this step is not that of later ones.
+                self.books.targets[index].energy.add(-defect);
+                forgiven += defect;
             }
             let energy = &self.scratch.energies[index];
             counted += magnitude + energy.excess;

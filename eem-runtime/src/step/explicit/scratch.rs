@@ -48,8 +48,8 @@ pub(super) struct Progress {
     /// Terms of the energy, in addition to `scale`, whose rounding explains the defect if step control would feel its correction; zero
     /// otherwise, J.
     pub(super) values: f64,
-    /// The part of the defect that is not the rounding of later steps, J.
-    pub(super) forgiven: f64,
+    /// Whether the defect is explained only with terms that do not vanish with the energy.
+    pub(super) is_forgiven: bool,
     /// Whether the energy is within tolerance.
     pub(super) is_closed: bool,
     /// Whether the component was rotated rigidly because no correction was possible.
@@ -157,7 +157,7 @@ impl Progress {
             factor: 1.0,
             granularity: 0.0,
             values: 0.0,
-            forgiven: 0.0,
+            is_forgiven: false,
             is_closed: false,
             is_rigid: false,
         }

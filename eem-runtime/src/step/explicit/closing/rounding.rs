@@ -69,15 +69,15 @@ impl<const D: usize> Explicit<D> {
         let mut granularity = self.granularity(index);
         let is_rounding = |terms: f64| defect.abs() <= FROZEN * f64::EPSILON * (scale + terms);
         let mut is_closed = is_rounding(granularity);
-        let mut forgiven = 0.0;
+        let mut is_forgiven = false;
         if !is_closed {
             granularity += self.terms_at_rest(index, view);
-            is_closed = is_rounding(granularity);
-            forgiven = if is_closed { defect } else { 0.0 };
+            is_forgiven = is_rounding(granularity);
+            is_closed = is_forgiven;
         }
         let progress = &mut self.scratch.progress[index];
         progress.granularity = granularity;
-        progress.forgiven = forgiven;
+        progress.is_forgiven = is_forgiven;
         progress.is_closed = is_closed;
         if is_closed {
             Status::Closed
@@ -117,6 +117,9 @@ impl<const D: usize> Explicit<D> {
     fn terms_at_rest(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
         self.find_stiffnesses(view);
         let mut sum = self.scratch.energies[index].excess;
+        if let Some(loads) = self.load_sums.get(index) {
+            sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
+        }
         let elements = self.components.of_element.iter().zip(&view.state.energies);
         for (_, energy) in elements.filter(|&(&own, _)| own as usize == index) {
             sum += energy.excess;
@@ -141,16 +144,7 @@ impl<const D: usize> Explicit<D> {
                 sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
             }
         }
-        sum + self.terms_of_loads(index, view)
-    }
-
-    /// The terms of the work of loads and moved anchors, J.
-    fn terms_of_loads(&mut self, index: usize, view: &ExplicitView<'_, D>) -> f64 {
-        let mut sum = self.rounding_of_work(index, view) / (FROZEN * f64::EPSILON);
-        if let Some(loads) = self.load_sums.get(index) {
-            sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
-        }
-        sum
+        sum + self.rounding_of_work(index, view) / (FROZEN * f64::EPSILON)
     }
 
     /// The work that the rounding of loads explains, J: of the impulses on masses and of the positions of moved anchors.
