@@ -128,3 +128,66 @@ fn a_load_begins_as_a_subnormal_number() {
         }
     }
 }
+
+/// ψ = ½ k (λ − ℓ)² + ½ μ (λ − ℓ − γ)², η constant.
+#[derive(Clone, FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous| {
+    0.5 * k * (lambda - length).powi(2) + 0.5 * mu * (lambda - length - gamma).powi(2)
+})]
+#[viscosity(gamma = eta)]
+struct Maxwell {
+    k: f64,
+    mu: f64,
+    eta: f64,
+    length: f64,
+}
+
+/// After a bump the motion decays to the last bits. What the bump has left of the rounding of its energy, 1e-3 J, is then more than all that
+/// moves, and no reason to refuse a step.
+#[test]
+fn a_damped_mass_rests_after_a_bump() {
+    let (k, length, mass) = (2.8e5, 0.56, 0.29);
+    for mu in [4.217e4, 5.0119e4, 6.4938e4, 7.2862e4, 8.1752e4] {
+        let spring = Maxwell {
+            k,
+            mu,
+            eta: 170.0,
+            length,
+        };
+        let mut scene = Scene::<1>::new();
+        let node = scene.mass(mass, [-length], [0.0]);
+        let ends = [scene.anchor([0.0]), node];
+        let spring = scene.spring(spring, ends);
+        scene.force(node, |t| [95.0 * (-((t - 3.5) / 0.142).powi(2)).exp()]);
+        let tolerance = Tolerance::new(1e-3);
+        let mut run = Simulation::with_tolerance(scene, SCHEME, tolerance).unwrap();
+        // Σ e, and its terms with those of the rounding of lengths.
+        let energy = |run: &Simulation<1>| {
+            let [q, p] = [run.position(node), run.momentum(node)].map(|x| x.unwrap()[0]);
+            let creep = run.viscous_stretch(spring, 0).unwrap();
+            let stretch = -q - length;
+            let kinetic = 0.5 * p * p / mass;
+            let [at, inner] = [k * stretch, mu * (stretch - creep)];
+            let stored = 0.5 * (at * stretch + inner * (stretch - creep));
+            let forces = (at + inner).abs() * q.abs() + inner.abs() * creep.abs();
+            let rounded = f64::EPSILON * (k + mu) * q * q;
+            [kinetic + stored, kinetic + stored + forces + rounded]
+        };
+        let ([mut before, mut terms], mut given) = (energy(&run), 0.0);
+        let mut steps = 0;
+        while run.time() < 5.0 {
+            run.step()
+                .unwrap_or_else(|error| panic!("{mu}, {}: {error}", run.time()));
+            let ([after, new_terms], ledger) = (energy(&run), run.ledger());
+            let all = ledger.work - ledger.lost_heat;
+            let defect = after - before - (all - given);
+            // The ledger has two sums, which are rounded as a whole.
+            let sums = ledger.work.abs() + ledger.lost_heat;
+            let bound = ROUNDINGS * f64::EPSILON * (terms + new_terms + sums);
+            assert!(defect.abs() <= bound, "{mu}: {defect:e}, {bound:e}");
+            (before, terms, given) = (after, new_terms, all);
+            steps += 1;
+        }
+        assert!(steps <= 1000, "{mu}: {steps} steps");
+    }
+}

@@ -40,7 +40,7 @@ impl<const D: usize> Explicit<D> {
             let values = FROZEN / ROUNDINGS * progress.values;
             expect(
                 Law::Energy,
-                [-defect, rounding * (magnitude + values)],
+                [progress.debt - defect, rounding * (magnitude + values)],
                 time,
             )?;
             self.prove_momenta(index, time)?;

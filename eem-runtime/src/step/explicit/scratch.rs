@@ -48,7 +48,9 @@ pub(super) struct Progress {
     /// Terms of the energy, in addition to `scale`, whose rounding explains the defect if step control would feel its correction; zero
     /// otherwise, J.
     pub(super) values: f64,
-    /// Whether the defect is explained only with terms that do not vanish with the energy.
+    /// The part of the defect that earlier steps have left, where the rest alone is rounding; zero otherwise, J.
+    pub(super) debt: f64,
+    /// Whether the defect is explained only with terms that do not vanish with the energy, or only without the debt.
     pub(super) is_forgiven: bool,
     /// Whether the energy is within tolerance.
     pub(super) is_closed: bool,
@@ -157,6 +159,7 @@ impl Progress {
             factor: 1.0,
             granularity: 0.0,
             values: 0.0,
+            debt: 0.0,
             is_forgiven: false,
             is_closed: false,
             is_rigid: false,

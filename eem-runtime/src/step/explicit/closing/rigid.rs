@@ -90,7 +90,7 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// Swaps positions and momenta with those at the start of the step.
-    fn swap_start(&mut self, index: usize) {
+    pub(super) fn swap_start(&mut self, index: usize) {
         for place in &mut self.stage.places[self.components.all[index].masses.clone()] {
             core::mem::swap(&mut place.now, &mut place.past.start);
         }

@@ -28,6 +28,10 @@
 //! Where loads are functions of time, the work that the rounding of time explains counts, too. All are found only where the others are not
 //! enough. What is accepted for them is no debt of later steps, of which it is not the rounding.
 //!
+//! Nor is a debt the fault of the step that finds no motion left to pay it: after a bump, when all has come to rest but the last bits. Where
+//! loads or dashpots change the energy, a component is closed, then, if what this step adds to the debt is the rounding of these terms, and
+//! the debt is forgiven.
+//!
 //! Motion beside a large energy, a small vibration beside a prestress, is not told by that energy. There a defect is not corrected, though it
 //! could be, up to `8 ε` of
 //!
@@ -41,7 +45,9 @@
 use super::super::vector::{difference, dot, size};
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
-use crate::element::group::points;
+use crate::element::group::{ComponentEnergy, points};
+use crate::element::state::State;
+use core::mem::swap;
 use eem_material::number::scalar::Scalar;
 
 impl<const D: usize> Explicit<D> {
@@ -62,21 +68,27 @@ impl<const D: usize> Explicit<D> {
         is_closed
     }
 
-    /// Closed if the remaining defect is rounding, failed otherwise.
+    /// Closed if the remaining defect, or what this step adds to it, is rounding, failed otherwise.
     pub(super) fn unless_rounding(&mut self, index: usize, view: &ExplicitView<'_, D>) -> Status {
         let progress = &self.scratch.progress[index];
         let (defect, scale) = (progress.defect, progress.scale);
         let mut granularity = self.granularity(index);
-        let is_rounding = |terms: f64| defect.abs() <= FROZEN * f64::EPSILON * (scale + terms);
-        let mut is_closed = is_rounding(granularity);
-        let mut is_forgiven = false;
+        let is_rounding =
+            |defect: f64, terms: f64| defect.abs() <= FROZEN * f64::EPSILON * (scale + terms);
+        let mut is_closed = is_rounding(defect, granularity);
+        let (mut is_forgiven, mut debt) = (false, 0.0);
         if !is_closed {
             granularity += self.terms_at_rest(index, view);
-            is_forgiven = is_rounding(granularity);
+            is_forgiven = is_rounding(defect, granularity);
+            if !is_forgiven && self.is_driven {
+                debt = self.debt(index, view.state);
+                is_forgiven = is_rounding(defect - debt, granularity);
+            }
             is_closed = is_forgiven;
         }
         let progress = &mut self.scratch.progress[index];
         progress.granularity = granularity;
+        progress.debt = debt;
         progress.is_forgiven = is_forgiven;
         progress.is_closed = is_closed;
         if is_closed {
@@ -84,6 +96,26 @@ impl<const D: usize> Explicit<D> {
         } else {
             Status::Failed
         }
+    }
+
+    /// The defect of the energy of a component at the start of the step, J.
+    #[cold]
+    fn debt(&mut self, index: usize, start: &State) -> f64 {
+        let (motion, energy) = (self.scratch.motions[index], self.scratch.energies[index]);
+        self.swap_start(index);
+        self.look_at_motion(index);
+        self.swap_start(index);
+        let inner = &mut self.scratch.energies[index];
+        *inner = ComponentEnergy::none();
+        let elements = self.components.of_element.iter().zip(&start.energies);
+        for (_, energy) in elements.filter(|&(&own, _)| own as usize == index) {
+            inner.add(energy);
+        }
+        swap(&mut self.books, &mut self.old_books);
+        let [debt, _] = self.defect_of(index);
+        swap(&mut self.books, &mut self.old_books);
+        (self.scratch.motions[index], self.scratch.energies[index]) = (motion, energy);
+        debt
     }
 
     /// What rounding explains of the energy of a component of this magnitude, J.
