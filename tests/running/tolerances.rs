@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use eem::materials::ThermoelasticSpring;
+use eem::materials::{Hooke, ThermoelasticSpring};
 use eem::prelude::*;
 use eem::{EndState, Tolerance};
 
@@ -142,6 +142,41 @@ fn the_temperature_of_an_oven_is_followed_to_the_tolerance() {
             let error = (run.temperature(wire).unwrap() / exact - 1.0).abs() / relative;
             // The mean of every step is right to one tolerance; the scheme's own errors add to it.
             assert!(error < 4.0, "{scheme}, {relative:e}: {error} tolerances");
+        }
+    }
+}
+
+/// A loose tolerance is one, too: the halves of a step pass over no whole period, in which both would be wrong by an amplitude.
+#[test]
+fn steps_of_loose_tolerances_follow_the_motion() {
+    let stiffness = 3e3;
+    let period = core::f64::consts::TAU / f64::sqrt(stiffness);
+    for scheme in [
+        Scheme::EemEntropy,
+        Scheme::EemEntropy4,
+        Scheme::EemEntropy6,
+        Scheme::EemExplicit,
+    ] {
+        for relative in [0.4, 0.2, 0.1, 0.05] {
+            let mut scene = Scene::<1>::new();
+            let mass = scene.mass(1.0, [0.0], [0.5]);
+            let ends = [scene.anchor([-1.0]), mass];
+            let spring = Hooke {
+                stiffness,
+                natural_length: 0.9,
+            };
+            scene.spring(spring, ends);
+            scene.dead_load(mass, [1.0]);
+            scene.set_gravity([-9.0]);
+            let tolerance = Tolerance::new(relative);
+            let mut run = Simulation::with_tolerance(scene, scheme, tolerance).unwrap();
+            let mut last = 0.0;
+            for _ in 0..200 {
+                run.step().unwrap();
+                let step = run.time() - last;
+                assert!(step <= 2.0 * period, "{scheme}, {relative}: {step} s");
+                last = run.time();
+            }
         }
     }
 }

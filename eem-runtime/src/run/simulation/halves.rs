@@ -4,8 +4,11 @@
 //! step estimates their error,
 //!
 //! ```text
-//! error = |y_H − y_{H/2, H/2}|/(2ᵖ − 1)
+//! error = |y_H − y_{H/2, H/2}| max(1/(2ᵖ − 1), r₁)
 //! ```
+//!
+//! with the tolerance r₁ of one step. The share is that of an expansion in H, which ends where the difference is as large as the quantity
+//! itself, so that it is at most this. Else two steps that are both wrong, by a whole amplitude each, would pass a loose tolerance.
 //!
 //! Every part is a step of the scheme like any other, and proves its laws. The estimate needs only the order p of the
 //! scheme, so that it stays right where the motion is stiff or conduction is fast.
@@ -52,12 +55,11 @@ impl<const D: usize> Simulation<D> {
         let least = (memory.largest_momentum, &self.least);
         let scales = Scales::new::<D>(&memory.tolerance, accurate, ends, least);
         let states = [&halves.whole, &*self.state];
-        let how = (&halves.kinds, accuracy.share_of_difference());
-        report.error = scales.error::<D>(states, how, None);
+        report.error = scales.error::<D>(states, &halves.kinds, None);
         if accuracy.holds_back(report.error) {
             let span = [halves.before.time.value, size];
             halves.rounding.find(&self.loads, &self.least, span);
-            let beyond = scales.error::<D>(states, how, Some(&halves.rounding));
+            let beyond = scales.error::<D>(states, &halves.kinds, Some(&halves.rounding));
             let accurate = (memory.tolerance.relative, accuracy);
             report.error = self.least.hidden(beyond, size, accurate);
         }

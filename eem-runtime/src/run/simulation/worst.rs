@@ -26,10 +26,9 @@ impl<const D: usize> Simulation<D> {
                 let accuracy = control.accuracy;
                 let scales = Scales::new::<D>(tolerance, (accuracy, size), ends, least);
                 let states = [&halves.whole, &*self.state];
-                let how = (&halves.kinds, accuracy.share_of_difference());
                 let span = [halves.before.time.value, size];
                 halves.rounding.find(&self.loads, &self.least, span);
-                let worst = scales.worst::<D>(states, how, &halves.rounding);
+                let worst = scales.worst::<D>(states, &halves.kinds, &halves.rounding);
                 self.return_to(halves);
                 worst?
             }

@@ -50,9 +50,11 @@ impl Accuracy {
         Self { estimate, ..self }
     }
 
-    /// The error of two halves as a share of their difference from the whole step, `1/(2ᵖ − 1)` with the least p.
-    pub(crate) fn share_of_difference(self) -> f64 {
-        (f64::from(self.least_order).exp2() - 1.0).recip()
+    /// The error of two halves as a share of their difference from the whole step, given the relative tolerance r₁ of this step:
+    /// `1/(2ᵖ − 1)` with the least p. At least r₁, with which a difference of the size of the quantity uses up the tolerance.
+    pub(super) fn share_of_difference(self, of_step: f64) -> f64 {
+        let share = (f64::from(self.least_order).exp2() - 1.0).recip();
+        Scalar::maximum(share, of_step)
     }
 
     /// The order, if errors are found from the step in two halves.

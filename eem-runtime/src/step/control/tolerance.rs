@@ -189,6 +189,8 @@ pub(crate) struct Scales<'a> {
     step: Step,
     /// The relative tolerance of this step alone.
     own: f64,
+    /// The share of the difference of a whole step and two halves that is an error.
+    share: f64,
     /// The relative and the absolute tolerance of temperatures.
     temperature: [f64; 2],
     /// Both states.
@@ -236,6 +238,7 @@ impl<'a> Scales<'a> {
                 growth,
             },
             own: relative,
+            share: accuracy.share_of_difference(relative),
             temperature: [relative, share * tolerance.temperature],
             states: [old, new],
         }
@@ -277,12 +280,12 @@ impl<'a> Scales<'a> {
         self.position * (self.step.relative / self.own)
     }
 
-    /// The largest error, in units of the tolerance, if it is this share of the difference between two states. With the rounding of
+    /// The largest error, in units of the tolerance, found from the states after a whole step and two halves. With the rounding of
     /// loads, what rounding explains is none.
     pub(crate) fn error<const D: usize>(
         &self,
         states: [&State; 2],
-        (kinds, share): (&Kinds, f64),
+        kinds: &Kinds,
         rounding: Option<&LoadRounding>,
     ) -> f64 {
         let mut largest = 0.0;
@@ -291,7 +294,7 @@ impl<'a> Scales<'a> {
             kinds,
             rounding,
             |_, difference, [scale, rounding]| {
-                let error = Scalar::maximum(share * difference - rounding, 0.0);
+                let error = Scalar::maximum(self.share * difference - rounding, 0.0);
                 // No difference is no error, even at scale zero.
                 let is_equal = error == 0.0;
                 let scale = Scalar::maximum(scale, rounding);
@@ -306,7 +309,7 @@ impl<'a> Scales<'a> {
     pub(crate) fn worst<const D: usize>(
         &self,
         states: [&State; 2],
-        (kinds, share): (&Kinds, f64),
+        kinds: &Kinds,
         rounding: &LoadRounding,
     ) -> Option<(Unknown, [f64; 2])> {
         let mut worst = Worst::none();
@@ -317,7 +320,7 @@ impl<'a> Scales<'a> {
             rounding,
             |unknown, difference, [scale, rounding]| {
                 let allowed = Scalar::maximum(scale, rounding) + rounding;
-                worst.see(unknown, [share * difference, allowed]);
+                worst.see(unknown, [self.share * difference, allowed]);
             },
         );
         worst.found
