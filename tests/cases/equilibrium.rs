@@ -311,27 +311,35 @@ fn stiffnesses_in_series_may_differ_by_twelve_digits() {
     }
 }
 
-/// 1 kg on a spring of 1 m and 10⁴ N/m, at an angle from the vertical above its hook, with a load to the side.
-fn weight(angle: f64, load: f64) -> (Scene<2>, Node) {
-    let mut scene = Scene::<2>::new();
-    let hook = scene.anchor([0.0, 0.0]);
-    let weight = scene.mass(1.0, [angle.sin(), angle.cos()], [0.0, 0.0]);
+/// A mass, kg, on a spring of 1 m and a stiffness, N/m, at an angle from the vertical above its hook, with a load to the side.
+fn weight<const D: usize>(angle: f64, [mass, stiffness]: [f64; 2], load: f64) -> (Scene<D>, Node) {
+    let mut scene = Scene::new();
+    let vector = |side: f64, up: f64| {
+        let mut vector = [0.0; D];
+        (vector[0], vector[D - 1]) = (side, up);
+        vector
+    };
+    let hook = scene.anchor([0.0; D]);
+    let weight = scene.mass(mass, vector(angle.sin(), angle.cos()), [0.0; D]);
     let hooke = Hooke {
-        stiffness: 1e4,
+        stiffness,
         natural_length: 1.0,
     };
     scene.spring(hooke, [hook, weight]);
-    scene.set_gravity([0.0, -GRAVITY]);
-    scene.dead_load(weight, [load, 0.0]);
+    scene.set_gravity(vector(0.0, -GRAVITY));
+    scene.dead_load(weight, vector(load, 0.0));
     (scene, weight)
 }
+
+/// 1 kg on 10⁴ N/m.
+const LIGHT: [f64; 2] = [1.0, 1e4];
 
 /// The last digit of a force does not keep it from its place, which is 1 mm below that of the natural length.
 #[test]
 fn a_weight_swings_down_from_any_angle() {
     for step in 1..=31 {
         let angle = 0.1 * f64::from(step);
-        let (mut scene, weight) = weight(angle, 0.0);
+        let (mut scene, weight) = weight::<2>(angle, LIGHT, 0.0);
         let report = scene.equilibrium(Equilibrium::new());
         let report = report.unwrap_or_else(|error| panic!("{angle}: {error}"));
         assert!(
@@ -348,10 +356,59 @@ fn a_weight_swings_down_from_any_angle() {
     }
 }
 
+/// Turns a stiff spring from an angle above its hook.
+fn swings_down<const D: usize>(angle: f64, [mass, stiffness]: [f64; 2]) {
+    let what = format!("{D}D, {mass} kg, {stiffness} N/m, {angle}");
+    let (mut scene, node) = weight::<D>(angle, [mass, stiffness], 0.0);
+    let report = scene.equilibrium(Equilibrium::new());
+    report.unwrap_or_else(|error| panic!("{what}: {error}"));
+    let run = Simulation::new(scene, Scheme::EemEntropy, 1e-3).unwrap();
+    let place = run.position(node).unwrap();
+    let pull = mass * GRAVITY;
+    let length = 1.0 + pull / stiffness;
+    // A force that rounding explains, against the stiffness m g/λ of a pendulum and that of the spring.
+    let force = ROUNDINGS * f64::EPSILON * (stiffness * length + 2.0 * pull);
+    let side = force * length / pull;
+    for axis in 0..D - 1 {
+        assert!(place[axis].abs() <= side, "{what}: {place:?}");
+    }
+    let low = force / stiffness + 0.5 * side * side / length;
+    assert!((place[D - 1] + length).abs() <= low, "{what}: {place:?}");
+}
+
+/// Nor does the stiffness of the spring, which is stretched by the square of the angle that it turns in a step.
+#[test]
+fn weights_on_stiff_springs_swing_down() {
+    for angle in [0.02, 0.3, 0.8, 1.6, 2.9] {
+        for mass in [0.1, 2.0, 100.0] {
+            for stiffness in [1e2, 1e5, 1e7, 1e10] {
+                swings_down::<2>(angle, [mass, stiffness]);
+                swings_down::<3>(angle, [mass, stiffness]);
+            }
+        }
+    }
+}
+
+/// Pressed against its hook a weight has no state at rest along the vertical; nothing starts the turn.
+#[test]
+fn what_nothing_turns_is_named() {
+    for stiffness in [1e2, 1e3] {
+        let (mut scene, node) = weight::<2>(0.0, [100.0, stiffness], 0.0);
+        match scene.equilibrium(Equilibrium::new()) {
+            Err(EquilibriumError::Unstable { motion, .. }) => {
+                assert!(motion.stiffness < 0.0, "{motion:?}");
+                assert_eq!(motion.nodes[0].0, node);
+                assert!(motion.nodes[0].1[0].abs() > 0.99, "{motion:?}");
+            }
+            other => panic!("{stiffness}: {other:?}"),
+        }
+    }
+}
+
 /// Exactly above its hook the forces are balanced: the error says that it would fall, and a small load decides to where.
 #[test]
 fn a_weight_exactly_above_its_hook_would_fall() {
-    let (mut scene, _) = weight(0.0, 0.0);
+    let (mut scene, _) = weight::<2>(0.0, LIGHT, 0.0);
     match scene.equilibrium(Equilibrium::new()) {
         Err(EquilibriumError::Unstable { motion, .. }) => {
             // −m g/λ at λ = 1 m − m g/k.
@@ -367,7 +424,7 @@ fn a_weight_exactly_above_its_hook_would_fall() {
         }
         other => panic!("{other:?}"),
     }
-    let (mut scene, weight) = weight(0.0, 1e-6);
+    let (mut scene, weight) = weight::<2>(0.0, LIGHT, 1e-6);
     scene.equilibrium(Equilibrium::new()).unwrap();
     let run = Simulation::new(scene, Scheme::EemEntropy, 1e-3).unwrap();
     let place = run.position(weight).unwrap();

@@ -26,7 +26,7 @@ use crate::step::solver::Solver;
 use crate::step::solver::rest::{AtRest, LONG, Softest};
 use crate::step::systems::Systems;
 use error::EquilibriumError;
-use motion::{FreeMotion, name};
+use motion::{FreeMotion, LIKENESS, name};
 
 /// How to find a loaded state at rest, see [`Scene::equilibrium`].
 ///
@@ -340,12 +340,14 @@ impl<const D: usize> Scene<D> {
         state: &State,
     ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let (followed, found) = rest.follow(load_steps);
-        let residual = rest.residual();
+        let (residual, forces) = (rest.residual(), rest.forces());
         if !rest.is_stable()
             && let Some(softest) = rest.softest()
         {
             let is_free = softest.relative.abs() <= softest.rounding;
-            if is_free || found.is_ok() {
+            // A motion that nothing starts, though the scene would leave along it.
+            let is_left = softest.share_of(&forces) <= LIKENESS;
+            if is_free || found.is_ok() || is_left {
                 let motion = self.name(rest, &softest);
                 return Err(if is_free {
                     EquilibriumError::Free { motion }

@@ -38,9 +38,9 @@ pub enum EquilibriumError {
         /// The motion.
         motion: FreeMotion,
     },
-    /// Forces are balanced, but the smallest motion lets the scene leave the state: it buckles.
+    /// Forces are balanced, at least along a motion by which the scene would leave the state: it buckles.
     #[error(
-        "the state at rest is unstable: {motion} has the stiffness {:.3e} N/m; add a small load or change positions along it to find the stable state beside it (the loads were followed up to {:.1} % of them)",
+        "the state is unstable: nothing starts {motion}, which has the stiffness {:.3e} N/m; add a small load or change positions along it to find the stable state beside it (the loads were followed up to {:.1} % of them)",
         motion.stiffness, 100.0 * followed
     )]
     Unstable {

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 
 /// Two motions are the same if they differ by at most this fraction of the largest displacement; the search for a free
 /// motion is more accurate.
-const LIKENESS: f64 = 1e-4;
+pub(super) const LIKENESS: f64 = 1e-4;
 
 /// The most nodes in a message.
 const MOST_NAMED: usize = 3;

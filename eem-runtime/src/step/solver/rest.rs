@@ -12,6 +12,10 @@
 //! (K + μ D) δ = R        D: the largest diagonal entry of each node
 //! ```
 //!
+//! That is the first iteration for `R(q) = μ D (q − q_n)`. It is the last one, too, unless the force along it turns round: where a stiff
+//! spring is turned, it is stretched by the square of the angle. Further iterations take the stretch back, so that steps are limited by
+//! the angle and not by the stiffness.
+//!
 //! A state at rest is the end of one implicit Euler step of a huge size h. Then neither inertia nor viscosity is left in
 //! the rows `2 m/h Δq + h F` of a step, which are h times forces, and `Δγ = h g/η` becomes `g = 0`. In the code, R, K and
 //! D are h times those above.
@@ -81,7 +85,7 @@ pub(crate) struct Softest<const D: usize> {
 }
 
 /// The displacements of all nodes and their compensations of rounding, m.
-type Place<const D: usize> = (Vec<[f64; D]>, Vec<[f64; D]>);
+pub(super) type Place<const D: usize> = (Vec<[f64; D]>, Vec<[f64; D]>);
 
 impl<'a, const D: usize> AtRest<'a, D> {
     /// Starts at the state of a view whose step is [`LONG`], given the end nodes of the arms of elements.
@@ -188,7 +192,7 @@ impl<'a, const D: usize> AtRest<'a, D> {
                 break;
             }
             self.effort.friction_steps += 1;
-            let update = match self.update(friction) {
+            let mut update = match self.update(friction) {
                 Ok(update) => update,
                 Err(failure) => {
                     if failure == StepFailure::SingularTangent {
@@ -199,16 +203,21 @@ impl<'a, const D: usize> AtRest<'a, D> {
                 }
             };
             let is_balanced = self.is_balanced();
-            let is_close = !update.goes_too_far() || is_balanced;
-            if !(update.is_definite && is_close) {
+            if !update.is_definite {
                 self.take_back(update.part, 0.0);
                 self.assemble()?;
                 friction *= 4.0;
                 continue;
             }
+            if update.goes_too_far() && !is_balanced && !self.settle(friction, &mut update) {
+                self.start(Some(&update.begin.place))?;
+                friction *= 4.0;
+                continue;
+            }
             last = update.size;
             let contracts = update.after <= 0.1 * update.before || is_balanced;
-            if contracts && last <= self.settings.tolerance {
+            // Beside an unstable state the forces are small, but they grow.
+            if contracts && last <= self.settings.tolerance && (is_balanced || self.is_stable()) {
                 return self.polish();
             }
             let [some, much] = FRICTION_FALLS;

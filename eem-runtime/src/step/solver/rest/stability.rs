@@ -1,6 +1,6 @@
 //! Whether a state at rest is stable, and the motion against which there is least stiffness.
 
-use super::system::{ROUNDINGS, dot};
+use super::system::{ROUNDINGS, dot, norm};
 use super::{AtRest, LONG, Softest};
 use crate::step::error::StepFailure;
 use eem_material::number::compact::compact;
@@ -8,6 +8,14 @@ use eem_material::number::compact::compact;
 /// The shift is at most four times the smallest that makes K positive definite, so that, relative to an unstable motion,
 /// motions of positive stiffness fall to 3/4 or less in each iteration.
 const INVERSE_ITERATIONS: usize = 60;
+
+impl<const D: usize> Softest<D> {
+    /// The part of these forces of all moving nodes along the motion, as a share of them.
+    pub(crate) fn share_of(&self, forces: &[f64]) -> f64 {
+        let motion: Vec<_> = self.nodes.iter().flat_map(|&(_, x)| x).collect();
+        dot(forces, &motion).abs() / (norm(forces) * norm(&motion))
+    }
+}
 
 impl<const D: usize> AtRest<'_, D> {
     /// Whether the tangent is positive definite beyond rounding.

@@ -3,7 +3,7 @@
 use core::array;
 use eem_material::number::scalar::Scalar;
 
-use super::{AtRest, LONG};
+use super::{AtRest, LONG, Place};
 use crate::element::tally::Care;
 use crate::step::error::StepFailure;
 
@@ -20,8 +20,20 @@ const LARGEST_TURN: f64 = 0.5;
 /// Roundings of the entries of an element, as in the certificate of a step.
 pub(super) const ROUNDINGS: f64 = 64.0;
 
+/// Iterations for a step against friction after the first one. Each squares the relative error of lengths.
+const SETTLING: usize = 6;
+
+/// Where an update begins.
+pub(super) struct Begin<const D: usize> {
+    pub(super) place: Place<D>,
+    /// R, N, and D per moving node, N/m.
+    forces: Vec<f64>,
+    sizes: Vec<f64>,
+}
+
 /// An update, as far as it was applied.
-pub(super) struct Update {
+pub(super) struct Update<const D: usize> {
+    pub(super) begin: Begin<D>,
     /// The largest change, in lengths of elements.
     pub(super) size: f64,
     pub(super) is_definite: bool,
@@ -34,7 +46,7 @@ pub(super) struct Update {
     pub(super) left: f64,
 }
 
-impl Update {
+impl<const D: usize> Update<D> {
     /// Whether the force along it at its end points backwards and exceeds [`OVERSHOOT`].
     pub(super) fn goes_too_far(&self) -> bool {
         self.left < -OVERSHOOT
@@ -122,7 +134,7 @@ impl<const D: usize> AtRest<'_, D> {
     }
 
     /// R, N.
-    pub(super) fn forces(&self) -> Vec<f64> {
+    pub(crate) fn forces(&self) -> Vec<f64> {
         let nodes = self.solver.nodes.iter();
         nodes
             .flat_map(|node| *node.place.rows(self.solver.tangent.right()))
@@ -148,8 +160,12 @@ impl<const D: usize> AtRest<'_, D> {
     /// An update with friction, or by Newton's method without. It is applied as far as elements are admissible and,
     /// without friction, forces along it do not turn round. After an error nothing is applied; if the tangent is
     /// singular, the system has to be built again.
-    pub(super) fn update(&mut self, friction: f64) -> Result<Update, StepFailure> {
-        let (forces, place) = (self.forces(), self.place());
+    pub(super) fn update(&mut self, friction: f64) -> Result<Update<D>, StepFailure> {
+        let begin = Begin {
+            place: self.place(),
+            forces: self.forces(),
+            sizes: self.sizes.clone(),
+        };
         self.shift(friction);
         let is_symmetric = self.solver.rockets.are_none();
         let is_definite = self.solver.tangent.solve_and_judge();
@@ -158,15 +174,15 @@ impl<const D: usize> AtRest<'_, D> {
         let change = self.solution();
         if !size.is_finite() {
             // An update that is not finite cannot be taken back.
-            self.start(Some(&place))?;
+            self.start(Some(&begin.place))?;
             return Err(StepFailure::NotConverged { update: size });
         }
-        if self.turn() > LARGEST_TURN {
+        if self.turn(&begin.place) > LARGEST_TURN {
             self.take_back(1.0, 0.0);
             self.assemble()?;
             return Err(StepFailure::NotConverged { update: size });
         }
-        let slope = dot(&forces, &change);
+        let slope = dot(&begin.forces, &change);
         let mut part = 1.0;
         loop {
             let next = match self.assemble() {
@@ -194,22 +210,73 @@ impl<const D: usize> AtRest<'_, D> {
             size,
             is_definite,
             part,
-            before: norm(&forces),
+            before: norm(&begin.forces),
             after: norm(&after),
             left: if slope > 0.0 {
                 dot(&after, &change) / slope
             } else {
                 0.0
             },
+            begin,
         })
     }
 
-    /// The largest motion of an arm by the last solution, which has been applied, in lengths of the arm.
-    pub(super) fn turn(&self) -> f64 {
-        let mut moved = vec![[0.0; D]; self.solver.trial.displacements.len()];
-        for node in &self.solver.nodes {
-            moved[node.place.node()] = *node.place.rows(self.solver.tangent.solution());
+    /// Goes on with the iterations of a step against friction whose first one goes too far, `R(q) = μ D (q − q_n)`, until the
+    /// force along the step does not turn round. Returns whether that was found.
+    pub(super) fn settle(&mut self, friction: f64, update: &mut Update<D>) -> bool {
+        let begin = &update.begin;
+        for _ in 0..SETTLING {
+            let (mut right, way) = (self.forces(), self.way_from(&begin.place));
+            let sizes = begin.sizes.iter().flat_map(|&size| [size; D]);
+            for (force, (way, size)) in right.iter_mut().zip(way.iter().zip(sizes)) {
+                *force -= friction * size * way;
+            }
+            self.set_right(&right);
+            self.sizes.clone_from(&begin.sizes);
+            self.shift(friction);
+            let is_symmetric = self.solver.rockets.are_none();
+            let is_solved = match self.solver.tangent.solve_and_judge() {
+                Ok(is_definite) => is_definite || !is_symmetric,
+                Err(_) => false,
+            };
+            if !is_solved
+                || !self.solver.correct(self.groups, self.view).is_finite()
+                || self.turn(&begin.place) > LARGEST_TURN
+                || self.assemble().is_err()
+            {
+                return false;
+            }
+            let (way, after) = (self.way_from(&begin.place), self.forces());
+            let slope = dot(&begin.forces, &way);
+            if !(slope > 0.0) {
+                return false;
+            }
+            update.left = dot(&after, &way) / slope;
+            update.after = norm(&after);
+            if !update.goes_too_far() {
+                return true;
+            }
         }
+        false
+    }
+
+    /// The displacements of moving nodes from a place, m.
+    fn way_from(&self, (from, _): &Place<D>) -> Vec<f64> {
+        let now = &self.solver.trial.displacements;
+        let nodes = self.solver.nodes.iter().map(|node| node.place.node());
+        let ways =
+            nodes.map(|node| array::from_fn::<_, D, _>(|axis| now[node][axis] - from[node][axis]));
+        ways.flatten().collect()
+    }
+
+    /// The largest motion of an arm since it was at a place, in lengths of the arm there.
+    pub(super) fn turn(&self, (from, _): &Place<D>) -> f64 {
+        let now = &self.solver.trial.displacements;
+        let moved: Vec<[f64; D]> = now
+            .iter()
+            .zip(from)
+            .map(|(now, from)| array::from_fn(|axis| now[axis] - from[axis]))
+            .collect();
         let turns = self.arms.iter().map(|ends| {
             let [from, to] = ends.map(|end| self.position(end));
             let by: [f64; D] = array::from_fn(|axis| moved[ends[1]][axis] - moved[ends[0]][axis]);
