@@ -191,3 +191,78 @@ fn a_damped_mass_rests_after_a_bump() {
         assert!(steps <= 1000, "{mu}: {steps} steps");
     }
 }
+
+/// A weight that hangs at rest from the origin, against gravity g, with its spring.
+fn hanging<const D: usize>(g: [f64; D]) -> (Scene<D>, Node) {
+    let size = g.iter().fold(0.0, |sum, g| sum + g * g).sqrt();
+    let mut scene = Scene::<D>::new();
+    let node = scene.mass(1.0, g.map(|g| g / size * (1.0 + size / K)), [0.0; D]);
+    let ends = [scene.anchor([0.0; D]), node];
+    scene.spring(Linear { k: K }, ends);
+    scene.set_gravity(g);
+    (scene, node)
+}
+
+/// A mass on a line has no angular momentum along it. The rounding of the torque of its weight has, where the line is skew to the axes,
+/// and that is no reason to turn the line or to refuse a step.
+#[test]
+fn weights_rest_on_skew_lines() {
+    for g in [
+        [0.3, 0.2, -9.81],
+        [-0.7, -0.6, -2.8],
+        [4.0, -3.0, 1.7],
+        [0.1, 5.0, 0.2],
+    ] {
+        for step in [None, Some(0.01)] {
+            let (scene, node) = hanging(g);
+            let mut run = match step {
+                None => Simulation::with_tolerance(scene, SCHEME, Tolerance::new(1e-4)),
+                Some(step) => Simulation::new(scene, SCHEME, step),
+            }
+            .unwrap();
+            let before = run.position(node).unwrap();
+            run.run_until(2.0)
+                .unwrap_or_else(|error| panic!("{g:?}, {step:?}: {error}"));
+            let moved = (run.position(node).unwrap() - before).norm();
+            // The spring pulls with 10 N, known to 1e-15 N, and has the period 0.6 s.
+            assert!(moved < 1e-13, "{g:?}, {step:?}: moved by {moved:e} m");
+        }
+    }
+}
+
+/// A small force in the plane of the weight and an axis moves it in this plane only: as in two dimensions.
+#[test]
+fn weights_on_skew_lines_move_as_in_the_plane() {
+    let push = |t: f64| 0.001 * (t / 4.0).powi(2);
+    let down = 3.0;
+    let pushed = |tolerance: f64| {
+        let (mut scene, node) = hanging([0.0, -down]);
+        scene.force(node, move |t| [push(t), -push(t)]);
+        let tolerance = Tolerance::new(tolerance);
+        let mut run = Simulation::with_tolerance(scene, SCHEME, tolerance).unwrap();
+        run.run_until(4.0).unwrap();
+        run.momentum(node).unwrap()
+    };
+    let exact = pushed(1e-10);
+    for (n, a) in [
+        ([-0.7, -0.6, -2.8], [1.0, 0.0, 0.0]),
+        ([0.2, 0.9, 0.4], [0.0, 0.0, 1.0]),
+    ] {
+        let n = nalgebra::Vector3::from(n).normalize();
+        let a = nalgebra::Vector3::from(a);
+        let a = (a - n * a.dot(&n)).normalize();
+        let (mut scene, node) = hanging((n * down).into());
+        scene.force(node, move |t| ((a + n) * push(t)).into());
+        let tolerance = 1e-7;
+        let mut run = Simulation::with_tolerance(scene, SCHEME, Tolerance::new(tolerance)).unwrap();
+        run.run_until(4.0).unwrap();
+        let p = run.momentum(node).unwrap();
+        let off = [
+            p.dot(&a) - exact[0],
+            p.dot(&n) + exact[1],
+            p.dot(&n.cross(&a)),
+        ];
+        let off = off.iter().fold(0.0_f64, |most, off| most.max(off.abs()));
+        assert!(off < 20.0 * tolerance * exact.norm(), "{n:?}: {off:e}");
+    }
+}

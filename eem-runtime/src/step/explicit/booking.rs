@@ -144,6 +144,7 @@ impl<const D: usize> Explicit<D> {
             if masses.is_empty() {
                 progress.carried = h * sums.effort;
             }
+            progress.moment = h * sums.moment;
             let mut work = h * sums.work;
             let is_pushed = sums.impulse.iter().any(|&sum| sum != 0.0);
             if let (Support::Free, [mass], true) = (component.support, masses, is_pushed) {

@@ -17,6 +17,8 @@ pub(super) struct LoadSums<const D: usize> {
     /// does to their work.
     pub(super) effort: f64,
     pub(super) noise: f64,
+    /// `Σ |b| Σ |r||F|` in space, N m: times ε, the rounding of the torque.
+    pub(super) moment: f64,
 }
 
 /// The targets of energy and momenta of a component, to twice the precision.
@@ -111,6 +113,7 @@ impl<const D: usize> LoadSums<D> {
             torque: Bivector::zero(),
             effort: 0.0,
             noise: 0.0,
+            moment: 0.0,
         }
     }
 }

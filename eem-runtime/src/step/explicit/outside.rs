@@ -73,6 +73,9 @@ impl<const D: usize> Explicit<D> {
                     load
                 };
                 sums.torque.add(weight, &Bivector::wedge(&arm, &turning));
+                if D > 2 {
+                    sums.moment += weight.abs() * size(&arm) * size(&turning);
+                }
                 add(&mut momentum, 1.0, place.p());
             }
             if let Support::Anchor(anchor) = component.support {
@@ -80,6 +83,9 @@ impl<const D: usize> Explicit<D> {
                 let velocity = self.stage.places[anchor].velocity();
                 let change = Bivector::wedge(velocity, &momentum);
                 sums.torque.add(-weight, &change);
+                if D > 2 {
+                    sums.moment += weight.abs() * size(velocity) * size(&momentum);
+                }
             }
         }
         for anchor in self.components.masses..self.kept_places {

@@ -50,6 +50,8 @@ pub(super) struct Progress {
     pub(super) values: f64,
     /// The part of the defect that earlier steps have left, where the rest alone is rounding; zero otherwise, J.
     pub(super) debt: f64,
+    /// The terms of the torque of loads over the step, kg m²/s, which count where the momenta vanish.
+    pub(super) moment: f64,
     /// Whether the defect is explained only with terms that do not vanish with the energy, or only without the debt.
     pub(super) is_forgiven: bool,
     /// Whether the energy is within tolerance.
@@ -159,6 +161,7 @@ impl Progress {
             factor: 1.0,
             granularity: 0.0,
             values: 0.0,
+            moment: 0.0,
             debt: 0.0,
             is_forgiven: false,
             is_closed: false,

@@ -193,7 +193,7 @@ impl<const D: usize> Explicit<D> {
     /// The largest defect of the angular momentum that is corrected by momenta alone.
     fn own_rounding(&self, index: usize) -> f64 {
         let [_, terms] = self.scratch.motions[index].terms;
-        OWN_ROUNDINGS * f64::EPSILON * terms
+        OWN_ROUNDINGS * f64::EPSILON * (terms + self.scratch.progress[index].moment)
     }
 
     fn angular_target(&self, index: usize) -> Bivector<f64, D> {
