@@ -114,8 +114,8 @@ impl<const D: usize> Explicit<D> {
         let bound = own + rounding * (self.scratch.progress[index].moment / dimension);
         expect(Law::AngularMomentum, [angular.largest(), bound], time)?;
         if angular.largest() > own {
-            // The rounding of these torques is not that of later ones, and no momenta may reach it: those of masses on a line have
-            // none along it.
+            // Rounding of the torques of this step: it is no defect of later steps, and momenta may be unable to correct it, as those of
+            // masses on a line, which have no angular momentum along the line.
             for plane in planes::<D>() {
                 let left = angular.at(plane);
                 self.books.targets[index].angular.at_mut(plane).add(-left);

@@ -50,7 +50,7 @@ pub(super) struct Progress {
     pub(super) values: f64,
     /// The part of the defect that earlier steps have left, where the rest alone is rounding; zero otherwise, J.
     pub(super) debt: f64,
-    /// The terms of the torque of loads over the step, kg m²/s, which count where the momenta vanish.
+    /// The terms of the torque of loads, times the step, kg m²/s. Their rounding counts where that of the momenta is smaller.
     pub(super) moment: f64,
     /// Whether the defect is explained only with terms that do not vanish with the energy, or only without the debt.
     pub(super) is_forgiven: bool,

@@ -46,7 +46,7 @@ use super::super::vector::{difference, dot, size};
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
 use crate::element::group::{ComponentEnergy, points};
-use crate::element::state::State;
+use crate::element::state::{Energy, State};
 use core::mem::swap;
 use eem_material::number::scalar::Scalar;
 
@@ -105,17 +105,26 @@ impl<const D: usize> Explicit<D> {
         self.swap_start(index);
         self.look_at_motion(index);
         self.swap_start(index);
-        let inner = &mut self.scratch.energies[index];
-        *inner = ComponentEnergy::none();
-        let elements = self.components.of_element.iter().zip(&start.energies);
-        for (_, energy) in elements.filter(|&(&own, _)| own as usize == index) {
-            inner.add(energy);
-        }
+        let mut inner = ComponentEnergy::none();
+        self.energies_in(start, index)
+            .for_each(|energy| inner.add(energy));
+        self.scratch.energies[index] = inner;
         swap(&mut self.books, &mut self.old_books);
         let [debt, _] = self.defect_of(index);
         swap(&mut self.books, &mut self.old_books);
         (self.scratch.motions[index], self.scratch.energies[index]) = (motion, energy);
         debt
+    }
+
+    /// The energies of the elements of a component in a state.
+    fn energies_in<'a>(
+        &'a self,
+        state: &'a State,
+        index: usize,
+    ) -> impl Iterator<Item = &'a Energy> {
+        let elements = self.components.of_element.iter().zip(&state.energies);
+        let own = elements.filter(move |&(&component, _)| component as usize == index);
+        own.map(|(_, energy)| energy)
     }
 
     /// What rounding explains of the energy of a component of this magnitude, J.
@@ -152,8 +161,7 @@ impl<const D: usize> Explicit<D> {
         if let Some(loads) = self.load_sums.get(index) {
             sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
         }
-        let elements = self.components.of_element.iter().zip(&view.state.energies);
-        for (_, energy) in elements.filter(|&(&own, _)| own as usize == index) {
+        for energy in self.energies_in(view.state, index) {
             sum += energy.excess;
         }
         let nodes = self.components.nodes.iter().zip(&self.components.of_place);

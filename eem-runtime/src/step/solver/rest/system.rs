@@ -157,6 +157,14 @@ impl<const D: usize> AtRest<'_, D> {
         }
     }
 
+    /// Solves the system with friction. Returns whether it is definite, which is not asked of one that is not symmetric.
+    fn solve(&mut self, friction: f64) -> Result<bool, StepFailure> {
+        self.shift(friction);
+        let is_symmetric = self.solver.rockets.are_none();
+        let is_definite = self.solver.tangent.solve_and_judge();
+        Ok(is_definite.map_err(|_| StepFailure::SingularTangent)? || !is_symmetric)
+    }
+
     /// An update with friction, or by Newton's method without. It is applied as far as elements are admissible and,
     /// without friction, forces along it do not turn round. After an error nothing is applied; if the tangent is
     /// singular, the system has to be built again.
@@ -166,10 +174,7 @@ impl<const D: usize> AtRest<'_, D> {
             forces: self.forces(),
             sizes: self.sizes.clone(),
         };
-        self.shift(friction);
-        let is_symmetric = self.solver.rockets.are_none();
-        let is_definite = self.solver.tangent.solve_and_judge();
-        let is_definite = is_definite.map_err(|_| StepFailure::SingularTangent)? || !is_symmetric;
+        let is_definite = self.solve(friction)?;
         let size = self.solver.correct(self.groups, self.view);
         let change = self.solution();
         if !size.is_finite() {
@@ -233,13 +238,7 @@ impl<const D: usize> AtRest<'_, D> {
             }
             self.set_right(&right);
             self.sizes.clone_from(&begin.sizes);
-            self.shift(friction);
-            let is_symmetric = self.solver.rockets.are_none();
-            let is_solved = match self.solver.tangent.solve_and_judge() {
-                Ok(is_definite) => is_definite || !is_symmetric,
-                Err(_) => false,
-            };
-            if !is_solved
+            if self.solve(friction) != Ok(true)
                 || !self.solver.correct(self.groups, self.view).is_finite()
                 || self.turn(&begin.place) > LARGEST_TURN
                 || self.assemble().is_err()
