@@ -3,6 +3,7 @@
 
 use std::ops::ControlFlow;
 
+use eem::materials::Hooke;
 use eem::prelude::*;
 use eem::{Equilibrium, Tolerance};
 use eem_testkit::length::{at_length, is_long};
@@ -37,6 +38,16 @@ struct Maxwell {
 struct KelvinVoigt {
     k: f64,
     c: f64,
+    eta: f64,
+}
+
+/// ψ = ½ k (λ − l)², η beside it, constant.
+#[derive(Clone, FreeEnergy)]
+#[free_energy(|lambda: Stretch| 0.5 * k * (lambda - l).powi(2))]
+#[viscosity(lambda = eta)]
+struct Braked {
+    k: f64,
+    l: f64,
     eta: f64,
 }
 
@@ -385,6 +396,113 @@ fn a_free_mass_at_the_origin_begins_to_move() {
             "{scheme}: {x}"
         );
         assert_eq!(y.to_bits(), 0.0_f64.to_bits());
+    }
+}
+
+/// Masses that dashpots bring to rest, and that a flight would take to the mirror image: through its anchor, through the line of two
+/// anchors, and through the plane of three.
+#[test]
+fn masses_at_rest_do_not_fly_to_their_mirror_images() {
+    fn check<const D: usize>(
+        (anchors, place): (&[[f64; D]], [f64; D]),
+        length: f64,
+        runs: &[(Scheme, f64, f64)],
+    ) {
+        for &(scheme, relative, end) in runs {
+            let mut scene = Scene::<D>::new();
+            let mass = scene.mass(1.0, place, [0.0; D]);
+            for &anchor in anchors {
+                let ends = [scene.anchor(anchor), mass];
+                let (k, l, eta) = (100.0, length, 5.0);
+                scene.spring(Braked { k, l, eta }, ends);
+            }
+            let tolerance = Tolerance::new(relative);
+            let mut run = Simulation::with_tolerance(scene, scheme, tolerance).unwrap();
+            let ran = run.run_until_with(end, |run, report| {
+                let height = run.position(mass).unwrap()[D - 1];
+                let (time, step) = (report.time, report.step);
+                assert!(height > 0.0, "{D}, {scheme}, {time} s, {step} s: {height}");
+                ControlFlow::Continue(())
+            });
+            ran.unwrap();
+        }
+    }
+    check(
+        (&[[0.0]], [1.2]),
+        1.0,
+        &[
+            (Scheme::Auto, 1e-2, 1e7),
+            (Scheme::EemEntropy4, 0.1, 2e7),
+            (Scheme::EemEntropy6, 1e-2, 2e7),
+        ],
+    );
+    check(
+        (&[[-1.0, 0.0], [1.0, 0.0]], [0.05, 0.3]),
+        1.1,
+        &[
+            (Scheme::EemTemperature, 0.1, 2e8),
+            (Scheme::EemEntropy4, 1e-2, 4e5),
+            (Scheme::EemEntropy6, 0.1, 4e5),
+        ],
+    );
+    let corners = [[1.0, 0.0, 0.0], [-0.5, 0.86, 0.0], [-0.5, -0.86, 0.0]];
+    check(
+        (&corners, [0.1, 0.05, 0.9]),
+        1.4,
+        &[
+            (Scheme::EemDamped, 1e-2, 5e7),
+            (Scheme::EemEntropy4, 1e-4, 1e9),
+            (Scheme::EemEntropy6, 1e-2, 5e7),
+        ],
+    );
+}
+
+/// A mass that stands on a spring does not fall through its foot to hang below.
+#[test]
+fn a_standing_mass_does_not_fall_through_its_anchor() {
+    for (scheme, relative, end) in [
+        (Scheme::Auto, 0.1, 5e7),
+        (Scheme::Auto, 1e-2, 5e6),
+        (Scheme::EemEntropy4, 0.1, 2e5),
+    ] {
+        let mut scene = Scene::<1>::new();
+        let ends = [scene.anchor([0.0]), scene.mass(1.0, [0.9], [0.0])];
+        let (k, l, eta) = (100.0, 1.0, 5.0);
+        scene.spring(Braked { k, l, eta }, ends);
+        scene.set_gravity([-5.0]);
+        let tolerance = Tolerance::new(relative);
+        let mut run = Simulation::with_tolerance(scene, scheme, tolerance).unwrap();
+        run.run_until(end).unwrap();
+        let place = run.position(ends[1]).unwrap()[0];
+        assert!((place - 0.95).abs() < 0.1, "{scheme}: {place}");
+    }
+}
+
+/// Step control takes a motion through an anchor where it follows the vibration: a spring without a length.
+#[test]
+fn a_mass_may_fly_through_its_anchor() {
+    for scheme in [
+        Scheme::EemTemperature,
+        Scheme::EemEntropy4,
+        Scheme::EemEntropy6,
+    ] {
+        let mut scene = Scene::<1>::new();
+        let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [0.0])];
+        scene.spring(
+            Hooke {
+                stiffness: 1.0,
+                natural_length: 0.0,
+            },
+            ends,
+        );
+        let tolerance = Tolerance::new(1e-4);
+        let mut run = Simulation::with_tolerance(scene, scheme, tolerance).unwrap();
+        run.run_until(20.0).unwrap();
+        let place = run.position(ends[1]).unwrap()[0];
+        assert!(
+            (place - f64::cos(20.0)).abs() < 20.0 * 1e-4,
+            "{scheme}: {place}"
+        );
     }
 }
 

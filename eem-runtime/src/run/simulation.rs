@@ -6,6 +6,7 @@ mod compiled;
 pub(crate) mod run;
 
 pub(crate) mod event;
+mod flight;
 
 mod inspect;
 

@@ -54,6 +54,10 @@ impl<const D: usize> Simulation<D> {
         let accurate = (accuracy, size);
         let least = (memory.largest_momentum, &self.least);
         let scales = Scales::new::<D>(&memory.tolerance, accurate, ends, least);
+        if self.flies(size, &scales, accuracy.order()) {
+            self.return_to(halves);
+            return Ok(Tried::Rejected(f64::INFINITY));
+        }
         let states = [&halves.whole, &*self.state];
         report.error = scales.error::<D>(states, &halves.kinds, None);
         if accuracy.holds_back(report.error) {

@@ -275,6 +275,16 @@ impl<'a> Scales<'a> {
         })
     }
 
+    /// The state before the step.
+    pub(crate) const fn before(&self) -> &'a State {
+        self.states[0]
+    }
+
+    /// What the tolerance of this step allows a position, m.
+    pub(crate) const fn position(&self) -> f64 {
+        self.position
+    }
+
     /// What the tolerance of the state, not of this step, allows a position, m.
     pub(crate) fn height(&self) -> f64 {
         self.position * (self.step.relative / self.own)
