@@ -267,6 +267,11 @@ impl<const N: usize> Look<N> {
         self.last = *value;
     }
 
+    /// The sums of the magnitudes of changes from sample to sample.
+    pub(crate) fn variation(&self) -> [f64; N] {
+        self.variation
+    }
+
     /// Whether P₈ misses more than a fraction of what P₄ misses.
     fn is_rough([fine, coarse]: [f64; 2]) -> bool {
         SMOOTH * coarse < fine

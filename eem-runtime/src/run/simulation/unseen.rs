@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use super::memory::Control;
+use crate::element::conjugates::end_weight;
 use crate::scene::loads::{OfTime, ScalarOfTime};
 use crate::step::control::{Controller, Scales, Tolerance};
 use crate::step::error::{StepError, StepFailure};
@@ -154,11 +155,11 @@ impl<const D: usize> Simulation<D> {
                 if look.misses_height(height) {
                     return Ok(true);
                 }
-                if let TimedLoad::Temperature(_) = load {
+                let TimedLoad::Oven(index) = *load else {
                     return Ok(false);
-                }
+                };
                 // Every scheme takes the temperature of an oven from the middle of a step, whatever its order. An element that
-                // exchanges heat with it differs by no more than the mean does.
+                // exchanges heat with it differs by no more than the mean does, and by what it lags behind.
                 let order = control.accuracy.order_of_halves();
                 let rule = LoadRule::middle(order);
                 let means = grid.means(rule, of)?;
@@ -167,7 +168,9 @@ impl<const D: usize> Simulation<D> {
                     ..rule
                 };
                 let [_, size] = grid.span();
-                Ok(look.differs(means, rule, [size * height, 0.0]))
+                let (part, [change]) = (if order.is_some() { 0.5 } else { 1.0 }, look.variation());
+                let lag = lag(part * size * self.least.exchange(index), part * change);
+                Ok(height < lag || look.differs(means, rule, [size * height, 0.0]))
             }
         }
     }
@@ -227,6 +230,18 @@ impl<const D: usize> Simulation<D> {
             _ => end,
         }
     }
+}
+
+/// How far the temperatures at the ends of steps lag behind by the temperature of an oven in their middle, given `x = κh/c` and by how
+/// much that changes in a step. For one that rises linearly by δ a step of `c θ̇ = κ (T − θ)` is off by
+///
+/// ```text
+/// ∫ κ/c exp(−κ(h − t)/c) (t/h − ½) δ dt = (½ (1 + e⁻ˣ) − (1 − e⁻ˣ)/x) δ
+/// ```
+///
+/// of which e⁻ˣ is left after the next one, so that it adds up to `(1/(1 − e⁻ˣ) − 1/x − ½) δ`: to `x δ/12` where x is small.
+fn lag(x: f64, change: f64) -> f64 {
+    end_weight(x) * change
 }
 
 /// Whether samples or the rule of a step miss more of the integral of a function of time than allowed.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::element::conduction::Conduction;
+use crate::element::conduction::{Conduction, Partner};
 use crate::element::group::{Elements, points};
 use crate::element::masses::Masses;
 use crate::element::state::State;
@@ -48,6 +48,8 @@ pub(crate) struct LeastScales {
     links: Box<[Link]>,
     /// The ends of springs with dashpots in series.
     viscous: Box<[[u32; 2]]>,
+    /// The largest κ/c of the elements at each reservoir, 1/s.
+    exchanges: Box<[f64]>,
 }
 
 /// What pulls a mass when an anchor moves.
@@ -91,6 +93,7 @@ impl LeastScales {
         let mut rate = 0.0;
         let mut links = BTreeMap::new();
         let mut viscous = Vec::new();
+        let mut exchanges = vec![0.0; conduction.reservoirs.len()];
         for group in groups {
             group.stiffness(
                 state,
@@ -100,8 +103,14 @@ impl LeastScales {
                         viscous.push([point.nodes[0], point.nodes[1]]);
                     }
                     if let Some((slot, capacity)) = point.capacity {
-                        let links = conduction.links(slot).iter();
-                        let flow = links.fold(0.0, |sum, link| sum + link.conductance);
+                        let mut flow = 0.0;
+                        for link in conduction.links(slot) {
+                            flow += link.conductance;
+                            if let Partner::Reservoir(index) = link.partner {
+                                let own = link.conductance / capacity;
+                                exchanges[index] = Scalar::maximum(exchanges[index], own);
+                            }
+                        }
                         rate = Scalar::maximum(rate, flow / capacity);
                     }
                     for &node in point.nodes {
@@ -169,6 +178,7 @@ impl LeastScales {
             rate,
             links: links.collect(),
             viscous: viscous.into(),
+            exchanges: exchanges.into(),
             most: AtNode {
                 period: f64::MAX,
                 bound: largest(&|node| node.bound),
@@ -254,6 +264,11 @@ impl LeastScales {
             let [a, b] = ends.map(|end| points[end as usize]);
             (0..D).map(move |axis| b[axis] - a[axis])
         }))
+    }
+
+    /// The largest κ/c of the elements at a reservoir, 1/s.
+    pub(crate) fn exchange(&self, reservoir: usize) -> f64 {
+        self.exchanges[reservoir]
     }
 
     /// The masses that a moved anchor pulls, with the stiffness between them, N/m.
