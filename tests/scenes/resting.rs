@@ -205,6 +205,59 @@ fn an_arch_snaps_through_beyond_its_limit() {
     }
 }
 
+/// A hanging chain whose upper spring is far too soft for its weight, so that heavy masses would fall onto light ones below them.
+fn hang<const D: usize>(springs: &[[f64; 4]]) {
+    let mut scene = Scene::<D>::new();
+    let at = |height: f64| -> [f64; D] {
+        std::array::from_fn(|axis| if axis == D - 1 { height } else { 0.0 })
+    };
+    let mut nodes = vec![scene.anchor(at(0.0))];
+    for &[stiffness, natural_length, mass, height] in springs {
+        let mass = scene.mass(mass, at(height), at(0.0));
+        let spring = Hooke {
+            stiffness,
+            natural_length,
+        };
+        scene.spring(spring, [nodes[nodes.len() - 1], mass]);
+        nodes.push(mass);
+    }
+    scene.set_gravity(at(-9.81));
+    let found = scene.equilibrium(Equilibrium::new());
+    found.unwrap_or_else(|error| panic!("{D}, {springs:?}: {error}"));
+    let run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+    let mut exact = 0.0;
+    for (above, &[stiffness, natural_length, ..]) in springs.iter().enumerate() {
+        let weight: f64 = springs[above..].iter().map(|spring| 9.81 * spring[2]).sum();
+        exact -= natural_length + weight / stiffness;
+        let found = run.position(nodes[above + 1]).unwrap()[D - 1];
+        assert!((found / exact - 1.0).abs() < 1e-12, "{D}: {found} {exact}");
+    }
+}
+
+#[test]
+fn heavy_masses_do_not_fall_onto_light_ones() {
+    // N/m, m, kg, m
+    let chains: [&[[f64; 4]]; 3] = [
+        &[[45.814, 1.0, 18.542, -0.687], [1.003, 1.0, 0.04728, -1.678]],
+        &[
+            [9.96, 1.1, 13.95, -1.09],
+            [1.32, 0.67, 0.1, -1.58],
+            [97.9, 0.8, 1.79, -2.13],
+        ],
+        &[
+            [1.38, 0.86, 0.028, -0.55],
+            [6.54, 1.18, 11.1, -1.84],
+            [7.34, 0.96, 0.48, -2.66],
+            [7.35, 0.99, 0.38, -3.72],
+        ],
+    ];
+    for chain in chains {
+        hang::<1>(chain);
+        hang::<2>(chain);
+        hang::<3>(chain);
+    }
+}
+
 #[test]
 fn a_relaxed_solid_stays_where_it_is() {
     let mesh = Mesh::<Quad4, 2>::block([2, 2], [[0.0, 1.0]; 2]).unwrap();

@@ -202,7 +202,8 @@ impl<const D: usize> Scene<D> {
     /// there are released in [load steps](Equilibrium::load_steps), and solutions are followed as long as they are stable,
     /// that is, as long as the tangent stiffness is positive definite beyond rounding. Where it is not, as in a slack chain
     /// at first, or where a frame snaps through, the scene moves on under all its loads against friction until it is at
-    /// rest, without inertia. So the state that is returned is always stable.
+    /// rest, without inertia: against friction in proportion to the stiffness, and if that finds no stable state, from the start in
+    /// proportion to the masses. So the state that is returned is always stable.
     /// With [rockets](Self::rocket) the tangent is not symmetric, and its symmetric part decides.
     ///
     /// # Errors

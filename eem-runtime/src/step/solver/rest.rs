@@ -16,6 +16,10 @@
 //! spring is turned, it is stretched by the square of the angle. Further iterations take the stretch back, so that steps are limited by
 //! the angle and not by the stiffness.
 //!
+//! Against this friction heavy masses fall on light ones below them, and springs whose length vanishes have a D without bounds, so that all
+//! stands still. Where no stable state is found, the motion is made once more with a D in proportion to the masses, against which all
+//! weights begin to fall alike.
+//!
 //! A state at rest is the end of one implicit Euler step of a huge size h. Then neither inertia nor viscosity is left in
 //! the rows `2 m/h Δq + h F` of a step, which are h times forces, and `Δγ = h g/η` becomes `g = 0`. In the code, R, K and
 //! D are h times those above.
@@ -61,8 +65,9 @@ pub(crate) struct AtRest<'a, const D: usize> {
     /// R(q⁰), N.
     first: Vec<f64>,
     share: f64,
-    /// D per moving node, N/m.
+    /// D per moving node, N/m, and whether it is in proportion to the masses.
     sizes: Vec<f64>,
+    is_by_mass: bool,
     pub(crate) effort: RestEffort,
 }
 
@@ -104,6 +109,7 @@ impl<'a, const D: usize> AtRest<'a, D> {
             first: Vec::new(),
             share: 0.0,
             sizes: Vec::new(),
+            is_by_mass: false,
             effort: RestEffort::default(),
         };
         rest.start(None)?;
@@ -137,6 +143,9 @@ impl<'a, const D: usize> AtRest<'a, D> {
         }
         if done < whole {
             found = self.relax();
+            if found.is_err() || !self.is_stable() {
+                found = self.relax_by_mass(found);
+            }
         }
         (share(done), found)
     }
@@ -179,6 +188,20 @@ impl<'a, const D: usize> AtRest<'a, D> {
         }
         let update = before.unwrap_or(f64::NAN);
         Err(StepFailure::NotConverged { update })
+    }
+
+    /// Moves from the initial state against friction by mass; if that finds no stable state either, goes back to what was found.
+    #[cold]
+    fn relax_by_mass(&mut self, found: Result<(), StepFailure>) -> Result<(), StepFailure> {
+        let place = self.place();
+        self.is_by_mass = true;
+        let again = self.start(None).and_then(|()| self.relax());
+        self.is_by_mass = false;
+        if again.is_ok() && self.is_stable() {
+            return again;
+        }
+        self.start(Some(&place))?;
+        found
     }
 
     /// Moves against friction under all loads until they are balanced.

@@ -93,7 +93,23 @@ impl<const D: usize> AtRest<'_, D> {
         for size in self.sizes.iter_mut().filter(|size| **size <= least) {
             *size = unit;
         }
+        if self.is_by_mass {
+            self.weigh();
+        }
         Ok(())
+    }
+
+    /// Makes D proportional to the masses, and nowhere smaller.
+    fn weigh(&mut self) {
+        let nodes = self.solver.nodes.iter().map(|node| node.place.node());
+        let masses: Vec<f64> = nodes
+            .filter_map(|node| self.view.masses.get(node))
+            .collect();
+        let sizes = self.sizes.iter().zip(&masses);
+        let most = sizes.fold(0.0, |most, (size, mass)| Scalar::maximum(most, size / mass));
+        for (size, mass) in self.sizes.iter_mut().zip(masses) {
+            *size = most * mass;
+        }
     }
 
     /// Adds a shift, in units of D, to K.
