@@ -13,21 +13,21 @@ mod temperature;
 
 use crate::element::tableau::Tableau;
 
-pub(crate) use element::{ElementScheme, Form, Infeasible, Placement, Start};
-pub(crate) use exact::{Exact, ExactForm};
+pub(crate) use element::{
+    Classical, Damped, Exact, Family, Form, Infeasible, KeptOf, OneSet, Placement, Start,
+};
+#[cfg(feature = "gradients")]
+pub(crate) use exact::exchanged;
+pub(crate) use exact::{ExactForm, check_stable, prepare_rows, rows};
 pub(crate) use fitting::{end_weight, end_weight_over};
 pub(crate) use point::PointRule;
 pub(crate) use temperature::{recovered_at, temperature_at};
 
-/// The families of conjugates.
+/// How the conjugates of a scheme are found.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Conjugates {
-    /// Discrete derivatives.
-    Exact(ExactForm),
-    /// Those in temperature form, damped towards the end of the step.
-    Damped,
-    /// Values at one point of the step.
-    Point(PointRule),
+    /// One set of forces in a step.
+    One(OneSet),
     /// Values at the stages of a rule.
     Stages(&'static Tableau),
 }

@@ -9,7 +9,7 @@ use core::any::Any;
 use std::collections::BTreeSet;
 
 use crate::element::conduction::Conduction;
-use crate::element::conjugates::{Conjugates, PointRule};
+use crate::element::conjugates::{Conjugates, OneSet, PointRule};
 use crate::element::group::{Group, Placed, StepView};
 use crate::element::handle::Node;
 use crate::element::layout::Layout;
@@ -292,7 +292,7 @@ impl<const D: usize> Scene<D> {
         let nodes = &ends;
         let groups = self.groups.iter().map(|group| {
             let placed = Placed { nodes, layout };
-            let by = Conjugates::Point(PointRule::Rest);
+            let by = Conjugates::One(OneSet::Point(PointRule::Rest));
             group.duplicate().build(by, placed)
         });
         let mut groups: Vec<Box<dyn Group<D>>> = groups.collect();

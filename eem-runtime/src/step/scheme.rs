@@ -2,7 +2,7 @@
 
 use core::{fmt, str::FromStr};
 
-use crate::element::conjugates::{Conjugates, ExactForm, PointRule};
+use crate::element::conjugates::{Conjugates, ExactForm, OneSet, PointRule};
 use crate::element::tableau::{Tableau, UnknownSet};
 use crate::step::control::{Accuracy, Estimate};
 use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
@@ -197,15 +197,16 @@ impl Rule {
 
 impl Scheme {
     const fn rule(self) -> Rule {
-        use Conjugates::{Damped, Exact, Point, Stages};
+        use Conjugates::{One, Stages};
         use ExactForm::{Entropy, Temperature};
+        use OneSet::{Damped, Exact, Point};
         use PointRule::{Midpoint, MidpointTemperature, Trapezoidal, TrapezoidalTemperature};
         match self {
-            Self::EemEntropy => Rule::exact("eem-entropy", Exact(Entropy)),
-            Self::EemTemperature => Rule::exact("eem-temperature", Exact(Temperature)),
-            Self::EemDamped => Rule::exact("eem-damped", Damped),
+            Self::EemEntropy => Rule::exact("eem-entropy", One(Exact(Entropy))),
+            Self::EemTemperature => Rule::exact("eem-temperature", One(Exact(Temperature))),
+            Self::EemDamped => Rule::exact("eem-damped", One(Damped)),
             // Explicit elements are built without conjugates.
-            Self::EemExplicit => Rule::exact("eem-explicit", Point(PointRule::Variational))
+            Self::EemExplicit => Rule::exact("eem-explicit", One(Point(PointRule::Variational)))
                 .of_order(8)
                 .closed(Closing::Explicit),
             // The data of the scheme with which it starts.
@@ -213,20 +214,23 @@ impl Scheme {
                 name: "auto",
                 ..Self::EemExplicit.rule()
             },
-            Self::Staggered => Rule::exact("staggered", Exact(Entropy)).of_order(1),
-            Self::Variational => Rule::variational("variational", Point(PointRule::Variational)),
+            Self::Staggered => Rule::exact("staggered", One(Exact(Entropy))).of_order(1),
+            Self::Variational => {
+                Rule::variational("variational", One(Point(PointRule::Variational)))
+            }
             Self::Variational4 => {
                 Rule::variational("variational-4", Stages(&variational_4::TABLEAU))
                     .through_stages(4)
             }
-            Self::Midpoint => Rule::classical("midpoint", Point(Midpoint)),
+            Self::Midpoint => Rule::classical("midpoint", One(Point(Midpoint))),
             Self::MidpointTemperature => {
-                Rule::classical("midpoint-temperature", Point(MidpointTemperature))
+                Rule::classical("midpoint-temperature", One(Point(MidpointTemperature)))
             }
-            Self::Trapezoidal => Rule::classical("trapezoidal", Point(Trapezoidal)),
-            Self::TrapezoidalTemperature => {
-                Rule::classical("trapezoidal-temperature", Point(TrapezoidalTemperature))
-            }
+            Self::Trapezoidal => Rule::classical("trapezoidal", One(Point(Trapezoidal))),
+            Self::TrapezoidalTemperature => Rule::classical(
+                "trapezoidal-temperature",
+                One(Point(TrapezoidalTemperature)),
+            ),
             Self::Gauss4 => Rule::classical("gauss-4", Stages(&gauss_4::TABLEAU)).through_stages(4),
             Self::EemEntropy4 => {
                 Rule::exact("eem-entropy-4", Stages(&eem_entropy_4::TABLEAU)).through_stages(4)
@@ -313,20 +317,23 @@ impl Scheme {
     }
 
     /// Whether the nodal forces have a part that depends on the old state only; see
-    /// [`implicit`](crate::element::conjugates::ElementScheme::implicit).
+    /// [`implicit`](crate::element::conjugates::OneSet::implicit).
     pub(crate) const fn has_old_forces(self) -> bool {
-        matches!(self.conjugates(), Conjugates::Point(rule) if rule.has_old_share())
+        matches!(self.conjugates(), Conjugates::One(OneSet::Point(rule)) if rule.has_old_share())
     }
 
     /// Whether it damps conduction and dashpots that relax within a step.
     pub(crate) const fn is_damped(self) -> bool {
-        matches!(self.conjugates(), Conjugates::Damped)
+        matches!(self.conjugates(), Conjugates::One(OneSet::Damped))
     }
 
     /// Whether its elements have a
-    /// [starting form](crate::element::conjugates::ElementScheme::starting_form).
+    /// [starting form](crate::element::conjugates::Start::starting_form).
     pub(crate) const fn has_starting_form(self) -> bool {
-        matches!(self.conjugates(), Conjugates::Exact(ExactForm::Entropy))
+        matches!(
+            self.conjugates(),
+            Conjugates::One(OneSet::Exact(ExactForm::Entropy))
+        )
     }
 
     /// Whether mechanics and heat are stepped one after the other.
@@ -338,7 +345,7 @@ impl Scheme {
     pub(crate) const fn tableau(self) -> Option<&'static Tableau> {
         match self.conjugates() {
             Conjugates::Stages(rule) => Some(rule),
-            _ => None,
+            Conjugates::One(_) => None,
         }
     }
 

@@ -1,9 +1,12 @@
-//! The interface of schemes to elements.
+//! The schemes with one set of forces in a step, as elements see them.
 
+use crate::element::conjugates::corners::find_corners;
+use crate::element::conjugates::exact::ExactForm;
+use crate::element::conjugates::point::PointRule;
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 pub(crate) use eem_material::free_energy::Form;
-use eem_material::free_energy::{Array, Entry, FormRows, FreeEnergy};
+use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::inversion::InversionError;
 use eem_material::number::scalar::is_positive;
 
@@ -21,197 +24,268 @@ pub(crate) enum Placement {
     Start,
 }
 
-/// The response of an element in a step.
-///
-/// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 that depends on the scheme: the new one for
-/// schemes that evaluate the ends of the step, the mean one for those that evaluate its middle. Newton's method
-/// corrects τ, or the entropy change Δs if [`temperature`](Self::temperature) finds τ from it.
-pub(crate) trait ElementScheme<M: FreeEnergy<f64>>: Copy + Send + Sync + 'static {
-    /// Whether `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, so that every step has to keep the laws.
-    const EXACT: bool = false;
+/// A scheme with one set of forces in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum OneSet {
+    /// Discrete derivatives.
+    Exact(ExactForm),
+    /// Those in temperature form, damped towards the end of the step.
+    Damped,
+    /// Values at one point of the step.
+    Point(PointRule),
+}
 
-    /// Whether Newton's method works on `θ* r_s` instead of `r_s`, which converges for stiff
-    /// conduction too. The classical schemes use `r_s` as usual.
-    const SCALES_HEAT: bool = true;
-
-    /// What the scheme keeps of the old state.
-    type Old: Copy + Send + Sync;
-
-    /// What it keeps from one iteration to the next, as starting values.
-    type Memory: Copy + Send + Sync;
-
-    /// `[T; 1]` for a rule that evaluates the model at one point of the step, `[T; 0]` for others.
-    type AtPoint<T: Entry>: Array<T>;
-
-    /// `[T; 1]` for a scheme that is damped towards the end of the step, `[T; 0]` for others.
-    type Damping<T: Entry>: Array<T>;
-
+impl OneSet {
     /// Where the measures are taken.
-    fn placement(self) -> Placement;
+    pub(crate) fn placement(self) -> Placement {
+        match self {
+            Self::Exact(_) | Self::Damped => Placement::Ends,
+            Self::Point(rule) => rule.placement(),
+        }
+    }
+
+    /// Whether its step keeps the laws exactly.
+    pub(crate) fn is_exact(self) -> bool {
+        !matches!(self, Self::Point(_))
+    }
 
     /// The fraction w of forces and rates that is taken from the response; the rest is that of the old state.
-    #[inline]
-    fn implicit(self) -> f64 {
-        1.0
+    pub(crate) fn implicit(self) -> f64 {
+        match self {
+            Self::Exact(_) | Self::Damped => 1.0,
+            Self::Point(rule) => rule.implicit(),
+        }
     }
 
     /// Whether the temperature is the state that the scheme integrates, and not the entropy.
+    pub(crate) fn is_in_temperature(self) -> bool {
+        match self {
+            Self::Exact(_) | Self::Damped => false,
+            Self::Point(rule) => rule.is_in_temperature(),
+        }
+    }
+}
+
+/// What is known of a scheme where code is compiled. The functions of a step are compiled for each family, with only its branches;
+/// which one a group calls is decided once per call.
+///
+/// The variables of an element are `x = (π…, γ…, τ)` with a temperature τ > 0 that depends on the scheme: the new one for
+/// schemes that evaluate the ends of the step, the mean one for those that evaluate its middle. Newton's method
+/// corrects τ, or the entropy change Δs if [`PointRule::temperature`] finds τ from it.
+pub(crate) trait Family: 'static {
+    /// Whether `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, so that every step has to keep the laws. Then Newton's method works on
+    /// `θ* r_s` instead of `r_s`, which converges for stiff conduction too.
+    const EXACT: bool;
+
+    /// Whether it is damped towards the end of the step.
+    const IS_DAMPED: bool = false;
+
+    /// [`OneSet::placement`].
     #[inline]
-    fn is_in_temperature(self) -> bool {
-        false
+    fn placement(scheme: OneSet) -> Placement {
+        if Self::EXACT {
+            Placement::Ends
+        } else {
+            scheme.placement()
+        }
     }
 
-    /// What is kept before the first step.
-    fn nothing(self) -> Self::Old;
+    /// [`OneSet::implicit`].
+    #[inline]
+    fn implicit(scheme: OneSet) -> f64 {
+        if Self::EXACT { 1.0 } else { scheme.implicit() }
+    }
 
-    /// Computes [`Old`](Self::Old) in its place from the old variables and the old entropy, once per step, and whether a
-    /// thermostat prescribes the temperature.
-    fn keep(
-        self,
+    /// [`OneSet::is_in_temperature`].
+    #[inline]
+    fn is_in_temperature(scheme: OneSet) -> bool {
+        !Self::EXACT && scheme.is_in_temperature()
+    }
+}
+
+/// [`OneSet::Exact`].
+pub(crate) enum Exact {}
+
+impl Family for Exact {
+    const EXACT: bool = true;
+}
+
+/// [`OneSet::Damped`].
+pub(crate) enum Damped {}
+
+impl Family for Damped {
+    const EXACT: bool = true;
+    const IS_DAMPED: bool = true;
+}
+
+/// [`OneSet::Point`], the classical schemes.
+pub(crate) enum Classical {}
+
+impl Family for Classical {
+    const EXACT: bool = false;
+}
+
+/// The old state of an element as its scheme sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start<M: FreeEnergy<f64>> {
+    /// x⁰.
+    pub(crate) x0: M::Variables,
+    /// What the scheme keeps of the old state.
+    pub(crate) old: KeptOf<M>,
+}
+
+/// What a scheme keeps of the old state. It tells the form of the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kept<E, T> {
+    Entropy(E),
+    Temperature(T),
+    /// s⁰, J/K, for the classical schemes.
+    State(f64),
+}
+
+/// The same for a model.
+pub(crate) type KeptOf<M> =
+    Kept<<M as FreeEnergy<f64>>::EntropyFormOld, <M as FreeEnergy<f64>>::TemperatureFormOld>;
+
+impl<M: FreeEnergy<f64>> Start<M> {
+    /// Before the first step.
+    pub(crate) fn nothing() -> Self {
+        Self {
+            x0: M::Variables::filled(0.0),
+            old: Kept::State(0.0),
+        }
+    }
+
+    /// Stores what the scheme keeps of the old variables and the old entropy, once per step, and whether a thermostat prescribes
+    /// the temperature.
+    // Each in its own place: one value for all forms would be copied as the largest one.
+    #[inline]
+    pub(crate) fn keep(&mut self, scheme: OneSet, model: &M, entropy: f64, is_prescribed: bool) {
+        match scheme {
+            OneSet::Exact(ExactForm::Entropy) if !is_prescribed => {
+                self.old = Kept::Entropy(model.entropy_form_old(&self.x0));
+            }
+            OneSet::Exact(_) | OneSet::Damped => {
+                self.old = Kept::Temperature(model.temperature_form_old(&self.x0));
+            }
+            OneSet::Point(_) => self.old = Kept::State(entropy),
+        }
+    }
+
+    /// Finds what the form needs besides the variables: temperatures of mixed states, only in entropy form.
+    #[inline]
+    pub(crate) fn prepare(
+        &self,
         model: &M,
-        x0: &M::Variables,
-        entropy: f64,
-        is_prescribed: bool,
-        old: &mut Self::Old,
-    );
-
-    /// [`keep`](Self::keep), [`form`](Self::form) and [`response`](Self::response) of several elements in one call, where the model
-    /// has them. The elements of a call have no thermostats.
-    fn rows(self) -> Option<FormRows<f64, M, Self::Old, Self::Memory>> {
-        None
-    }
-
-    /// The first starting values of a step, from the old temperature.
-    fn memory(theta0: f64) -> Self::Memory;
-
-    /// The temperature τ of the trial, given its other variables and Δs, if the scheme has the entropy as its unknown;
-    /// the present τ otherwise.
-    fn temperature(
-        self,
-        _: &M,
-        _: &Start<M, Self::Old>,
         x: &M::Variables,
-        _entropy_change: f64,
-    ) -> Result<f64, Infeasible> {
-        Ok(x.as_ref()[M::Variables::LEN - 1])
-    }
-
-    /// Finds what the form needs besides the variables.
-    #[inline]
-    fn prepare(
-        _: &M,
-        _: &Start<M, Self::Old>,
-        _: &M::Variables,
-        _: &mut Self::Memory,
+        corners: &mut M::Corners,
     ) -> Result<(), Infeasible> {
-        Ok(())
-    }
-
-    /// [`prepare`](Self::prepare) of several elements, with [rows](Self::rows).
-    #[inline]
-    fn prepare_rows<'a>(
-        _: impl Fn(usize) -> (&'a M, &'a Start<M, Self::Old>, &'a M::Variables),
-        _: &mut [Self::Memory],
-    ) -> Result<(), Infeasible>
-    where
-        M: 'a,
-    {
-        Ok(())
+        match &self.old {
+            Kept::Entropy(old) if M::THERMAL => find_corners((model, [&self.x0, x], old), corners),
+            _ => Ok(()),
+        }
     }
 
     /// The response `(f*…, g*…, θ*, Δs)` and its tangent.
-    fn form(
-        self,
-        model: &M,
-        start: &Start<M, Self::Old>,
-        x: &M::Variables,
-        memory: &Self::Memory,
-    ) -> Form<f64, M>;
-
-    /// A fallback form that is easier to solve and gives an initial guess for this one, if there is one.
-    #[cold]
-    fn starting_form(_: &M, _: &Start<M, Self::Old>, _: &M::Variables) -> Option<Form<f64, M>> {
-        None
-    }
-
-    /// Rejects an unstable trial of an exact scheme, by `∂Δs/∂θ¹ = C/θ¹` in its form.
     #[inline]
-    fn check(x: &M::Variables, form: &Form<f64, M>) -> Result<(), Infeasible> {
-        if !Self::EXACT || !M::THERMAL {
-            return Ok(());
+    pub(crate) fn form<C: Family>(
+        &self,
+        scheme: OneSet,
+        model: &M,
+        x: &M::Variables,
+        corners: &M::Corners,
+    ) -> Form<f64, M> {
+        if !C::EXACT {
+            return scheme.point_rule().respond(model, self, x);
         }
-        let last = M::Variables::LEN - 1;
-        Infeasible::unless_stable(x[last] * form.1[last + 1][last], x[last])
+        match &self.old {
+            Kept::Entropy(old) => model.entropy_form(old, x, corners),
+            Kept::Temperature(old) => model.temperature_form(old, x),
+            Kept::State(_) => not_of_this_family(),
+        }
     }
 
-    /// For a scheme in temperature: replaces the Δs of the form by `Σ_i (∂s/∂x_i) δ_i`, where `δ` are the
-    /// increments of measures, viscous stretches and temperature along the step, less the contributions of the
-    /// old state. Returns `∂s/∂x`.
-    fn change_entropy_at_rates(
-        self,
-        _: &M,
-        _: &Start<M, Self::Old>,
-        _: &M::Variables,
-        _: &M::Variables,
-        _: &mut Form<f64, M>,
-    ) -> M::Variables {
-        M::Variables::filled(0.0)
+    /// A fallback form that is easier to solve and gives an initial guess for the entropy form: the temperature form, which has no
+    /// mixed states. With a small heat capacity their temperatures overflow away from the solution.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn starting_form(&self, model: &M, x: &M::Variables) -> Option<Form<f64, M>> {
+        match self.old {
+            Kept::Entropy(_) => {
+                let old = model.temperature_form_old(&self.x0);
+                Some(model.temperature_form(&old, x))
+            }
+            Kept::Temperature(_) | Kept::State(_) => None,
+        }
     }
 
     /// The response alone, without its tangent, at the end of a step. That the new state is stable is
     /// checked where its temperature is found.
     #[inline]
-    fn response(
-        self,
+    pub(crate) fn response<C: Family>(
+        &self,
+        scheme: OneSet,
         model: &M,
-        start: &Start<M, Self::Old>,
         x: &M::Variables,
-        memory: &Self::Memory,
+        corners: &M::Corners,
     ) -> M::Response {
-        self.form(model, start, x, memory).0
+        if !C::EXACT {
+            return scheme.point_rule().respond(model, self, x).0;
+        }
+        match &self.old {
+            Kept::Entropy(old) => model.entropy_form_response(old, x, corners),
+            Kept::Temperature(old) => model.temperature_form_response(old, x),
+            Kept::State(_) => not_of_this_family(),
+        }
     }
 
-    /// What [`prepare`](Self::prepare) finds for the step back from the new state to the old one.
+    /// The derivative of the weighted response of an exact scheme with respect to the parameters at fixed `x⁰` and `x¹`.
     #[cfg(feature = "gradients")]
-    fn exchanged(memory: &Self::Memory) -> Self::Memory {
-        *memory
-    }
-
-    /// The derivative of the weighted response with respect to the parameters at fixed `x⁰` and `x¹`; NaN unless the form is
-    /// exact.
-    #[cfg(feature = "gradients")]
-    fn form_adjoint(
-        self,
-        _: &M,
-        _: &Start<M, Self::Old>,
-        _: &M::Variables,
-        _: &Self::Memory,
-        _weights: &M::Response,
+    pub(crate) fn form_adjoint(
+        &self,
+        model: &M,
+        x: &M::Variables,
+        corners: &M::Corners,
+        weights: &M::Response,
     ) -> M::Parameters {
-        M::Parameters::filled(f64::NAN)
+        match self.old {
+            Kept::Entropy(_) => model.entropy_form_adjoint(&self.x0, x, corners, weights),
+            Kept::Temperature(_) => model.temperature_form_adjoint(&self.x0, x, weights),
+            Kept::State(_) => not_of_this_family(),
+        }
     }
 
     /// The derivative of the response along a direction of the parameters, likewise.
     #[cfg(feature = "gradients")]
-    fn form_tangent(
-        self,
-        _: &M,
-        _: &Start<M, Self::Old>,
-        _: &M::Variables,
-        _: &Self::Memory,
-        _direction: &M::Parameters,
+    pub(crate) fn form_tangent(
+        &self,
+        model: &M,
+        x: &M::Variables,
+        corners: &M::Corners,
+        direction: &M::Parameters,
     ) -> M::Response {
-        M::Response::filled(f64::NAN)
+        match self.old {
+            Kept::Entropy(_) => model.entropy_form_tangent(&self.x0, x, corners, direction),
+            Kept::Temperature(_) => model.temperature_form_tangent(&self.x0, x, direction),
+            Kept::State(_) => not_of_this_family(),
+        }
     }
 }
 
-/// The old state of an element as its scheme sees it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Start<M: FreeEnergy<f64>, Old> {
-    /// x⁰.
-    pub(crate) x0: M::Variables,
-    /// What the scheme keeps of the old state.
-    pub(crate) old: Old,
+impl OneSet {
+    /// The rule of a classical scheme.
+    pub(crate) fn point_rule(self) -> PointRule {
+        match self {
+            Self::Point(rule) => rule,
+            Self::Exact(_) | Self::Damped => not_of_this_family(),
+        }
+    }
+}
+
+/// Functions of a family are called for its schemes only.
+#[cold]
+pub(super) fn not_of_this_family() -> ! {
+    unreachable!("a function of one family of schemes, called for another")
 }
 
 /// Why an element has no response.

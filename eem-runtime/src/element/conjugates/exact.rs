@@ -21,9 +21,9 @@
 //! their own even where both ends are at T, and θ* of the entropy form is not T then. Here it is, and heat is T times the entropy
 //! given.
 
-use crate::element::conjugates::corners::{find_corners, find_corners_of_each};
-use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
-use eem_material::free_energy::{Array, Each, Entry, FormRows, FreeEnergy, Material, Rows};
+use crate::element::conjugates::corners::find_corners_of_each;
+use crate::element::conjugates::element::{Form, Infeasible, Kept, KeptOf, OneSet, Start};
+use eem_material::free_energy::{Array, Each, FormRows, FreeEnergy, Material, Rows};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,196 +32,72 @@ pub(crate) enum ExactForm {
     Temperature,
 }
 
-/// A scheme with such a form, and with one damping or none.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Exact<const DAMPINGS: usize>(pub(crate) ExactForm);
-
-/// What a form keeps of the old state. It tells the form of the step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Kept<E, T> {
-    Entropy(E),
-    Temperature(T),
-}
-
-type KeptOf<M> =
-    Kept<<M as FreeEnergy<f64>>::EntropyFormOld, <M as FreeEnergy<f64>>::TemperatureFormOld>;
-
 /// The elements that are evaluated in one call.
 const TOGETHER: usize = 32;
 
-impl<M: Material, const DAMPINGS: usize> ElementScheme<M> for Exact<DAMPINGS> {
-    const EXACT: bool = true;
-
-    type Old = KeptOf<M>;
-    /// Temperatures of mixed states, only in entropy form.
-    type Memory = M::Corners;
-    type AtPoint<T: Entry> = [T; 0];
-    type Damping<T: Entry> = [T; DAMPINGS];
-
-    #[inline]
-    fn placement(self) -> Placement {
-        Placement::Ends
+/// [`Start::keep`], [`Start::form`] and [`Start::response`] of several elements in one call, where the model has them. The
+/// elements of a call have no thermostats.
+pub(crate) fn rows<M: Material>(scheme: OneSet) -> Option<FormRows<f64, M, KeptOf<M>, M::Corners>> {
+    M::ROWS?;
+    match scheme {
+        OneSet::Exact(ExactForm::Entropy) => Some(FormRows {
+            old: entropy_old::<M>,
+            form: entropy_form::<M>,
+            response: entropy_response::<M>,
+        }),
+        OneSet::Exact(ExactForm::Temperature) | OneSet::Damped => Some(FormRows {
+            old: temperature_old::<M>,
+            form: temperature_form::<M>,
+            response: temperature_response::<M>,
+        }),
+        OneSet::Point(_) => None,
     }
+}
 
-    #[inline]
-    fn nothing(self) -> Self::Old {
-        match self.0 {
-            ExactForm::Entropy => Kept::Entropy(M::EntropyFormOld::filled(0.0)),
-            ExactForm::Temperature => Kept::Temperature(M::TemperatureFormOld::filled(0.0)),
-        }
+/// [`Start::prepare`] of several elements, with [rows].
+pub(crate) fn prepare_rows<'a, M: Material>(
+    each: impl Fn(usize) -> (&'a M, &'a Start<M>, &'a M::Variables),
+    corners: &mut [M::Corners],
+) -> Result<(), Infeasible> {
+    let is_entropy = |index: usize| matches!(each(index).1.old, Kept::Entropy(_));
+    if !M::THERMAL || corners.is_empty() || !is_entropy(0) {
+        return Ok(());
     }
+    let step = |index: usize| {
+        let (model, start, x) = each(index);
+        (model, [&start.x0, x], entropy_of::<M>(&start.old))
+    };
+    find_corners_of_each(step, corners)
+}
 
-    // Each in its own place: one value for both forms would be copied as the larger one.
-    #[inline]
-    fn keep(self, model: &M, x0: &M::Variables, _: f64, is_prescribed: bool, old: &mut Self::Old) {
-        if self.0 == ExactForm::Entropy && !is_prescribed {
-            *old = Kept::Entropy(model.entropy_form_old(x0));
-        } else {
-            *old = Kept::Temperature(model.temperature_form_old(x0));
-        }
-    }
+/// The temperatures of mixed states for the step back from the new state to the old one: with the states exchanged, the ascending chain
+/// is the descending one.
+#[cfg(feature = "gradients")]
+#[inline]
+pub(crate) fn exchanged<M: FreeEnergy<f64>>(corners: &M::Corners) -> M::Corners {
+    let mut exchanged = *corners;
+    exchanged.as_mut().rotate_left(M::Corners::LEN / 2);
+    exchanged
+}
 
-    #[inline]
-    fn memory(theta0: f64) -> Self::Memory {
-        M::Corners::filled(theta0)
+/// Rejects an unstable trial of an exact scheme, by `∂Δs/∂θ¹ = C/θ¹` in its form.
+#[inline]
+pub(crate) fn check_stable<M: FreeEnergy<f64>>(
+    x: &M::Variables,
+    form: &Form<f64, M>,
+) -> Result<(), Infeasible> {
+    if !M::THERMAL {
+        return Ok(());
     }
-
-    #[inline]
-    fn prepare(
-        model: &M,
-        start: &Start<M, Self::Old>,
-        x: &M::Variables,
-        corners: &mut Self::Memory,
-    ) -> Result<(), Infeasible> {
-        match &start.old {
-            Kept::Entropy(old) if M::THERMAL => find_corners((model, [&start.x0, x], old), corners),
-            _ => Ok(()),
-        }
-    }
-
-    fn prepare_rows<'a>(
-        each: impl Fn(usize) -> (&'a M, &'a Start<M, Self::Old>, &'a M::Variables),
-        memories: &mut [Self::Memory],
-    ) -> Result<(), Infeasible> {
-        let is_entropy = |index: usize| matches!(each(index).1.old, Kept::Entropy(_));
-        if !M::THERMAL || memories.is_empty() || !is_entropy(0) {
-            return Ok(());
-        }
-        let step = |index: usize| {
-            let (model, start, x) = each(index);
-            (model, [&start.x0, x], entropy_of::<M>(&start.old))
-        };
-        find_corners_of_each(step, memories)
-    }
-
-    #[inline]
-    fn form(
-        self,
-        model: &M,
-        start: &Start<M, Self::Old>,
-        x: &M::Variables,
-        corners: &Self::Memory,
-    ) -> Form<f64, M> {
-        match &start.old {
-            Kept::Entropy(old) => model.entropy_form(old, x, corners),
-            Kept::Temperature(old) => model.temperature_form(old, x),
-        }
-    }
-
-    /// For the entropy form the temperature form, which has no mixed states: with a small heat capacity their temperatures
-    /// overflow away from the solution.
-    #[cold]
-    #[inline(never)]
-    fn starting_form(
-        model: &M,
-        start: &Start<M, Self::Old>,
-        x: &M::Variables,
-    ) -> Option<Form<f64, M>> {
-        match start.old {
-            Kept::Entropy(_) => {
-                let old = model.temperature_form_old(&start.x0);
-                Some(model.temperature_form(&old, x))
-            }
-            Kept::Temperature(_) => None,
-        }
-    }
-
-    #[inline]
-    fn response(
-        self,
-        model: &M,
-        start: &Start<M, Self::Old>,
-        x: &M::Variables,
-        corners: &Self::Memory,
-    ) -> M::Response {
-        match &start.old {
-            Kept::Entropy(old) => model.entropy_form_response(old, x, corners),
-            Kept::Temperature(old) => model.temperature_form_response(old, x),
-        }
-    }
-
-    fn rows(self) -> Option<FormRows<f64, M, Self::Old, Self::Memory>> {
-        M::ROWS?;
-        Some(if self.0 == ExactForm::Entropy {
-            FormRows {
-                old: entropy_old::<M>,
-                form: entropy_form::<M>,
-                response: entropy_response::<M>,
-            }
-        } else {
-            FormRows {
-                old: temperature_old::<M>,
-                form: temperature_form::<M>,
-                response: temperature_response::<M>,
-            }
-        })
-    }
-
-    /// With old and new state exchanged, the ascending chain of mixed states is the descending one.
-    #[cfg(feature = "gradients")]
-    #[inline]
-    fn exchanged(corners: &Self::Memory) -> Self::Memory {
-        let mut exchanged = *corners;
-        exchanged.as_mut().rotate_left(M::Corners::LEN / 2);
-        exchanged
-    }
-
-    #[cfg(feature = "gradients")]
-    fn form_adjoint(
-        self,
-        model: &M,
-        start: &Start<M, Self::Old>,
-        x: &M::Variables,
-        corners: &Self::Memory,
-        weights: &M::Response,
-    ) -> M::Parameters {
-        match start.old {
-            Kept::Entropy(_) => model.entropy_form_adjoint(&start.x0, x, corners, weights),
-            Kept::Temperature(_) => model.temperature_form_adjoint(&start.x0, x, weights),
-        }
-    }
-
-    #[cfg(feature = "gradients")]
-    fn form_tangent(
-        self,
-        model: &M,
-        start: &Start<M, Self::Old>,
-        x: &M::Variables,
-        corners: &Self::Memory,
-        direction: &M::Parameters,
-    ) -> M::Response {
-        match start.old {
-            Kept::Entropy(_) => model.entropy_form_tangent(&start.x0, x, corners, direction),
-            Kept::Temperature(_) => model.temperature_form_tangent(&start.x0, x, direction),
-        }
-    }
+    let last = M::Variables::LEN - 1;
+    Infeasible::unless_stable(x[last] * form.1[last + 1][last], x[last])
 }
 
 /// What the elements of a call in entropy form keep.
 fn entropy_of<M: FreeEnergy<f64>>(old: &KeptOf<M>) -> &M::EntropyFormOld {
     match old {
         Kept::Entropy(old) => old,
-        Kept::Temperature(_) => not_together(),
+        Kept::Temperature(_) | Kept::State(_) => not_together(),
     }
 }
 
@@ -229,7 +105,7 @@ fn entropy_of<M: FreeEnergy<f64>>(old: &KeptOf<M>) -> &M::EntropyFormOld {
 fn temperature_of<M: FreeEnergy<f64>>(old: &KeptOf<M>) -> &M::TemperatureFormOld {
     match old {
         Kept::Temperature(old) => old,
-        Kept::Entropy(_) => not_together(),
+        Kept::Entropy(_) | Kept::State(_) => not_together(),
     }
 }
 

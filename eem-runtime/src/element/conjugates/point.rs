@@ -26,9 +26,11 @@
 //!
 //! With λ of the mean configuration instead of the mean length it would be the implicit midpoint rule.
 
-use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
+use crate::element::conjugates::element::{
+    Form, Infeasible, Kept, Placement, Start, not_of_this_family,
+};
 use crate::element::conjugates::temperature::temperature_at;
-use eem_material::free_energy::{Array, Entry, FreeEnergy, Material};
+use eem_material::free_energy::{Array, FreeEnergy};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,16 +64,8 @@ impl PointRule {
     }
 }
 
-impl<M: Material> ElementScheme<M> for PointRule {
-    const SCALES_HEAT: bool = false;
-
-    /// s⁰, J/K.
-    type Old = f64;
-    type Memory = ();
-    type AtPoint<T: Entry> = [T; 1];
-    type Damping<T: Entry> = [T; 0];
-
-    fn placement(self) -> Placement {
+impl PointRule {
+    pub(super) fn placement(self) -> Placement {
         match self {
             Self::Midpoint | Self::MidpointTemperature => Placement::Middle,
             Self::Trapezoidal | Self::TrapezoidalTemperature | Self::Rest => Placement::End,
@@ -79,55 +73,48 @@ impl<M: Material> ElementScheme<M> for PointRule {
         }
     }
 
-    fn implicit(self) -> f64 {
+    pub(super) fn implicit(self) -> f64 {
         if self.has_old_share() { 0.5 } else { 1.0 }
     }
 
-    fn is_in_temperature(self) -> bool {
+    pub(super) fn is_in_temperature(self) -> bool {
         matches!(
             self,
             Self::MidpointTemperature | Self::TrapezoidalTemperature
         )
     }
 
-    fn nothing(self) -> Self::Old {
-        0.0
-    }
-
-    fn keep(self, _: &M, _: &M::Variables, entropy: f64, _: bool, old: &mut Self::Old) {
-        *old = entropy;
-    }
-
-    fn memory(_: f64) -> Self::Memory {}
-
-    // The entropy at the point is s⁰ + c Δs.
-    fn temperature(
+    /// The temperature τ of a trial, given its other variables and Δs: the entropy at the point is s⁰ + c Δs.
+    pub(crate) fn temperature<M: FreeEnergy<f64>>(
         self,
         model: &M,
-        start: &Start<M, Self::Old>,
+        start: &Start<M>,
         x: &M::Variables,
         entropy_change: f64,
     ) -> Result<f64, Infeasible> {
         let c = self.time();
         let guess = x.as_ref()[M::Variables::LEN - 1];
-        let entropy = start.old + c * entropy_change;
+        let entropy = old_entropy(start) + c * entropy_change;
         temperature_at(model, point(start, x, c), entropy, guess)
     }
 
-    fn form(
+    /// The response and its tangent.
+    pub(super) fn respond<M: FreeEnergy<f64>>(
         self,
         model: &M,
-        start: &Start<M, Self::Old>,
+        start: &Start<M>,
         x: &M::Variables,
-        (): &Self::Memory,
     ) -> Form<f64, M> {
         respond(model, start, x, self.time())
     }
 
-    fn change_entropy_at_rates(
+    /// For a rule in temperature: replaces the Δs of the form by `Σ_i (∂s/∂x_i) δ_i`, where `δ` are the
+    /// increments of measures, viscous stretches and temperature along the step, less the contributions of the
+    /// old state. Returns `∂s/∂x`.
+    pub(crate) fn change_entropy_at_rates<M: FreeEnergy<f64>>(
         self,
         model: &M,
-        start: &Start<M, Self::Old>,
+        start: &Start<M>,
         x: &M::Variables,
         increments: &M::Variables,
         form: &mut Form<f64, M>,
@@ -138,8 +125,16 @@ impl<M: Material> ElementScheme<M> for PointRule {
     }
 }
 
+/// s⁰, J/K.
+fn old_entropy<M: FreeEnergy<f64>>(start: &Start<M>) -> f64 {
+    match start.old {
+        Kept::State(entropy) => entropy,
+        Kept::Entropy(_) | Kept::Temperature(_) => not_of_this_family(),
+    }
+}
+
 /// `(π, γ⁰ + c (γ − γ⁰), τ)` for `x = (π, γ, τ)`.
-fn point<M: FreeEnergy<f64>>(start: &Start<M, f64>, x: &M::Variables, c: f64) -> M::Variables {
+fn point<M: FreeEnergy<f64>>(start: &Start<M>, x: &M::Variables, c: f64) -> M::Variables {
     let mut point = *x;
     for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
         let old = start.x0.as_ref()[index];
@@ -157,7 +152,7 @@ fn point<M: FreeEnergy<f64>>(start: &Start<M, f64>, x: &M::Variables, c: f64) ->
 /// `c = ½` is the midpoint, where `s_m = s⁰ + ½Δs`; `c = 1` the end of the step.
 fn respond<M: FreeEnergy<f64>>(
     model: &M,
-    start: &Start<M, f64>,
+    start: &Start<M>,
     x: &M::Variables,
     c: f64,
 ) -> Form<f64, M> {
@@ -182,7 +177,7 @@ fn respond<M: FreeEnergy<f64>>(
         let last = variables - 1;
         response.as_mut()[last] = x.as_ref()[last];
         tangent.as_mut()[last].as_mut()[last] = 1.0;
-        response.as_mut()[variables] = (-gradient[last] - start.old) / c;
+        response.as_mut()[variables] = (-gradient[last] - old_entropy(start)) / c;
         for column in 0..variables {
             let entry = hessian[last].as_ref()[column];
             tangent.as_mut()[variables].as_mut()[column] = -by(column) * entry / c;

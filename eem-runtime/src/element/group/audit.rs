@@ -2,7 +2,7 @@
 
 use super::kelvin_voigt::check_drag;
 use super::point::Point;
-use crate::element::conjugates::{ElementScheme, Infeasible};
+use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::kinematics::MeasureSet;
 use crate::element::state::State;
@@ -37,7 +37,7 @@ impl From<StateError> for Misfit {
     }
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// An error unless energy and forces are finite and viscosities positive.
     pub(super) fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {
         self.unless_infinite(self.model.free_energy(x))?;

@@ -5,7 +5,7 @@ use super::member::Member;
 use super::placed::PlacedPoint;
 use super::point::{Point, grown, variables};
 use super::pose::Pose;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::{Family, KeptOf};
 use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
 use crate::element::kinematics::{Kinematics, MeasureSet, Numbers};
@@ -27,24 +27,24 @@ pub(super) fn shorten<K: Kinematics<D>, const D: usize>(
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// Takes the old state; the data that the scheme keeps of it may be known.
     #[inline]
-    pub(super) fn begin(
+    pub(super) fn begin<C: Family>(
         &mut self,
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
-        known: Option<&C::Old>,
+        known: Option<&KeptOf<M>>,
     ) -> Result<(), StateError> {
         let r0 = self.arms_in(view.state);
         self.r0 = r0;
         for point in self.points.as_mut() {
             let measures = point.kinematics.measure(&r0);
-            point.begin(view, old.before.as_ref(), &measures, known);
+            point.begin::<C>(view, old.before.as_ref(), &measures, known);
             let length = point.kinematics.length(&measures);
             shorten::<K, D>(&self.site.nodes, length, old.lengths);
         }
-        if self.scheme().implicit() < 1.0 {
+        if C::implicit(self.scheme()) < 1.0 {
             self.take_old_share(view, old.force)?;
         }
         Ok(())
@@ -61,7 +61,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         for point in self.points.as_mut() {
             let measures0 = point.old_measures();
             let by_arm = point.kinematics.gradient(&self.r0, &measures0);
-            let rates = PlacedPoint::<M, K, C, D>::rates_along(&by_arm, &velocities);
+            let rates = PlacedPoint::<M, K, D>::rates_along(&by_arm, &velocities);
             let gradient = point.take_old_share(view, &rates)?;
             let ends = [&self.r0, &self.r0];
             let pose = Pose::between(&point.kinematics, point.scheme.placement(), ends, measures0);
@@ -78,7 +78,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     }
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted. What the scheme keeps
     /// of the old state may be known.
     #[expect(
@@ -86,12 +86,12 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         reason = "a call costs 1 % of a step of two springs"
     )]
     #[inline(always)]
-    pub(super) fn begin(
+    pub(super) fn begin<C: Family>(
         &mut self,
         view: &StepView<'_>,
         before: Option<&Before<'_>>,
         measures: &Numbers<Q>,
-        known: Option<&C::Old>,
+        known: Option<&KeptOf<M>>,
     ) {
         let slots = self.slots();
         let x0 = variables::<M>(measures.as_ref(), slots, view.state);
@@ -100,8 +100,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         self.creep = M::Viscosities::filled(0.0);
         if let Some(slot) = slots.thermal {
             let theta = x0[Self::TEMPERATURE];
-            self.memory = C::memory(theta);
-            let prescribed = view.prescribed(slot, self.scheme.placement());
+            self.corners = M::Corners::filled(theta);
+            let prescribed = view.prescribed(slot, C::placement(self.scheme));
             self.is_prescribed = prescribed.is_some();
             self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
         }
@@ -112,19 +112,18 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
                 .thermal
                 .map(|slot| view.state.entropies.values()[slot]);
             let entropy = entropy.unwrap_or(0.0);
-            let (scheme, old) = (self.scheme, &mut self.start.old);
-            scheme.keep(&self.model, &x0, entropy, self.is_prescribed, old);
+            (self.start).keep(self.scheme, &self.model, entropy, self.is_prescribed);
         }
         if C::EXACT
             && let Some(before) = before
         {
             self.predict(before);
         }
-        for at_point in self.single.as_mut() {
+        if let Some(at_point) = self.single_mut::<C>() {
             at_point.entropy_change = 0.0;
         }
-        self.begin_damping(view);
-        self.hold();
+        self.begin_damping::<C>(view);
+        self.hold::<C>();
     }
 
     /// Predicts the internal variables by their changes in the last step: viscous stretches linearly, the temperature by a
@@ -171,7 +170,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
             rates[Self::TEMPERATURE] = share * heat / theta;
         }
-        for at_point in self.single.as_mut() {
+        if let Some(at_point) = &mut self.single {
             (at_point.old_rates, at_point.old_power) = (rates, old_power);
         }
         if M::THERMAL && self.scheme.is_in_temperature() {
@@ -191,7 +190,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         for a in 0..M::MEASURES {
             rest -= slope(a) * share * speeds[a];
         }
-        for at_point in self.single.as_mut() {
+        if let Some(at_point) = &mut self.single {
             for index in M::MEASURES..last {
                 rest -= slope(index) * at_point.old_rates[index];
             }

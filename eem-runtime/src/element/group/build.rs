@@ -8,7 +8,7 @@ use super::interface::{ExplicitGroup, Group, Loose};
 use super::loose::LooseElements;
 use super::stages::{Projections, Source, StageGroup, Values};
 use super::view::Placed;
-use crate::element::conjugates::{Conjugates, ElementScheme, Exact, ExactForm};
+use crate::element::conjugates::Conjugates;
 use crate::element::kinematics::{MeasureSet, QuadraticStrain};
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
@@ -49,9 +49,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
 
     fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<D>> {
         match by {
-            Conjugates::Exact(form) => single(Exact::<0>(form), *self, placed),
-            Conjugates::Damped => single(Exact::<1>(ExactForm::Temperature), *self, placed),
-            Conjugates::Point(rule) => single(rule, *self, placed),
+            Conjugates::One(scheme) => Box::new(ElementGroup::new(scheme, *self, placed)),
             Conjugates::Stages(rule) if rule.path.is_some() => {
                 staged::<M, K, Projections<M, K, D>, D>(rule, *self, placed)
             }
@@ -70,15 +68,6 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
             unreachable!("they are refused in scenes with solids")
         }
     }
-}
-
-/// The group of a scheme with one set of forces.
-fn single<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize>(
-    scheme: C,
-    elements: LooseElements<M, K, D>,
-    placed: Placed<'_>,
-) -> Box<dyn Group<D>> {
-    Box::new(ElementGroup::new(scheme, elements, placed))
 }
 
 /// The group of a scheme that goes through stages, with conjugates of `C`.

@@ -7,22 +7,22 @@ use super::point::Point;
 use super::site::HeatPath;
 use crate::element::balances::Received;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::Family;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
-use eem_material::free_energy::{Array, Material};
+use eem_material::free_energy::Material;
 use eem_material::number::scalar::Scalar;
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// Adds the magnitude of the terms of `h F` to that of the nodes, N s, given the new arms and their change:
     ///
     /// ```text
     /// h Σ_π (|∂²π/∂r²| |r| |f*| + |∂π/∂r| Σ |∂f*/∂x_j| |x_j|) (1 + |Δr|/ℓ)
     /// ```
     #[cold]
-    pub(super) fn add_magnitude(
+    pub(super) fn add_magnitude<C: Family>(
         &self,
         h: f64,
         [r1, change]: [&Arms<K, D>; 2],
@@ -35,7 +35,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
             }
         }
         for point in self.points.as_ref() {
-            let magnitude = h * point.magnitude_of_pull(r1, largest);
+            let magnitude = h * point.magnitude_of_pull::<C>(r1, largest);
             for &node in self.site.nodes.as_ref() {
                 magnitudes[node as usize] += magnitude;
             }
@@ -43,7 +43,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// The magnitudes of the terms of the variables in a state with these arms: times ε, their errors by rounding.
     #[inline]
     pub(super) fn sizes(&self, r: &Arms<K, D>, x: &M::Variables) -> M::Variables {
@@ -57,23 +57,23 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
 
     /// A bound of the force between its nodes, `Σ |∂π/∂r| |f*|`, N.
     #[inline]
-    pub(super) fn largest_pull(&self, r1: &Arms<K, D>) -> f64 {
+    pub(super) fn largest_pull<C: Family>(&self, r1: &Arms<K, D>) -> f64 {
         let slopes = self
             .kinematics
             .slopes(r1, &measures_in::<K::Measures>(&self.x));
-        let forces = self.pulls();
+        let forces = self.pulls::<C>();
         let forces = forces.as_ref().iter().zip(slopes.as_ref());
         forces.fold(0.0, |sum, (&force, &slope)| sum + slope * force.abs())
     }
 
-    fn magnitude_of_pull(&self, r1: &Arms<K, D>, motion: f64) -> f64 {
+    fn magnitude_of_pull<C: Family>(&self, r1: &Arms<K, D>, motion: f64) -> f64 {
         let sizes = self.sizes(r1, &self.x);
         let [old, new] = [&self.start.x0, &self.x].map(measures_in::<K::Measures>);
         let slopes = self.kinematics.slopes(r1, &new);
         let slope_sizes = self.kinematics.slope_sizes(r1, &new);
         let mut sum = 0.0;
         for a in 0..M::MEASURES {
-            sum += slope_sizes[a] * self.pull_of_row(a).abs();
+            sum += slope_sizes[a] * self.pull_of_row::<C>(a).abs();
             sum += slopes[a] * self.resolution_of_row(a, &sizes);
         }
         let lengths = [old, new].map(|measures| self.kinematics.length(&measures));
@@ -85,7 +85,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
     #[cold]
     pub(super) fn add_bounds(&self, r: &Arms<K, D>, x: &M::Variables, energy: &mut Energy) {
         energy.add_forces(self.work_of(&self.model.gradient(x), r, x));
-        if !C::EXACT {
+        if !self.scheme.is_exact() {
             energy.add_values(self.model.energy_magnitude(x));
         }
     }
@@ -102,7 +102,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
 }
 
 /// Magnitudes of the terms of variables and responses, and the checks of a point by the certificate.
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// `Σ_j |T_ij| |x_j|`: times ε, the error of a response by rounding of the variables.
     fn magnitude_of_row(&self, row: usize, sizes: &M::Variables) -> f64 {
         let terms = self.slopes[row].as_ref().iter().zip(sizes.as_ref());
@@ -151,7 +151,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Σ_a |∂π_a/∂r| |f*_a| Σ |Δq|
     /// ```
     #[inline]
-    pub(super) fn amplitude(
+    pub(super) fn amplitude<C: Family>(
         &self,
         [sizes0, sizes1]: &[M::Variables; 2],
         care: Care,
@@ -161,7 +161,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         for row in 0..M::MEASURES + M::DASHPOTS {
             let size = sizes1[row].abs();
             let rounding = f64::EPSILON * size * size;
-            sum += self.pull_of_row(row).abs() * (sizes0[row].abs() + size);
+            sum += self.pull_of_row::<C>(row).abs() * (sizes0[row].abs() + size);
             sum += self.slopes[row][row].abs() * rounding;
             let slopes = &self.slopes[row].as_ref()[..M::MEASURES + M::DASHPOTS];
             let slopes = slopes.iter().enumerate();
@@ -169,8 +169,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
                 force + slope * self.increment_of(column)
             });
             // The slopes contain those of the damping, which is zero at rest.
-            let damping = self.damping.as_ref().iter();
-            let force = damping.fold(force, |force, damping| force - damping.force[row]);
+            let damping = self.damping::<C>();
+            let force = damping.map_or(force, |damping| force - damping.force[row]);
             at_end += force.abs() * size;
         }
         if matches!(care, Care::Quick) {
@@ -208,7 +208,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Checks the balances of the internal variables at the last response, given the received entropy, J/K, the
     /// magnitude of the terms of the energy, J, and the heat capacity, J/K.
     #[inline]
-    pub(super) fn judge(
+    pub(super) fn judge<C: Family>(
         &self,
         view: &StepView<'_>,
         (paths, interface): (Option<&[HeatPath]>, &InterfaceTemperatures),
@@ -219,10 +219,10 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         for k in 0..M::DASHPOTS {
             if view.phase.heats() {
                 let row = M::MEASURES + k;
-                let drag = self.viscosities.0[k] * self.creep_rate(k, view);
+                let drag = self.viscosities.0[k] * self.creep_rate::<C>(k, view);
                 let terms = drag.abs() + self.known_to(row, sizes, tally.care);
-                tally.balance(drag - self.pull_of_row(row), terms);
-                if C::Damping::<()>::LEN == 0 {
+                tally.balance(drag - self.pull_of_row::<C>(row), terms);
+                if !C::IS_DAMPED {
                     // g* is a divided difference, with half the slope of g.
                     let slope = self.slopes[row][row].abs();
                     tally.see_relaxation(view.step, slope, self.viscosities.0[k]);
@@ -235,7 +235,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         let theta = self.temperature();
         let taken = theta * self.response[Self::ENTROPY];
         if !self.is_prescribed {
-            if C::Damping::<()>::LEN == 0 {
+            if !C::IS_DAMPED {
                 tally.see_relaxation(view.thermal_step(), self.settling, capacity);
             }
             let terms = magnitude + theta * received.terms;
@@ -245,7 +245,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             && let Some(slot) = self.slots().thermal
         {
             // A damped temperature is known as well as θ*: Δs is known to ε of the heat capacity.
-            let conducting = self.conducting_temperature(&self.response);
+            let conducting = self.conducting_temperature::<C>(&self.response);
             let terms = self.known_to(Self::TEMPERATURE, sizes, tally.care);
             let terms = terms + (conducting - theta).abs();
             tally.balance(interface.values()[slot] - conducting, terms);

@@ -17,7 +17,7 @@ use super::site::{Contact, HeatPath, paths_of};
 use super::ways::way_of_nodes;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::{InterfaceTemperatures, Partner};
-use crate::element::conjugates::{ElementScheme, Placement};
+use crate::element::conjugates::{Family, Placement};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Weights};
@@ -25,22 +25,30 @@ use crate::element::state::State;
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, Caloric, Material};
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// The nodal forces of the last responses along the gradient between two configurations, N.
-    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
+    pub(super) fn force<C: Family>(
+        &self,
+        at: Placement,
+        ends: [&Arms<K, D>; 2],
+    ) -> K::PerNode<[f64; D]> {
         let mut sum = None;
         for point in self.points.as_ref() {
-            sum_nodes::<K, D>(&mut sum, point.force(at, ends));
+            sum_nodes::<K, D>(&mut sum, point.force::<C>(at, ends));
         }
         sum.unwrap_or_else(|| K::PerNode::filled([0.0; D]))
     }
 
     /// The nodal forces of the last responses in the form `A r_m`, N.
     #[inline]
-    pub(super) fn pull(&self, ends: [&Arms<K, D>; 2], mean: &Arms<K, D>) -> K::PerNode<[f64; D]> {
+    pub(super) fn pull<C: Family>(
+        &self,
+        ends: [&Arms<K, D>; 2],
+        mean: &Arms<K, D>,
+    ) -> K::PerNode<[f64; D]> {
         let mut sum: Option<Weights<K, D>> = None;
         for point in self.points.as_ref() {
-            let own = point.secant(ends);
+            let own = point.secant::<C>(ends);
             let Some(sum) = &mut sum else {
                 sum = Some(own);
                 continue;
@@ -58,11 +66,11 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// Books the step, recovers the new temperature and judges the step. The caloric quantities at the temperature of the
     /// trial may be known.
     #[inline]
-    pub(super) fn close(
+    pub(super) fn close<C: Family>(
         &mut self,
         contacts: &[Contact<K, D>],
         (view, trial): (&StepView<'_>, &Trial<D>),
@@ -73,10 +81,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         let r1 = self.arms_in(next);
         for point in self.points.as_mut() {
             let paths = paths_of(point.contact_in(contacts));
-            let received = point.book(view, (paths, &trial.interface), next, tally);
+            let received = point.book::<C>(view, (paths, &trial.interface), next, tally);
             let near = (point.x[M::Variables::LEN - 1], known);
             let measures = point.admissible_measures(&r1)?;
-            if let Some(entropy) = point.recover_temperature(&measures, view, near, next)? {
+            if let Some(entropy) = point.recover_temperature::<C>(&measures, view, near, next)? {
                 point.book_thermostat(view, [entropy, received.entropy], next);
             }
             if C::EXACT {
@@ -84,8 +92,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
                     point.sizes(&self.r0, &point.start.x0),
                     point.sizes(&r1, &point.x),
                 ];
-                let largest = point.largest_pull(&r1);
-                let [forces, at_end] = point.amplitude(&sizes, tally.care, || {
+                let largest = point.largest_pull::<C>(&r1);
+                let [forces, at_end] = point.amplitude::<C>(&sizes, tally.care, || {
                     largest * way_of_nodes(self.site.nodes.as_ref(), trial)
                 });
                 tally.force(forces);
@@ -94,7 +102,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
                 energy.add_secants(at_end, M::THERMAL);
                 let terms = [energy.magnitude + forces, energy.heat_capacity];
                 let outside = (paths, &trial.interface);
-                point.judge(view, outside, &sizes[1], (received, terms), tally);
+                point.judge::<C>(view, outside, &sizes[1], (received, terms), tally);
             }
         }
         Ok(())
@@ -143,30 +151,34 @@ pub(super) fn pull_of_arms<K: Kinematics<D>, const D: usize>(
     force
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// The matrix A of the force `A r_m` at the last response.
     #[inline]
-    fn secant(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
+    fn secant<C: Family>(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
         let measures1 = measures_in::<K::Measures>(&self.x);
-        let (arms, measures0) = match self.scheme.placement() {
+        let (arms, measures0) = match C::placement(self.scheme) {
             Placement::Middle => ([mean::<K, D>(r0, r1); 2], measures1),
             Placement::Ends | Placement::End | Placement::Start => {
                 ([*r0, *r1], self.old_measures())
             }
         };
         let ends = Ends::new(&self.kinematics, arms, [measures0, measures1]);
-        self.kinematics.secant(&ends, &self.pulls())
+        self.kinematics.secant(&ends, &self.pulls::<C>())
     }
 
     /// The nodal forces of the last response along the gradient between two configurations, N.
-    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
+    pub(super) fn force<C: Family>(
+        &self,
+        at: Placement,
+        ends: [&Arms<K, D>; 2],
+    ) -> K::PerNode<[f64; D]> {
         let measures0 = self.old_measures();
         let pose = Pose::between(&self.kinematics, at, ends, measures0);
-        spread::<K, D>(&pose.pull(&self.kinematics, at, &self.pulls()))
+        spread::<K, D>(&pose.pull(&self.kinematics, at, &self.pulls::<C>()))
     }
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Adds the increments of the internal variables and of the reservoirs' entropies; returns heat and entropy
     /// received from dashpots and conduction.
     #[expect(
@@ -174,7 +186,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         reason = "a call costs 1 % of a step of two springs"
     )]
     #[inline(always)]
-    pub(super) fn book(
+    pub(super) fn book<C: Family>(
         &self,
         view: &StepView<'_>,
         outside: (Option<&[HeatPath]>, &InterfaceTemperatures),
@@ -183,8 +195,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     ) -> Received {
         let slots = self.slots();
         let h = view.thermal_step();
-        let share = self.scheme.implicit() * h;
-        let theta = self.conducting_temperature(&self.response);
+        let share = C::implicit(self.scheme) * h;
+        let theta = self.conducting_temperature::<C>(&self.response);
         let per_theta = if M::THERMAL { theta.recip() } else { 1.0 };
         let mut dissipated = self.book_drag(per_theta, tally);
         if Self::DRAGS > 0 {
@@ -195,7 +207,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             let old = &view.state.viscous;
             next.viscous.advance(slots.viscous + k, old, self.creep[k]);
             if view.phase.heats() {
-                let heat = share * self.power_of(k, view) + self.damping_heat(k);
+                let heat = share * self.power_of::<C>(k, view) + self.damping_heat::<C>(k);
                 dissipated += heat;
                 tally.produce(heat * per_theta);
                 next.meters.dissipate(slots.viscous + k, heat);
@@ -205,15 +217,15 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         let mut received = Received::none();
         let Some(slot) = slots.thermal else {
             if M::DASHPOTS + Self::DRAGS > 0 {
-                let old = self.single.as_ref().iter();
-                let with_old = old.fold(dissipated, |sum, old| sum + h * old.old_power);
+                let old = self.single::<C>();
+                let with_old = old.map_or(dissipated, |old| dissipated + h * old.old_power);
                 next.dissipated.add(with_old);
             }
             return received;
         };
         received.add(dissipated * per_theta);
         received.heat = dissipated;
-        if let Some(produced) = self.damping_production(view, per_theta) {
+        if let Some(produced) = self.damping_production::<C>(view, per_theta) {
             received.add(produced);
             tally.produce(produced);
             next.meters.produce(slot, produced);
@@ -221,12 +233,12 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         if M::DASHPOTS + Self::DRAGS > 0 {
             next.meters.produce(slot, dissipated * per_theta);
         }
-        self.book_heat(view, slot, outside, &mut Balances { next, tally }, received)
+        self.book_heat::<C>(view, slot, outside, &mut Balances { next, tally }, received)
     }
 
     /// Books entropy and heat flows, given what the dashpots contribute; returns all heat and entropy received.
     #[inline]
-    fn book_heat(
+    fn book_heat<C: Family>(
         &self,
         view: &StepView<'_>,
         slot: usize,
@@ -235,8 +247,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         mut received: Received,
     ) -> Received {
         let h = view.thermal_step();
-        let share = self.scheme.implicit() * h;
-        for at_point in self.single.as_ref() {
+        let share = C::implicit(self.scheme) * h;
+        if let Some(at_point) = self.single::<C>() {
             received.add(h * at_point.old_rates[Self::TEMPERATURE]);
         }
         let old = &view.state.entropies;
@@ -247,11 +259,11 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             balances.conduct([slot, other], (path.link, &exchange), &mut received);
         }
         if self.meets_reservoirs {
-            let theta = self.conducting_temperature(&self.response);
-            let correction = self.reservoir_correction(view, slot, received.heat);
+            let theta = self.conducting_temperature::<C>(&self.response);
+            let correction = self.reservoir_correction::<C>(view, slot, received.heat);
             let share = (share, [theta, correction]);
             balances.exchange_with_reservoirs(view.conduction, slot, share, &mut received);
-            if self.scheme.implicit() < 1.0 {
+            if C::implicit(self.scheme) < 1.0 {
                 self.book_old_flow(view, slot, balances.next);
             }
         }
@@ -272,11 +284,11 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     }
 
     /// See [`reservoir_correction`]; zero unless the scheme is exact and the temperature free.
-    fn reservoir_correction(&self, view: &StepView<'_>, slot: usize, heat: f64) -> f64 {
+    fn reservoir_correction<C: Family>(&self, view: &StepView<'_>, slot: usize, heat: f64) -> f64 {
         if !C::EXACT || self.is_prescribed {
             return 0.0;
         }
-        let theta = self.conducting_temperature(&self.response);
+        let theta = self.conducting_temperature::<C>(&self.response);
         let flow = view.conduction.reservoir_flow(slot, theta);
         let taken = self.temperature() * self.response[Self::ENTROPY];
         let stored = theta * view.state.energies[self.element.index()].heat_capacity;

@@ -1,7 +1,7 @@
 //! Responses of a point as functions of its measures and of the heat that it receives.
 
 use super::point::Point;
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Family, Form};
 use crate::element::kinematics::{MeasureSet, Numbers};
 use eem_material::free_energy::{Array, Material};
 
@@ -12,9 +12,9 @@ pub(super) struct CondensedRow<Q: MeasureSet> {
     pub(super) by_heat: f64,
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[inline]
-    pub(super) fn condensed_row(
+    pub(super) fn condensed_row<C: Family>(
         &self,
         row: usize,
         (response, tangent): &Form<f64, M>,
@@ -34,7 +34,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             for a in 0..M::MEASURES {
                 condensed.by_measure[a] -= by_unknown * self.condensed.by_measure[a].get(u);
             }
-            if self.depends_on_heat(is_coupled) {
+            if self.depends_on_heat::<C>(is_coupled) {
                 condensed.by_heat += by_unknown * self.condensed.by_heat.get(u);
             }
         }

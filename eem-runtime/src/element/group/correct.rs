@@ -5,15 +5,15 @@ use super::placed::PlacedPoint;
 use super::point::Point;
 use super::share::run;
 use super::site::{Contact, Site};
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::Family;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Scalar;
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Applies the corrections of the local unknowns for a motion of the arms; returns the largest in their units.
     #[inline]
-    pub(super) fn correct(
+    pub(super) fn correct<C: Family>(
         &mut self,
         motion: &Arms<K, D>,
         contact: Option<&Contact<K, D>>,
@@ -26,18 +26,20 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         {
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
-        for by_increment in self.by_increment.as_ref() {
+        if !C::EXACT
+            && let Some(by_increment) = &self.by_increment
+        {
             heat += along::<K, D>(by_increment, motion);
         }
-        self.point.correct(&changes, heat, contact.is_some())
+        self.point.correct::<C>(&changes, heat, contact.is_some())
     }
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Applies the corrections of the local unknowns, given the changes of the measures and `δr_s`; returns the largest in
     /// their units.
     #[inline]
-    fn correct(&mut self, changes: &Numbers<Q>, heat: f64, is_coupled: bool) -> f64 {
+    fn correct<C: Family>(&mut self, changes: &Numbers<Q>, heat: f64, is_coupled: bool) -> f64 {
         for a in 0..M::MEASURES {
             self.correction[a] = changes[a];
         }
@@ -46,22 +48,23 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             for a in 0..M::MEASURES {
                 change += self.condensed.by_measure[a].get(u) * self.correction[a];
             }
-            if self.depends_on_heat(is_coupled) {
+            if self.depends_on_heat::<C>(is_coupled) {
                 change += self.condensed.by_heat.get(u) * heat;
             }
             self.correction[M::MEASURES + u] = -change;
         }
         self.remember();
         if M::THERMAL {
-            for at_point in self.single.as_mut() {
-                at_point.previous_entropy_change = self.response[Self::ENTROPY];
+            let (change, correction) = (self.response[Self::ENTROPY], self.correction);
+            if let Some(at_point) = self.single_mut::<C>() {
+                at_point.previous_entropy_change = change;
                 let terms = at_point.entropy_by.as_ref().iter();
-                let terms = terms.zip(self.correction.as_ref());
+                let terms = terms.zip(correction.as_ref());
                 at_point.entropy_correction = terms.fold(0.0, |sum, (&a, &b)| sum + a * b);
             }
         }
         let update = self.scaled_update();
-        self.apply(1.0);
+        self.apply::<C>(1.0);
         update
     }
 

@@ -4,18 +4,28 @@ use super::local::Dissipation;
 use super::modes::relaxation_modes;
 use super::point::{DampingOf, Point, temperature_in};
 use crate::element::conduction::Partner;
-use crate::element::conjugates::{ElementScheme, Form, Placement, end_weight, end_weight_over};
+use crate::element::conjugates::{Family, Form, Placement, end_weight, end_weight_over};
 use crate::element::error::StateError;
 use crate::element::group::respond::check_temperature;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::MeasureSet;
 use eem_material::free_energy::{Array, FreeEnergy};
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
+    /// Its damping in a damped scheme.
+    #[inline]
+    pub(super) fn damping<C: Family>(&self) -> Option<&DampingOf<M>> {
+        if C::IS_DAMPED {
+            self.damping.as_deref()
+        } else {
+            None
+        }
+    }
+
     /// Finds the damping of a step from its old state.
     #[inline]
-    pub(super) fn begin_damping(&mut self, view: &StepView<'_>) {
-        if C::Damping::<()>::LEN == 0 {
+    pub(super) fn begin_damping<C: Family>(&mut self, view: &StepView<'_>) {
+        if !C::IS_DAMPED {
             return;
         }
         let mut damping = DampingOf::<M>::none();
@@ -39,8 +49,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             }
             damping.modes = modes;
         }
-        for own in self.damping.as_mut() {
-            *own = damping;
+        if let Some(own) = &mut self.damping {
+            **own = damping;
         }
     }
 
@@ -56,8 +66,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Finds the damping of the dashpots at a trial; an error unless it is finite.
     #[inline]
-    pub(super) fn find_damping(&mut self) -> Result<(), StateError> {
-        if M::DASHPOTS == 0 || C::Damping::<()>::LEN == 0 {
+    pub(super) fn find_damping<C: Family>(&mut self) -> Result<(), StateError> {
+        if M::DASHPOTS == 0 || !C::IS_DAMPED {
             return Ok(());
         }
         let mut increments = M::Variables::filled(0.0);
@@ -65,7 +75,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             increments[row] = self.increment_of(row);
         }
         let mut heat = 0.0;
-        for damping in self.damping.as_mut() {
+        if let Some(damping) = &mut self.damping {
             damping.force = M::Variables::filled(0.0);
             for k in 0..M::DASHPOTS {
                 let mode = &damping.modes[k];
@@ -96,15 +106,15 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Adds the damping of the dashpots and its derivatives to a form; returns the response without it.
     #[inline]
-    pub(super) fn add_damping(
+    pub(super) fn add_damping<C: Family>(
         &self,
         (response, tangent): &mut Form<f64, M>,
-    ) -> C::Damping<M::Response> {
-        let undamped = C::Damping::filled(*response);
+    ) -> Option<M::Response> {
         if M::DASHPOTS == 0 {
-            return undamped;
+            return None;
         }
-        for damping in self.damping.as_ref() {
+        self.damping::<C>().map(|damping| {
+            let undamped = *response;
             for row in 0..Self::TEMPERATURE {
                 response[row] += damping.force[row];
                 for k in 0..M::DASHPOTS {
@@ -115,28 +125,28 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
                     }
                 }
             }
-        }
-        undamped
+            undamped
+        })
     }
 
     /// Restores the response of a form to that without damping.
     #[inline]
-    pub(super) fn drop_damping(&mut self, undamped: &C::Damping<M::Response>) {
-        for undamped in undamped.as_ref() {
+    pub(super) fn drop_damping(&mut self, undamped: Option<&M::Response>) {
+        if let Some(undamped) = undamped {
             self.response = *undamped;
         }
     }
 
     /// Adds the power of the damping and its derivatives to what the dashpots turn into heat.
     #[inline]
-    pub(super) fn dissipate_by_damping(
+    pub(super) fn dissipate_by_damping<C: Family>(
         &self,
         view: &StepView<'_>,
         dissipation: &mut Dissipation<M>,
     ) {
-        for damping in self.damping.as_ref() {
+        if let Some(damping) = self.damping::<C>() {
             for k in 0..M::DASHPOTS {
-                dissipation.power += self.damping_heat(k) * view.per_step;
+                dissipation.power += self.damping_heat::<C>(k) * view.per_step;
             }
             for row in 0..Self::TEMPERATURE {
                 let by = Self::sign(row) * damping.force[row];
@@ -147,11 +157,9 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// The heat of the damping of a mode in the step, J.
     #[inline]
-    pub(super) fn damping_heat(&self, mode: usize) -> f64 {
-        let damping = self.damping.as_ref().iter();
-        damping.fold(0.0, |sum, damping| {
-            sum + damping.parts[mode] * damping.parts[mode]
-        })
+    pub(super) fn damping_heat<C: Family>(&self, mode: usize) -> f64 {
+        let damping = self.damping::<C>();
+        damping.map_or(0.0, |damping| damping.parts[mode] * damping.parts[mode])
     }
 
     /// Its thermal slot, if it conducts heat at a free temperature.
@@ -163,33 +171,29 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Θ at a response, K; zero without temperature.
     #[inline]
-    pub(super) fn conducting_temperature(&self, response: &M::Response) -> f64 {
+    pub(super) fn conducting_temperature<C: Family>(&self, response: &M::Response) -> f64 {
         let theta = temperature_in::<M>(response);
         if !M::THERMAL {
             return theta;
         }
         let change = response[Self::ENTROPY];
-        let damping = self.damping.as_ref().iter();
-        damping.fold(theta, |theta, damping| {
-            theta + damping.shift(change)[0] * change
-        })
+        let damping = self.damping::<C>();
+        damping.map_or(theta, |damping| theta + damping.shift(change)[0] * change)
     }
 
     /// `∂(Θ − θ*)/∂Δs`, K²/J.
     #[inline]
-    pub(super) fn shift_by_entropy(&self, response: &M::Response) -> f64 {
-        let damping = self.damping.as_ref().iter();
-        damping.fold(0.0, |sum, damping| {
-            sum + damping.shift(response[Self::ENTROPY])[1]
-        })
+    pub(super) fn shift_by_entropy<C: Family>(&self, response: &M::Response) -> f64 {
+        let damping = self.damping::<C>();
+        damping.map_or(0.0, |damping| damping.shift(response[Self::ENTROPY])[1])
     }
 
     /// A form with Θ instead of θ*.
     #[inline]
-    pub(super) fn conducting(&self, (response, tangent): &Form<f64, M>) -> Form<f64, M> {
+    pub(super) fn conducting<C: Family>(&self, (response, tangent): &Form<f64, M>) -> Form<f64, M> {
         let (mut response, mut tangent) = (*response, *tangent);
-        let by_entropy = self.shift_by_entropy(&response);
-        response[Self::TEMPERATURE] = self.conducting_temperature(&response);
+        let by_entropy = self.shift_by_entropy::<C>(&response);
+        response[Self::TEMPERATURE] = self.conducting_temperature::<C>(&response);
         let entropy_by = tangent[Self::ENTROPY];
         for column in 0..Self::VARIABLES {
             tangent[Self::TEMPERATURE][column] += by_entropy * entropy_by[column];
@@ -199,17 +203,24 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// An error unless Θ is positive.
     #[inline]
-    pub(super) fn check_conducting(&self, response: &M::Response) -> Result<(), StateError> {
-        if !M::THERMAL || C::Damping::<()>::LEN == 0 {
+    pub(super) fn check_conducting<C: Family>(
+        &self,
+        response: &M::Response,
+    ) -> Result<(), StateError> {
+        if !M::THERMAL || !C::IS_DAMPED {
             return Ok(());
         }
-        check_temperature(self.element, self.conducting_temperature(response))
+        check_temperature(self.element, self.conducting_temperature::<C>(response))
     }
 
     /// The entropy that the damping of heat produces in the step, `(Θ − θ*) Δs/Θ`, J/K; `None` without such damping.
     #[inline]
-    pub(super) fn damping_production(&self, view: &StepView<'_>, per_theta: f64) -> Option<f64> {
-        let damping = self.damping.as_ref().first()?;
+    pub(super) fn damping_production<C: Family>(
+        &self,
+        view: &StepView<'_>,
+        per_theta: f64,
+    ) -> Option<f64> {
+        let damping = self.damping::<C>()?;
         self.conducting_slot(view)?;
         let change = self.response[Self::ENTROPY];
         Some(damping.shift(change)[0] * (change * change) * per_theta)

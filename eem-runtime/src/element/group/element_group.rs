@@ -15,7 +15,7 @@ use super::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 #[cfg(feature = "gradients")]
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{ElementScheme, Placement};
+use crate::element::conjugates::{Classical, Damped, Exact, Family, OneSet, Placement};
 use crate::element::error::StateError;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
@@ -26,19 +26,19 @@ use eem_material::free_energy::Material;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
-/// Elements of the model `M` with the kinematics `K`, stepped by the scheme `C`.
-pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> {
-    pub(super) scheme: C,
-    pub(super) members: Vec<Member<M, K, C, D>>,
+/// Elements of the model `M` with the kinematics `K`.
+pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, const D: usize> {
+    pub(super) scheme: OneSet,
+    pub(super) members: Vec<Member<M, K, D>>,
     pub(super) contacts: Vec<Contact<K, D>>,
     /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, D>>,
     /// Workspace for elements that are evaluated together.
-    pub(super) ahead: Ahead<M, C::Old, C::Memory>,
+    pub(super) ahead: Ahead<M>,
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
-    pub(crate) fn new(scheme: C, loose: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
+impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+    pub(crate) fn new(scheme: OneSet, loose: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
         let members = loose.elements.into_iter();
         let members = members.map(|parts| Member::new(scheme, parts, placed));
         Self {
@@ -59,37 +59,37 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
     }
 
     /// All points.
-    pub(super) fn points(&self) -> impl Iterator<Item = &PlacedPoint<M, K, C, D>> {
+    pub(super) fn points(&self) -> impl Iterator<Item = &PlacedPoint<M, K, D>> {
         let members = self.members.iter();
         members.flat_map(|member| member.points.as_ref())
     }
 
     /// All points, mutable.
-    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut PlacedPoint<M, K, C, D>> {
+    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut PlacedPoint<M, K, D>> {
         let members = self.members.iter_mut();
         members.flat_map(|member| member.points.as_mut())
     }
 
     /// The element of the point with this index in the group, and the index of the point in the element.
-    pub(super) fn at(&self, place: usize) -> (&Member<M, K, C, D>, usize) {
-        let points = K::PerPoint::<PlacedPoint<M, K, C, D>>::LEN;
+    pub(super) fn at(&self, place: usize) -> (&Member<M, K, D>, usize) {
+        let points = K::PerPoint::<PlacedPoint<M, K, D>>::LEN;
         (&self.members[place / points], place % points)
     }
 
     /// Takes the old state in all elements.
     #[inline]
-    pub(super) fn begin_one_by_one(
+    pub(super) fn begin_one_by_one<C: Family>(
         &mut self,
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
         let mut members = self.members.iter_mut();
-        members.try_for_each(|member| member.begin(view, old, None))
+        members.try_for_each(|member| member.begin::<C>(view, old, None))
     }
 
     /// Closes the step in all elements.
     #[inline]
-    pub(super) fn close_one_by_one(
+    pub(super) fn close_one_by_one<C: Family>(
         &mut self,
         view: &StepView<'_>,
         trial: &Trial<D>,
@@ -97,14 +97,115 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
         tally: &mut Tally,
     ) -> Result<(), StateError> {
         let mut members = self.members.iter_mut();
-        members
-            .try_for_each(|member| member.close(&self.contacts, (view, trial), next, tally, None))
+        members.try_for_each(|member| {
+            member.close::<C>(&self.contacts, (view, trial), next, tally, None)
+        })
     }
 }
 
-impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Group<D>
-    for ElementGroup<M, K, C, D>
-{
+/// The functions of a step, for a family of schemes.
+impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+    fn begin_as<C: Family>(
+        &mut self,
+        view: &StepView<'_>,
+        old: &mut Old<'_, D>,
+    ) -> Result<(), StateError> {
+        if const { M::ROWS.is_some() } {
+            return self.begin_by_rows::<C>(view, old);
+        }
+        self.begin_one_by_one::<C>(view, old)
+    }
+
+    fn evaluate_as<C: Family>(
+        &mut self,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        system: Option<&mut LinearSystem<1>>,
+    ) -> Result<(), StateError> {
+        match system {
+            Some(system) if K::PerPoint::<()>::LEN > 1 => {
+                self.linearize_in_rounds::<C>(view, trial, system)
+            }
+            Some(system) if const { M::ROWS.is_some() } => {
+                self.linearize_by_rows::<C>(view, trial, system)
+            }
+            Some(system) => self.linearize_one_by_one::<C>(view, trial, system),
+            None if const { M::ROWS.is_some() } => self.respond_by_rows::<C>(view, trial),
+            None => self.respond_one_by_one::<C>(view, trial),
+        }
+    }
+
+    fn correct_as<C: Family>(&mut self, solution: &[[f64; 1]]) -> f64 {
+        let mut largest = 0.0;
+        if Point::<M, K::Measures>::UNKNOWNS == 0 {
+            return largest;
+        }
+        for member in &mut self.members {
+            let motion = member.site.motion_in(solution);
+            for point in member.points.as_mut() {
+                let contact = point.contact_in(&self.contacts);
+                let update = point.correct::<C>(&motion, contact, solution);
+                largest = Scalar::maximum(largest, update);
+            }
+        }
+        largest
+    }
+
+    fn add_impulse_as<C: Family>(
+        &self,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        along: Along,
+        impulses: &mut Impulses<'_, D>,
+        magnitudes: &mut [f64],
+    ) {
+        let at = match along {
+            Along::Secant => None,
+            Along::Scheme => Some(C::placement(self.scheme)),
+            Along::Gradient => Some(Placement::End),
+            Along::Stage(_) => return,
+        };
+        for member in &self.members {
+            let (nodes, r0) = (&member.site.nodes, &member.r0);
+            let r1 = member.new_arms(trial);
+            if !magnitudes.is_empty() {
+                let change = change_in::<K, D>(nodes, trial);
+                member.add_magnitude::<C>(view.step, [&r1, &change], magnitudes);
+            }
+            let (h, force) = if let Some(at) = at {
+                let share = view.step * C::implicit(self.scheme);
+                (share, member.force::<C>(at, [r0, &r1]))
+            } else {
+                let mut mean = change_in::<K, D>(nodes, trial);
+                let old = r0.as_ref().as_flattened();
+                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
+                    *mean = old + 0.5 * *mean;
+                }
+                (view.step, member.pull::<C>([r0, &r1], &mean))
+            };
+            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
+                    *impulse -= h * force;
+                }
+            }
+        }
+    }
+
+    fn close_as<C: Family>(
+        &mut self,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        next: &mut State,
+        tally: &mut Tally,
+    ) -> Result<(), StateError> {
+        if const { M::ROWS.is_some() } {
+            return self.close_by_rows::<C>(view, trial, next, tally);
+        }
+        self.close_one_by_one::<C>(view, trial, next, tally)
+    }
+}
+
+impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<M, K, D> {
     fn elements(&self) -> &dyn Elements<D> {
         self
     }
@@ -136,10 +237,11 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
     }
 
     fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
-        if const { M::ROWS.is_some() } {
-            return self.begin_by_rows(view, old);
+        match self.scheme {
+            OneSet::Exact(_) => self.begin_as::<Exact>(view, old),
+            OneSet::Damped => self.begin_as::<Damped>(view, old),
+            OneSet::Point(_) => self.begin_as::<Classical>(view, old),
         }
-        self.begin_one_by_one(view, old)
     }
 
     fn evaluate(
@@ -148,41 +250,28 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
         trial: &Trial<D>,
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        match system {
-            Some(system) if K::PerPoint::<()>::LEN > 1 => {
-                self.linearize_in_rounds(view, trial, system)
-            }
-            Some(system) if const { M::ROWS.is_some() } => {
-                self.linearize_by_rows(view, trial, system)
-            }
-            Some(system) => self.linearize_one_by_one(view, trial, system),
-            None if const { M::ROWS.is_some() } => self.respond_by_rows(view, trial),
-            None => self.respond_one_by_one(view, trial),
+        match self.scheme {
+            OneSet::Exact(_) => self.evaluate_as::<Exact>(view, trial, system),
+            OneSet::Damped => self.evaluate_as::<Damped>(view, trial, system),
+            OneSet::Point(_) => self.evaluate_as::<Classical>(view, trial, system),
         }
     }
 
     fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
-        let mut largest = 0.0;
-        if Point::<M, K::Measures, C>::UNKNOWNS == 0 {
-            return largest;
+        match self.scheme {
+            OneSet::Exact(_) | OneSet::Damped => self.correct_as::<Exact>(solution),
+            OneSet::Point(_) => self.correct_as::<Classical>(solution),
         }
-        for member in &mut self.members {
-            let motion = member.site.motion_in(solution);
-            for point in member.points.as_mut() {
-                let contact = point.contact_in(&self.contacts);
-                let update = point.correct(&motion, contact, solution);
-                largest = Scalar::maximum(largest, update);
-            }
-        }
-        largest
     }
 
     fn apply(&mut self, share: f64) {
-        self.points_mut().for_each(|point| point.apply(share));
+        self.points_mut()
+            .for_each(|point| point.apply::<Classical>(share));
     }
 
     fn hold(&mut self) {
-        self.points_mut().for_each(|point| point.hold());
+        self.points_mut()
+            .for_each(|point| point.hold::<Classical>());
     }
 
     fn add_impulse(
@@ -193,34 +282,15 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
         impulses: &mut Impulses<'_, D>,
         magnitudes: &mut [f64],
     ) {
-        let at = match along {
-            Along::Secant => None,
-            Along::Scheme => Some(self.scheme.placement()),
-            Along::Gradient => Some(Placement::End),
-            Along::Stage(_) => return,
-        };
-        for member in &self.members {
-            let (nodes, r0) = (&member.site.nodes, &member.r0);
-            let r1 = member.new_arms(trial);
-            if !magnitudes.is_empty() {
-                let change = change_in::<K, D>(nodes, trial);
-                member.add_magnitude(view.step, [&r1, &change], magnitudes);
+        match self.scheme {
+            OneSet::Exact(_) => {
+                self.add_impulse_as::<Exact>(view, trial, along, impulses, magnitudes);
             }
-            let (h, force) = if let Some(at) = at {
-                let share = view.step * self.scheme.implicit();
-                (share, member.force(at, [r0, &r1]))
-            } else {
-                let mut mean = change_in::<K, D>(nodes, trial);
-                let old = r0.as_ref().as_flattened();
-                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
-                    *mean = old + 0.5 * *mean;
-                }
-                (view.step, member.pull([r0, &r1], &mean))
-            };
-            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
-                    *impulse -= h * force;
-                }
+            OneSet::Damped => {
+                self.add_impulse_as::<Damped>(view, trial, along, impulses, magnitudes);
+            }
+            OneSet::Point(_) => {
+                self.add_impulse_as::<Classical>(view, trial, along, impulses, magnitudes);
             }
         }
     }
@@ -232,17 +302,18 @@ impl<M: Material, K: QuadraticStrain<D>, C: ElementScheme<M>, const D: usize> Gr
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        if const { M::ROWS.is_some() } {
-            return self.close_by_rows(view, trial, next, tally);
+        match self.scheme {
+            OneSet::Exact(_) => self.close_as::<Exact>(view, trial, next, tally),
+            OneSet::Damped => self.close_as::<Damped>(view, trial, next, tally),
+            OneSet::Point(_) => self.close_as::<Classical>(view, trial, next, tally),
         }
-        self.close_one_by_one(view, trial, next, tally)
     }
 
     fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation) {
         for member in &self.members {
             for point in member.points.as_ref() {
                 let own = point.balance_between(&member.site.nodes, ends);
-                let found = Point::<M, K::Measures, C>::change_of(&point.response, &own.increments);
+                let found = Point::<M, K::Measures>::change_of(&point.response, &own.increments);
                 reevaluation.element(point.element, own.by_values, own.by_differences, found);
             }
         }

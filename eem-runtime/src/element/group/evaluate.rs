@@ -6,17 +6,17 @@ use super::share::Share;
 use super::site::{Contact, paths_of};
 use crate::algebra::system::LinearSystem;
 use crate::algebra::threads;
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Family, Form};
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Material;
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.
     #[inline]
-    pub(super) fn linearize_one_by_one(
+    pub(super) fn linearize_one_by_one<C: Family>(
         &mut self,
         view: &StepView<'_>,
         trial: &Trial<D>,
@@ -25,7 +25,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
         let (values, right) = system.parts();
         for member in &mut self.members {
             let mut share = Share::none();
-            member.linearize(&self.contacts, view, trial, None, &mut share)?;
+            member.linearize::<C>(&self.contacts, view, trial, None, &mut share)?;
             member.add_share(&share, &self.contacts, (&mut *values, &mut *right));
         }
         Ok(())
@@ -33,18 +33,18 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
 
     /// Evaluates responses without tangents.
     #[inline]
-    pub(super) fn respond_one_by_one(
+    pub(super) fn respond_one_by_one<C: Family>(
         &mut self,
         view: &StepView<'_>,
         trial: &Trial<D>,
     ) -> Result<(), StateError> {
         let mut members = self.members.iter_mut();
-        members.try_for_each(|member| member.respond(view, trial, None))
+        members.try_for_each(|member| member.respond::<C>(view, trial, None))
     }
 
     /// Linearizes elements with many points, in rounds.
     #[inline(never)]
-    pub(super) fn linearize_in_rounds(
+    pub(super) fn linearize_in_rounds<C: Family>(
         &mut self,
         view: &StepView<'_>,
         trial: &Trial<D>,
@@ -52,10 +52,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         let contacts = &self.contacts;
-        let linearize = |member: &mut Member<M, K, C, D>, share: &mut Share<K, D>| {
-            member.linearize(contacts, view, trial, None, share)
+        let linearize = |member: &mut Member<M, K, D>, share: &mut Share<K, D>| {
+            member.linearize::<C>(contacts, view, trial, None, share)
         };
-        let mut add = |member: &Member<M, K, C, D>, share: &Share<K, D>| {
+        let mut add = |member: &Member<M, K, D>, share: &Share<K, D>| {
             member.add_share(share, contacts, (&mut *values, &mut *right));
         };
         in_rounds(&mut self.members, &mut self.shares, &linearize, &mut add)
@@ -119,18 +119,18 @@ fn in_pieces<A: Send, B: Send>(
     first.and(second)
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// Evaluates the responses, which may be known, without tangents.
     #[inline]
-    pub(super) fn respond(
+    pub(super) fn respond<C: Family>(
         &mut self,
         view: &StepView<'_>,
         trial: &Trial<D>,
-        known: Known<C::Memory, M::Response, M>,
+        known: Known<M::Response, M>,
     ) -> Result<(), StateError> {
-        let arms = self.trial_arms(view, trial);
+        let arms = self.trial_arms::<C>(view, trial);
         let mut points = self.points.as_mut().iter_mut();
-        points.try_for_each(|point| point.respond_alone(view, trial, &arms, known))
+        points.try_for_each(|point| point.respond_alone::<C>(view, trial, &arms, known))
     }
 
     /// Evaluates responses and tangents, which may be known, and the contribution of the element to the system of the next
@@ -140,42 +140,42 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
         reason = "a call of its own costs 1 % of a step of a spring"
     )]
     #[inline(always)]
-    pub(super) fn linearize(
+    pub(super) fn linearize<C: Family>(
         &mut self,
         contacts: &[Contact<K, D>],
         view: &StepView<'_>,
         trial: &Trial<D>,
-        known: Known<C::Memory, &Form<f64, M>, M>,
+        known: Known<&Form<f64, M>, M>,
         share: &mut Share<K, D>,
     ) -> Result<(), StateError> {
-        let arms = self.trial_arms(view, trial);
+        let arms = self.trial_arms::<C>(view, trial);
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
             let prepared = known.map(|known| known.0);
-            let measures = point.locate_trial(&arms.placed, trial.is_start, prepared)?;
-            let pose = point.pose(&arms, &measures);
+            let measures = point.locate_trial::<C>(&arms.placed, trial.is_start, prepared)?;
+            let pose = point.pose::<C>(&arms, &measures);
             point.sensitivity = pose.sensitivity;
-            let by_rate = point.extend(&pose, &arms.motion);
+            let by_rate = point.extend::<C>(&pose, &arms.motion);
             // Used in place: copies would cost a good part of the time.
-            let mut form = known.map_or_else(|| point.form(trial.is_start), |known| *known.1);
-            if M::THERMAL && point.scheme.is_in_temperature() {
+            let mut form = known.map_or_else(|| point.form::<C>(trial.is_start), |known| *known.1);
+            if M::THERMAL && C::is_in_temperature(point.scheme) {
                 point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
             }
-            point.accept(view.per_step, &form, known.map(|known| known.2))?;
-            let elastic = point.add_drag(view.per_step, &mut form);
-            let undamped = point.add_damping(&mut form);
+            point.accept::<C>(view.per_step, &form, known.map(|known| known.2))?;
+            let elastic = point.add_drag::<C>(view.per_step, &mut form);
+            let undamped = point.add_damping::<C>(&mut form);
             let contact = point.contact_in(contacts);
-            point.condense(view, &trial.interface, &form, paths_of(contact))?;
+            point.condense::<C>(view, &trial.interface, &form, paths_of(contact))?;
             if let Some(by_rate) = &by_rate {
-                point.warm_by_rates(view, by_rate);
+                point.warm_by_rates::<C>(view, by_rate);
             }
-            *heat = contact.map(|_| point.heat(&trial.interface, &form));
+            *heat = contact.map(|_| point.heat::<C>(&trial.interface, &form));
             if view.phase.moves() {
                 let form = (&form, by_rate.as_ref());
-                point.add_momentum(view.step, &pose, form, heat, &mut share.momentum);
+                point.add_momentum::<C>(view.step, &pose, form, heat, &mut share.momentum);
             }
-            point.keep(&form);
-            point.drop_damping(&undamped);
+            point.keep::<C>(&form);
+            point.drop_damping(undamped.as_ref());
             point.drop_drag(&elastic);
         }
         Ok(())

@@ -5,13 +5,13 @@ use super::placed::PlacedPoint;
 use super::point::Point;
 use super::pose::Pose;
 use super::view::{ElementGeneric, EntropySlopes};
-use crate::element::conjugates::{ElementScheme, Placement};
+use crate::element::conjugates::Placement;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Replaces the response by the derivatives of the energy in a state.
     pub(super) fn take_derivatives(&mut self, r: &Arms<K, D>, state: &State) {
         let x = self.variables_in(r, state);
@@ -21,7 +21,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         self.point.drag.viscosity = self.point.model.drag(theta);
         self.point.start.x0 = x;
         for index in 0..M::MEASURES + M::DASHPOTS {
-            self.point.response[index] = Point::<M, K::Measures, C>::sign(index) * gradient[index];
+            self.point.response[index] = Point::<M, K::Measures>::sign(index) * gradient[index];
         }
         if M::THERMAL {
             self.point.response[M::MEASURES + M::DASHPOTS] = theta;

@@ -5,7 +5,7 @@ use super::interface::Elements;
 use super::placed::PlacedPoint;
 use super::point::Point;
 use super::stiffness::{Stiffness, stiffness_of};
-use crate::element::conjugates::{ElementScheme, Infeasible, Placement};
+use crate::element::conjugates::{Infeasible, Placement};
 use crate::element::error::StateError;
 use crate::element::group::audit::Misfit;
 use crate::element::group::element_group::ElementGroup;
@@ -17,9 +17,7 @@ use crate::element::state::{Energy, State};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::digest::Digest;
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Elements<D>
-    for ElementGroup<M, K, C, D>
-{
+impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup<M, K, D> {
     fn initialize(&mut self, state: &mut State, refuse: &mut dyn FnMut(StateError)) {
         for member in &mut self.members {
             let r = member.arms_in(state);
@@ -217,7 +215,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Finds entropy and energy in an initial state with these arms.
     fn initialize(&mut self, r: &Arms<K, D>, state: &mut State) -> Result<(), StateError> {
         let x = self.locate(r, state)?;
@@ -236,7 +234,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
     }
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Finds the entropy of an initial state, whose variables are given; returns its energy.
     fn initialize(&mut self, x: &M::Variables, state: &mut State) -> Result<Energy, StateError> {
         let slot = self.slots().thermal;

@@ -14,7 +14,7 @@ use super::local::Dissipation;
 use super::placed::PlacedPoint;
 use super::point::{Point, temperature_in};
 use super::pose::Pose;
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Family, Form};
 use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Numbers};
@@ -22,24 +22,26 @@ use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::is_positive;
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Number of measures with a dashpot of their own.
     pub(super) const DRAGS: usize = M::Drag::LEN;
 
     /// Whether `λ̇` is the rate of a classical scheme, with its own derivatives with respect to the arms, and not a
     /// difference of lengths.
-    pub(super) const HAS_RATES: bool = Self::DRAGS > 0 && !C::EXACT;
+    pub(super) const fn has_rates<C: Family>() -> bool {
+        Self::DRAGS > 0 && !C::EXACT
+    }
 
     /// `λ̇` of the trial, m/s.
     #[inline]
-    fn extension_rate(&self, a: usize, per_step: f64) -> f64 {
-        self.drag.extension[a] * self.per_share(per_step)
+    fn extension_rate<C: Family>(&self, a: usize, per_step: f64) -> f64 {
+        self.drag.extension[a] * self.per_share::<C>(per_step)
     }
 
     /// `1/(w h)`, 1/s.
     #[inline]
-    pub(super) fn per_share(&self, per_step: f64) -> f64 {
-        per_step * self.scheme.implicit().recip()
+    pub(super) fn per_share<C: Family>(&self, per_step: f64) -> f64 {
+        per_step * C::implicit(self.scheme).recip()
     }
 
     /// Evaluates the viscosity at a temperature; an error unless it is positive.
@@ -54,21 +56,21 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Finds the force for a response, given 1/h, 1/s.
     #[inline]
-    pub(super) fn find_drag(
+    pub(super) fn find_drag<C: Family>(
         &mut self,
         per_step: f64,
         response: &M::Response,
     ) -> Result<(), StateError> {
         self.find_drag_viscosity(temperature_in::<M>(response))?;
         for a in 0..Self::DRAGS {
-            self.drag.force[a] = self.drag.viscosity.0[a] * self.extension_rate(a, per_step);
+            self.drag.force[a] = self.drag.viscosity.0[a] * self.extension_rate::<C>(a, per_step);
         }
         Ok(())
     }
 
     /// Adds the force and its derivatives to a form; returns the forces without it.
     #[inline]
-    pub(super) fn add_drag(
+    pub(super) fn add_drag<C: Family>(
         &self,
         per_step: f64,
         (response, tangent): &mut Form<f64, M>,
@@ -78,13 +80,13 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             elastic[a] = response[a];
             response[a] += self.drag.force[a];
             if M::THERMAL {
-                let thinning = self.thinning(a, per_step);
+                let thinning = self.thinning::<C>(a, per_step);
                 for column in 0..Self::VARIABLES {
                     let by_theta = tangent[Self::TEMPERATURE][column];
                     tangent[a][column] += thinning * by_theta;
                 }
             }
-            if !Self::HAS_RATES {
+            if !Self::has_rates::<C>() {
                 tangent[a][a] += self.drag.viscosity.0[a] * per_step;
             }
         }
@@ -93,8 +95,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// `λ̇ dη/dθ`, the derivative of the force with respect to θ*.
     #[inline]
-    fn thinning(&self, a: usize, per_step: f64) -> f64 {
-        self.extension_rate(a, per_step) * self.drag.viscosity.1[a]
+    fn thinning<C: Family>(&self, a: usize, per_step: f64) -> f64 {
+        self.extension_rate::<C>(a, per_step) * self.drag.viscosity.1[a]
     }
 
     /// Restores the response of a form to that of the free energy.
@@ -107,24 +109,24 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Adds `η λ̇²` and its derivatives to what the dashpots turn into heat.
     #[inline]
-    pub(super) fn dissipate_by_drag(
+    pub(super) fn dissipate_by_drag<C: Family>(
         &self,
         view: &StepView<'_>,
         (_, tangent): &Form<f64, M>,
         dissipation: &mut Dissipation<M>,
     ) {
         for a in 0..Self::DRAGS {
-            let rate = self.extension_rate(a, view.per_step);
+            let rate = self.extension_rate::<C>(a, view.per_step);
             let force = self.drag.force[a];
             dissipation.power += force * rate;
             if M::THERMAL {
-                let thinning = rate * self.thinning(a, view.per_step);
+                let thinning = rate * self.thinning::<C>(a, view.per_step);
                 for column in 0..Self::VARIABLES {
                     let by_theta = tangent[Self::TEMPERATURE][column];
                     dissipation.by[column] += thinning * by_theta;
                 }
             }
-            if !Self::HAS_RATES {
+            if !Self::has_rates::<C>() {
                 // ∂(η λ̇²)/∂λ = 2 η λ̇/h
                 dissipation.by[a] += (force + force) * view.per_step;
             }
@@ -170,12 +172,12 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// The forces between the nodes: those of the response plus those of Kelvin–Voigt dashpots and of damping, N.
     #[inline]
-    pub(super) fn pulls(&self) -> Numbers<Q> {
+    pub(super) fn pulls<C: Family>(&self) -> Numbers<Q> {
         let mut forces = measures_in::<Q>(&self.response);
         for a in 0..Self::DRAGS {
             forces[a] += self.drag.force[a];
         }
-        for damping in self.damping.as_ref() {
+        if let Some(damping) = self.damping::<C>() {
             for a in 0..M::MEASURES {
                 forces[a] += damping.force[a];
             }
@@ -185,29 +187,27 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// A row of the response, including damping, and the dashpot force if the row is a force.
     #[inline]
-    pub(super) fn pull_of_row(&self, row: usize) -> f64 {
+    pub(super) fn pull_of_row<C: Family>(&self, row: usize) -> f64 {
         let own = if row < Self::DRAGS {
             self.response[row] + self.drag.force[row]
         } else {
             self.response[row]
         };
-        let damping = self.damping.as_ref().iter();
-        damping.fold(own, |sum, damping| sum + damping.force[row])
+        let damping = self.damping::<C>();
+        damping.map_or(own, |damping| own + damping.force[row])
     }
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize>
-    PlacedPoint<M, K, C, D>
-{
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Finds `Δλ` along the gradients of the trial. For a classical scheme it is `w h λ̇`, with the rate λ̇ of the
     /// trial, and its derivatives with respect to the new arms are returned.
     #[inline]
-    pub(super) fn extend(
+    pub(super) fn extend<C: Family>(
         &mut self,
         pose: &Pose<K, D>,
         motion: &Arms<K, D>,
     ) -> Option<Gradient<K, D>> {
-        if Point::<M, K::Measures, C>::HAS_RATES {
+        if Point::<M, K::Measures>::has_rates::<C>() {
             let (own, by_arm) =
                 pose.increase(&self.kinematics, self.point.scheme.placement(), motion);
             for a in 0..M::Drag::LEN {
@@ -222,9 +222,13 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize>
     }
 
     /// For a classical scheme: finds the derivatives of the heat balance with respect to the new arms through the rates.
-    pub(super) fn warm_by_rates(&mut self, view: &StepView<'_>, by_arm: &Gradient<K, D>) {
-        let per_share = self.per_share(view.per_step);
-        for by_increment in self.by_increment.as_mut() {
+    pub(super) fn warm_by_rates<C: Family>(
+        &mut self,
+        view: &StepView<'_>,
+        by_arm: &Gradient<K, D>,
+    ) {
+        let per_share = self.per_share::<C>(view.per_step);
+        if let Some(by_increment) = &mut self.by_increment {
             for a in 0..M::Drag::LEN {
                 let force = self.point.drag.force[a];
                 let mut by = by_arm[a];
@@ -233,14 +237,14 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize>
                 if self.point.scheme.is_in_temperature() {
                     add_scaled::<K, D>(by_increment, 1.0, &by);
                 } else {
-                    *by_increment = by;
+                    **by_increment = by;
                 }
             }
         }
     }
 
     /// The derivative of a force with respect to the new arms through its rate, times a factor.
-    pub(super) fn force_by_rate(
+    pub(super) fn force_by_rate<C: Family>(
         &self,
         a: usize,
         per_step: f64,
@@ -249,7 +253,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize>
     ) -> Arms<K, D> {
         let mut by = by_arm[a];
         let eta = self.drag.viscosity.0[a];
-        scale::<K, D>(&mut by, factor * eta * self.per_share(per_step));
+        scale::<K, D>(&mut by, factor * eta * self.per_share::<C>(per_step));
         by
     }
 }

@@ -16,7 +16,7 @@ use super::point::Point;
 use super::site::HeatPath;
 use crate::algebra::lu::Singular;
 use crate::element::conduction::{HeatFlow, InterfaceTemperatures};
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Classical, Family, Form};
 use crate::element::error::StateError;
 use crate::element::group::point::temperature_in;
 use crate::element::group::view::StepView;
@@ -29,14 +29,14 @@ pub(super) struct Dissipation<M: FreeEnergy<f64>> {
     pub(super) by: M::Variables,
 }
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Eliminates the internal variables of an element, given its response with tangent and its viscosities.
     #[expect(
         clippy::inline_always,
         reason = "a call costs 1.5 % of a step of two springs"
     )]
     #[inline(always)]
-    pub(super) fn condense(
+    pub(super) fn condense<C: Family>(
         &mut self,
         view: &StepView<'_>,
         interface: &InterfaceTemperatures,
@@ -48,11 +48,11 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         }
         // Called first: the call would spill the registers used below.
         let theta = temperature_in::<M>(&form.0);
-        let conducting = self.conducting_temperature(&form.0);
+        let conducting = self.conducting_temperature::<C>(&form.0);
         let flow = self.heat_flow(view, paths, interface, conducting);
-        let mut system = LocalSystem::<M>::empty(self.pivot_units(theta));
-        self.balances::<true>(view, &flow, form, &mut system);
-        let depends_on_heat = self.depends_on_heat(paths.is_some());
+        let mut system = LocalSystem::<M>::empty(self.pivot_units::<C>(theta));
+        self.balances::<C, true>(view, &flow, form, &mut system);
+        let depends_on_heat = self.depends_on_heat::<C>(paths.is_some());
         let solved = if depends_on_heat {
             eliminate::<M, true>(&mut system)
         } else {
@@ -72,10 +72,10 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         }
     }
 
-    /// Writes the local equations to an empty system; if `SCALED`, that of heat as [`ElementScheme::SCALES_HEAT`] says.
+    /// Writes the local equations to an empty system; if `SCALED`, that of heat times θ* in exact schemes.
     #[expect(clippy::inline_always, reason = "the system stays in registers")]
     #[inline(always)]
-    pub(super) fn balances<const SCALED: bool>(
+    pub(super) fn balances<C: Family, const SCALED: bool>(
         &mut self,
         view: &StepView<'_>,
         flow: &HeatFlow,
@@ -87,10 +87,10 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             by: M::Variables::filled(0.0),
         };
         for k in 0..M::DASHPOTS {
-            self.dashpot_balance(view, k, form, system, &mut dissipation);
+            self.dashpot_balance::<C>(view, k, form, system, &mut dissipation);
         }
-        self.dissipate_by_drag(view, form, &mut dissipation);
-        self.dissipate_by_damping(view, &mut dissipation);
+        self.dissipate_by_drag::<C>(view, form, &mut dissipation);
+        self.dissipate_by_damping::<C>(view, &mut dissipation);
         if M::THERMAL {
             let row = M::DASHPOTS;
             if self.is_prescribed {
@@ -99,7 +99,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
                 system.rows[row][Self::TEMPERATURE] = 1.0;
             } else {
                 system.by_heat[row] = 1.0;
-                self.heat_balance::<SCALED>(view, flow, form, system, &dissipation);
+                self.heat_balance::<C, SCALED>(view, flow, form, system, &dissipation);
             }
         }
     }
@@ -120,7 +120,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Factors that turn the rows of the local system into energies.
     #[inline]
-    pub(super) fn pivot_units(&self, theta: f64) -> [f64; 2] {
+    pub(super) fn pivot_units<C: Family>(&self, theta: f64) -> [f64; 2] {
         if C::EXACT {
             [self.viscous_unit(), theta]
         } else {
@@ -130,8 +130,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Whether `r_s` depends on global unknowns other than through the measures.
     #[inline]
-    pub(super) fn depends_on_heat(&self, is_coupled: bool) -> bool {
-        self.scheme.is_in_temperature() || (M::THERMAL && (is_coupled || Self::HAS_RATES))
+    pub(super) fn depends_on_heat<C: Family>(&self, is_coupled: bool) -> bool {
+        C::is_in_temperature(self.scheme) || (M::THERMAL && (is_coupled || Self::has_rates::<C>()))
     }
 
     /// The heat received by conduction.
@@ -162,7 +162,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// `γ̇_k` of the trial, to which the scheme gives the weight w, m/s.
     #[inline]
-    pub(super) fn creep_rate(&self, k: usize, view: &StepView<'_>) -> f64 {
+    pub(super) fn creep_rate<C: Family>(&self, k: usize, view: &StepView<'_>) -> f64 {
         if C::EXACT {
             self.creep[k] * view.per_step
         } else {
@@ -172,14 +172,14 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// `η_k γ̇_k²`, W.
     #[inline]
-    pub(super) fn power_of(&self, k: usize, view: &StepView<'_>) -> f64 {
-        let rate = self.creep_rate(k, view);
+    pub(super) fn power_of<C: Family>(&self, k: usize, view: &StepView<'_>) -> f64 {
+        let rate = self.creep_rate::<C>(k, view);
         self.viscosities.0[k] * (rate * rate)
     }
 
     /// `r_γk` and its derivatives; adds to the dissipated power and its derivatives.
     #[inline]
-    fn dashpot_balance(
+    fn dashpot_balance<C: Family>(
         &self,
         view: &StepView<'_>,
         k: usize,
@@ -197,7 +197,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             self.ordinary_dashpot_balance(view, k, (response, tangent), system, dissipation);
             return;
         }
-        let (eta, rate) = (self.viscosities.0[k], self.creep_rate(k, view));
+        let (eta, rate) = (self.viscosities.0[k], self.creep_rate::<C>(k, view));
         system.constant[k] = eta * rate - response[index];
         dissipation.power += eta * (rate * rate);
         let per_creep = eta * view.per_step;
@@ -234,7 +234,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         let rate = response[index] * per_eta;
         dissipation.power += response[index] * rate;
         let h = view.thermal_step();
-        system.constant[k] = self.creep[k] - self.increment(index, rate, h);
+        system.constant[k] = self.creep[k] - self.increment::<Classical>(index, rate, h);
         let mobility = -h * self.scheme.implicit() * per_eta;
         // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
         let thinning = rate * self.viscosities.1[k];
@@ -259,7 +259,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// `r_s` and its derivatives.
     #[inline]
-    fn heat_balance<const SCALED: bool>(
+    fn heat_balance<C: Family, const SCALED: bool>(
         &mut self,
         view: &StepView<'_>,
         flow: &HeatFlow,
@@ -271,24 +271,24 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         let rate = (dissipation.power + flow.heat) * per_theta;
         let h = view.thermal_step();
         let row = M::DASHPOTS;
-        let received = self.increment(Self::TEMPERATURE, rate, h);
+        let received = self.increment::<C>(Self::TEMPERATURE, rate, h);
         let residual = response[Self::ENTROPY] - received;
         system.constant[row] = residual;
         // ∂r_s/∂(power) without the sign, and ∂r_s/∂θ*.
-        let weight = h * self.scheme.implicit() * per_theta;
+        let weight = h * C::implicit(self.scheme) * per_theta;
         self.condensed.heat_factor = -weight;
         let mut by_theta = weight * (flow.conductance + rate);
-        if SCALED && C::SCALES_HEAT {
+        if SCALED && C::EXACT {
             // Newton's method on θ* r_s, which has the same root as r_s and is far less curved where conduction is
             // stiff.
             by_theta += residual * per_theta;
         }
         // ∂r_s/∂Θ beyond ∂r_s/∂θ*, by which a damped temperature depends on Δs.
-        let by_change = weight * flow.conductance * self.shift_by_entropy(response);
+        let by_change = weight * flow.conductance * self.shift_by_entropy::<C>(response);
         for column in 0..Self::VARIABLES {
             let mut entry =
                 tangent[Self::ENTROPY][column] + by_theta * tangent[Self::TEMPERATURE][column];
-            if C::Damping::<()>::LEN > 0 {
+            if C::IS_DAMPED {
                 entry += by_change * tangent[Self::ENTROPY][column];
             }
             if M::DASHPOTS + Self::DRAGS > 0 {

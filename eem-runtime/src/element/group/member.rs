@@ -6,7 +6,7 @@ use super::point::Point;
 use super::pose::placed_arms;
 use super::respond::TrialArms;
 use super::site::Site;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::{Family, OneSet};
 use crate::element::group::view::{Placed, StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
@@ -14,17 +14,17 @@ use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 
 /// An element.
-pub(crate) struct Member<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> {
+pub(crate) struct Member<M: Material, K: Kinematics<D>, const D: usize> {
     pub(super) site: Site<K, D>,
     /// The old arms.
     pub(super) r0: Arms<K, D>,
-    pub(super) points: K::PerPoint<PlacedPoint<M, K, C, D>>,
+    pub(super) points: K::PerPoint<PlacedPoint<M, K, D>>,
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// An element whose points have consecutive handles, of which the first is given.
     pub(super) fn new(
-        scheme: C,
+        scheme: OneSet,
         (first, points): (Element, K::PerPoint<(M, K)>),
         placed: Placed<'_>,
     ) -> Self {
@@ -53,13 +53,13 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     }
 
     /// The first point, the only one of a spring.
-    pub(super) fn only(&self) -> &PlacedPoint<M, K, C, D> {
+    pub(super) fn only(&self) -> &PlacedPoint<M, K, D> {
         &self.points.as_ref()[0]
     }
 
     /// The scheme of its points.
     #[inline]
-    pub(super) fn scheme(&self) -> C {
+    pub(super) fn scheme(&self) -> OneSet {
         self.only().scheme
     }
 
@@ -79,21 +79,29 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
 
     /// Its arms at a trial.
     #[inline]
-    pub(super) fn trial_arms(&self, view: &StepView<'_>, trial: &Trial<D>) -> TrialArms<K, D> {
+    pub(super) fn trial_arms<C: Family>(
+        &self,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+    ) -> TrialArms<K, D> {
         TrialArms {
             old: self.r0,
-            placed: placed_arms::<K, D>(self.scheme().placement(), &self.r0, self.new_arms(trial)),
-            motion: self.motion(view, trial),
+            placed: placed_arms::<K, D>(
+                C::placement(self.scheme()),
+                &self.r0,
+                self.new_arms(trial),
+            ),
+            motion: self.motion::<C>(view, trial),
         }
     }
 
     /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms; only schemes in temperature and Kelvin–Voigt dashpots use it.
     #[inline]
-    fn motion(&self, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
-        if !self.scheme().is_in_temperature() && M::Drag::LEN == 0 {
+    fn motion<C: Family>(&self, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
+        if !C::is_in_temperature(self.scheme()) && M::Drag::LEN == 0 {
             return self.r0;
         }
-        let rest = (1.0 - self.scheme().implicit()) * view.step;
+        let rest = (1.0 - C::implicit(self.scheme())) * view.step;
         let mut motion = change_in::<K, D>(&self.site.nodes, trial);
         let velocities = self.old_velocities(view);
         add_scaled::<K, D>(&mut motion, -rest, &velocities);

@@ -9,12 +9,12 @@ use super::member::Member;
 use super::placed::PlacedPoint;
 use super::point::Point;
 use super::point_step::PastStep;
-use crate::element::conjugates::{ElementScheme, Form, Start};
+use crate::element::conjugates::{Exact, Form, Start, exchanged};
 use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
-use eem_material::free_energy::Material;
+use eem_material::free_energy::{Array, Material};
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// Its arms in both states.
     #[inline]
     pub(super) fn past_arms(&self, step: &PastStep<'_>) -> [Arms<K, D>; 2] {
@@ -22,7 +22,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Sets both states, and what depends on them, to those of a step.
     #[inline]
     pub(super) fn return_to(
@@ -51,7 +51,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
     }
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Sets both states, and what depends on them.
     fn return_to(
         &mut self,
@@ -65,8 +65,9 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             self.is_prescribed = step.held[slot];
         }
         self.start = self.start_from(&x0);
-        self.memory = C::memory(theta);
-        C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
+        self.corners = M::Corners::filled(theta);
+        (self.start)
+            .prepare(&self.model, &self.x, &mut self.corners)
             .map_err(|infeasible| infeasible.of(self.element))?;
         for k in 0..M::DASHPOTS {
             self.creep[k] = self.x[M::MEASURES + k] - x0[M::MEASURES + k];
@@ -79,21 +80,22 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// A step from these variables.
     #[inline]
-    fn start_from(&self, x0: &M::Variables) -> Start<M, C::Old> {
-        let (scheme, mut old) = (self.scheme, self.scheme.nothing());
-        scheme.keep(&self.model, x0, 0.0, self.is_prescribed, &mut old);
-        Start { x0: *x0, old }
+    fn start_from(&self, x0: &M::Variables) -> Start<M> {
+        let mut start = Start {
+            x0: *x0,
+            ..Start::nothing()
+        };
+        start.keep(self.scheme, &self.model, 0.0, self.is_prescribed);
+        start
     }
 
     /// Its response with tangent, including Kelvin–Voigt dashpots.
     #[inline]
     pub(super) fn tangent_in(&mut self, per_step: f64) -> Result<Form<f64, M>, StateError> {
-        let mut form = self
-            .scheme
-            .form(&self.model, &self.start, &self.x, &self.memory);
-        self.accept(per_step, &form, None)?;
+        let mut form = self.form::<Exact>(false);
+        self.accept::<Exact>(per_step, &form, None)?;
         self.response = form.0;
-        self.add_drag(per_step, &mut form);
+        self.add_drag::<Exact>(per_step, &mut form);
         Ok(form)
     }
 
@@ -101,10 +103,9 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     #[inline]
     pub(super) fn slopes_by_old(&self) -> M::Tangent {
         let start = self.start_from(&self.x);
-        let memory = C::exchanged(&self.memory);
-        let (_, mut tangent) = self
-            .scheme
-            .form(&self.model, &start, &self.start.x0, &memory);
+        let corners = exchanged::<M>(&self.corners);
+        let (_, mut tangent) =
+            start.form::<Exact>(self.scheme, &self.model, &self.start.x0, &corners);
         if M::THERMAL {
             for slope in tangent[Self::ENTROPY].as_mut() {
                 *slope = -*slope;

@@ -6,7 +6,7 @@ use super::arms::{add_scaled, along};
 use super::point::{Known, Point, variables};
 use super::pose::{Pose, placed_measures};
 use super::respond::TrialArms;
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Family, Form, OneSet};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
@@ -14,25 +14,18 @@ use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 
 /// A point, and what it takes to find its measures from the nodes and to bring its forces to them.
-pub(crate) struct PlacedPoint<
-    M: FreeEnergy<f64>,
-    K: Kinematics<D>,
-    C: ElementScheme<M>,
-    const D: usize,
-> {
+pub(crate) struct PlacedPoint<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> {
     pub(super) kinematics: K,
     /// The derivative of the measures with respect to the new arms.
     pub(super) sensitivity: Gradient<K, D>,
     /// The derivative of `r_s` with respect to the new arms, without that through the measures: through the increments for
     /// a scheme in temperature, through the rates of Kelvin–Voigt dashpots for all classical schemes.
-    pub(super) by_increment: C::AtPoint<Arms<K, D>>,
-    pub(super) point: Point<M, K::Measures, C>,
+    pub(super) by_increment: Option<Box<Arms<K, D>>>,
+    pub(super) point: Point<M, K::Measures>,
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Deref
-    for PlacedPoint<M, K, C, D>
-{
-    type Target = Point<M, K::Measures, C>;
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> Deref for PlacedPoint<M, K, D> {
+    type Target = Point<M, K::Measures>;
 
     #[inline]
     fn deref(&self) -> &Self::Target {
@@ -40,25 +33,24 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> 
     }
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> DerefMut
-    for PlacedPoint<M, K, C, D>
-{
+impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> DerefMut for PlacedPoint<M, K, D> {
     #[inline]
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut self.point
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// The index of the temperature among the variables.
     pub(super) const TEMPERATURE: usize = M::MEASURES + M::DASHPOTS;
 
-    pub(super) fn new(kinematics: K, point: Point<M, K::Measures, C>) -> Self {
+    pub(super) fn new(kinematics: K, point: Point<M, K::Measures>) -> Self {
         let nowhere = Arms::<K, D>::filled([0.0; D]);
+        let is_classical = matches!(point.scheme, OneSet::Point(_));
         Self {
             kinematics,
             sensitivity: Gradient::<K, D>::filled(nowhere),
-            by_increment: C::AtPoint::filled(nowhere),
+            by_increment: is_classical.then(|| Box::new(nowhere)),
             point,
         }
     }
@@ -99,9 +91,9 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
 
     /// The measures of arms, and those at which the scheme evaluates the model.
     #[inline]
-    pub(super) fn placed(&self, r1: &Arms<K, D>) -> [Measures<K, D>; 2] {
+    pub(super) fn placed<C: Family>(&self, r1: &Arms<K, D>) -> [Measures<K, D>; 2] {
         let measures1 = self.kinematics.measure(r1);
-        let at = self.point.scheme.placement();
+        let at = C::placement(self.point.scheme);
         let placed = placed_measures::<K, D>(at, &self.point.old_measures(), measures1);
         [measures1, placed]
     }
@@ -112,68 +104,72 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         reason = "a call costs 1 % of a step of a spring"
     )]
     #[inline(always)]
-    pub(super) fn locate_trial(
+    pub(super) fn locate_trial<C: Family>(
         &mut self,
         r1: &Arms<K, D>,
         is_start: bool,
-        prepared: Option<C::Memory>,
+        corners: Option<M::Corners>,
     ) -> Result<Measures<K, D>, StateError> {
-        let [measures1, measures] = self.placed(r1);
+        let [measures1, measures] = self.placed::<C>(r1);
         self.check_measures(&measures, r1)?;
-        self.point.locate_trial(&measures, is_start, prepared)?;
+        self.point.locate_trial::<C>(&measures, is_start, corners)?;
         Ok(measures1)
     }
 
     /// The gradients in the configuration that the scheme uses, which has these measures.
     #[inline]
-    pub(super) fn pose(&self, arms: &TrialArms<K, D>, measures: &Measures<K, D>) -> Pose<K, D> {
+    pub(super) fn pose<C: Family>(
+        &self,
+        arms: &TrialArms<K, D>,
+        measures: &Measures<K, D>,
+    ) -> Pose<K, D> {
         let measures = [self.point.old_measures(), *measures];
         let ends = Ends::new(&self.kinematics, [arms.old, arms.placed], measures);
-        Pose::new(&self.kinematics, self.point.scheme.placement(), ends)
+        Pose::new(&self.kinematics, C::placement(self.point.scheme), ends)
     }
 
     /// Finds the response at a trial, without its tangent, at the end of a step. The response may be known.
     #[inline]
-    pub(super) fn respond_alone(
+    pub(super) fn respond_alone<C: Family>(
         &mut self,
         view: &StepView<'_>,
         trial: &Trial<D>,
         arms: &TrialArms<K, D>,
-        known: Known<C::Memory, M::Response, M>,
+        known: Known<M::Response, M>,
     ) -> Result<(), StateError> {
         let per_step = view.per_step;
-        let prepared = known.map(|(prepared, ..)| prepared);
-        let measures = self.locate_trial(&arms.placed, trial.is_start, prepared)?;
+        let corners = known.map(|(corners, ..)| corners);
+        let measures = self.locate_trial::<C>(&arms.placed, trial.is_start, corners)?;
         if M::Drag::LEN > 0 {
-            let pose = self.pose(arms, &measures);
-            self.extend(&pose, &arms.motion);
+            let pose = self.pose::<C>(arms, &measures);
+            self.extend::<C>(&pose, &arms.motion);
         }
         if trial.is_start {
-            let form = self.form(trial.is_start);
-            self.accept(per_step, &form, None)?;
+            let form = self.form::<C>(trial.is_start);
+            self.accept::<C>(per_step, &form, None)?;
             self.point.response = form.0;
             return Ok(());
         }
-        if M::THERMAL && self.scheme.is_in_temperature() {
-            let mut form = self.form(trial.is_start);
-            let pose = self.pose(arms, &measures);
+        if M::THERMAL && C::is_in_temperature(self.scheme) {
+            let mut form = self.form::<C>(trial.is_start);
+            let pose = self.pose::<C>(arms, &measures);
             self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
-            self.accept(per_step, &form, None)?;
+            self.accept::<C>(per_step, &form, None)?;
             self.point.response = form.0;
             return Ok(());
         }
         self.point.response = known.map_or_else(
             || {
-                self.scheme
-                    .response(&self.model, &self.start, &self.x, &self.memory)
+                self.start
+                    .response::<C>(self.scheme, &self.model, &self.x, &self.corners)
             },
             |(_, response, _)| response,
         );
         let response = self.point.response;
-        self.accept_response(per_step, &response, known.map(|known| known.2))
+        self.accept_response::<C>(per_step, &response, known.map(|known| known.2))
     }
 
-    /// For a scheme in temperature: calls [`ElementScheme::change_entropy_at_rates`] with the increments of the trial.
+    /// For a scheme in temperature: calls [`Point::change_entropy_at_rates`] with the increments of the trial.
     pub(super) fn change_entropy_at_rates(
         &mut self,
         step: f64,
@@ -189,8 +185,8 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         for (&slope, row) in slopes.as_ref().iter().zip(by_arm.as_ref()) {
             add_scaled::<K, D>(&mut sum, slope, row);
         }
-        for by_increment in self.by_increment.as_mut() {
-            *by_increment = sum;
+        if let Some(by_increment) = &mut self.by_increment {
+            **by_increment = sum;
         }
     }
 

@@ -4,7 +4,7 @@
 use super::arms::measures_in;
 use super::damping::Damping;
 use super::eliminate::{Condensed, PerUnknown};
-use crate::element::conjugates::{ElementScheme, Form, Placement, Start};
+use crate::element::conjugates::{Family, Form, OneSet, Placement, Start};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{MeasureSet, Numbers};
@@ -74,16 +74,16 @@ pub(super) type Viscosities<M> = (
     <M as FreeEnergy<f64>>::Viscosities,
 );
 
-/// Values of a trial that may have been evaluated ahead: memory of the scheme, response or form, and viscosities.
-pub(super) type Known<P, T, M> = Option<(P, T, Viscosities<M>)>;
+/// Values of a trial that may have been evaluated ahead: temperatures of mixed states, response or form, and viscosities.
+pub(super) type Known<T, M> = Option<(<M as FreeEnergy<f64>>::Corners, T, Viscosities<M>)>;
 
 /// The damping of a point with this model.
 pub(super) type DampingOf<M> =
     Damping<<M as FreeEnergy<f64>>::Variables, <M as FreeEnergy<f64>>::Hessian>;
 
-/// A point with its variables in a step of the scheme `C`. It knows the numbers of its measures `Q`, and no nodes.
-pub(crate) struct Point<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> {
-    pub(super) scheme: C,
+/// A point with its variables in a step. It knows the numbers of its measures `Q`, and no nodes.
+pub(crate) struct Point<M: FreeEnergy<f64>, Q: MeasureSet> {
+    pub(super) scheme: OneSet,
     /// Its handle.
     pub(super) element: Element,
     pub(super) model: M,
@@ -99,9 +99,9 @@ pub(crate) struct Point<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> 
     /// See [`settling`](crate::element::conduction::Conduction::settling), W/K.
     pub(super) settling: f64,
     /// The old state.
-    pub(super) start: Start<M, C::Old>,
-    /// Initial guesses that the scheme keeps from one iteration to the next.
-    pub(super) memory: C::Memory,
+    pub(super) start: Start<M>,
+    /// Temperatures of mixed states, kept from one iteration to the next; only in entropy form.
+    pub(super) corners: M::Corners,
     /// The trial variables `(π, γ, τ)`.
     pub(super) x: M::Variables,
     /// Δγ of the trial, m, stored because `γ⁰ + Δγ` would lose its digits where dashpots are stiff.
@@ -119,12 +119,12 @@ pub(crate) struct Point<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> 
     /// Local unknowns as functions of the global ones.
     pub(super) condensed: Condensed<M, Q>,
     /// Only for schemes that evaluate the model at one point of the step.
-    pub(super) single: C::AtPoint<PointMemory<M::Variables>>,
+    pub(super) single: Option<Box<PointMemory<M::Variables>>>,
     /// Only for a damped scheme.
-    pub(super) damping: C::Damping<DampingOf<M>>,
+    pub(super) damping: Option<Box<DampingOf<M>>>,
 }
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Number of variables.
     pub(super) const VARIABLES: usize = M::Variables::LEN;
 
@@ -137,9 +137,11 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// The index of Δs in the response.
     pub(super) const ENTROPY: usize = Self::TEMPERATURE + 1;
 
-    pub(super) fn new(scheme: C, element: Element, model: M, slots: Slots) -> Self {
+    pub(super) fn new(scheme: OneSet, element: Element, model: M, slots: Slots) -> Self {
         let zeros = M::Variables::filled(0.0);
         let viscosities = M::Viscosities::filled(0.0);
+        let is_classical = matches!(scheme, OneSet::Point(_));
+        let is_damped = matches!(scheme, OneSet::Damped);
         Self {
             scheme,
             element,
@@ -150,11 +152,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             meets_reservoirs: false,
             is_prescribed: false,
             settling: 0.0,
-            start: Start {
-                x0: zeros,
-                old: scheme.nothing(),
-            },
-            memory: C::memory(0.0),
+            start: Start::nothing(),
+            corners: M::Corners::filled(0.0),
             x: zeros,
             creep: viscosities,
             previous: PerUnknown::zero(),
@@ -164,8 +163,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             viscosities: (viscosities, viscosities),
             drag: Drag::zero(M::Drag::filled(0.0)),
             condensed: Condensed::zero(),
-            single: C::AtPoint::filled(PointMemory::zero()),
-            damping: C::Damping::filled(DampingOf::<M>::none()),
+            single: is_classical.then(|| Box::new(PointMemory::zero())),
+            damping: is_damped.then(|| Box::new(DampingOf::<M>::none())),
         }
     }
 
@@ -190,6 +189,26 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         measures_in::<Q>(&self.start.x0)
     }
 
+    /// Its variables of a scheme that evaluates the model at one point.
+    #[inline]
+    pub(super) fn single<C: Family>(&self) -> Option<&PointMemory<M::Variables>> {
+        if C::EXACT {
+            None
+        } else {
+            self.single.as_deref()
+        }
+    }
+
+    /// The same, mutable.
+    #[inline]
+    pub(super) fn single_mut<C: Family>(&mut self) -> Option<&mut PointMemory<M::Variables>> {
+        if C::EXACT {
+            None
+        } else {
+            self.single.as_deref_mut()
+        }
+    }
+
     /// Its contact, if it conducts heat to other elements.
     #[inline]
     pub(super) fn contact_in<'a, T>(&self, contacts: &'a [T]) -> Option<&'a T> {
@@ -202,25 +221,25 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Stores the response, and the rows of its tangent that are needed later.
     #[inline]
-    pub(super) fn keep(&mut self, (response, tangent): &Form<f64, M>) {
+    pub(super) fn keep<C: Family>(&mut self, (response, tangent): &Form<f64, M>) {
         self.response = *response;
         for row in 0..Self::VARIABLES {
             self.slopes[row] = tangent[row];
         }
-        if M::THERMAL {
-            for at_point in self.single.as_mut() {
-                at_point.entropy_by = tangent[Self::ENTROPY];
-            }
+        if M::THERMAL
+            && let Some(at_point) = self.single_mut::<C>()
+        {
+            at_point.entropy_by = tangent[Self::ENTROPY];
         }
     }
 
     /// The increment `h (w ẋ + c)` of an internal variable with the rate `ẋ` of the response; c is the contribution of
     /// the old state.
     #[inline]
-    pub(super) fn increment(&self, index: usize, rate: f64, h: f64) -> f64 {
-        let own = self.scheme.implicit() * rate;
-        let old = self.single.as_ref().iter();
-        h * old.fold(own, |sum, old| sum + old.old_rates[index])
+    pub(super) fn increment<C: Family>(&self, index: usize, rate: f64, h: f64) -> f64 {
+        let own = C::implicit(self.scheme) * rate;
+        let old = self.single::<C>();
+        h * old.map_or(own, |old| own + old.old_rates[index])
     }
 
     /// The new temperature that τ stands for, given the old one, K.
@@ -276,10 +295,10 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// Starts the next correction, of zero, from the present trial.
     #[inline]
-    pub(super) fn hold(&mut self) {
+    pub(super) fn hold<C: Family>(&mut self) {
         self.remember();
         self.correction = M::Variables::filled(0.0);
-        for at_point in self.single.as_mut() {
+        if let Some(at_point) = self.single_mut::<C>() {
             at_point.previous_entropy_change = at_point.entropy_change;
             at_point.entropy_correction = 0.0;
         }
@@ -299,7 +318,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature
     /// in its logarithm, so that it stays positive.
     #[inline]
-    pub(super) fn apply(&mut self, share: f64) {
+    pub(super) fn apply<C: Family>(&mut self, share: f64) {
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
             self.creep[k] = self.previous.get(k) + share * self.correction[index];
@@ -309,7 +328,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             let change = share * self.correction[Self::TEMPERATURE];
             self.x[Self::TEMPERATURE] = grown(self.previous.get(M::DASHPOTS), change);
         }
-        for at in self.single.as_mut() {
+        if let Some(at) = self.single_mut::<C>() {
             at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
         }
     }

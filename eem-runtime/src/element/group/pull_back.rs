@@ -24,14 +24,14 @@ use super::share::{Heat, Momentum, Share};
 use super::site::{Contact, Site, paths_of};
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::{Exact, Family};
 use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, Material};
 use weights::Surroundings;
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     /// Finds the interface temperatures θ* of a step. Points that have one return to the states of the step.
     pub(super) fn find_interfaces(
         &mut self,
@@ -45,8 +45,11 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
                     && point.contact_in(&self.contacts).is_some()
                 {
                     point.return_to(step, &arms)?;
-                    let (model, scheme) = (&point.model, point.scheme);
-                    let response = scheme.response(model, &point.start, &point.x, &point.memory);
+                    let (model, corners) = (&point.model, &point.corners);
+                    let response =
+                        point
+                            .start
+                            .response::<Exact>(point.scheme, model, &point.x, corners);
                     interface.set(slot, temperature_in::<M>(&response));
                 }
             }
@@ -63,10 +66,10 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         let contacts = &self.contacts;
-        let of_one = |member: &mut Member<M, K, C, D>, share: &mut Share<K, D>| {
+        let of_one = |member: &mut Member<M, K, D>, share: &mut Share<K, D>| {
             member.pull_back(contacts, step, interface, share)
         };
-        let mut add = |member: &Member<M, K, C, D>, share: &Share<K, D>| {
+        let mut add = |member: &Member<M, K, D>, share: &Share<K, D>| {
             member.add_transposed(share, contacts, (&mut *values, &mut *right));
         };
         if K::PerPoint::<()>::LEN > 1 {
@@ -142,7 +145,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// The contribution of its points to the transposed system.
     #[inline]
     fn pull_back(
@@ -163,7 +166,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<
             let reduced = point.condense_transposed(step, interface, &form, paths_of(contact))?;
             let pose = Pose::new(
                 &point.kinematics,
-                point.scheme.placement(),
+                Exact::placement(point.scheme),
                 point.ends(arms),
             );
             *heat = contact.map(|_| point.heat_transposed(past.view.step, &pose, &reduced));

@@ -23,13 +23,13 @@ use super::share::Share;
 use super::site::{Contact, Site, paths_of};
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::{Exact, Family};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, points, scale};
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics};
 use eem_material::free_energy::{Array, Material};
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> ElementGroup<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction.
     /// In its new state, anchors and prescribed temperatures already have their changes, and masses those of the old state.
     pub(super) fn push_forward(
@@ -50,26 +50,27 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
                     point.return_to(step, &arms)?;
                 }
                 let ends = point.ends(arms);
-                let pose = Pose::new(&point.kinematics, point.scheme.placement(), ends);
+                let pose = Pose::new(&point.kinematics, Exact::placement(point.scheme), ends);
                 let ends = point.ends_back(arms);
                 let paths = paths_of(contact);
                 point.sensitivity = pose.sensitivity;
                 let by_old_arms = point.kinematics.new_gradient(&ends);
                 let linear = point.linearize_past(step, interface, paths)?;
-                *heat = contact.map(|_| point.heat(interface, &linear.form));
+                *heat = contact.map(|_| point.heat::<Exact>(interface, &linear.form));
                 let form = (&linear.form, None);
-                point.add_momentum(step.view.step, &pose, form, heat, &mut share.momentum);
+                point.add_momentum::<Exact>(step.view.step, &pose, form, heat, &mut share.momentum);
                 point.add_old_curvature(step.view.step, &ends, &mut by_old);
                 if let Some(slot) = point.slots().thermal {
                     temperatures[slot] = temperature_in::<M>(&linear.form.0);
                 }
                 for direction in &mut *directions {
                     let moved = member.site.changes_in(&direction.old.positions);
-                    let moved = PlacedPoint::<M, K, C, D>::rates_along(&by_old_arms, &moved);
+                    let moved = PlacedPoint::<M, K, D>::rates_along(&by_old_arms, &moved);
                     let change = point.change(step, (interface, paths), &moved, &linear, direction);
                     let unknown = contact.map(|contact| contact.unknown as usize);
                     let forces = point.push(&linear, &change, unknown, direction)?;
-                    let mut pull = pose.pull(&point.kinematics, point.scheme.placement(), &forces);
+                    let mut pull =
+                        pose.pull(&point.kinematics, Exact::placement(point.scheme), &forces);
                     scale::<K, D>(&mut pull, step.view.step);
                     let right = direction.right.as_flattened_mut();
                     member.site.subtract_arms(&pull, &member.site.rows, right);
@@ -89,8 +90,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
             for direction in &mut *directions {
                 let moved = member.site.changes_in(&direction.new.positions);
                 for point in member.points.as_ref() {
-                    let changes =
-                        PlacedPoint::<M, K, C, D>::rates_along(&point.sensitivity, &moved);
+                    let changes = PlacedPoint::<M, K, D>::rates_along(&point.sensitivity, &moved);
                     let heat = point.contact_in(&self.contacts).map(|contact| {
                         point.condensed.heat_factor * contact.heat(&direction.right)
                     });
@@ -101,7 +101,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Element
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// Adds the changes with the old arms through the gradients, and all changes with the new arms.
     fn add_motion(
         &self,

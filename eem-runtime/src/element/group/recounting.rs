@@ -3,7 +3,6 @@
 use super::arms::{along, arms_in, measures_in};
 use super::placed::PlacedPoint;
 use super::point::Point;
-use crate::element::conjugates::ElementScheme;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
@@ -37,7 +36,7 @@ fn change_between<K: Kinematics<D>, const D: usize>(
     change
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// The change of its energy between two states, given its nodes.
     pub(super) fn balance_between(
         &self,
@@ -87,7 +86,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
     }
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
     pub(super) fn change_of(response: &M::Response, increments: &M::Variables) -> f64 {
         let mut sum = 0.0;

@@ -2,14 +2,14 @@
 
 use super::point::{Point, variables};
 use super::respond::check_temperature;
-use crate::element::conjugates::{ElementScheme, Infeasible, Placement, recovered_at};
+use crate::element::conjugates::{Family, Infeasible, Placement, recovered_at};
 use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::{Energy, State};
 use eem_material::free_energy::{Caloric, Material};
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Finds the new temperature from the new entropy at new measures, starting at `near`, where the caloric quantities may be known. If the
     /// scheme integrates the temperature, or it is prescribed, finds the entropy from the temperature instead.
     ///
@@ -19,7 +19,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         reason = "a call costs 1 % of a step of two springs"
     )]
     #[inline(always)]
-    pub(super) fn recover_temperature(
+    pub(super) fn recover_temperature<C: Family>(
         &mut self,
         measures: &Numbers<Q>,
         view: &StepView<'_>,
@@ -36,7 +36,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             return Ok(None);
         };
         let prescribed = view.prescribed(slot, Placement::End);
-        if let (false, None) = (self.scheme.is_in_temperature(), prescribed) {
+        if let (false, None) = (C::is_in_temperature(self.scheme), prescribed) {
             // The guess from the trial is good: usually one evaluation is enough.
             let entropy = state.entropies.values()[slot];
             let energy_at = self.model.caloric_at(x);

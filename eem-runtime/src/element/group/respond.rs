@@ -1,7 +1,7 @@
 //! The response of the elements at a trial state, and its checks.
 
 use super::point::{Point, Viscosities, temperature_in};
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Family, Form, check_stable};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
@@ -17,7 +17,7 @@ pub(super) struct TrialArms<K: Kinematics<D>, const D: usize> {
     pub(super) motion: Arms<K, D>,
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Takes the measures of a trial, and finds its temperature if that is not an unknown, and other values that the form of
     /// the scheme needs, unless they are known.
     #[expect(
@@ -25,29 +25,33 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         reason = "a call costs 1 % of a step of a spring"
     )]
     #[inline(always)]
-    pub(super) fn locate_trial(
+    pub(super) fn locate_trial<C: Family>(
         &mut self,
         measures: &Numbers<Q>,
         is_start: bool,
-        prepared: Option<C::Memory>,
+        corners: Option<M::Corners>,
     ) -> Result<(), StateError> {
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
-        if M::THERMAL && !self.scheme.is_in_temperature() && !self.is_prescribed {
-            for at_point in self.single.as_ref() {
-                let change = at_point.entropy_change;
-                let theta = self
-                    .scheme
-                    .temperature(&self.model, &self.start, &self.x, change);
-                let theta = theta.map_err(|infeasible| infeasible.of(self.element))?;
-                self.x[Self::TEMPERATURE] = theta;
-            }
+        if M::THERMAL
+            && let Some(at_point) = self.single::<C>()
+            && !self.scheme.is_in_temperature()
+            && !self.is_prescribed
+        {
+            let (rule, change) = (self.scheme.point_rule(), at_point.entropy_change);
+            let theta = rule.temperature(&self.model, &self.start, &self.x, change);
+            let theta = theta.map_err(|infeasible| infeasible.of(self.element))?;
+            self.x[Self::TEMPERATURE] = theta;
         }
-        if let Some(prepared) = prepared {
-            self.memory = prepared;
+        if !C::EXACT {
+            return Ok(());
+        }
+        if let Some(corners) = corners {
+            self.corners = corners;
         } else if !is_start {
-            C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
+            (self.start)
+                .prepare(&self.model, &self.x, &mut self.corners)
                 .map_err(|infeasible| infeasible.of(self.element))?;
         }
         Ok(())
@@ -55,25 +59,30 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// The response and its tangent at the trial that has been located.
     #[inline]
-    pub(super) fn form(&self, is_start: bool) -> Form<f64, M> {
-        if is_start && let Some(form) = C::starting_form(&self.model, &self.start, &self.x) {
+    pub(super) fn form<C: Family>(&self, is_start: bool) -> Form<f64, M> {
+        let (start, model, x) = (&self.start, &self.model, &self.x);
+        if C::EXACT
+            && is_start
+            && let Some(form) = start.starting_form(model, x)
+        {
             return form;
         }
-        self.scheme
-            .form(&self.model, &self.start, &self.x, &self.memory)
+        start.form::<C>(self.scheme, model, x, &self.corners)
     }
 
     /// Finds the viscosities for a response, unless they are known; an error if the trial is unstable or a value is not
     /// finite.
     #[inline]
-    pub(super) fn accept(
+    pub(super) fn accept<C: Family>(
         &mut self,
         per_step: f64,
         form: &Form<f64, M>,
         known: Option<Viscosities<M>>,
     ) -> Result<(), StateError> {
-        C::check(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
-        self.accept_response(per_step, &form.0, known)
+        if C::EXACT {
+            check_stable::<M>(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
+        }
+        self.accept_response::<C>(per_step, &form.0, known)
     }
 
     #[expect(
@@ -81,20 +90,20 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         reason = "a call costs 1.5 % of a step of a spring"
     )]
     #[inline(always)]
-    pub(super) fn accept_response(
+    pub(super) fn accept_response<C: Family>(
         &mut self,
         per_step: f64,
         response: &M::Response,
         known: Option<Viscosities<M>>,
     ) -> Result<(), StateError> {
         check_response::<M>(self.element, response)?;
-        self.check_conducting(response)?;
-        self.find_drag(per_step, response)?;
-        self.find_damping()?;
+        self.check_conducting::<C>(response)?;
+        self.find_drag::<C>(per_step, response)?;
+        self.find_damping::<C>()?;
         self.find_viscosities(temperature_in::<M>(response), known)
     }
 
-    /// For a scheme in temperature: calls [`ElementScheme::change_entropy_at_rates`], given the increments of the measures;
+    /// For a scheme in temperature: calls [`PointRule::change_entropy_at_rates`](crate::element::conjugates::PointRule::change_entropy_at_rates), given the increments of the measures;
     /// returns `∂s/∂x`.
     pub(super) fn change_entropy_at_rates(
         &self,
@@ -104,8 +113,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     ) -> M::Variables {
         let increments = self.increments(measures, step);
         let (model, start) = (&self.model, &self.start);
-        self.scheme
-            .change_entropy_at_rates(model, start, &self.x, &increments, form)
+        let rule = self.scheme.point_rule();
+        rule.change_entropy_at_rates(model, start, &self.x, &increments, form)
     }
 
     /// The increments of measures, viscous stretches and temperature, less the contribution of the old state.
@@ -115,7 +124,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         for (a, &increment) in measures.as_ref().iter().enumerate() {
             increments[a] = increment;
         }
-        for at_point in self.single.as_ref() {
+        if let Some(at_point) = &self.single {
             for index in M::MEASURES..last {
                 let change = self.x[index] - old[index];
                 increments[index] = change - step * at_point.old_rates[index];

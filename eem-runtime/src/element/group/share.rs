@@ -7,7 +7,7 @@ use super::placed::PlacedPoint;
 use super::pose::Pose;
 use super::site::{Contact, Site};
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Family, Form};
 use crate::element::group::member::Member;
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures, Points};
 use eem_material::free_energy::{Array, Material};
@@ -51,17 +51,19 @@ impl<K: Kinematics<D>, const D: usize> Share<K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// The derivative of a condensed response with respect to the new arms, times a factor.
     #[inline]
-    fn by_arm(&self, row: &CondensedRow<K::Measures>, factor: f64) -> Arms<K, D> {
+    fn by_arm<C: Family>(&self, row: &CondensedRow<K::Measures>, factor: f64) -> Arms<K, D> {
         let mut sum = self.sensitivity[0];
         scale::<K, D>(&mut sum, factor * row.by_measure[0]);
         for a in 1..M::MEASURES {
             let by = factor * row.by_measure[a];
             add_scaled::<K, D>(&mut sum, by, &self.sensitivity[a]);
         }
-        for by_increment in self.by_increment.as_ref() {
+        if !C::EXACT
+            && let Some(by_increment) = &self.by_increment
+        {
             let by = -factor * row.by_heat;
             add_scaled::<K, D>(&mut sum, by, by_increment);
         }
@@ -75,7 +77,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         reason = "a call of its own costs 2 % of a step of a spring"
     )]
     #[inline(always)]
-    pub(super) fn add_momentum(
+    pub(super) fn add_momentum<C: Family>(
         &self,
         step: f64,
         pose: &Pose<K, D>,
@@ -83,18 +85,18 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         heat: &mut Option<Heat<K, D>>,
         sum: &mut Option<Momentum<K, D>>,
     ) {
-        let impulse = step * self.scheme.implicit();
+        let impulse = step * C::implicit(self.scheme);
         let mut forces = Measures::<K, D>::filled(0.0);
         let mut forces_by_arm = pose.direction;
         let mut values = forces;
         for a in 0..M::MEASURES {
-            let row = self.condensed_row(a, form, heat.is_some());
+            let row = self.condensed_row::<C>(a, form, heat.is_some());
             forces[a] = impulse * form.0[a];
-            forces_by_arm[a] = self.by_arm(&row, impulse);
+            forces_by_arm[a] = self.by_arm::<C>(&row, impulse);
             if let Some(by_rate) = by_rate
                 && a < M::Drag::LEN
             {
-                let by = self.force_by_rate(a, step.recip(), impulse, by_rate);
+                let by = self.force_by_rate::<C>(a, step.recip(), impulse, by_rate);
                 add_scaled::<K, D>(&mut forces_by_arm[a], 1.0, &by);
             }
             values[a] = impulse * row.value;
@@ -103,7 +105,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
                 add_scaled::<K, D>(&mut heat.pull, -by_heat, &pose.direction[a]);
             }
         }
-        let (kinematics, at) = (&self.kinematics, self.scheme.placement());
+        let (kinematics, at) = (&self.kinematics, C::placement(self.scheme));
         let pull = pose.pull(kinematics, at, &values);
         match sum {
             // Springs have one point, and no sum.
@@ -123,27 +125,27 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
 
     /// The equation of a point with an interface temperature: Θ is θ*, or that of a damped scheme.
     #[inline]
-    pub(super) fn heat(
+    pub(super) fn heat<C: Family>(
         &self,
         interface: &InterfaceTemperatures,
         form: &Form<f64, M>,
     ) -> Heat<K, D> {
-        let row = if C::Damping::<()>::LEN > 0 {
-            self.condensed_row(M::MEASURES + M::DASHPOTS, &self.conducting(form), true)
+        let row = if C::IS_DAMPED {
+            self.condensed_row::<C>(M::MEASURES + M::DASHPOTS, &self.conducting::<C>(form), true)
         } else {
-            self.condensed_row(M::MEASURES + M::DASHPOTS, form, true)
+            self.condensed_row::<C>(M::MEASURES + M::DASHPOTS, form, true)
         };
         let interface = interface.values()[self.slots().thermal.unwrap_or_default()];
         Heat {
             residual: row.value - interface,
-            by_arm: self.by_arm(&row, 1.0),
+            by_arm: self.by_arm::<C>(&row, 1.0),
             slope: row.by_heat * self.condensed.heat_factor,
             pull: Arms::<K, D>::filled([0.0; D]),
         }
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> Member<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// Adds the contribution of the element to the entries of A and the rows of B.
     #[expect(
         clippy::inline_always,

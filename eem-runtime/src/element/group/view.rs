@@ -88,7 +88,7 @@ pub(crate) struct Trial<const D: usize> {
     pub(crate) carries: Vec<[f64; D]>,
     /// The interface temperatures Θ = θ*; unknowns where the slot is coupled.
     pub(crate) interface: InterfaceTemperatures,
-    /// Elements use the [starting form](crate::element::conjugates::ElementScheme::starting_form) of their scheme, if
+    /// Elements use the [starting form](crate::element::conjugates::Start::starting_form) of their scheme, if
     /// it has one.
     pub(crate) is_start: bool,
 }

@@ -1,7 +1,7 @@
 //! Elements in the state that closes a step: temperatures from entropies, energies, and the rates with
 //! which the next step begins.
 
-use crate::element::conjugates::{Infeasible, PointRule};
+use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::arms::add_scaled;
 use crate::element::group::explicit::closed::Closed;
@@ -71,7 +71,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Finds temperature and energy with these arms.
     #[inline]
     fn close_at(

@@ -1,6 +1,6 @@
 //! The elements of one model in an explicit scheme.
 
-use crate::element::conjugates::PointRule;
+use crate::element::conjugates::{OneSet, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::explicit::closed::Closed;
@@ -16,7 +16,7 @@ use eem_material::free_energy::{Array, Material};
 /// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
 pub(crate) struct ExplicitElements<M: Material, K: Kinematics<D>, const D: usize> {
     /// The elements in a state.
-    pub(super) elements: ElementGroup<M, K, PointRule, D>,
+    pub(super) elements: ElementGroup<M, K, D>,
     /// Per element: its component, and the indices of its nodes among the places of a stage.
     pub(super) places: Vec<(u32, K::PerNode<u32>)>,
     /// Per element: its last evaluation in a closing.
@@ -25,7 +25,8 @@ pub(crate) struct ExplicitElements<M: Material, K: Kinematics<D>, const D: usize
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     pub(crate) fn new(elements: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
-        let elements = ElementGroup::new(PointRule::Variational, elements, placed);
+        let scheme = OneSet::Point(PointRule::Variational);
+        let elements = ElementGroup::new(scheme, elements, placed);
         let count = elements.members.len();
         Self {
             places: vec![(0, K::PerNode::filled(0)); count],
@@ -36,9 +37,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
 
     /// All elements, each with the places of its nodes.
     #[inline]
-    pub(super) fn placed(
-        &self,
-    ) -> impl Iterator<Item = (&PlacedPoint<M, K, PointRule, D>, K::PerNode<u32>)> {
+    pub(super) fn placed(&self) -> impl Iterator<Item = (&PlacedPoint<M, K, D>, K::PerNode<u32>)> {
         let members = self.elements.members.iter().zip(&self.places);
         members.map(|(member, &(_, nodes))| (member.only(), nodes))
     }

@@ -4,7 +4,7 @@
 //! γ̇ = g/η,     Q = Σ g γ̇ + heat that flows in,     θ̇ = (Q − θ (s_λ λ̇ + Σ s_γ γ̇))/c
 //! ```
 
-use crate::element::conjugates::{Infeasible, PointRule};
+use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, scale};
 use crate::element::group::explicit::closed::Found;
@@ -53,7 +53,7 @@ fn is_number(value: f64) -> bool {
     value.abs() <= f64::MAX
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what was found stays in registers")]
     fn found_at(

@@ -1,6 +1,6 @@
 //! The temperature of an element at the end of a step, from its stored entropy.
 
-use crate::element::conjugates::{Infeasible, PointRule};
+use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::explicit::view::UnkeptEntropy;
 use crate::element::group::point::Point;
@@ -58,7 +58,7 @@ pub(crate) fn is_met(change: f64, [capacity, bend]: [f64; 2]) -> bool {
     bend * change * change <= 0.125 * f64::EPSILON * capacity
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q, PointRule> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// The temperature of an entropy near a guess by Newton's method in ln θ.
     #[expect(clippy::inline_always, reason = "the logarithms of `at` are shared")]
     #[inline(always)]

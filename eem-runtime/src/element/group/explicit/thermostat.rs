@@ -1,6 +1,5 @@
 //! The part of the heat of thermostats that depends on the course of their temperature.
 
-use crate::element::conjugates::PointRule;
 use crate::element::group::arms::along;
 use crate::element::group::explicit::group::ExplicitElements;
 use crate::element::group::explicit::rates::arms_of;
@@ -22,7 +21,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, PointRule, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Adds the present stage to the integrals of its [thermostat](crate::element::group::explicit::stage::Thermostat).
     fn integrate_thermostat(
         &self,

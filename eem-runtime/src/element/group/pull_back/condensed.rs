@@ -1,7 +1,7 @@
 //! The transposed equations of a point, and their elimination.
 
 use crate::element::conduction::{InterfaceTemperatures, Partner};
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Exact, Family, Form};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, measures_in};
 use crate::element::group::eliminate::{LocalSystem, eliminate};
@@ -24,7 +24,7 @@ pub(super) struct Reduced<Q: MeasureSet> {
     constant: Numbers<Q>,
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// `Σ λ_σ h κ_r/θ_r`.
     #[inline]
     pub(super) fn of_reservoirs(&self, step: &StepBack<'_>) -> f64 {
@@ -70,8 +70,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         }
         let theta = temperature_in::<M>(response);
         let flow = self.heat_flow(&step.past.view, paths, interface, theta);
-        let mut system = LocalSystem::<M>::empty(self.pivot_units(theta));
-        self.balances::<false>(&step.past.view, &flow, form, &mut system);
+        let mut system = LocalSystem::<M>::empty(self.pivot_units::<Exact>(theta));
+        self.balances::<Exact, false>(&step.past.view, &flow, form, &mut system);
         let mut transposed = LocalSystem::<M>::empty(system.unit);
         let of_reservoirs = self.of_reservoirs(step);
         let Slots { viscous, thermal } = self.slots();
@@ -122,7 +122,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Adds the derivatives of `wᵀR` with respect to the arms: the constant part, and that linear in `w_v`, its rows.
     #[inline]
     pub(super) fn add_transposed(
@@ -132,7 +132,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         (form, reduced): (&Form<f64, M>, &Reduced<K::Measures>),
         sum: &mut Option<Momentum<K, D>>,
     ) {
-        let (kinematics, at) = (&self.kinematics, self.scheme.placement());
+        let (kinematics, at) = (&self.kinematics, Exact::placement(self.scheme));
         let mut forces = Measures::<K, D>::filled(0.0);
         let mut by_arm = pose.sensitivity;
         for a in 0..M::MEASURES {

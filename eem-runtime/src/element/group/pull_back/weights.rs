@@ -1,7 +1,7 @@
 //! The weights of the equations of a point, and the derivatives that follow from them.
 
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::ElementScheme;
+use crate::element::conjugates::Exact;
 use crate::element::group::arms::{add_scaled, measures_in};
 use crate::element::group::placed::PlacedPoint;
 use crate::element::group::point::Point;
@@ -32,7 +32,7 @@ pub(super) struct OfPoint<M: Material> {
     own: f64,
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// The weights of its equations, given `D*π·w_v`, and its terms of `−(∂R/∂h)ᵀ w`. The forces
     /// there are replaced by inertia, by means of the momentum balances,
     ///
@@ -124,9 +124,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
 
     /// The derivatives of `wᵀR` with respect to the variables of the new state, without those to prescribed temperatures.
     pub(super) fn by_new(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
-        let (_, tangent) = self
-            .scheme
-            .form(&self.model, &self.start, &self.x, &self.memory);
+        let (_, tangent) = self.form::<Exact>(false);
         pulled::<M>(rho, &tangent, increments, 1.0)
     }
 
@@ -157,7 +155,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     #[inline]
     pub(super) fn by_parameters(&self, of: &OfPoint<M>) -> M::Parameters {
         let (start, x) = (&self.start, &self.x);
-        let mut sum = (self.scheme).form_adjoint(&self.model, start, x, &self.memory, &of.rho);
+        let mut sum = start.form_adjoint(&self.model, x, &self.corners, &of.rho);
         let theta = self.temperature();
         if M::DASHPOTS > 0 {
             let by = self.model.viscosity_adjoint(theta, &of.viscosities);
@@ -173,7 +171,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Adds the derivatives of `wᵀR` with respect to the arms of the second of two ends, given those to its variables.
     #[inline]
     pub(super) fn add_by_arms(
@@ -184,7 +182,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         step: f64,
         sum: &mut Arms<K, D>,
     ) {
-        let mut forces = self.pulls();
+        let mut forces = self.pulls::<Exact>();
         for force in forces.as_mut() {
             *force *= step;
         }

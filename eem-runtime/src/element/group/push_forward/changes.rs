@@ -2,7 +2,7 @@
 
 use super::still;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::conjugates::{Exact, Form};
 use crate::element::error::StateError;
 use crate::element::group::eliminate::{LocalSystem, eliminate};
 use crate::element::group::placed::PlacedPoint;
@@ -36,7 +36,7 @@ struct ViscosityChanges<M: Material> {
     drag: M::Drag,
 }
 
-impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
+impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Linearizes its equations at both states, set by `return_to`, and eliminates its unknowns.
     #[inline]
     pub(super) fn linearize_past(
@@ -49,8 +49,8 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
         self.slopes_of(&form);
         let theta = temperature_in::<M>(&form.0);
         let flow = self.heat_flow(&step.view, paths, interface, theta);
-        let mut local = LocalSystem::<M>::empty(self.pivot_units(theta));
-        self.balances::<false>(&step.view, &flow, &form, &mut local);
+        let mut local = LocalSystem::<M>::empty(self.pivot_units::<Exact>(theta));
+        self.balances::<Exact, false>(&step.view, &flow, &form, &mut local);
         if Self::UNKNOWNS > 0 {
             let mut solved = LocalSystem::<M> {
                 rows: local.rows,
@@ -169,7 +169,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
             *parameter = own;
         }
         let (start, x) = (&self.start, &self.x);
-        let by = (self.scheme).form_tangent(&self.model, start, x, &self.memory, &parameters);
+        let by = start.form_tangent(&self.model, x, &self.corners, &parameters);
         for (sum, &by) in response.as_mut().iter_mut().zip(by.as_ref()) {
             *sum += by;
         }
@@ -268,7 +268,7 @@ impl<M: Material, Q: MeasureSet, C: ElementScheme<M>> Point<M, Q, C> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedPoint<M, K, C, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Adds the derivative of its impulses with respect to the old arms at given forces.
     #[inline]
     pub(super) fn add_old_curvature(
@@ -277,7 +277,7 @@ impl<M: Material, K: Kinematics<D>, C: ElementScheme<M>, const D: usize> PlacedP
         back: &Ends<K, D>,
         sum: &mut Option<Blocks<K, D>>,
     ) {
-        let mut forces = self.pulls();
+        let mut forces = self.pulls::<Exact>();
         for force in forces.as_mut() {
             *force *= step;
         }

@@ -15,7 +15,6 @@
 use super::site::{PerPair, StageSite};
 use crate::algebra::lu::{self, Singular};
 use crate::element::conduction::Partner;
-use crate::element::conjugates::PointRule;
 use crate::element::group::arms::{add_scaled, arms_in, change_in_set};
 use crate::element::group::member::Member;
 use crate::element::group::placed::PlacedPoint;
@@ -26,10 +25,10 @@ use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
 use eem_material::free_energy::Array;
 
 /// The same element in a state, apart from any step.
-pub(super) type StateMember<M, K, const D: usize> = Member<M, K, PointRule, D>;
+pub(super) type StateMember<M, K, const D: usize> = Member<M, K, D>;
 
 /// One of its points.
-pub(super) type StatePoint<M, K, const D: usize> = PlacedPoint<M, K, PointRule, D>;
+pub(super) type StatePoint<M, K, const D: usize> = PlacedPoint<M, K, D>;
 
 /// An element, whose points are [sources](super::source::Source) of conjugates.
 pub(crate) struct StageMember<K: Kinematics<D>, C, const D: usize> {

@@ -38,6 +38,7 @@ mod vector;
 use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
 use super::site::PerPair;
 use super::source::Source;
+use crate::element::conjugates::Classical;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, spread};
 use crate::element::group::view::{StepView, Trial};
@@ -384,7 +385,9 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
         let booked = self.book(in_state, (view, trial), next, tally);
         let near = self.temperatures[MOST_POINTS];
         let measures = in_state.admissible_measures(r1)?;
-        if let Some(entropy) = in_state.recover_temperature(&measures, view, (near, None), next)? {
+        if let Some(entropy) =
+            in_state.recover_temperature::<Classical>(&measures, view, (near, None), next)?
+        {
             self.book_thermostat(&booked, entropy, next);
         }
         let energy = &mut next.energies[in_state.element.index()];

@@ -9,7 +9,7 @@ use super::point::{LocalStages, StageArms, StageMember, StagePoint, StateMember}
 use super::site::{StageSite, contacts};
 use super::source::Source;
 use crate::algebra::system::LinearSystem;
-use crate::element::conjugates::PointRule;
+use crate::element::conjugates::{OneSet, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::arms::arms_in;
 use crate::element::group::begin::shorten;
@@ -31,7 +31,7 @@ use eem_material::number::scalar::Scalar;
 pub(crate) struct StageGroup<M: Material, K: Kinematics<D>, C: Source<M, K, D>, const D: usize> {
     pub(super) rule: &'static Tableau,
     /// The elements in a state.
-    pub(super) elements: ElementGroup<M, K, PointRule, D>,
+    pub(super) elements: ElementGroup<M, K, D>,
     pub(super) members: Vec<StageMember<K, C, D>>,
     pub(super) local: LocalStages,
     /// The forces of one element.
@@ -44,7 +44,8 @@ impl<M: Material, K: Kinematics<D>, C: Source<M, K, D>, const D: usize> StageGro
         elements: LooseElements<M, K, D>,
         placed: Placed<'_>,
     ) -> Self {
-        let elements = ElementGroup::new(PointRule::Variational, elements, placed);
+        let scheme = OneSet::Point(PointRule::Variational);
+        let elements = ElementGroup::new(scheme, elements, placed);
         let [unknowns, inputs] = [C::unknowns_of(rule), C::inputs_of(rule)];
         let source = |kinematics: K| {
             C::new(StagePoint {

@@ -13,7 +13,7 @@ mod at_stage;
 use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
 use super::source::Source;
 use crate::element::conduction::Partner;
-use crate::element::conjugates::Infeasible;
+use crate::element::conjugates::{Classical, Infeasible};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, measures_in, resultant};
 use crate::element::group::closing::pull;
@@ -260,7 +260,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
         let received = self.book(in_state.slots(), view, next);
         let near = self.theta(self.point.rule.stages() - 1);
         let measures = in_state.admissible_measures(r1)?;
-        if let Some(entropy) = in_state.recover_temperature(&measures, view, (near, None), next)? {
+        if let Some(entropy) =
+            in_state.recover_temperature::<Classical>(&measures, view, (near, None), next)?
+        {
             self.book_thermostat(view.step, [entropy, received], next);
         }
         Ok(())
