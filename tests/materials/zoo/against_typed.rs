@@ -1,6 +1,5 @@
 //! Materials of texts against derived ones: every function has the same bits.
 
-use eem::Scalar;
 use eem::typed::{
     DampedSpring0, DampedSpring1, DampedThermalSpring0, DampedThermalSpring1, Law, Source, Spring0,
     Spring1, Spring2, Spring3, ThermalSpring0, ThermalSpring1, ThermalSpring2, ThermalSpring3,
@@ -67,7 +66,7 @@ fn by_parameters<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
     let count = model.parameter_names().len();
     assert_eq!(count, model.parameter_count());
     let seed: Vec<f64> = (0..64_u8)
-        .map(|k| Scalar::sin(1.0 + 2.0 * f64::from(k)))
+        .map(|k| eem::Scalar::sin(1.0 + 2.0 * f64::from(k)))
         .collect();
     let own = |found: M::Parameters| bits(found.as_ref()[..count].iter().copied());
     let (weights, along) = (array(&seed), array(&seed));

@@ -64,12 +64,6 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         members.flat_map(|member| member.points.as_ref())
     }
 
-    /// All points, mutable.
-    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut PlacedPoint<M, K, D>> {
-        let members = self.members.iter_mut();
-        members.flat_map(|member| member.points.as_mut())
-    }
-
     /// The element of the point with this index in the group, and the index of the point in the element.
     pub(super) fn at(&self, place: usize) -> (&Member<M, K, D>, usize) {
         let points = K::PerPoint::<PlacedPoint<M, K, D>>::LEN;
@@ -83,8 +77,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
-        let mut members = self.members.iter_mut();
-        members.try_for_each(|member| member.begin::<C>(view, old, None))
+        for member in &mut self.members {
+            member.begin::<C>(view, old, None)?;
+        }
+        Ok(())
     }
 
     /// Closes the step in all elements.
@@ -96,10 +92,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        let mut members = self.members.iter_mut();
-        members.try_for_each(|member| {
-            member.close::<C>(&self.contacts, (view, trial), next, tally, None)
-        })
+        for member in &mut self.members {
+            member.close::<C>(&self.contacts, (view, trial), next, tally, None)?;
+        }
+        Ok(())
     }
 }
 
@@ -265,13 +261,19 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
     }
 
     fn apply(&mut self, share: f64) {
-        self.points_mut()
-            .for_each(|point| point.apply::<Classical>(share));
+        for member in &mut self.members {
+            for point in member.points.as_mut() {
+                point.apply::<Classical>(share);
+            }
+        }
     }
 
     fn hold(&mut self) {
-        self.points_mut()
-            .for_each(|point| point.hold::<Classical>());
+        for member in &mut self.members {
+            for point in member.points.as_mut() {
+                point.hold::<Classical>();
+            }
+        }
     }
 
     fn add_impulse(
@@ -319,15 +321,14 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
         }
     }
 
-    fn generic_of_step(&self, ends: [&State; 2]) -> Vec<ElementGeneric> {
-        let members = self.members.iter().flat_map(|member| {
-            let [r0, r1] = ends.map(|state| member.arms_in(state));
-            let points = member.points.as_ref().iter();
-            points.map(move |point| {
-                point.generic(&member.site.nodes, (self.scheme.placement(), [&r0, &r1]))
-            })
-        });
-        members.collect()
+    fn generic_of_step(&self, ends: [&State; 2], see: &mut dyn FnMut(ElementGeneric)) {
+        for member in &self.members {
+            let [r0, r1] = [member.arms_in(ends[0]), member.arms_in(ends[1])];
+            let at = (self.scheme.placement(), [&r0, &r1]);
+            for point in member.points.as_ref() {
+                see(point.generic(&member.site.nodes, at));
+            }
+        }
     }
 
     #[cfg(feature = "gradients")]

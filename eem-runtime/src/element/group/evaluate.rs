@@ -38,8 +38,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         view: &StepView<'_>,
         trial: &Trial<D>,
     ) -> Result<(), StateError> {
-        let mut members = self.members.iter_mut();
-        members.try_for_each(|member| member.respond::<C>(view, trial, None))
+        for member in &mut self.members {
+            member.respond::<C>(view, trial, None)?;
+        }
+        Ok(())
     }
 
     /// Linearizes elements with many points, in rounds.
@@ -105,8 +107,10 @@ fn in_pieces<A: Send, B: Send>(
     of_one: &(impl Fn(&mut A, &mut B) -> Result<(), StateError> + Sync),
 ) -> Result<(), StateError> {
     if members.len() <= PIECE {
-        let mut pairs = members.iter_mut().zip(shares);
-        return pairs.try_for_each(|(member, share)| of_one(member, share));
+        for (member, share) in members.iter_mut().zip(shares) {
+            of_one(member, share)?;
+        }
+        return Ok(());
     }
     let middle = members.len() / 2;
     let (members, more_members) = members.split_at_mut(middle);
@@ -129,8 +133,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
         known: Known<M::Response, M>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms::<C>(view, trial);
-        let mut points = self.points.as_mut().iter_mut();
-        points.try_for_each(|point| point.respond_alone::<C>(view, trial, &arms, known))
+        for point in self.points.as_mut() {
+            point.respond_alone::<C>(view, trial, &arms, known)?;
+        }
+        Ok(())
     }
 
     /// Evaluates responses and tangents, which may be known, and the contribution of the element to the system of the next

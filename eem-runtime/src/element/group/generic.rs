@@ -38,21 +38,22 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         let pose = Pose::between(&self.kinematics, at, ends, measures0);
         let on_nodes = |forces: &Measures<K, D>| {
             let pulled = pose.pull(&self.kinematics, at, forces);
-            by_coordinate::<K, D>(nodes, &spread::<K, D>(&pulled))
+            by_coordinate(nodes.as_ref(), spread::<K, D>(&pulled).as_ref())
         };
-        let drags = (0..M::Drag::LEN).map(|a| {
+        let (mut drags, mut dashpots) = (Vec::new(), Vec::new());
+        for a in 0..M::Drag::LEN {
             let mut unit = Measures::<K, D>::filled(0.0);
             unit[a] = 1.0;
-            (self.drag.viscosity.0[a], on_nodes(&unit))
-        });
-        let dashpots = (0..M::DASHPOTS).map(|k| {
+            drags.push((self.drag.viscosity.0[a], on_nodes(&unit)));
+        }
+        for k in 0..M::DASHPOTS {
             let g = self.response[M::MEASURES + k];
-            (self.slots().viscous + k, g, self.viscosities.0[k])
-        });
+            dashpots.push((self.slots().viscous + k, g, self.viscosities.0[k]));
+        }
         ElementGeneric {
             forces: on_nodes(&measures_in::<K::Measures>(&self.response)),
-            dashpots: dashpots.collect(),
-            drags: drags.collect(),
+            dashpots,
+            drags,
             temperature: self.slots().thermal.map(|slot| (slot, self.temperature())),
             entropy: None,
         }
@@ -74,25 +75,26 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             by_measure[a] = -hessian[theta][a];
         }
         let pulled = pose.pull(&self.kinematics, at, &by_measure);
-        let dashpots = (0..M::DASHPOTS).map(|k| (viscous + k, -hessian[theta][M::MEASURES + k]));
+        let mut by_viscous = Vec::new();
+        for k in 0..M::DASHPOTS {
+            by_viscous.push((viscous + k, -hessian[theta][M::MEASURES + k]));
+        }
         thermal.map(|slot| EntropySlopes {
             slot,
-            by_position: by_coordinate::<K, D>(nodes, &spread::<K, D>(&pulled)),
-            by_viscous: dashpots.collect(),
+            by_position: by_coordinate(nodes.as_ref(), spread::<K, D>(&pulled).as_ref()),
+            by_viscous,
             by_temperature: -hessian[theta][theta],
         })
     }
 }
 
 /// The components of vectors on nodes, with their coordinates.
-fn by_coordinate<K: Kinematics<D>, const D: usize>(
-    nodes: &K::PerNode<u32>,
-    by_node: &K::PerNode<[f64; D]>,
-) -> Vec<(usize, f64)> {
+fn by_coordinate<const D: usize>(nodes: &[u32], by_node: &[[f64; D]]) -> Vec<(usize, f64)> {
     let mut entries = Vec::new();
-    for (&node, vector) in nodes.as_ref().iter().zip(by_node.as_ref()) {
-        let axes = vector.iter().enumerate();
-        entries.extend(axes.map(|(axis, &entry)| (node as usize * D + axis, entry)));
+    for (&node, vector) in nodes.iter().zip(by_node) {
+        for (axis, &entry) in vector.iter().enumerate() {
+            entries.push((node as usize * D + axis, entry));
+        }
     }
     entries
 }

@@ -142,20 +142,18 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
         member.points.as_ref()[point].slots()
     }
 
-    fn generic_in(&mut self, state: &State) -> Vec<ElementGeneric> {
-        let mut elements = Vec::with_capacity(self.members.len());
+    fn generic_in(&mut self, state: &State, see: &mut dyn FnMut(ElementGeneric)) {
         for member in &mut self.members {
             let r = member.arms_in(state);
             for point in member.points.as_mut() {
                 point.take_derivatives(&r, state);
                 let at = (Placement::End, [&r, &r]);
-                elements.push(ElementGeneric {
+                see(ElementGeneric {
                     entropy: point.entropy_slopes(&member.site.nodes, at),
                     ..point.generic(&member.site.nodes, at)
                 });
             }
         }
-        elements
     }
 
     #[cfg(feature = "gradients")]

@@ -40,8 +40,8 @@ pub(crate) trait Elements<const D: usize>: Send + Sync {
     /// Writes the energies of a state whose temperatures and entropies are known.
     fn find_energies(&self, state: &mut State);
 
-    /// The contributions of the elements to the GENERIC form in a state.
-    fn generic_in(&mut self, state: &State) -> Vec<ElementGeneric>;
+    /// Passes the contribution of each point to the GENERIC form in a state to `see`.
+    fn generic_in(&mut self, state: &State, see: &mut dyn FnMut(ElementGeneric));
 
     /// Passes stiffness and rates of each point in a state to `see`.
     fn stiffness(&self, state: &State, see: &mut dyn FnMut(Stiffness<'_>));
@@ -162,9 +162,9 @@ pub(crate) trait Group<const D: usize>: Send + Sync {
     /// Adds the energy balances of the elements in the last step, from the old state to a closed one.
     fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation);
 
-    /// The contributions of the elements to the discrete GENERIC form of the last step, between two states; empty for
-    /// schemes of several stages.
-    fn generic_of_step(&self, ends: [&State; 2]) -> Vec<ElementGeneric>;
+    /// Passes the contribution of each point to the discrete GENERIC form of the last step, between two states, to `see`;
+    /// none for schemes of several stages.
+    fn generic_of_step(&self, _ends: [&State; 2], _see: &mut dyn FnMut(ElementGeneric)) {}
 
     /// Finds the interface temperatures θ* of its points in a completed step, before [`pull_back`](Self::pull_back).
     #[cfg(feature = "gradients")]

@@ -75,12 +75,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         if K::PerPoint::<()>::LEN > 1 {
             return in_rounds(&mut self.members, &mut self.shares, &of_one, &mut add);
         }
-        self.members.iter_mut().try_for_each(|member| {
+        for member in &mut self.members {
             let mut share = Share::none();
             of_one(member, &mut share)?;
             add(member, &share);
-            Ok(())
-        })
+        }
+        Ok(())
     }
 
     /// Finds the derivatives with respect to the old state and to the parameters, given the solution of that system.

@@ -43,7 +43,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         nodes: &K::PerNode<u32>,
         ends: [&State; 2],
     ) -> EnergyChange<M> {
-        let [r0, r1] = ends.map(|state| arms_in::<K, D>(nodes, &state.positions));
+        let [r0, r1] = [
+            arms_in::<K, D>(nodes, &ends[0].positions),
+            arms_in::<K, D>(nodes, &ends[1].positions),
+        ];
         let change = change_between::<K, D>(nodes, ends);
         let at = self.element.index();
         let by_values = ends[1].energies[at].value - ends[0].energies[at].value;

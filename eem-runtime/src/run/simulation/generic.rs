@@ -59,7 +59,9 @@ impl<const D: usize> Simulation<D> {
         self.has_stepped = false;
         let state = &self.state;
         let mut elements = Vec::new();
-        let each = |group: &mut dyn Elements<D>| elements.extend(group.generic_in(state));
+        let each = |group: &mut dyn Elements<D>| {
+            group.generic_in(state, &mut |element| elements.push(element));
+        };
         self.stepper.each_mut(each);
         let velocities = self.velocities_in(&self.state);
         (self.generic_from(&elements, &velocities), elements)
@@ -77,10 +79,10 @@ impl<const D: usize> Simulation<D> {
         let Stepper::Newton(newton) = &self.stepper else {
             return None;
         };
-        let groups = newton.groups.iter();
-        let elements: Vec<_> = groups
-            .flat_map(|group| group.generic_of_step(ends))
-            .collect();
+        let mut elements = Vec::new();
+        for group in &newton.groups {
+            group.generic_of_step(ends, &mut |element| elements.push(element));
+        }
         let [mut mean, new] = ends.map(|state| self.velocities_in(state));
         for (mean, new) in mean.iter_mut().zip(new) {
             *mean = 0.5 * (*mean + new);

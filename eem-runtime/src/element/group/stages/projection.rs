@@ -49,6 +49,7 @@ use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES};
 use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::Scalar;
+use path::course_of;
 use vector::{Matrix, Vector, derivatives, steepness};
 
 /// A point with its path through a step, and the projections from it.
@@ -192,7 +193,11 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
             self.temperatures = [theta; MOST_POINTS + 1];
             self.warming = 0.0;
             if let Some(prescribed) = self.point.prescribed {
-                self.follow_course(theta, -hessian[last][last], &prescribed);
+                let course = course_of(self.point.rule, theta, &prescribed);
+                if let Some((temperatures, squares)) = course {
+                    self.temperatures = temperatures;
+                    self.warming = -hessian[last][last] * squares;
+                }
             }
         }
         self.rates = [Vector::zero(); MOST_STAGES];
@@ -407,9 +412,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
         let own = in_state.balance_between(nodes, ends);
         let mut found = 0.0;
         for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
-            let terms = self.conjugates[stage].entries();
-            let work = terms.zip(self.rates[stage].entries());
-            let work = work.fold(0.0, |sum, (a, rate)| sum + a * rate);
+            let work = self.conjugates[stage].dot(&self.rates[stage]);
             found += weight * (work - self.viscous_heat[stage]);
         }
         found += self.heat_beyond;

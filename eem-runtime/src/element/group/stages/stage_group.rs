@@ -17,7 +17,7 @@ use crate::element::group::element_group::ElementGroup;
 use crate::element::group::interface::{Elements, Group, Loose};
 use crate::element::group::loose::LooseElements;
 use crate::element::group::point::variables;
-use crate::element::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
+use crate::element::group::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::element::group::ways::StageWays;
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, QuadraticStrain, add_blocks};
@@ -108,10 +108,6 @@ impl<M: Material, K: Kinematics<D>, C: Source<M, K, D>, const D: usize> StageGro
             target.add_impulses();
         }
         Ok(())
-    }
-
-    fn sources_mut(&mut self) -> impl Iterator<Item = &mut C> {
-        (self.members.iter_mut()).flat_map(|stages| &mut stages.points)
     }
 }
 
@@ -204,11 +200,19 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
     }
 
     fn apply(&mut self, share: f64) {
-        self.sources_mut().for_each(|source| source.apply(share));
+        for stages in &mut self.members {
+            for source in &mut stages.points {
+                source.apply(share);
+            }
+        }
     }
 
     fn hold(&mut self) {
-        self.sources_mut().for_each(C::hold);
+        for stages in &mut self.members {
+            for source in &mut stages.points {
+                source.hold();
+            }
+        }
     }
 
     fn add_impulse(
@@ -293,9 +297,5 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
                 source.reevaluate(in_state, &member.site.nodes, ends, reevaluation);
             }
         }
-    }
-
-    fn generic_of_step(&self, _: [&State; 2]) -> Vec<ElementGeneric> {
-        Vec::new()
     }
 }

@@ -202,9 +202,8 @@ impl<const D: usize> Simulation<D> {
             return;
         };
         for group in &mut newton.groups {
-            for slopes in group.elements_mut().generic_in(state) {
-                see_energy(&slopes, weight, see);
-            }
+            let mut see_element = |element| see_energy(&element, weight, see);
+            (group.elements_mut()).generic_in(state, &mut see_element);
             group.energy_by_parameters(state, &mut |element, values| {
                 see(Of::Parameters(element.index(), values), weight);
             });

@@ -1,15 +1,46 @@
 //! The path of a point through a step: its beginning, its points at a trial, and the projections from them.
 
-use super::vector::{Matrix, Vector, chained, derivatives};
+use super::vector::{Matrix, Vector, chained, derivatives, sum_of};
 use super::{Projections, combined};
 use crate::element::conjugates::{Infeasible, temperature_at};
 use crate::element::error::StateError;
 use crate::element::group::stages::point::{StageArms, StatePoint};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
-use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path};
+use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path, Tableau};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::is_positive;
+
+/// The temperatures of a path whose temperatures are given at its supports, from the old one, K, and the integral of the squares of
+/// their rates, K²/s². They do not depend on the element, and are compiled once.
+pub(super) fn course_of(
+    rule: &Tableau,
+    old: f64,
+    prescribed: &[f64; MOST_STAGES],
+) -> Option<([f64; MOST_POINTS + 1], f64)> {
+    let path = rule.path?;
+    let sum = |shares: &[f64], terms: &[f64; MOST_STAGES]| {
+        let terms = shares.iter().zip(terms);
+        terms.fold(0.0, |sum, (share, term)| sum + share * term)
+    };
+    let changes = prescribed.map(|theta| theta - old);
+    let (mut at_stages, mut rates) = ([0.0; MOST_STAGES], [0.0; MOST_STAGES]);
+    for (at_stage, row) in at_stages.iter_mut().zip(path.supports.to_stages) {
+        *at_stage = sum(row, &changes);
+    }
+    for (rate, row) in rates.iter_mut().zip(rule.motion) {
+        *rate = sum(row, &at_stages);
+    }
+    let mut temperatures = [old; MOST_POINTS + 1];
+    for (theta, row) in temperatures.iter_mut().zip(path.integrals) {
+        *theta = old + sum(row, &rates);
+    }
+    temperatures[MOST_POINTS] = prescribed[rule.stages() - 1];
+    Some((
+        temperatures,
+        sum(rule.weights, &rates.map(|rate| rate * rate)),
+    ))
+}
 
 /// `y = (C, γ, s)` and `x = (π, γ, θ)` at a point of a path.
 type PathPoint<M, K, const D: usize> = (Vector<M, K, D>, <M as FreeEnergy<f64>>::Variables);
@@ -53,7 +84,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
                 Infeasible::unless_stable(-theta * hessian[last][last], theta)
                     .map_err(|infeasible| infeasible.of(in_state.element))?;
             }
-            check_finite(in_state.element, gradient.as_ref().iter().copied())?;
+            check_finite(in_state.element, sum_of(gradient.as_ref()))?;
             let of_model = (&x, &gradient, &hessian);
             let kinematics = &self.point.kinematics;
             let of_energy = derivatives(kinematics, &y.strain, of_model, self.is_held());
@@ -122,37 +153,6 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         Ok((y, x))
     }
 
-    /// Finds the temperatures of the path from those that are given at its supports, and w, from the old temperature and the
-    /// old c/θ, J/K².
-    pub(super) fn follow_course(
-        &mut self,
-        old: f64,
-        per_square: f64,
-        prescribed: &[f64; MOST_STAGES],
-    ) {
-        let rule = self.point.rule;
-        let Some(path) = rule.path else {
-            return;
-        };
-        let sum = |shares: &[f64], terms: &[f64; MOST_STAGES]| {
-            let terms = shares.iter().zip(terms);
-            terms.fold(0.0, |sum, (share, term)| sum + share * term)
-        };
-        let changes = prescribed.map(|theta| theta - old);
-        let (mut at_stages, mut rates) = ([0.0; MOST_STAGES], [0.0; MOST_STAGES]);
-        for (at_stage, row) in at_stages.iter_mut().zip(path.supports.to_stages) {
-            *at_stage = sum(row, &changes);
-        }
-        for (rate, row) in rates.iter_mut().zip(rule.motion) {
-            *rate = sum(row, &at_stages);
-        }
-        for (theta, row) in self.temperatures.iter_mut().zip(path.integrals) {
-            *theta = old + sum(row, &rates);
-        }
-        self.temperatures[MOST_POINTS] = prescribed[rule.stages() - 1];
-        self.warming = per_square * sum(rule.weights, &rates.map(|rate| rate * rate));
-    }
-
     /// Finds the end of the path; returns `∇ê` there, and the discrete derivatives between both ends, whose product with
     /// the increments is Δê. Of a prescribed temperature, the first are the derivatives of that product by the increments.
     pub(super) fn reach_end(
@@ -181,8 +181,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         };
         let slopes = between([&end.strain, &end.strain], gradient);
         let discrete = between([&self.old.strain, &end.strain], mean);
-        let entries = slopes.entries().chain(discrete.entries());
-        check_finite(in_state.element, entries)?;
+        check_finite(in_state.element, slopes.sum() + discrete.sum())?;
         self.end_slopes[1] = slopes;
         if !self.is_held() {
             return Ok([slopes, discrete]);
@@ -216,9 +215,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     }
 }
 
-/// An error unless the sum of some numbers is finite.
-fn check_finite(element: Element, values: impl Iterator<Item = f64>) -> Result<(), StateError> {
-    let sum = values.fold(0.0, |sum, value| sum + value);
+/// An error unless a sum is finite.
+fn check_finite(element: Element, sum: f64) -> Result<(), StateError> {
     if sum.is_finite() {
         return Ok(());
     }

@@ -47,8 +47,21 @@ impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Vector<M, K, D> 
         }
     }
 
-    pub(super) fn entries(&self) -> impl Iterator<Item = f64> + '_ {
-        (0..Self::LEN).map(|index| self[index])
+    pub(super) fn dot(&self, other: &Self) -> f64 {
+        let mut sum = 0.0;
+        for index in 0..Self::LEN {
+            sum += self[index] * other[index];
+        }
+        sum
+    }
+
+    /// The sum of all entries.
+    pub(super) fn sum(&self) -> f64 {
+        let mut sum = 0.0;
+        for index in 0..Self::LEN {
+            sum += self[index];
+        }
+        sum
     }
 
     /// The variables of the model with these γ, and the given measures and temperature.
@@ -60,6 +73,11 @@ impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Vector<M, K, D> 
         }
         x
     }
+}
+
+/// The sum of some numbers.
+pub(super) fn sum_of(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(0.0, |sum, number| sum + number)
 }
 
 impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Matrix<M, K, D> {
