@@ -5,22 +5,25 @@
 //! nodes, neighbours or solvers.
 
 mod corners;
-mod element;
 mod exact;
+mod family;
 mod fitting;
+mod infeasible;
 mod point;
+mod start;
 mod temperature;
 
 use crate::element::tableau::Tableau;
 
-pub(crate) use element::{
-    Classical, Damped, Exact, Family, Form, Infeasible, KeptOf, OneSet, Placement, Start,
-};
 #[cfg(feature = "gradients")]
 pub(crate) use exact::exchanged;
-pub(crate) use exact::{ExactForm, check_stable, prepare_rows, rows};
+pub(crate) use exact::{check_stable, prepare_rows, rows};
+pub(crate) use family::{
+    Classical, Damped, Exact, ExactForm, Family, OneSet, Placement, PointRule,
+};
 pub(crate) use fitting::{end_weight, end_weight_over};
-pub(crate) use point::PointRule;
+pub(crate) use infeasible::Infeasible;
+pub(crate) use start::{Form, KeptOf, Start};
 pub(crate) use temperature::{recovered_at, temperature_at};
 
 /// How the conjugates of a scheme are found.

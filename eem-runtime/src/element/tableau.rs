@@ -135,6 +135,35 @@ impl Tableau {
         self.positions.len()
     }
 
+    /// The temperatures of a path that are prescribed at its supports, from the old one, K, and the integral of the squares of their
+    /// rates, K²; none without a path.
+    pub(crate) fn course(
+        &self,
+        old: f64,
+        prescribed: &[f64; MOST_STAGES],
+    ) -> Option<([f64; MOST_POINTS + 1], f64)> {
+        let path = self.path?;
+        let sum = |shares: &[f64], terms: &[f64; MOST_STAGES]| {
+            let terms = shares.iter().zip(terms);
+            terms.fold(0.0, |sum, (share, term)| sum + share * term)
+        };
+        let changes = prescribed.map(|theta| theta - old);
+        let (mut at_stages, mut rates) = ([0.0; MOST_STAGES], [0.0; MOST_STAGES]);
+        for (at_stage, row) in at_stages.iter_mut().zip(path.supports.to_stages) {
+            *at_stage = sum(row, &changes);
+        }
+        for (rate, row) in rates.iter_mut().zip(self.motion) {
+            *rate = sum(row, &at_stages);
+        }
+        let mut temperatures = [old; MOST_POINTS + 1];
+        for (theta, row) in temperatures.iter_mut().zip(path.integrals) {
+            *theta = old + sum(row, &rates);
+        }
+        temperatures[MOST_POINTS] = prescribed[self.stages() - 1];
+        let squares = rates.map(|rate| rate * rate);
+        Some((temperatures, sum(self.weights, &squares)))
+    }
+
     /// The stage of a set.
     pub(crate) const fn stage_of(&self, set: usize) -> usize {
         self.known + set

@@ -2,7 +2,7 @@
 //!
 //! They come from the Legendre inversion `S(λ, γ, θ̂) = s` by Newton's method, for any free energy.
 
-use crate::element::conjugates::element::Infeasible;
+use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
 use core::array;
 use eem_material::free_energy::{Array, FreeEnergy, Material};

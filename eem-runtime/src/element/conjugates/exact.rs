@@ -22,15 +22,10 @@
 //! given.
 
 use crate::element::conjugates::corners::find_corners_of_each;
-use crate::element::conjugates::element::{Form, Infeasible, Kept, KeptOf, OneSet, Start};
+use crate::element::conjugates::family::{ExactForm, OneSet};
+use crate::element::conjugates::infeasible::Infeasible;
+use crate::element::conjugates::start::{Form, Kept, KeptOf, Start};
 use eem_material::free_energy::{Array, Each, FormRows, FreeEnergy, Material, Rows};
-
-/// See the module.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ExactForm {
-    Entropy,
-    Temperature,
-}
 
 /// The elements that are evaluated in one call.
 const TOGETHER: usize = 32;

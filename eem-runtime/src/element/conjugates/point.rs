@@ -26,64 +26,13 @@
 //!
 //! With λ of the mean configuration instead of the mean length it would be the implicit midpoint rule.
 
-use crate::element::conjugates::element::{
-    Form, Infeasible, Kept, Placement, Start, not_of_this_family,
-};
+use crate::element::conjugates::family::{PointRule, not_of_this_family};
+use crate::element::conjugates::infeasible::Infeasible;
+use crate::element::conjugates::start::{Form, Kept, Start};
 use crate::element::conjugates::temperature::temperature_at;
 use eem_material::free_energy::{Array, FreeEnergy};
 
-/// See the module.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PointRule {
-    /// Midpoint rule for entropies.
-    Midpoint,
-    /// Midpoint rule for temperatures.
-    MidpointTemperature,
-    /// Trapezoidal rule for entropies.
-    Trapezoidal,
-    /// Trapezoidal rule for temperatures.
-    TrapezoidalTemperature,
-    /// No rule for steps: values at a state at rest.
-    Rest,
-    /// From Hamilton's principle.
-    Variational,
-}
-
 impl PointRule {
-    /// The time c of the point, as a fraction of the step.
-    const fn time(self) -> f64 {
-        match self {
-            Self::Midpoint | Self::MidpointTemperature | Self::Variational => 0.5,
-            Self::Trapezoidal | Self::TrapezoidalTemperature | Self::Rest => 1.0,
-        }
-    }
-
-    /// Whether the old state contributes to forces and rates.
-    pub(crate) const fn has_old_share(self) -> bool {
-        matches!(self, Self::Trapezoidal | Self::TrapezoidalTemperature)
-    }
-}
-
-impl PointRule {
-    pub(super) fn placement(self) -> Placement {
-        match self {
-            Self::Midpoint | Self::MidpointTemperature => Placement::Middle,
-            Self::Trapezoidal | Self::TrapezoidalTemperature | Self::Rest => Placement::End,
-            Self::Variational => Placement::Start,
-        }
-    }
-
-    pub(super) fn implicit(self) -> f64 {
-        if self.has_old_share() { 0.5 } else { 1.0 }
-    }
-
-    pub(super) fn is_in_temperature(self) -> bool {
-        matches!(
-            self,
-            Self::MidpointTemperature | Self::TrapezoidalTemperature
-        )
-    }
-
     /// The temperature τ of a trial, given its other variables and Δs: the entropy at the point is s⁰ + c Δs.
     pub(crate) fn temperature<M: FreeEnergy<f64>>(
         self,

@@ -2,7 +2,7 @@
 //!
 //! The inversion itself is [`temperature_near`].
 
-use crate::element::conjugates::element::Infeasible;
+use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::state::Energy;
 use eem_material::free_energy::{Caloric, FreeEnergy};
 use eem_material::inversion::temperature_near;

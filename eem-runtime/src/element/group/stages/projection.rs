@@ -49,7 +49,6 @@ use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES};
 use crate::element::tally::{Reevaluation, Tally};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::Scalar;
-use path::course_of;
 use vector::{Matrix, Vector, derivatives, steepness};
 
 /// A point with its path through a step, and the projections from it.
@@ -193,7 +192,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
             self.temperatures = [theta; MOST_POINTS + 1];
             self.warming = 0.0;
             if let Some(prescribed) = self.point.prescribed {
-                let course = course_of(self.point.rule, theta, &prescribed);
+                let course = self.point.rule.course(theta, &prescribed);
                 if let Some((temperatures, squares)) = course {
                     self.temperatures = temperatures;
                     self.warming = -hessian[last][last] * squares;

@@ -7,40 +7,9 @@ use crate::element::error::StateError;
 use crate::element::group::stages::point::{StageArms, StatePoint};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
-use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path, Tableau};
+use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::is_positive;
-
-/// The temperatures of a path whose temperatures are given at its supports, from the old one, K, and the integral of the squares of
-/// their rates, K²/s². They do not depend on the element, and are compiled once.
-pub(super) fn course_of(
-    rule: &Tableau,
-    old: f64,
-    prescribed: &[f64; MOST_STAGES],
-) -> Option<([f64; MOST_POINTS + 1], f64)> {
-    let path = rule.path?;
-    let sum = |shares: &[f64], terms: &[f64; MOST_STAGES]| {
-        let terms = shares.iter().zip(terms);
-        terms.fold(0.0, |sum, (share, term)| sum + share * term)
-    };
-    let changes = prescribed.map(|theta| theta - old);
-    let (mut at_stages, mut rates) = ([0.0; MOST_STAGES], [0.0; MOST_STAGES]);
-    for (at_stage, row) in at_stages.iter_mut().zip(path.supports.to_stages) {
-        *at_stage = sum(row, &changes);
-    }
-    for (rate, row) in rates.iter_mut().zip(rule.motion) {
-        *rate = sum(row, &at_stages);
-    }
-    let mut temperatures = [old; MOST_POINTS + 1];
-    for (theta, row) in temperatures.iter_mut().zip(path.integrals) {
-        *theta = old + sum(row, &rates);
-    }
-    temperatures[MOST_POINTS] = prescribed[rule.stages() - 1];
-    Some((
-        temperatures,
-        sum(rule.weights, &rates.map(|rate| rate * rate)),
-    ))
-}
 
 /// `y = (C, γ, s)` and `x = (π, γ, θ)` at a point of a path.
 type PathPoint<M, K, const D: usize> = (Vector<M, K, D>, <M as FreeEnergy<f64>>::Variables);

@@ -1,0 +1,154 @@
+//! The old state of an element, and its response in a step from there.
+
+use crate::element::conjugates::corners::find_corners;
+use crate::element::conjugates::family::{ExactForm, Family, OneSet, not_of_this_family};
+use crate::element::conjugates::infeasible::Infeasible;
+pub(crate) use eem_material::free_energy::Form;
+use eem_material::free_energy::{Array, FreeEnergy};
+
+/// The old state of an element as its scheme sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start<M: FreeEnergy<f64>> {
+    /// x⁰.
+    pub(crate) x0: M::Variables,
+    /// What the scheme keeps of the old state.
+    pub(crate) old: KeptOf<M>,
+}
+
+/// What a scheme keeps of the old state. It tells the form of the step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kept<E, T> {
+    Entropy(E),
+    Temperature(T),
+    /// s⁰, J/K, for the classical schemes.
+    State(f64),
+}
+
+/// The same for a model.
+pub(crate) type KeptOf<M> =
+    Kept<<M as FreeEnergy<f64>>::EntropyFormOld, <M as FreeEnergy<f64>>::TemperatureFormOld>;
+
+impl<M: FreeEnergy<f64>> Start<M> {
+    /// Before the first step.
+    pub(crate) fn nothing() -> Self {
+        Self {
+            x0: M::Variables::filled(0.0),
+            old: Kept::State(0.0),
+        }
+    }
+
+    /// Stores what the scheme keeps of the old variables and the old entropy, once per step, and whether a thermostat prescribes
+    /// the temperature.
+    // Each in its own place: one value for all forms would be copied as the largest one.
+    #[inline]
+    pub(crate) fn keep(&mut self, scheme: OneSet, model: &M, entropy: f64, is_prescribed: bool) {
+        match scheme {
+            OneSet::Exact(ExactForm::Entropy) if !is_prescribed => {
+                self.old = Kept::Entropy(model.entropy_form_old(&self.x0));
+            }
+            OneSet::Exact(_) | OneSet::Damped => {
+                self.old = Kept::Temperature(model.temperature_form_old(&self.x0));
+            }
+            OneSet::Point(_) => self.old = Kept::State(entropy),
+        }
+    }
+
+    /// Finds what the form needs besides the variables: temperatures of mixed states, only in entropy form.
+    #[inline]
+    pub(crate) fn prepare(
+        &self,
+        model: &M,
+        x: &M::Variables,
+        corners: &mut M::Corners,
+    ) -> Result<(), Infeasible> {
+        match &self.old {
+            Kept::Entropy(old) if M::THERMAL => find_corners((model, [&self.x0, x], old), corners),
+            _ => Ok(()),
+        }
+    }
+
+    /// The response `(f*…, g*…, θ*, Δs)` and its tangent.
+    #[inline]
+    pub(crate) fn form<C: Family>(
+        &self,
+        scheme: OneSet,
+        model: &M,
+        x: &M::Variables,
+        corners: &M::Corners,
+    ) -> Form<f64, M> {
+        if !C::EXACT {
+            return scheme.point_rule().respond(model, self, x);
+        }
+        match &self.old {
+            Kept::Entropy(old) => model.entropy_form(old, x, corners),
+            Kept::Temperature(old) => model.temperature_form(old, x),
+            Kept::State(_) => not_of_this_family(),
+        }
+    }
+
+    /// A fallback form that is easier to solve and gives an initial guess for the entropy form: the temperature form, which has no
+    /// mixed states. With a small heat capacity their temperatures overflow away from the solution.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn starting_form(&self, model: &M, x: &M::Variables) -> Option<Form<f64, M>> {
+        match self.old {
+            Kept::Entropy(_) => {
+                let old = model.temperature_form_old(&self.x0);
+                Some(model.temperature_form(&old, x))
+            }
+            Kept::Temperature(_) | Kept::State(_) => None,
+        }
+    }
+
+    /// The response alone, without its tangent, at the end of a step. That the new state is stable is
+    /// checked where its temperature is found.
+    #[inline]
+    pub(crate) fn response<C: Family>(
+        &self,
+        scheme: OneSet,
+        model: &M,
+        x: &M::Variables,
+        corners: &M::Corners,
+    ) -> M::Response {
+        if !C::EXACT {
+            return scheme.point_rule().respond(model, self, x).0;
+        }
+        match &self.old {
+            Kept::Entropy(old) => model.entropy_form_response(old, x, corners),
+            Kept::Temperature(old) => model.temperature_form_response(old, x),
+            Kept::State(_) => not_of_this_family(),
+        }
+    }
+
+    /// The derivative of the weighted response of an exact scheme with respect to the parameters at fixed `x⁰` and `x¹`.
+    #[cfg(feature = "gradients")]
+    pub(crate) fn form_adjoint(
+        &self,
+        model: &M,
+        x: &M::Variables,
+        corners: &M::Corners,
+        weights: &M::Response,
+    ) -> M::Parameters {
+        match self.old {
+            Kept::Entropy(_) => model.entropy_form_adjoint(&self.x0, x, corners, weights),
+            Kept::Temperature(_) => model.temperature_form_adjoint(&self.x0, x, weights),
+            Kept::State(_) => not_of_this_family(),
+        }
+    }
+
+    /// The derivative of the response along a direction of the parameters, likewise.
+    #[cfg(feature = "gradients")]
+    pub(crate) fn form_tangent(
+        &self,
+        model: &M,
+        x: &M::Variables,
+        corners: &M::Corners,
+        direction: &M::Parameters,
+    ) -> M::Response {
+        match self.old {
+            Kept::Entropy(_) => model.entropy_form_tangent(&self.x0, x, corners, direction),
+            Kept::Temperature(_) => model.temperature_form_tangent(&self.x0, x, direction),
+            Kept::State(_) => not_of_this_family(),
+        }
+    }
+}
