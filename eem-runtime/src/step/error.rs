@@ -38,7 +38,7 @@ pub enum StepFailure {
     },
     /// The step violates a law of its scheme by more than rounding explains.
     #[error(
-        "{law} at t = {time} s is off by {defect:.3e} {unit}, where rounding explains {bound:.1e} {unit}{}; a smaller step may do",
+        "{law} at t = {time} s is off by {defect:.3e} {unit}, where rounding explains {bound:.3e} {unit}{}; a smaller step may do",
         element.map_or_else(String::new, |element| format!(" (most of it in {element})")),
         unit = law.unit(), time = Readable(*time))]
     LawNotKept {

@@ -5,10 +5,11 @@ use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
 use super::super::inertia::{Inertia, Moments, WEAK};
 use super::super::scratch::Motion;
-use super::super::vector::{Origin, add, dot};
+use super::super::vector::{Origin, add, dot, size};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::Place;
 use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::Scalar;
 
 /// Defects up to this many roundings of `Σ |q||p|` are corrected by momenta; only for larger ones positions are
 /// rotated.
@@ -187,7 +188,8 @@ impl<const D: usize> Explicit<D> {
         let target = self.angular_target(index);
         let mut across = target;
         across.add(-1.0, &Bivector::wedge(along, &target.turn(along)));
-        !(across.largest() <= self.own_rounding(index))
+        let off = across.largest();
+        !(off <= self.own_rounding(index)) && !(off <= self.rounding_of_target(index))
     }
 
     /// The largest defect of the angular momentum that is corrected by momenta alone.
@@ -196,7 +198,25 @@ impl<const D: usize> Explicit<D> {
         OWN_ROUNDINGS * f64::EPSILON * (terms + self.scratch.progress[index].moment)
     }
 
-    fn angular_target(&self, index: usize) -> Bivector<f64, D> {
+    /// The same with the rounding at the start of the step, where the target may be that of much larger momenta.
+    #[cold]
+    fn rounding_of_target(&self, index: usize) -> f64 {
+        self.own_rounding(index) + OWN_ROUNDINGS * f64::EPSILON * self.moment_at_start(index)
+    }
+
+    /// `Σ |q||p|` at the start of the step, as in the [terms](Motion::terms) of its end.
+    #[cold]
+    pub(in super::super) fn moment_at_start(&self, index: usize) -> f64 {
+        let component = &self.components.all[index];
+        let origin = Self::origin(&self.stage.places, component);
+        let masses = self.stage.places[component.masses.clone()].iter();
+        masses.fold(0.0, |sum, place| {
+            let [q, p] = &place.past.start;
+            sum + Scalar::maximum(size(&origin.arm(q)), size(q)) * size(p)
+        })
+    }
+
+    pub(in super::super) fn angular_target(&self, index: usize) -> Bivector<f64, D> {
         let target = &self.books.targets[index].angular;
         target.map(0.0, |sum| sum.value)
     }
@@ -216,7 +236,7 @@ impl<const D: usize> Explicit<D> {
         let motion = &self.scratch.motions[index];
         let linear = motion.linear;
         let momenta = [&motion.angular, &self.angular_target(index)];
-        let Some(change) = turning(&principal, momenta, self.own_rounding(index)) else {
+        let Some(change) = turning(&principal, momenta, self.rounding_of_target(index)) else {
             return false;
         };
         let velocity = component.velocity(&linear);
