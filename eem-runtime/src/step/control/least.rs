@@ -1,5 +1,6 @@
 //! The least scales of errors, from what a scene holds: no unknown is the reason for tiny steps because it starts at zero.
 
+use core::f64::consts::TAU;
 use std::collections::BTreeMap;
 
 use crate::element::conduction::{Conduction, Partner};
@@ -150,7 +151,7 @@ impl LeastScales {
                     root
                 };
                 let is_free = stiffness == 0.0;
-                let period = core::f64::consts::TAU * mass / bound;
+                let period = TAU * mass / bound;
                 let has_period = bound > 0.0 && mass > 0.0;
                 AtNode {
                     period: if has_period { period } else { f64::MAX },
@@ -200,7 +201,8 @@ impl LeastScales {
     }
 
     /// The error of a step of this size, in units of the tolerance, if all but the part `beyond` is explained by rounding. Steps up to
-    /// the [first one](Self::first_step) grow on it. Longer ones keep their size: what rounding hides of their error is not known.
+    /// the [first one](Self::first_step) grow on it. Longer ones keep their size: what rounding hides of their error is not known. It is
+    /// no more than the motion, so that they grow where that [is rounding](Self::rests), too.
     pub(crate) fn hidden(
         &self,
         beyond: f64,
@@ -211,6 +213,25 @@ impl LeastScales {
             return beyond;
         }
         Scalar::maximum(beyond, accuracy.settled())
+    }
+
+    /// Whether a mass moves by no more than the rounding of the forces on it moves it in a period `2π/ω`, given its positions and momenta
+    /// at two times: a momentum by the rounding of their impulse, a distance by that over m ω.
+    pub(crate) fn rests<const D: usize>(
+        &self,
+        node: usize,
+        positions: [&[f64; D]; 2],
+        momenta: [&[f64; D]; 2],
+    ) -> bool {
+        let AtNode { period, mass, .. } = self.nodes[node];
+        let length = |vector: [f64; D]| norm(vector.iter().copied());
+        let [old, new] = positions;
+        let distance = Scalar::maximum(length(*old), length(*new));
+        let rounding = self.rounding(node, period, distance);
+        let way = length(core::array::from_fn(|axis| new[axis] - old[axis]));
+        let momentum = Scalar::maximum(length(*momenta[0]), length(*momenta[1]));
+        let is_held = period < f64::MAX;
+        mass <= 0.0 || (is_held && Scalar::maximum(momentum, mass * way * TAU / period) <= rounding)
     }
 
     /// The least scale of positions, `r |q|₂` of the start: they, too, may all be zero, m.

@@ -136,6 +136,15 @@ impl<const D: usize> Explicit<D> {
         );
         let accurate = (tolerance.relative, Scheme::EemExplicit.accuracy());
         let beyond = Scalar::maximum(combined(sums), HIDDEN);
+        let masses = self.stage.places[..self.components.masses].iter();
+        let mut rests = masses.zip(&self.components.nodes).map(|(place, &node)| {
+            let [position, momentum] = &place.past.start;
+            let positions = [position, place.q()];
+            (view.least).rests(node as usize, positions, [momentum, place.p()])
+        });
+        if rests.all(|rests| rests) {
+            return beyond;
+        }
         view.least.hidden(beyond, view.step, accurate)
     }
 
