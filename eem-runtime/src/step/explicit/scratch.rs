@@ -192,7 +192,7 @@ impl<const D: usize> Motion<D> {
         // Below the smallest normal number, rounding is that of this number.
         let momentum = size(p) + f64::MIN_POSITIVE;
         self.terms[0] += momentum;
-        self.terms[1] += Scalar::maximum(size(arm), size(place.q())) * momentum;
+        self.terms[1] += farther(arm, place.q()) * momentum;
     }
 
     /// Adds momenta and energy of a mass at the end of an arm.
@@ -254,4 +254,10 @@ impl<const D: usize> Scratch<D> {
         self.has_stiffnesses = false;
         self.least = f64::MAX;
     }
+}
+
+/// The size of an arm or of the coordinates of its end, whichever is larger: positions are rounded to ε of their coordinates.
+#[inline]
+pub(super) fn farther<const D: usize>(arm: &[f64; D], position: &[f64; D]) -> f64 {
+    Scalar::maximum(size(arm), size(position))
 }

@@ -4,12 +4,11 @@ use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
 use super::super::inertia::{Inertia, Moments, WEAK};
-use super::super::scratch::Motion;
+use super::super::scratch::{Motion, farther};
 use super::super::vector::{Origin, add, dot, size};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::Place;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::Scalar;
 
 /// Defects up to this many roundings of `Σ |q||p|` are corrected by momenta; only for larger ones positions are
 /// rotated.
@@ -212,7 +211,7 @@ impl<const D: usize> Explicit<D> {
         let masses = self.stage.places[component.masses.clone()].iter();
         masses.fold(0.0, |sum, place| {
             let [q, p] = &place.past.start;
-            sum + Scalar::maximum(size(&origin.arm(q)), size(q)) * size(p)
+            sum + farther(&origin.arm(q), q) * size(p)
         })
     }
 
