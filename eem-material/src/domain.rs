@@ -159,7 +159,7 @@ pub fn check_domain<M: FreeEnergy<f64>>(
     let shape = Shape {
         kind: Kind::of(M::PER_VOLUME),
         measures: M::MEASURES,
-        dashpots: M::DASHPOTS,
+        dashpots: model.dashpots(),
         thermal: M::THERMAL,
     };
     shape.expect(domain.shape())?;
@@ -175,8 +175,14 @@ fn examine<M: FreeEnergy<f64>>(
     x: &[f64],
 ) -> Result<Vec<f64>, DomainError> {
     let mut variables = M::Variables::filled(0.0);
-    for (variable, &value) in variables.as_mut().iter_mut().zip(x) {
-        *variable = value;
+    let mechanical = M::MEASURES + model.dashpots();
+    for (index, &value) in x.iter().enumerate() {
+        let unused = if index < mechanical {
+            0
+        } else {
+            M::DASHPOTS - model.dashpots()
+        };
+        variables[index + unused] = value;
     }
     let point = || space.point(x);
     let finite = |quantity: &'static str, values: &[f64]| {
@@ -195,7 +201,7 @@ fn examine<M: FreeEnergy<f64>>(
     for row in hessian.as_ref() {
         finite("second derivative of the free energy", row.as_ref())?;
     }
-    let mut found = Vec::with_capacity(1 + M::DASHPOTS);
+    let mut found = Vec::with_capacity(1 + model.dashpots());
     let mut take = |value: f64, error: &dyn Fn(f64, DomainPoint) -> DomainError| {
         if value > 0.0 && value.is_finite() {
             found.push(value);
@@ -211,14 +217,17 @@ fn examine<M: FreeEnergy<f64>>(
         })?;
     }
     let theta = if M::THERMAL { x[x.len() - 1] } else { 0.0 };
-    for (dashpot, &value) in model.viscosity(theta).0.as_ref().iter().enumerate() {
+    let viscosities = model.viscosity(theta).0;
+    let unused = model.dashpots()..M::DASHPOTS;
+    let viscosities = viscosities.as_ref().iter().enumerate();
+    for (dashpot, &value) in viscosities.filter(|(dashpot, _)| !unused.contains(dashpot)) {
         take(value, &|value, point| DomainError::Viscosity {
             dashpot,
             value,
             point,
         })?;
     }
-    for &value in model.drag(theta).0.as_ref() {
+    for &value in &model.drag(theta).0.as_ref()[..model.drags()] {
         take(value, &|value, point| DomainError::Drag { value, point })?;
     }
     Ok(found)

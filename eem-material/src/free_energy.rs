@@ -154,6 +154,20 @@ pub trait FreeEnergy<S: Scalar> {
         Self::HAS_CONSTANT_CAPACITY
     }
 
+    /// [`DASHPOTS`](Self::DASHPOTS), unless their number is known only at run time: then that constant is the most that there
+    /// may be. Variables, rows and viscosities of those that are missing are unused, and the temperature stays the last of the
+    /// variables.
+    #[inline]
+    fn dashpots(&self) -> usize {
+        Self::DASHPOTS
+    }
+
+    /// The number of dashpots in parallel: the length of [`Drag`](Self::Drag), unless it is known only at run time.
+    #[inline]
+    fn drags(&self) -> usize {
+        Self::Drag::LEN
+    }
+
     /// The value of parameter `index` of [`PARAMETERS`](Self::PARAMETERS).
     fn parameter(&self, index: usize) -> S;
 
@@ -436,7 +450,9 @@ pub type OfEachStep<S, M, Old, Memory, T> = for<'a> fn(
 /// [kind](FreeEnergy::kind). The results have the bits of the functions for one element.
 #[derive(Debug)]
 pub struct Rows<S: Scalar, M: FreeEnergy<S> + ?Sized> {
-    /// The largest number of elements for which one call is worthwhile.
+    /// The smallest number of elements for which one call is worthwhile.
+    pub least: usize,
+    /// The largest.
     pub most: usize,
     /// [`FreeEnergy::temperature_form`] and its companions.
     pub temperature_form: FormRows<S, M, M::TemperatureFormOld, ()>,

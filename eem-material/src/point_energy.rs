@@ -129,6 +129,16 @@ impl<M: FreeEnergy<f64>> FreeEnergy<f64> for PointEnergy<M> {
     }
 
     #[inline]
+    fn dashpots(&self) -> usize {
+        self.density.dashpots()
+    }
+
+    #[inline]
+    fn drags(&self) -> usize {
+        self.density.drags()
+    }
+
+    #[inline]
     fn has_constant_capacity(&self) -> bool {
         self.density.has_constant_capacity()
     }

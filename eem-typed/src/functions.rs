@@ -1,6 +1,7 @@
 //! All functions of a law as tapes, for one scalar.
 
 mod by_parameters;
+mod room;
 mod staged;
 
 use std::sync::{Arc, OnceLock};
@@ -12,8 +13,10 @@ use eem_symbolic::{Program, Programs, Value};
 
 use crate::error::LawError;
 use crate::names;
+use crate::shape::Shape;
 use crate::tape::Tape;
 pub(crate) use by_parameters::{ByParameters, MOST_PARAMETERS};
+use room::Room;
 pub(crate) use staged::{Form, KEPT, Staged};
 use staged::{kept, of_state};
 
@@ -26,6 +29,11 @@ pub(crate) struct Functions {
     /// Strains and joint invariants of a solid; empty for a spring.
     pub(crate) strains: Box<[Strain]>,
     pub(crate) joints: Box<[Joint]>,
+    /// Dashpots in series, and in parallel.
+    pub(crate) dashpots: usize,
+    pub(crate) drags: usize,
+    /// Where its numbers are in the arrays of its type, if that has room for more dashpots.
+    room: Option<Room>,
     pub(crate) parameters: Box<[f64]>,
     pub(crate) has_constant_capacity: bool,
     pub(crate) free_energy: Tape,
@@ -52,14 +60,19 @@ pub(crate) struct Functions {
 }
 
 impl Functions {
-    /// The tapes of the programs of these texts; `variables` and `responses` are numbers.
+    /// The tapes of the programs of these texts of the shape `law`, for a type with the shape `all`.
     pub(crate) fn new(
         (name, kind): (&'static &'static str, u64),
         (strains, joints): (Box<[Strain]>, Box<[Joint]>),
         (compiled, programs): (&Arc<Compiled>, &Programs),
         parameters: Vec<f64>,
-        [variables, responses]: [usize; 2],
+        [law, all]: [&Shape; 2],
     ) -> Result<Self, LawError> {
+        let room = Room::new(law, all);
+        let with_room = room.as_ref().map(|room| room.programs(programs));
+        let programs = with_room.as_ref().unwrap_or(programs);
+        let variables = all.variables();
+        let responses = variables + usize::from(all.thermal);
         let of_state = |program: &Program| of_state(program, &parameters);
         let sometimes = |program: &Option<Program>| program.as_ref().map(of_state).transpose();
         let is_thermal = programs.caloric.is_some();
@@ -91,6 +104,8 @@ impl Functions {
             kind,
             strains,
             joints,
+            dashpots: law.dashpots,
+            drags: law.drag,
             has_constant_capacity: programs.has_constant_capacity,
             free_energy: of_state(&programs.free_energy)?,
             energy_magnitude: of_state(&programs.energy_magnitude)?,
@@ -110,6 +125,7 @@ impl Functions {
             entropy_form,
             mixed_states,
             temperature_form: temperature_form.transpose()?,
+            room,
             parameters: parameters.into(),
             compiled: Arc::clone(compiled),
             by_parameters: OnceLock::new(),
@@ -123,9 +139,34 @@ impl Functions {
                 return None;
             }
             let programs = self.compiled.parameter_programs().ok()?;
-            ByParameters::new(programs, &self.parameters).ok()
+            let room = self.room.as_ref();
+            let with_room =
+                room.map(|room| room.parameter_programs(programs, self.parameters.len()));
+            ByParameters::new(with_room.as_ref().unwrap_or(programs), &self.parameters).ok()
         };
         self.by_parameters.get_or_init(make).as_ref()
+    }
+
+    /// The strains of a solid at a point.
+    pub(crate) fn strains_at_point<const M: usize>(&self) -> [Strain; M] {
+        core::array::from_fn(|index| self.strains[index])
+    }
+
+    /// The entries of a direction for the parameters of this law.
+    pub(crate) fn own<'a>(&self, direction: &'a [f64; MOST_PARAMETERS]) -> &'a [f64] {
+        &direction[..self.parameters.len()]
+    }
+
+    /// A state of the law in the arrays of its type.
+    pub(crate) fn spread(&self, x: &[f64]) -> Vec<f64> {
+        let room = self.room.as_ref();
+        room.map_or_else(|| x.to_vec(), |room| room.spread(x))
+    }
+
+    /// The numbers of the variables of the law, from an array of its type.
+    pub(crate) fn gathered(&self, found: &[f64]) -> Vec<f64> {
+        let room = self.room.as_ref();
+        room.map_or_else(|| found.to_vec(), |room| room.gathered(found))
     }
 
     /// The names of the parameters with respect to which derivatives exist: all or none.

@@ -13,7 +13,6 @@ use crate::error::LawError;
 use crate::functions::Functions;
 use crate::names::{NAMELESS, name};
 use crate::shape::{Measures, Shape};
-use crate::tape::Tape;
 use crate::typed::Typed;
 
 /// A material of texts and values, from which springs and solids are made.
@@ -192,7 +191,11 @@ impl Law {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn free_energies(&self, states: &[f64]) -> Result<Vec<f64>, LawError> {
-        self.tabulate(states, 1, |functions| &functions.free_energy)
+        self.tabulate(states, |functions, x| {
+            let mut energy = vec![0.0];
+            functions.free_energy.run([x], [&mut energy]);
+            energy
+        })
     }
 
     /// `∂ψ/∂x = (f, −g, −s)` of many states, an entry per variable: forces, negative dashpot forces, negative entropy.
@@ -201,15 +204,17 @@ impl Law {
     ///
     /// As [`free_energies`](Self::free_energies).
     pub fn gradients(&self, states: &[f64]) -> Result<Vec<f64>, LawError> {
-        let variables = self.shape().variables();
-        self.tabulate(states, variables, |functions| &functions.gradient)
+        self.tabulate(states, |functions, x| {
+            let mut gradient = vec![0.0; x.len()];
+            functions.gradient.run([x], [&mut gradient]);
+            functions.gathered(&gradient)
+        })
     }
 
     fn tabulate(
         &self,
         states: &[f64],
-        results: usize,
-        function: impl Fn(&Functions) -> &Tape,
+        of: impl Fn(&Functions, &[f64]) -> Vec<f64>,
     ) -> Result<Vec<f64>, LawError> {
         let variables = self.shape().variables();
         if !states.len().is_multiple_of(variables) {
@@ -219,12 +224,10 @@ impl Law {
             });
         }
         let functions = self.functions()?;
-        let tape = function(&functions);
-        let mut found = vec![0.0; states.len() / variables * results];
-        for (x, found) in states.chunks(variables).zip(found.chunks_mut(results)) {
-            tape.run([x], [found]);
-        }
-        Ok(found)
+        let states = states.chunks(variables);
+        Ok(states
+            .flat_map(|x| of(&functions, &functions.spread(x)))
+            .collect())
     }
 
     /// The texts.
@@ -269,15 +272,16 @@ impl Law {
     ///
     /// ```
     /// use eem::FreeEnergy;
-    /// use eem::typed::{Law, LawError, Source, Spring0, Spring1, compile};
+    /// use eem::typed::{Law, LawError, Source, Spring1, ThermalSpring1, compile};
     ///
     /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
     /// let law = Law::new(compile(&source)?, &[("k", 1e300)])?;
-    /// let spring: Spring0 = law.model()?;
-    /// assert_eq!(spring.gradient(&[2.0]), [1e300]);
+    /// let spring: Spring1 = law.model()?;
+    /// assert_eq!(spring.gradient(&[2.0, 0.0]), [1e300, 0.0]);
     ///
-    /// let spring: Result<Spring1, LawError> = law.model();
-    /// let text = "the law has 1 stretch; the type of the material has 1 stretch, 1 dashpot in series";
+    /// let spring: Result<ThermalSpring1, LawError> = law.model();
+    /// let text = "the law has 1 stretch; the type of the material has 1 stretch, at most 1 dashpot in series, at most 1 beside, \
+    ///             1 temperature";
     /// assert_eq!(spring.unwrap_err().to_string(), text);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -293,10 +297,10 @@ impl Law {
         &self,
     ) -> Result<Typed<H, N, K, V, D, C, R>, LawError> {
         let [law, material] = [self.shape(), Typed::<H, N, K, V, D, C, R>::SHAPE];
-        if law != material {
+        if !material.takes(&law) {
             return Err(LawError::Shape {
                 law: law.to_string(),
-                material: material.to_string(),
+                material: material.of_type(),
             });
         }
         self.functions().map(Typed::new)
@@ -313,12 +317,16 @@ impl Law {
         }
         let programs = self.compiled.programs().map_err(LawError::Programs)?;
         let shape = self.shape();
-        let variables = shape.variables();
-        let sizes = [variables, variables + usize::from(shape.thermal)];
         let identity = (self.name, self.kind());
         let measures = (self.strains(), self.joints());
         let texts = (&self.compiled, programs);
-        let functions = Functions::new(identity, measures, texts, self.values.to_vec(), sizes)?;
+        let functions = Functions::new(
+            identity,
+            measures,
+            texts,
+            self.values.to_vec(),
+            [&shape, &shape.with_room()],
+        )?;
         Ok(Arc::clone(self.made.get_or_init(|| Arc::new(functions))))
     }
 

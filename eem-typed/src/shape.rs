@@ -46,6 +46,9 @@ impl<const M: usize, const N: usize, const K: usize, const R: usize> Measures fo
     const AT_POINT: [usize; 4] = [M, N, K, R];
 }
 
+/// The most dashpots in series of a spring made of texts.
+pub const MOST_DASHPOTS: usize = 8;
+
 /// How many variables and viscosities of each kind a law has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
@@ -76,6 +79,26 @@ impl Shape {
         }
     }
 
+    /// The shape of the type of its materials: springs have room for one dashpot, or for [`MOST_DASHPOTS`].
+    pub(crate) fn with_room(self) -> Self {
+        if self.strains > 0 {
+            return self;
+        }
+        Self {
+            dashpots: match self.dashpots {
+                0 | 1 => 1,
+                dashpots => dashpots.max(MOST_DASHPOTS),
+            },
+            drag: 1,
+            ..self
+        }
+    }
+
+    /// Whether a type of this shape has materials of a law.
+    pub(crate) fn takes(&self, law: &Self) -> bool {
+        law.with_room() == *self
+    }
+
     /// Number of variables: measures, dashpots, temperature.
     pub(crate) const fn variables(&self) -> usize {
         let stretch = if self.strains == 0 { 1 } else { 0 };
@@ -103,6 +126,21 @@ impl Shape {
             self.dashpots + components,
             variables + self.thermal as usize,
         ]
+    }
+}
+
+impl Shape {
+    /// What laws a type of this shape is for.
+    pub(crate) fn of_type(&self) -> String {
+        if self.strains > 0 {
+            return self.to_string();
+        }
+        let temperature = if self.thermal { ", 1 temperature" } else { "" };
+        let dashpots = match self.dashpots {
+            1 => "at most 1 dashpot".to_owned(),
+            most => format!("2 to {most} dashpots"),
+        };
+        format!("1 stretch, {dashpots} in series, at most 1 beside{temperature}")
     }
 }
 

@@ -4,18 +4,27 @@ use eem_runtime::{Element, Node, Scene};
 
 use crate::error::LawError;
 use crate::law::Law;
-use crate::shape::Stretch;
+use crate::shape::{MOST_DASHPOTS, Stretch};
 use crate::typed::Typed;
 
-/// The largest number of dashpots in series.
-const MOST_DASHPOTS: usize = 3;
+/// A spring without temperature, with at most one dashpot in series and one in parallel.
+pub type Spring1 = Typed<Stretch, 2, 1, 1, 1, 0, 2>;
+
+/// A spring with a temperature, with at most one dashpot in series and one in parallel.
+pub type ThermalSpring1 = Typed<Stretch, 3, 1, 1, 1, 4, 4>;
+
+/// A spring without temperature, with two to eight dashpots in series and at most one in parallel.
+pub type Spring8 = Typed<Stretch, 9, 8, 8, 1, 0, 9>;
+
+/// A spring with a temperature, with two to eight dashpots in series and at most one in parallel.
+pub type ThermalSpring8 = Typed<Stretch, 10, 8, 8, 1, 18, 11>;
 
 impl Law {
     /// Whether [`add_spring`](Self::add_spring) has a shape for it.
     ///
     /// # Errors
     ///
-    /// [`LawError::Solid`] if ψ is a function of strains, [`LawError::Dashpots`] for more than three dashpots in series.
+    /// [`LawError::Solid`] if ψ is a function of strains, [`LawError::Dashpots`] for more than [`MOST_DASHPOTS`] dashpots in series.
     ///
     /// ```
     /// use eem::typed::{Law, LawError, Source, compile};
@@ -37,100 +46,52 @@ impl Law {
         }
         Ok(())
     }
-}
 
-macro_rules! shapes {
-    ($($(#[$docs:meta])* $name:ident: $n:literal, $k:literal, $d:literal, $c:literal, $r:literal;)*) => {
-        $(
-            $(#[$docs])*
-            pub type $name = Typed<Stretch, $n, $k, $k, $d, $c, $r>;
-        )*
-
-        impl Law {
-            /// Puts a spring of this law between two nodes of a scene, whatever its shape is.
-            ///
-            /// The solver is compiled for each of the 16 shapes, as for 16 derived materials, for every dimension that a
-            /// program calls this for. A program that knows the shapes of its laws calls
-            /// [`model`](Self::model) instead.
-            ///
-            /// # Errors
-            ///
-            /// [`LawError::Solid`], [`LawError::Dashpots`], [`LawError::TooLarge`]; the scene is not changed then.
-            ///
-            /// ```
-            /// use eem::prelude::*;
-            /// use eem::typed::{Law, LawError, Source, compile};
-            ///
-            /// let elastic = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)");
-            /// let damped = elastic.clone().viscosity("lambda", "k / 20");
-            /// let mut scene = Scene::<1>::new();
-            /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0])];
-            /// for source in [elastic, damped] {
-            ///     let law = Law::new(compile(&source.parameter("k", None))?, &[("k", 40.0)])?;
-            ///     law.add_spring(&mut scene, ends)?;
-            /// }
-            /// let solid = Law::new(compile(&Source::new("|e2: StrainSquare| e2"))?, &[])?;
-            /// assert_eq!(solid.add_spring(&mut scene, ends), Err(LawError::Solid));
-            ///
-            /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01)?;
-            /// run.run_until(5.0)?;
-            /// // ω² = 80/s², damping rate 1/s
-            /// let exact = 1.0 + 0.5 * (-5.0_f64).exp() * (79.0_f64.sqrt() * 5.0).cos();
-            /// assert!((run.position(ends[1])?[0] - exact).abs() < 1e-3);
-            /// # Ok::<(), Box<dyn std::error::Error>>(())
-            /// ```
-            pub fn add_spring<const D: usize>(
-                &self,
-                scene: &mut Scene<D>,
-                nodes: [Node; 2],
-            ) -> Result<Element, LawError> {
-                self.check_spring()?;
-                let shape = self.shape();
-                $(
-                    if shape == $name::SHAPE {
-                        let model: $name = self.model()?;
-                        return Ok(scene.spring(model, nodes));
-                    }
-                )*
-                unreachable!("the table has all shapes with so few dashpots")
-            }
-        }
-    };
-}
-
-shapes! {
-    /// A spring without temperature and dashpots.
-    Spring0: 1, 0, 0, 0, 1;
-    /// A spring without temperature, with one dashpot in series.
-    Spring1: 2, 1, 0, 0, 2;
-    /// A spring without temperature, with two dashpots in series.
-    Spring2: 3, 2, 0, 0, 3;
-    /// A spring without temperature, with three dashpots in series.
-    Spring3: 4, 3, 0, 0, 4;
-    /// A spring with a temperature, without dashpots.
-    ThermalSpring0: 2, 0, 0, 2, 3;
-    /// A spring with a temperature and one dashpot in series.
-    ThermalSpring1: 3, 1, 0, 4, 4;
-    /// A spring with a temperature and two dashpots in series.
-    ThermalSpring2: 4, 2, 0, 6, 5;
-    /// A spring with a temperature and three dashpots in series.
-    ThermalSpring3: 5, 3, 0, 8, 6;
-    /// A spring without temperature, with a dashpot in parallel.
-    DampedSpring0: 1, 0, 1, 0, 1;
-    /// A spring without temperature, with a dashpot in parallel and one in series.
-    DampedSpring1: 2, 1, 1, 0, 2;
-    /// A spring without temperature, with a dashpot in parallel and two in series.
-    DampedSpring2: 3, 2, 1, 0, 3;
-    /// A spring without temperature, with a dashpot in parallel and three in series.
-    DampedSpring3: 4, 3, 1, 0, 4;
-    /// A spring with a temperature and a dashpot in parallel.
-    DampedThermalSpring0: 2, 0, 1, 2, 3;
-    /// A spring with a temperature, a dashpot in parallel and one in series.
-    DampedThermalSpring1: 3, 1, 1, 4, 4;
-    /// A spring with a temperature, a dashpot in parallel and two in series.
-    DampedThermalSpring2: 4, 2, 1, 6, 5;
-    /// A spring with a temperature, a dashpot in parallel and three in series.
-    DampedThermalSpring3: 5, 3, 1, 8, 6;
+    /// Puts a spring of this law between two nodes of a scene, whatever its shape is.
+    ///
+    /// The solver is compiled for four types, as for four derived materials, for every dimension that a program calls this
+    /// for.
+    ///
+    /// # Errors
+    ///
+    /// [`LawError::Solid`], [`LawError::Dashpots`], [`LawError::TooLarge`]; the scene is not changed then.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::typed::{Law, LawError, Source, compile};
+    ///
+    /// let elastic = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)");
+    /// let damped = elastic.clone().viscosity("lambda", "k / 20");
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0])];
+    /// for source in [elastic, damped] {
+    ///     let law = Law::new(compile(&source.parameter("k", None))?, &[("k", 40.0)])?;
+    ///     law.add_spring(&mut scene, ends)?;
+    /// }
+    /// let solid = Law::new(compile(&Source::new("|e2: StrainSquare| e2"))?, &[])?;
+    /// assert_eq!(solid.add_spring(&mut scene, ends), Err(LawError::Solid));
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01)?;
+    /// run.run_until(5.0)?;
+    /// // ω² = 80/s², damping rate 1/s
+    /// let exact = 1.0 + 0.5 * (-5.0_f64).exp() * (79.0_f64.sqrt() * 5.0).cos();
+    /// assert!((run.position(ends[1])?[0] - exact).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn add_spring<const D: usize>(
+        &self,
+        scene: &mut Scene<D>,
+        nodes: [Node; 2],
+    ) -> Result<Element, LawError> {
+        self.check_spring()?;
+        let shape = self.shape();
+        Ok(match (shape.dashpots, shape.thermal) {
+            (0 | 1, false) => scene.spring::<Spring1>(self.model()?, nodes),
+            (0 | 1, true) => scene.spring::<ThermalSpring1>(self.model()?, nodes),
+            (_, false) => scene.spring::<Spring8>(self.model()?, nodes),
+            (_, true) => scene.spring::<ThermalSpring8>(self.model()?, nodes),
+        })
+    }
 }
 
 /// The type of the material of a solid, made from a law: a [`Typed`](crate::Typed).

@@ -28,7 +28,7 @@ const BLOCKS: usize = 8;
 
 /// The most elements of a row, and the fewest for which a row pays: it takes as long as some five elements one by one.
 pub(crate) const ROW: usize = BLOCK * BLOCKS;
-const WORTH_A_ROW: usize = 6;
+pub(crate) const WORTH_A_ROW: usize = 6;
 
 /// Instructions for some values of a program.
 ///
@@ -134,19 +134,10 @@ impl Tape {
     {
         const { assert!(P.is_power_of_two()) };
         let mut file = [[[0.0; B]; Q]; P];
-        for (register, &constant) in file.iter_mut().zip(&self.constants) {
-            *register = [[constant; B]; Q];
-        }
-        let (first, last) = (self.constants.len(), results.len() - 1);
-        for element in 0..B * Q {
-            let mut registers = file[first..first + self.inputs].iter_mut();
-            // Beyond the last element its inputs are repeated, and the results are not used.
-            for input in inputs(element.min(last)) {
-                for (&number, register) in input.iter().zip(registers.by_ref()) {
-                    register[element / B][element % B] = number;
-                }
-            }
-            debug_assert_eq!(registers.len(), 0, "an input is missing");
+        if B * Q == 1 {
+            self.load_one(file.as_flattened_mut().as_flattened_mut(), inputs(0));
+        } else {
+            self.load_row(&mut file, results.len() - 1, inputs);
         }
         self.execute(&mut file);
         for (element, result) in results.iter_mut().enumerate() {
@@ -156,6 +147,43 @@ impl Tape {
                     *number = file[usize::from(output) & (P - 1)][element / B][element % B];
                 }
             }
+        }
+    }
+
+    /// Writes the constants, and the inputs of one element, to the registers.
+    #[inline]
+    fn load_one<const I: usize>(&self, registers: &mut [f64], inputs: [&[f64]; I]) {
+        let mut first = self.constants.len();
+        registers[..first].copy_from_slice(&self.constants);
+        for input in inputs {
+            registers[first..first + input.len()].copy_from_slice(input);
+            first += input.len();
+        }
+        debug_assert_eq!(first, self.constants.len() + self.inputs, "all inputs");
+    }
+
+    /// The same of a row of elements, of which the last is the one at `last`.
+    fn load_row<'a, const P: usize, const B: usize, const Q: usize, const I: usize>(
+        &self,
+        file: &mut File<B, Q, P>,
+        last: usize,
+        inputs: impl Fn(usize) -> [&'a [f64]; I],
+    ) where
+        f64: 'a,
+    {
+        for (register, &constant) in file.iter_mut().zip(&self.constants) {
+            *register = [[constant; B]; Q];
+        }
+        let first = self.constants.len();
+        for element in 0..B * Q {
+            let mut registers = file[first..first + self.inputs].iter_mut();
+            // Beyond the last element its inputs are repeated, and the results are not used.
+            for input in inputs(element.min(last)) {
+                for (&number, register) in input.iter().zip(registers.by_ref()) {
+                    register[element / B][element % B] = number;
+                }
+            }
+            debug_assert_eq!(registers.len(), 0, "an input is missing");
         }
     }
 

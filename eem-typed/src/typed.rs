@@ -9,7 +9,6 @@ use core::slice;
 use std::sync::Arc;
 
 use eem_material::free_energy::{Array, Caloric, FreeEnergy, Rates, Rows};
-use eem_runtime::Strain;
 
 use crate::functions::{ByParameters, Functions, KEPT, MOST_PARAMETERS};
 use crate::names::NAMELESS;
@@ -22,7 +21,7 @@ use crate::tape::Tape;
 /// |---|---|
 /// | H | its measures: [`Stretch`](crate::Stretch), [`Strains`](crate::Strains), [`Flow`](crate::Flow) |
 /// | N | number of variables: measures, dashpots, temperature |
-/// | K | dashpots in series |
+/// | K | dashpots in series, of a spring the most that it may have; those that it lacks are unused entries of arrays |
 /// | V | viscosities: K, and those of a viscous strain |
 /// | D | dashpots in parallel with the spring, 0 or 1 |
 /// | C | corners: 2 (N − 1) with a temperature, else 0 |
@@ -33,13 +32,14 @@ use crate::tape::Tape;
 ///
 /// ```
 /// use eem::FreeEnergy;
-/// use eem::typed::{Law, Source, Spring0, compile};
+/// use eem::typed::{Law, Source, Spring1, compile};
 ///
 /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
 /// let law = Law::new(compile(&source)?, &[("k", 40.0)])?;
-/// let spring: Spring0 = law.model()?;
-/// assert_eq!(spring.free_energy(&[1.5]), 5.0);
-/// assert_eq!(spring.gradient(&[1.5]), [20.0]);
+/// let spring: Spring1 = law.model()?;
+/// // The length, and the stretch of a dashpot that this law does not have.
+/// assert_eq!(spring.free_energy(&[1.5, 0.0]), 5.0);
+/// assert_eq!(spring.gradient(&[1.5, 0.0]), [20.0, 0.0]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -109,11 +109,6 @@ impl<
         }
     }
 
-    /// The strains of a solid at a point.
-    fn strains_at_point<const M: usize>(&self) -> [Strain; M] {
-        core::array::from_fn(|index| self.functions.strains[index])
-    }
-
     fn number(tape: &Tape, x: &[f64; N]) -> f64 {
         let mut number = [0.0];
         tape.run([x], [&mut number]);
@@ -135,11 +130,6 @@ impl<
             tape.run(inputs, [found.as_mut()]);
         }
         found
-    }
-
-    /// The entries of a direction for the parameters of this law.
-    fn own<'a>(&self, direction: &'a [f64; MOST_PARAMETERS]) -> &'a [f64] {
-        &direction[..self.functions.parameters.len()]
     }
 
     /// The temperature as the input of viscosities; no input if the law has no temperature.
@@ -213,6 +203,14 @@ impl<
 
     fn parameter_names(&self) -> &'static [&'static str] {
         self.functions.parameter_names()
+    }
+
+    fn dashpots(&self) -> usize {
+        self.functions.dashpots
+    }
+
+    fn drags(&self) -> usize {
+        self.functions.drags
     }
 
     fn has_constant_capacity(&self) -> bool {
@@ -442,7 +440,7 @@ impl<
         }
         self.derivative(
             |all| all.temperature_form_tangent.as_ref(),
-            [x0, x1, self.own(direction)],
+            [x0, x1, self.functions.own(direction)],
         )
     }
 
@@ -468,7 +466,7 @@ impl<
     ) -> [f64; R] {
         self.derivative(
             |all| Some(&all.entropy_form_tangent),
-            [x0, x1, corners, self.own(direction)],
+            [x0, x1, corners, self.functions.own(direction)],
         )
     }
 

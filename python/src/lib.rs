@@ -59,10 +59,6 @@ mod _eem {
     #[pymodule_export]
     const LEDGER: [&str; crate::record::LEDGER.len()] = crate::record::LEDGER;
 
-    /// Whether all shapes of springs and solids were compiled.
-    #[pymodule_export]
-    const ALL_SHAPES: bool = cfg!(feature = "all");
-
     /// The names of the quantities that have derivatives.
     #[pymodule_export]
     const QUANTITIES: [&str; crate::gradient::QUANTITIES.len()] = crate::gradient::QUANTITIES;

@@ -160,7 +160,6 @@ ELASTIC = {
 }
 
 
-@pytest.mark.skipif(not eem.ALL_SHAPES, reason="built without most shapes of solids")
 @pytest.mark.parametrize("name", ELASTIC)
 def test_elastic_solids(name):
     law = eem.Material(ELASTIC[name], lame=2000.0, mu=1000.0)

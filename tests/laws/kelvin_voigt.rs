@@ -86,17 +86,17 @@ impl Voigt {
         + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
 })]
 #[viscosity(gamma = slow * theta_ref / theta, lambda = fast * (theta_ref / theta).powf(1.5))]
-struct Both {
-    k: f64,
-    branch: f64,
-    beta: f64,
-    capacity: f64,
-    theta_ref: f64,
-    slow: f64,
-    fast: f64,
+pub(crate) struct Both {
+    pub(crate) k: f64,
+    pub(crate) branch: f64,
+    pub(crate) beta: f64,
+    pub(crate) capacity: f64,
+    pub(crate) theta_ref: f64,
+    pub(crate) slow: f64,
+    pub(crate) fast: f64,
 }
 
-const BOTH: Both = Both {
+pub(crate) const BOTH: Both = Both {
     k: 60.0,
     branch: 30.0,
     beta: 0.1,
@@ -110,9 +110,9 @@ const BOTH: Both = Both {
 #[derive(Clone, Debug, FreeEnergy)]
 #[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2))]
 #[viscosity(lambda = eta)]
-struct Isothermal {
-    k: f64,
-    eta: f64,
+pub(crate) struct Isothermal {
+    pub(crate) k: f64,
+    pub(crate) eta: f64,
 }
 
 /// A mass of 1 kg on the model, stretched, turning, hot, and cooled by the room.

@@ -3,11 +3,12 @@
 mod solids;
 
 use eem::prelude::*;
-use eem::typed::{Source, ThermalSpring0, ThermalSpring1};
+use eem::typed::{Law, Source, Spring1, ThermalSpring1, ThermalSpring8};
 
 use eem_testkit::length::at_length;
 
-use crate::support::dashpots::{ONE_DASHPOT, OneDashpot};
+use crate::kelvin_voigt::{BOTH, Isothermal};
+use crate::support::dashpots::{ONE_DASHPOT, OneDashpot, ThreeDashpots};
 use crate::support::{DoublePendulum, LogarithmicStiffness, ThermoViscoElastic};
 
 /// A law whose parameters are these fields of a struct.
@@ -85,7 +86,7 @@ fn with_viscosity(model: &OneDashpot, viscosity: &str) -> ThermalSpring1 {
     fields.named("MaxwellDamper").unwrap().model().unwrap()
 }
 
-fn logarithmic_stiffness(model: &LogarithmicStiffness) -> ThermalSpring0 {
+fn logarithmic_stiffness(model: &LogarithmicStiffness) -> ThermalSpring1 {
     let source = Source::new(
         "|lambda: Stretch, theta: Temperature| {
             let strain = ln(lambda / natural_length);
@@ -149,9 +150,9 @@ impl<const D: usize> Running<D> {
             }
         }
         for &spring in &self.springs {
-            let gamma = run.viscous_stretch(spring, 0).unwrap_or(0.0);
+            let stretches = (0..).map_while(|k| run.viscous_stretch(spring, k).ok());
             let numbers = [run.temperature(spring), run.entropy(spring)];
-            let numbers = numbers.into_iter().map(Result::unwrap).chain([gamma]);
+            let numbers = numbers.into_iter().flatten().chain(stretches);
             state.extend(numbers.chain(run.force(spring)).map(f64::to_bits));
             if let Ok(strain) = run.viscous_strain(spring) {
                 state.extend(strain.iter().map(|number| number.to_bits()));
@@ -227,6 +228,98 @@ fn double_pendulums_of_texts_have_the_bits_of_derived_ones() {
             (at_length(200, 30), pendulum.step),
         );
     }
+}
+
+/// Three dashpots, where the type of the text has room for eight.
+fn three_dashpots(model: &ThreeDashpots) -> Law {
+    let mut source = Source::new(
+        "|lambda: Stretch, gamma1: Viscous, gamma2: Viscous, gamma3: Viscous, theta: Temperature| {
+            let strain = ln(lambda / natural_length);
+            let extension = lambda - natural_length;
+            0.5 * stiffness * strain.powi(2) - coupling * (theta - theta_ref) * strain
+                + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
+                + 0.5 * mu1 * (extension - gamma1).powi(2) + 0.5 * mu2 * (extension - gamma2).powi(2)
+                + 0.5 * mu3 * (extension - gamma3).powi(2)
+        }",
+    );
+    for k in 1..=3 {
+        let viscosity = format!("eta{k} * exp(a * (1 / theta - 1 / theta_ref))");
+        source = source.viscosity(format!("gamma{k}"), viscosity);
+    }
+    law!(
+        model,
+        source,
+        [
+            stiffness,
+            coupling,
+            capacity,
+            natural_length,
+            theta_ref,
+            a,
+            mu1,
+            eta1,
+            mu2,
+            eta2,
+            mu3,
+            eta3
+        ]
+    )
+    .named("ThreeDashpots")
+    .unwrap()
+}
+
+#[test]
+fn a_spring_with_room_for_more_dashpots_has_the_bits_of_the_derived_one() {
+    let model = ThreeDashpots::DATA;
+    let typed: ThermalSpring8 = three_dashpots(&model).model().unwrap();
+    let steps = (at_length(200, 30), 0.02);
+    assert_same_bits([&single(model), &single(typed)], schemes(), steps);
+}
+
+/// The same of dashpots in parallel, one of them in a spring without temperature; the type has room for one in series.
+#[test]
+fn springs_with_a_dashpot_beside_have_the_bits_of_derived_ones() {
+    // Some schemes have no dashpots in parallel.
+    let schemes_of = |built: &Built<2>| {
+        let scene = built.0.clone();
+        schemes().filter(move |&scheme| Simulation::new(scene.clone(), scheme, 0.02).is_ok())
+    };
+    let steps = (at_length(200, 30), 0.02);
+    let source = Source::new(
+        "|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+            let strain = ln(lambda);
+            0.5 * k * strain.powi(2) + 0.5 * branch * (strain - gamma).powi(2)
+                - beta * (theta - theta_ref) * strain
+                + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
+        }",
+    )
+    .viscosity("gamma", "slow * theta_ref / theta")
+    .viscosity("lambda", "fast * (theta_ref / theta).powf(1.5)");
+    let law = law!(
+        BOTH,
+        source,
+        [k, branch, beta, capacity, theta_ref, slow, fast]
+    );
+    let typed: ThermalSpring1 = law.named("Both").unwrap().model().unwrap();
+    let derived = single(BOTH);
+    assert_same_bits([&derived, &single(typed)], schemes_of(&derived), steps);
+
+    let swinging = |add: &dyn Fn(&mut Scene<2>, [Node; 2]) -> Element| {
+        let mut scene = Scene::new();
+        let ends = [
+            scene.anchor([0.0, 0.0]),
+            scene.mass(1.0, [1.3, 0.0], [0.0, 1.0]),
+        ];
+        let spring = add(&mut scene, ends);
+        (scene, vec![ends[1]], vec![spring])
+    };
+    let model = Isothermal { k: 40.0, eta: 0.7 };
+    let source =
+        Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").viscosity("lambda", "eta");
+    let law = law!(model, source, [k, eta]).named("Isothermal").unwrap();
+    let derived = swinging(&|scene, ends| scene.spring(model.clone(), ends));
+    let typed = swinging(&|scene, ends| scene.spring::<Spring1>(law.model().unwrap(), ends));
+    assert_same_bits([&derived, &typed], schemes_of(&derived), steps);
 }
 
 /// Springs of materials A, B, A at one mass, whose sums depend on the order of the groups.

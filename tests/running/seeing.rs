@@ -238,19 +238,19 @@ fn no_bump_is_missed(swing: f64, places: u32, mut random: Random) {
 
 #[test]
 fn a_bump_of_a_hundredth_of_a_run_is_never_missed() {
-    no_bump_is_missed(SWING, at_length(2_000, 50), Random::new(45));
+    no_bump_is_missed(SWING, at_length(2_000, 12), Random::new(45));
 }
 
 /// Where nothing moves, steps grow without limit until a load is seen.
 #[test]
 fn a_bump_from_rest_is_never_missed() {
-    no_bump_is_missed(AT_REST, at_length(2_000, 20), Random::new(46));
+    no_bump_is_missed(AT_REST, at_length(2_000, 8), Random::new(46));
 }
 
 /// The errors of all steps add up to the tolerance, those of the load among them.
 #[test]
 fn a_bump_is_seen_with_a_tolerance_over_the_run() {
-    let places = at_length(500, 20);
+    let places = at_length(500, 8);
     let mut random = Random::new(47);
     let tolerance = Tolerance::new(TOLERANCE).over(SPAN);
     for swing in [SWING, AT_REST] {

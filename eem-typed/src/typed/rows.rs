@@ -9,7 +9,7 @@ use eem_material::free_energy::{Caloric, Each, FormRows, FreeEnergy, Rows};
 use super::{Typed, caloric};
 use crate::functions::{Form, Functions, KEPT, Staged};
 use crate::shape::Measures;
-use crate::tape::{ROW, Tape};
+use crate::tape::{ROW, Tape, WORTH_A_ROW};
 
 impl<
     H: Measures,
@@ -23,6 +23,7 @@ impl<
 {
     pub(super) const fn rows() -> Rows<f64, Self> {
         Rows {
+            least: WORTH_A_ROW,
             most: ROW,
             temperature_form: FormRows {
                 old: |each, found| {

@@ -25,7 +25,7 @@ impl<
     const STRAINS: [Strain; M] = [Strain::Trace; M];
 
     fn strains(&self) -> [Strain; M] {
-        self.strains_at_point()
+        self.functions.strains_at_point()
     }
 
     type AtPoint
@@ -57,7 +57,7 @@ impl<
     const STRAINS: [Strain; M] = [Strain::Trace; M];
 
     fn strains(&self) -> [Strain; M] {
-        self.strains_at_point()
+        self.functions.strains_at_point()
     }
 
     type AtPoint

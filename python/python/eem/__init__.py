@@ -16,7 +16,6 @@ True
 """
 
 from eem._eem import (
-    ALL_SHAPES,
     Element,
     ElementArray,
     HeatPath,
@@ -49,7 +48,6 @@ from eem._solid import Solid
 from eem._study import Recommendation, StudyReport, StudyRow
 
 __all__ = [
-    "ALL_SHAPES",
     "Argument",
     "CheckpointError",
     "EemError",

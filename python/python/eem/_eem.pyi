@@ -12,7 +12,6 @@ from eem._solid import Solid
 from eem._study import StudyReport
 
 __all__ = [
-    "ALL_SHAPES",
     "LEDGER",
     "VERSION",
     "Element",
@@ -33,7 +32,6 @@ __all__ = [
     "Studied",
 ]
 
-ALL_SHAPES: Final[bool]
 KINDS: Final[list[str]]
 LEDGER: Final[list[str]]
 QUANTITIES: Final[list[str]]

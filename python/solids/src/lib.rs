@@ -78,17 +78,14 @@ macro_rules! solids {
                         (body.nodes().to_vec(), body.points().to_vec())
                     }};
                 }
-                #[cfg(feature = "all")]
-                return first_of!(
+                first_of!(
                     law,
                     add,
                     [
                         solid!(strains: 2),
                         solid!(strains: 2, temperature: 1),
                     ]
-                );
-                #[cfg(not(feature = "all"))]
-                return first_of!(law, add, [solid!(strains: 2, temperature: 1)]);
+                )
             }
         }
     };

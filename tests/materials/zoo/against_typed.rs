@@ -1,10 +1,6 @@
 //! Materials of texts against derived ones: every function has the same bits.
 
-use eem::typed::{
-    DampedSpring0, DampedSpring1, DampedThermalSpring0, DampedThermalSpring1, Law, Source, Spring0,
-    Spring1, Spring2, Spring3, ThermalSpring0, ThermalSpring1, ThermalSpring2, ThermalSpring3,
-    compile, solid,
-};
+use eem::typed::{Law, Source, Spring1, Spring8, ThermalSpring1, ThermalSpring8, compile, solid};
 use eem::{Array, FreeEnergy};
 use eem_material::free_energy::{Form, FormRows};
 
@@ -22,12 +18,60 @@ pub(crate) struct At {
 /// A function and the bits of its results.
 pub(crate) type Results = Vec<(&'static str, Vec<u64>)>;
 
-fn array<A: Array<f64>>(numbers: &[f64]) -> A {
+/// The places that a material uses of its arrays, some of which have room for more dashpots than it has.
+#[derive(Clone, Copy)]
+struct Used {
+    measures: usize,
+    dashpots: usize,
+    room: usize,
+    drags: usize,
+}
+
+impl Used {
+    fn of<M: FreeEnergy<f64>>(model: &M) -> Self {
+        Self {
+            measures: M::MEASURES,
+            dashpots: model.dashpots(),
+            room: M::DASHPOTS - model.dashpots(),
+            drags: model.drags(),
+        }
+    }
+
+    /// Of a state or a response.
+    fn in_state(self) -> impl Fn(usize) -> bool + Copy {
+        let beyond = self.measures + self.dashpots;
+        move |index| index < beyond || index >= beyond + self.room
+    }
+
+    /// Of the mixed states, in two chains.
+    fn in_corners(self) -> impl Fn(usize) -> bool + Copy {
+        let all = self.measures + self.dashpots + self.room;
+        move |index| index % all < self.measures + self.dashpots
+    }
+
+    fn in_viscosities(self) -> impl Fn(usize) -> bool + Copy {
+        move |index| index < self.dashpots || index >= self.dashpots + self.room
+    }
+
+    fn in_drags(self) -> impl Fn(usize) -> bool + Copy {
+        move |index| index < self.drags
+    }
+}
+
+/// An array with these numbers at the places that are used.
+fn array<A: Array<f64>>(is_used: impl Fn(usize) -> bool, numbers: &[f64]) -> A {
     let mut array = A::filled(0.0);
-    for (entry, &number) in array.as_mut().iter_mut().zip(numbers) {
-        *entry = number;
+    let places = (0..A::LEN).filter(|&index| is_used(index));
+    for (index, &number) in places.zip(numbers) {
+        array[index] = number;
     }
     array
+}
+
+/// The numbers at these places.
+fn at_used(is_used: impl Fn(usize) -> bool, numbers: &[f64]) -> impl Iterator<Item = f64> {
+    let numbers = numbers.iter().copied().enumerate();
+    numbers.filter_map(move |(index, number)| is_used(index).then_some(number))
 }
 
 /// All NaN are one.
@@ -39,13 +83,19 @@ fn bits(numbers: impl IntoIterator<Item = f64>) -> Vec<u64> {
     numbers.into_iter().map(bits).collect()
 }
 
-fn rows_of<F: Array<f64>, V: Array<f64>, M: Array<V>>(first: &F, matrix: &M) -> Vec<u64> {
-    let rows = matrix.as_ref().iter().flat_map(AsRef::as_ref);
-    bits(first.as_ref().iter().chain(rows).copied())
+fn rows_of<F: Array<f64>, V: Array<f64>, M: Array<V>>(
+    is_used: impl Fn(usize) -> bool + Copy,
+    first: &F,
+    matrix: &M,
+) -> Vec<u64> {
+    let rows = matrix.as_ref().iter().enumerate();
+    let rows = rows.filter(|(row, _)| is_used(*row));
+    let rows = rows.flat_map(|(_, row)| at_used(is_used, row.as_ref()));
+    bits(at_used(is_used, first.as_ref()).chain(rows))
 }
 
-fn flat<A: Array<f64>>(arrays: &[A]) -> Vec<u64> {
-    bits(arrays.iter().flat_map(AsRef::as_ref).copied())
+fn flat<A: Array<f64>>(is_used: impl Fn(usize) -> bool + Copy, arrays: &[A]) -> Vec<u64> {
+    bits((arrays.iter()).flat_map(|array| at_used(is_used, array.as_ref())))
 }
 
 /// Everything that a free energy computes, at the new state and between both.
@@ -61,15 +111,17 @@ pub(crate) fn everything<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
 #[cfg(feature = "gradients")]
 fn by_parameters<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
     assert!(M::HAS_PARAMETER_DERIVATIVES);
-    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(x));
-    let corners: M::Corners = array(&at.corners);
+    let used = Used::of(model);
+    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(used.in_state(), x));
+    let corners: M::Corners = array(used.in_corners(), &at.corners);
     let count = model.parameter_names().len();
     assert_eq!(count, model.parameter_count());
     let seed: Vec<f64> = (0..64_u8)
         .map(|k| eem::Scalar::sin(1.0 + 2.0 * f64::from(k)))
         .collect();
     let own = |found: M::Parameters| bits(found.as_ref()[..count].iter().copied());
-    let (weights, along) = (array(&seed), array(&seed));
+    let weights = array(used.in_state(), &seed);
+    let along = array(|_| true, &seed);
     let theta = x1[M::Variables::LEN - 1];
     let names = model.parameter_names().iter().flat_map(|name| name.bytes());
     vec![
@@ -80,7 +132,10 @@ fn by_parameters<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
         ),
         (
             "temperature_form_tangent",
-            flat(&[model.temperature_form_tangent(&x0, &x1, &along)]),
+            flat(
+                used.in_state(),
+                &[model.temperature_form_tangent(&x0, &x1, &along)],
+            ),
         ),
         (
             "entropy_form_adjoint",
@@ -88,26 +143,30 @@ fn by_parameters<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
         ),
         (
             "entropy_form_tangent",
-            flat(&[model.entropy_form_tangent(&x0, &x1, &corners, &along)]),
+            flat(
+                used.in_state(),
+                &[model.entropy_form_tangent(&x0, &x1, &corners, &along)],
+            ),
         ),
         (
             "gradient_adjoint",
-            own(model.gradient_adjoint(&x1, &array(&seed))),
+            own(model.gradient_adjoint(&x1, &array(used.in_state(), &seed))),
         ),
         ("energy_by_parameters", own(model.energy_by_parameters(&x1))),
         (
             "viscosity_adjoint",
-            own(model.viscosity_adjoint(theta, &array(&seed))),
+            own(model.viscosity_adjoint(theta, &array(used.in_viscosities(), &seed))),
         ),
         (
             "drag_adjoint",
-            own(model.drag_adjoint(theta, &array(&seed))),
+            own(model.drag_adjoint(theta, &array(used.in_drags(), &seed))),
         ),
     ]
 }
 
 fn of_state<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
-    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(x));
+    let used = Used::of(model);
+    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(used.in_state(), x));
     let last = M::Variables::LEN - 1;
     let (theta, none) = (x1[last], M::Variables::filled(0.0));
     let caloric = |c: eem::Caloric<f64>| [c.entropy, c.heat_capacity, c.magnitude];
@@ -120,25 +179,34 @@ fn of_state<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
         ("free_energy", bits([model.free_energy(&x1)])),
         ("energy_magnitude", bits([model.energy_magnitude(&x1)])),
         ("internal_energy", bits([model.internal_energy(&x1)])),
-        ("gradient", flat(&[model.gradient(&x1)])),
-        ("hessian", rows_of(&gradient, &hessian)),
+        ("gradient", flat(used.in_state(), &[model.gradient(&x1)])),
+        ("hessian", rows_of(used.in_state(), &gradient, &hessian)),
         ("caloric", bits(caloric(model.caloric(&x1)))),
-        ("rates", flat(&[rates.forces, rates.slopes])),
-        ("rates_at", flat(&[rates_at.forces, rates_at.slopes])),
+        (
+            "rates",
+            flat(used.in_state(), &[rates.forces, rates.slopes]),
+        ),
+        (
+            "rates_at",
+            flat(used.in_state(), &[rates_at.forces, rates_at.slopes]),
+        ),
         ("rates_at, s and psi", bits(others)),
         (
             "entropy_hessian",
-            rows_of(&none, &model.entropy_hessian(&x1)),
+            rows_of(used.in_state(), &none, &model.entropy_hessian(&x1)),
         ),
-        ("viscosity", flat(&[viscosities, viscosity_slopes])),
-        ("drag", flat(&[drag, drag_slope])),
+        (
+            "viscosity",
+            flat(used.in_viscosities(), &[viscosities, viscosity_slopes]),
+        ),
+        ("drag", flat(used.in_drags(), &[drag, drag_slope])),
         (
             "has_constant_capacity",
             vec![u64::from(model.has_constant_capacity())],
         ),
     ];
     if M::THERMAL {
-        for new in 0..=last {
+        for new in 0..=M::MEASURES + model.dashpots() {
             let (found, psi) = model.caloric_between(&x0, &x1, new)(theta);
             let found = caloric(found).into_iter().chain([psi]);
             all.push(("caloric_between", bits(found)));
@@ -148,27 +216,37 @@ fn of_state<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
 }
 
 fn of_step<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
-    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(x));
-    let (corners, none): (M::Corners, _) = (array(&at.corners), M::Variables::filled(0.0));
+    let used = Used::of(model);
+    let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(used.in_state(), x));
+    let (corners, none): (M::Corners, _) = (
+        array(used.in_corners(), &at.corners),
+        M::Variables::filled(0.0),
+    );
     let old = model.entropy_form_old(&x0);
     let (response, tangent) = model.entropy_form(&old, &x1, &corners);
     let alone = model.entropy_form_response(&old, &x1, &corners);
     let mut all = vec![
-        ("entropy_form", flat(&[response])),
-        ("entropy_form, tangent", rows_of(&none, &tangent)),
-        ("entropy_form_response", flat(&[alone])),
+        ("entropy_form", flat(used.in_state(), &[response])),
+        (
+            "entropy_form, tangent",
+            rows_of(used.in_state(), &none, &tangent),
+        ),
+        ("entropy_form_response", flat(used.in_state(), &[alone])),
     ];
     if M::THERMAL {
         let mixed = model.mixed_states(&x0, &old, &x1, &corners);
-        all.push(("mixed_states", flat(&mixed)));
+        all.push(("mixed_states", flat(used.in_corners(), &mixed)));
     }
     let old = model.temperature_form_old(&x0);
     let (response, tangent) = model.temperature_form(&old, &x1);
     let alone = model.temperature_form_response(&old, &x1);
     all.extend([
-        ("temperature_form", flat(&[response])),
-        ("temperature_form, tangent", rows_of(&none, &tangent)),
-        ("temperature_form_response", flat(&[alone])),
+        ("temperature_form", flat(used.in_state(), &[response])),
+        (
+            "temperature_form, tangent",
+            rows_of(used.in_state(), &none, &tangent),
+        ),
+        ("temperature_form_response", flat(used.in_state(), &[alone])),
     ]);
     all
 }
@@ -181,6 +259,7 @@ fn assert_same_form_in_rows<M: FreeEnergy<f64>, Old: Copy, P>(
     forms: &[Form<f64, M>; 2],
     count: usize,
 ) -> Vec<Old> {
+    let all = |_| true;
     let mut kept = vec![old; count];
     let each = |element| (model, &states[1 - element % 2]);
     (rows.old)(&each, &mut kept);
@@ -191,8 +270,11 @@ fn assert_same_form_in_rows<M: FreeEnergy<f64>, Old: Copy, P>(
     (rows.response)(&each, &mut responses);
     for (element, (response, tangent)) in of_rows.iter().enumerate() {
         let form = &forms[element % 2];
-        assert_eq!(rows_of(response, tangent), rows_of(&form.0, &form.1));
-        assert_eq!(flat(&[responses[element]]), flat(&[form.0]));
+        assert_eq!(
+            rows_of(all, response, tangent),
+            rows_of(all, &form.0, &form.1)
+        );
+        assert_eq!(flat(all, &[responses[element]]), flat(all, &[form.0]));
     }
     kept
 }
@@ -202,8 +284,9 @@ fn assert_same_in_rows<M: FreeEnergy<f64>>(model: &M, at: &At) {
     let Some(rows) = M::ROWS else {
         return;
     };
-    let states = [&at.x0, &at.x1].map(|x| array::<M::Variables>(x));
-    let corners: M::Corners = array(&at.corners);
+    let (used, all) = (Used::of(model), |_| true);
+    let states = [&at.x0, &at.x1].map(|x| array::<M::Variables>(used.in_state(), x));
+    let corners: M::Corners = array(used.in_corners(), &at.corners);
     let last = M::Variables::LEN - 1;
     for count in [1, rows.most / 4, rows.most, 2 * rows.most + 1] {
         let old = states.map(|x0| model.temperature_form_old(&x0));
@@ -229,7 +312,7 @@ fn assert_same_in_rows<M: FreeEnergy<f64>>(model: &M, at: &At) {
             let each = |element: usize| (model, &kept[element], &states[here(element)], &corners);
             (rows.mixed_states)(&each, &mut found);
             for (element, found) in found.iter().enumerate() {
-                assert_eq!(flat(found), flat(&mixed[here(element)]));
+                assert_eq!(flat(all, found), flat(all, &mixed[here(element)]));
             }
         }
         let viscosities = states.map(|x| model.viscosity(x[last]));
@@ -238,7 +321,7 @@ fn assert_same_in_rows<M: FreeEnergy<f64>>(model: &M, at: &At) {
         (rows.viscosity)(&each, &mut of_rows);
         for (element, (eta, slope)) in of_rows.iter().enumerate() {
             let one = &viscosities[here(element)];
-            assert_eq!(flat(&[*eta, *slope]), flat(&[one.0, one.1]));
+            assert_eq!(flat(all, &[*eta, *slope]), flat(all, &[one.0, one.1]));
         }
         if M::THERMAL {
             let caloric = states.map(|x| model.caloric_at(x)(x[last]));
@@ -272,9 +355,10 @@ macro_rules! shapes {
 }
 
 shapes! {
-    Spring0, Spring1, Spring2, Spring3,
-    ThermalSpring0, ThermalSpring1, ThermalSpring2, ThermalSpring3,
-    DampedSpring0, DampedSpring1, DampedThermalSpring0, DampedThermalSpring1,
+    Spring1,
+    Spring8,
+    ThermalSpring1,
+    ThermalSpring8,
     solid!(strains: 2),
     solid!(strains: 3),
     solid!(strains: 2, temperature: 1),

@@ -55,9 +55,9 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             0.0
         };
         let (drag, _) = self.model.drag(theta);
-        check_drag::<M, Q>(drag, theta).map_err(|error| error.of(self.element))?;
+        check_drag::<M, Q>(&self.model, drag, theta).map_err(|error| error.of(self.element))?;
         let (viscosities, _) = self.model.viscosity(theta);
-        let mut viscosities = viscosities.as_ref().iter().enumerate();
+        let mut viscosities = viscosities.as_ref()[..self.dashpots()].iter().enumerate();
         match viscosities.find(|&(_, &eta)| !is_positive(eta)) {
             None => Ok(()),
             Some((dashpot, eta)) => Err(StateError::Viscosity {

@@ -94,7 +94,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         known: Option<&KeptOf<M>>,
     ) {
         let slots = self.slots();
-        let x0 = variables::<M>(measures.as_ref(), slots, view.state);
+        let x0 = variables(&self.model, measures.as_ref(), slots, view.state);
         self.start.x0 = x0;
         self.x = x0;
         self.creep = M::Viscosities::filled(0.0);
@@ -131,7 +131,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[inline]
     fn predict(&mut self, before: &Before<'_>) {
         let slots = self.slots();
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let index = M::MEASURES + k;
             let old = self.start.x0[index];
             self.creep[k] = before.ratio * (old - before.viscous[slots.viscous + k]);
@@ -157,7 +157,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let mut gradient = self.model.gradient(&x0);
         let mut rates = M::Variables::filled(0.0);
         let mut heat = self.add_old_drag(speeds, &mut gradient, &mut rates)?;
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let index = M::MEASURES + k;
             let g = -gradient[index];
             let rate = g / self.viscosities.0[k];

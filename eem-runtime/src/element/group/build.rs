@@ -24,7 +24,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
     }
 
     fn shape(&self) -> Shape {
-        Self::shape_of_all()
+        self.shape_of_all()
     }
 
     fn points_per_element(&self) -> usize {

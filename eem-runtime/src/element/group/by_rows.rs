@@ -32,7 +32,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
             let count = ahead.take(members.iter().map(|member| {
                 let point = member.only();
                 let measures = point.kinematics.measure(&member.arms_in(view.state));
-                variables::<M>(measures.as_ref(), point.slots(), view.state)
+                variables(&point.model, measures.as_ref(), point.slots(), view.state)
             }));
             let first = members[0].only().start.old;
             ahead.old.resize(count, first);
@@ -132,12 +132,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
             let count = ahead.take(members.iter().map(|member| {
                 let point = member.only();
                 let slots = point.slots();
-                for k in 0..M::DASHPOTS {
+                for k in 0..point.dashpots() {
                     let old = &view.state.viscous;
                     next.viscous.advance(slots.viscous + k, old, point.creep[k]);
                 }
                 let measures = point.kinematics.measure(&member.arms_in(next));
-                let mut x = variables::<M>(measures.as_ref(), slots, next);
+                let mut x = variables(&point.model, measures.as_ref(), slots, next);
                 x[M::Variables::LEN - 1] = point.x[M::Variables::LEN - 1];
                 x
             }));

@@ -122,7 +122,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let mut sum = self.magnitude_of_row(row, sizes);
         for a in 0..M::MEASURES {
             let by_measure = &self.condensed.by_measure[a];
-            for u in 0..Self::UNKNOWNS {
+            for u in self.unknowns() {
                 let answer = by_measure.get(u) * sizes[a];
                 sum += (self.slopes[row][M::MEASURES + u] * answer).abs();
             }
@@ -158,7 +158,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         of_sums: impl Fn() -> f64,
     ) -> [f64; 2] {
         let (mut sum, mut at_end) = (0.0, 0.0);
-        for row in 0..M::MEASURES + M::DASHPOTS {
+        for row in 0..M::MEASURES + self.dashpots() {
             let size = sizes1[row].abs();
             let rounding = f64::EPSILON * size * size;
             sum += self.pull_of_row::<C>(row).abs() * (sizes0[row].abs() + size);
@@ -186,7 +186,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[cold]
     fn work_of_arguments(&self, sizes: &M::Variables) -> f64 {
         let mut sum = 0.0;
-        for row in 0..M::MEASURES + M::DASHPOTS {
+        for row in 0..M::MEASURES + self.dashpots() {
             sum += self.magnitude_of_row(row, sizes) * self.increment_of(row).abs();
         }
         if M::THERMAL {
@@ -216,7 +216,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         (received, [magnitude, capacity]): (Received, [f64; 2]),
         tally: &mut Tally,
     ) {
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             if view.phase.heats() {
                 let row = M::MEASURES + k;
                 let drag = self.viscosities.0[k] * self.creep_rate::<C>(k, view);

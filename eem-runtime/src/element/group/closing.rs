@@ -199,11 +199,11 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let theta = self.conducting_temperature::<C>(&self.response);
         let per_theta = if M::THERMAL { theta.recip() } else { 1.0 };
         let mut dissipated = self.book_drag(per_theta, tally);
-        if Self::DRAGS > 0 {
+        if self.drags() > 0 {
             let drag = view.state.viscous.values().len() + self.element.index();
             next.meters.dissipate(drag, dissipated);
         }
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let old = &view.state.viscous;
             next.viscous.advance(slots.viscous + k, old, self.creep[k]);
             if view.phase.heats() {
@@ -216,7 +216,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         tally.turn_over(dissipated);
         let mut received = Received::none();
         let Some(slot) = slots.thermal else {
-            if M::DASHPOTS + Self::DRAGS > 0 {
+            if self.dashpots() + self.drags() > 0 {
                 let old = self.single::<C>();
                 let with_old = old.map_or(dissipated, |old| dissipated + h * old.old_power);
                 next.dissipated.add(with_old);
@@ -230,7 +230,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             tally.produce(produced);
             next.meters.produce(slot, produced);
         }
-        if M::DASHPOTS + Self::DRAGS > 0 {
+        if self.dashpots() + self.drags() > 0 {
             next.meters.produce(slot, dissipated * per_theta);
         }
         self.book_heat::<C>(view, slot, outside, &mut Balances { next, tally }, received)

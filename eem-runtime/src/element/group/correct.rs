@@ -1,6 +1,7 @@
 //! From the solution of the global system to the internal variables of the elements.
 
 use super::arms::along;
+use super::eliminate::has_unknown;
 use super::placed::PlacedPoint;
 use super::point::Point;
 use super::share::run;
@@ -44,6 +45,9 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             self.correction[a] = changes[a];
         }
         for u in 0..Self::UNKNOWNS {
+            if !has_unknown::<M>(u, self.dashpots()) {
+                continue;
+            }
             let mut change = self.condensed.constant.get(u);
             for a in 0..M::MEASURES {
                 change += self.condensed.by_measure[a].get(u) * self.correction[a];

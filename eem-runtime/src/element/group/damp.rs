@@ -35,13 +35,13 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             damping.weight = 2.0 * end_weight(x) * theta;
             damping.per_capacity = per_capacity(view, slot);
         }
-        if M::DASHPOTS > 0 {
+        if self.dashpots() > 0 {
             let x0 = &self.start.x0;
             // Models without temperature ignore it.
             let (viscosities, _) = self.model.viscosity(x0[M::Variables::LEN - 1]);
             let (_, hessian) = self.model.hessian(x0);
-            let (mut modes, rates) = relaxation_modes::<M>(&hessian, &viscosities);
-            for k in 0..M::DASHPOTS {
+            let (mut modes, rates) = relaxation_modes::<M>(&hessian, &viscosities, self.dashpots());
+            for k in 0..self.dashpots() {
                 let factor = (view.step * end_weight_over(view.step * rates[k])).sqrt();
                 for entry in modes[k].as_mut() {
                     *entry *= -factor;
@@ -67,17 +67,17 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Finds the damping of the dashpots at a trial; an error unless it is finite.
     #[inline]
     pub(super) fn find_damping<C: Family>(&mut self) -> Result<(), StateError> {
-        if M::DASHPOTS == 0 || !C::IS_DAMPED {
+        if self.dashpots() == 0 || !C::IS_DAMPED {
             return Ok(());
         }
         let mut increments = M::Variables::filled(0.0);
         for row in 0..Self::TEMPERATURE {
             increments[row] = self.increment_of(row);
         }
-        let mut heat = 0.0;
+        let (dashpots, mut heat) = (self.dashpots(), 0.0);
         if let Some(damping) = &mut self.damping {
             damping.force = M::Variables::filled(0.0);
-            for k in 0..M::DASHPOTS {
+            for k in 0..dashpots {
                 let mode = &damping.modes[k];
                 let terms = (0..Self::TEMPERATURE).map(|row| mode[row] * increments[row]);
                 let part = terms.fold(0.0, |sum, term| sum + term);
@@ -110,14 +110,14 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         &self,
         (response, tangent): &mut Form<f64, M>,
     ) -> Option<M::Response> {
-        if M::DASHPOTS == 0 {
+        if self.dashpots() == 0 {
             return None;
         }
         self.damping::<C>().map(|damping| {
             let undamped = *response;
             for row in 0..Self::TEMPERATURE {
                 response[row] += damping.force[row];
-                for k in 0..M::DASHPOTS {
+                for k in 0..self.dashpots() {
                     let mode = &damping.modes[k];
                     let slope = Self::sign(row) * mode[row];
                     for column in 0..Self::TEMPERATURE {
@@ -145,7 +145,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         dissipation: &mut Dissipation<M>,
     ) {
         if let Some(damping) = self.damping::<C>() {
-            for k in 0..M::DASHPOTS {
+            for k in 0..self.dashpots() {
                 dissipation.power += self.damping_heat::<C>(k) * view.per_step;
             }
             for row in 0..Self::TEMPERATURE {

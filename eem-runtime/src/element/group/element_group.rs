@@ -70,6 +70,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         (&self.members[place / points], place % points)
     }
 
+    /// Whether several elements are evaluated in one call.
+    #[inline]
+    fn is_by_rows(&self) -> bool {
+        M::ROWS.is_some_and(|rows| self.members.len() >= rows.least)
+    }
+
     /// Takes the old state in all elements.
     #[inline]
     pub(super) fn begin_one_by_one<C: Family>(
@@ -106,7 +112,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
-        if const { M::ROWS.is_some() } {
+        if self.is_by_rows() {
             return self.begin_by_rows::<C>(view, old);
         }
         self.begin_one_by_one::<C>(view, old)
@@ -122,11 +128,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
             Some(system) if K::PerPoint::<()>::LEN > 1 => {
                 self.linearize_in_rounds::<C>(view, trial, system)
             }
-            Some(system) if const { M::ROWS.is_some() } => {
-                self.linearize_by_rows::<C>(view, trial, system)
-            }
+            Some(system) if self.is_by_rows() => self.linearize_by_rows::<C>(view, trial, system),
             Some(system) => self.linearize_one_by_one::<C>(view, trial, system),
-            None if const { M::ROWS.is_some() } => self.respond_by_rows::<C>(view, trial),
+            None if self.is_by_rows() => self.respond_by_rows::<C>(view, trial),
             None => self.respond_one_by_one::<C>(view, trial),
         }
     }
@@ -194,7 +198,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        if const { M::ROWS.is_some() } {
+        if self.is_by_rows() {
             return self.close_by_rows::<C>(view, trial, next, tally);
         }
         self.close_one_by_one::<C>(view, trial, next, tally)

@@ -89,11 +89,18 @@ impl<M: FreeEnergy<f64>> LocalSystem<M> {
     }
 }
 
-/// Gauss–Jordan elimination with partial pivoting.
+/// Whether this is one of the local unknowns of a point with so many dashpots in series.
+#[inline]
+pub(super) const fn has_unknown<M: FreeEnergy<f64>>(unknown: usize, dashpots: usize) -> bool {
+    unknown < dashpots || unknown >= M::DASHPOTS
+}
+
+/// Gauss–Jordan elimination with partial pivoting, with the number of dashpots in series.
 #[expect(clippy::inline_always, reason = "a few numbers in registers")]
 #[inline(always)]
 pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
     system: &mut LocalSystem<M>,
+    dashpots: usize,
 ) -> Result<(), Singular> {
     let LocalSystem {
         constant,
@@ -107,8 +114,14 @@ pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
         units[unknowns - 1] = unit[1];
     }
     for k in 0..unknowns {
+        if !has_unknown::<M>(k, dashpots) {
+            continue;
+        }
         let at = M::MEASURES + k;
         for row in k + 1..unknowns {
+            if !has_unknown::<M>(row, dashpots) {
+                continue;
+            }
             let size = |row: usize| (units[row] * rows[row][at]).abs();
             if size(k) < size(row) {
                 units.as_mut().swap(row, k);
@@ -132,6 +145,9 @@ pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
             by_heat[k] *= inverse;
         }
         for row in (0..unknowns).filter(|&row| row != k) {
+            if !has_unknown::<M>(row, dashpots) {
+                continue;
+            }
             let factor = rows[row][at];
             for column in (0..M::Variables::LEN).filter(columns) {
                 let pivot = rows[k][column];

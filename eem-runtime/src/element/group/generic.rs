@@ -20,7 +20,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         self.point.viscosities = self.point.model.viscosity(theta);
         self.point.drag.viscosity = self.point.model.drag(theta);
         self.point.start.x0 = x;
-        for index in 0..M::MEASURES + M::DASHPOTS {
+        for index in 0..M::MEASURES + self.dashpots() {
             self.point.response[index] = Point::<M, K::Measures>::sign(index) * gradient[index];
         }
         if M::THERMAL {
@@ -41,12 +41,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             by_coordinate(nodes.as_ref(), spread::<K, D>(&pulled).as_ref())
         };
         let (mut drags, mut dashpots) = (Vec::new(), Vec::new());
-        for a in 0..M::Drag::LEN {
+        for a in 0..self.drags() {
             let mut unit = Measures::<K, D>::filled(0.0);
             unit[a] = 1.0;
             drags.push((self.drag.viscosity.0[a], on_nodes(&unit)));
         }
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let g = self.response[M::MEASURES + k];
             dashpots.push((self.slots().viscous + k, g, self.viscosities.0[k]));
         }
@@ -76,7 +76,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         }
         let pulled = pose.pull(&self.kinematics, at, &by_measure);
         let mut by_viscous = Vec::new();
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             by_viscous.push((viscous + k, -hessian[theta][M::MEASURES + k]));
         }
         thermal.map(|slot| EntropySlopes {

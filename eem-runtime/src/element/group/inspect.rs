@@ -95,7 +95,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
         let (gradient, theta) = (point.model.gradient(&x), x[M::Variables::LEN - 1]);
         let (viscosities, _) = point.model.viscosity(theta);
         let mut power = 0.0;
-        for dashpot in 0..M::DASHPOTS {
+        for dashpot in 0..point.dashpots() {
             let g = gradient[M::MEASURES + dashpot];
             power += g * g / viscosities[dashpot];
         }

@@ -23,13 +23,11 @@ use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::is_positive;
 
 impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
-    /// Number of measures with a dashpot of their own.
-    pub(super) const DRAGS: usize = M::Drag::LEN;
-
     /// Whether `λ̇` is the rate of a classical scheme, with its own derivatives with respect to the arms, and not a
     /// difference of lengths.
-    pub(super) const fn has_rates<C: Family>() -> bool {
-        Self::DRAGS > 0 && !C::EXACT
+    #[inline]
+    pub(super) fn has_rates<C: Family>(&self) -> bool {
+        self.drags() > 0 && !C::EXACT
     }
 
     /// `λ̇` of the trial, m/s.
@@ -47,11 +45,12 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Evaluates the viscosity at a temperature; an error unless it is positive.
     #[inline]
     pub(super) fn find_drag_viscosity(&mut self, theta: f64) -> Result<(), StateError> {
-        if Self::DRAGS == 0 {
+        if self.drags() == 0 {
             return Ok(());
         }
         self.drag.viscosity = self.model.drag(theta);
-        check_drag::<M, Q>(self.drag.viscosity.0, theta).map_err(|error| error.of(self.element))
+        check_drag::<M, Q>(&self.model, self.drag.viscosity.0, theta)
+            .map_err(|error| error.of(self.element))
     }
 
     /// Finds the force for a response, given 1/h, 1/s.
@@ -62,7 +61,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         response: &M::Response,
     ) -> Result<(), StateError> {
         self.find_drag_viscosity(temperature_in::<M>(response))?;
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             self.drag.force[a] = self.drag.viscosity.0[a] * self.extension_rate::<C>(a, per_step);
         }
         Ok(())
@@ -76,7 +75,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         (response, tangent): &mut Form<f64, M>,
     ) -> M::Drag {
         let mut elastic = M::Drag::filled(0.0);
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             elastic[a] = response[a];
             response[a] += self.drag.force[a];
             if M::THERMAL {
@@ -86,7 +85,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
                     tangent[a][column] += thinning * by_theta;
                 }
             }
-            if !Self::has_rates::<C>() {
+            if !self.has_rates::<C>() {
                 tangent[a][a] += self.drag.viscosity.0[a] * per_step;
             }
         }
@@ -102,7 +101,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Restores the response of a form to that of the free energy.
     #[inline]
     pub(super) fn drop_drag(&mut self, elastic: &M::Drag) {
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             self.response[a] = elastic[a];
         }
     }
@@ -115,7 +114,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         (_, tangent): &Form<f64, M>,
         dissipation: &mut Dissipation<M>,
     ) {
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             let rate = self.extension_rate::<C>(a, view.per_step);
             let force = self.drag.force[a];
             dissipation.power += force * rate;
@@ -126,7 +125,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
                     dissipation.by[column] += thinning * by_theta;
                 }
             }
-            if !Self::has_rates::<C>() {
+            if !self.has_rates::<C>() {
                 // ∂(η λ̇²)/∂λ = 2 η λ̇/h
                 dissipation.by[a] += (force + force) * view.per_step;
             }
@@ -142,13 +141,13 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         rates: &mut M::Variables,
     ) -> Result<f64, StateError> {
         let mut power = 0.0;
-        if Self::DRAGS == 0 {
+        if self.drags() == 0 {
             return Ok(power);
         }
         let x0 = self.start.x0;
         self.find_drag_viscosity(x0[Self::VARIABLES - 1])?;
         let share = 1.0 - self.scheme.implicit();
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             let rate = speeds[a];
             let force = self.drag.viscosity.0[a] * rate;
             gradient[a] += force;
@@ -162,7 +161,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn book_drag(&self, per_theta: f64, tally: &mut Tally) -> f64 {
         let mut dissipated = 0.0;
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             let heat = self.drag.force[a] * self.drag.extension[a];
             dissipated += heat;
             tally.produce(heat * per_theta);
@@ -174,7 +173,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn pulls<C: Family>(&self) -> Numbers<Q> {
         let mut forces = measures_in::<Q>(&self.response);
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             forces[a] += self.drag.force[a];
         }
         if let Some(damping) = self.damping::<C>() {
@@ -188,7 +187,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// A row of the response, including damping, and the dashpot force if the row is a force.
     #[inline]
     pub(super) fn pull_of_row<C: Family>(&self, row: usize) -> f64 {
-        let own = if row < Self::DRAGS {
+        let own = if row < self.drags() {
             self.response[row] + self.drag.force[row]
         } else {
             self.response[row]
@@ -207,15 +206,15 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> 
         pose: &Pose<K, D>,
         motion: &Arms<K, D>,
     ) -> Option<Gradient<K, D>> {
-        if Point::<M, K::Measures>::has_rates::<C>() {
+        if self.has_rates::<C>() {
             let (own, by_arm) =
                 pose.increase(&self.kinematics, self.point.scheme.placement(), motion);
-            for a in 0..M::Drag::LEN {
+            for a in 0..self.drags() {
                 self.point.drag.extension[a] = own[a];
             }
             return Some(by_arm);
         }
-        for a in 0..M::Drag::LEN {
+        for a in 0..self.drags() {
             self.point.drag.extension[a] = along::<K, D>(&pose.direction[a], motion);
         }
         None
@@ -227,9 +226,9 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> 
         view: &StepView<'_>,
         by_arm: &Gradient<K, D>,
     ) {
-        let per_share = self.per_share::<C>(view.per_step);
+        let (drags, per_share) = (self.drags(), self.per_share::<C>(view.per_step));
         if let Some(by_increment) = &mut self.by_increment {
-            for a in 0..M::Drag::LEN {
+            for a in 0..drags {
                 let force = self.point.drag.force[a];
                 let mut by = by_arm[a];
                 let by_extension = self.point.condensed.heat_factor * (force + force) * per_share;
@@ -280,10 +279,12 @@ impl WrongDrag {
 /// An error unless the viscosity of a Kelvin–Voigt dashpot is positive and finite.
 #[inline]
 pub(super) fn check_drag<M: FreeEnergy<f64>, Q: MeasureSet>(
+    model: &M,
     drag: M::Drag,
     theta: f64,
 ) -> Result<(), WrongDrag> {
-    match drag.as_ref().iter().find(|&&eta| !is_positive(eta)) {
+    let mut all = drag.as_ref()[..model.drags()].iter();
+    match all.find(|&&eta| !is_positive(eta)) {
         None => Ok(()),
         Some(eta) => Err(WrongDrag {
             value: *eta,

@@ -11,7 +11,7 @@
 //! unknowns `u = (Δγ…, τ)` occur in no other element, since elements in contact are coupled by the global unknown Θ =
 //! θ*. So their corrections are eliminated here.
 
-use super::eliminate::{LocalSystem, eliminate};
+use super::eliminate::{LocalSystem, eliminate, has_unknown};
 use super::point::Point;
 use super::site::HeatPath;
 use crate::algebra::lu::Singular;
@@ -54,9 +54,9 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         self.balances::<C, true>(view, &flow, form, &mut system);
         let depends_on_heat = self.depends_on_heat::<C>(paths.is_some());
         let solved = if depends_on_heat {
-            eliminate::<M, true>(&mut system)
+            eliminate::<M, true>(&mut system, self.dashpots())
         } else {
-            eliminate::<M, false>(&mut system)
+            eliminate::<M, false>(&mut system, self.dashpots())
         };
         solved.map_err(|singular| self.unsolved(singular))?;
         self.keep_solved(&system, depends_on_heat);
@@ -86,7 +86,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             power: 0.0,
             by: M::Variables::filled(0.0),
         };
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             self.dashpot_balance::<C>(view, k, form, system, &mut dissipation);
         }
         self.dissipate_by_drag::<C>(view, form, &mut dissipation);
@@ -108,6 +108,9 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn keep_solved(&mut self, system: &LocalSystem<M>, depends_on_heat: bool) {
         for u in 0..Self::UNKNOWNS {
+            if !has_unknown::<M>(u, self.dashpots()) {
+                continue;
+            }
             self.condensed.constant.set(u, system.constant[u]);
             for a in 0..M::MEASURES {
                 self.condensed.by_measure[a].set(u, system.rows[u][a]);
@@ -131,7 +134,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Whether `r_s` depends on global unknowns other than through the measures.
     #[inline]
     pub(super) fn depends_on_heat<C: Family>(&self, is_coupled: bool) -> bool {
-        C::is_in_temperature(self.scheme) || (M::THERMAL && (is_coupled || Self::has_rates::<C>()))
+        C::is_in_temperature(self.scheme) || (M::THERMAL && (is_coupled || self.has_rates::<C>()))
     }
 
     /// The heat received by conduction.
@@ -291,7 +294,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             if C::IS_DAMPED {
                 entry += by_change * tangent[Self::ENTROPY][column];
             }
-            if M::DASHPOTS + Self::DRAGS > 0 {
+            if self.dashpots() + self.drags() > 0 {
                 entry -= weight * dissipation.by[column];
             }
             system.rows[row][column] = entry;

@@ -5,7 +5,7 @@ use core::fmt;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Kinematics, MeasureSet, Points};
 use crate::element::layout::Shape;
-use eem_material::free_energy::{Array, Material};
+use eem_material::free_energy::Material;
 
 /// Model and kinematics of the points of an element.
 pub(crate) type Parts<M, K, const D: usize> = <K as Kinematics<D>>::PerPoint<(M, K)>;
@@ -37,11 +37,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
     }
 
     /// Capabilities of the model.
-    pub(super) const fn shape_of_all() -> Shape {
+    pub(super) fn shape_of_all(&self) -> Shape {
+        let model = self.model();
         Shape {
-            dashpots: M::DASHPOTS,
+            dashpots: model.map_or(0, M::dashpots),
             thermal: M::THERMAL,
-            drag: <M::Drag as Array<f64>>::LEN > 0,
+            drag: model.map_or(0, M::drags) > 0,
             is_spring: K::Measures::IS_SPRING,
             viscous_strain: M::VISCOUS_STRAIN,
             viscous_unit: K::Measures::VISCOUS_UNIT,

@@ -98,7 +98,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms; only schemes in temperature and Kelvin–Voigt dashpots use it.
     #[inline]
     fn motion<C: Family>(&self, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
-        if !C::is_in_temperature(self.scheme()) && M::Drag::LEN == 0 {
+        let has_drags = (self.points.as_ref().iter()).any(|point| point.drags() > 0);
+        if !C::is_in_temperature(self.scheme()) && !has_drags {
             return self.r0;
         }
         let rest = (1.0 - C::implicit(self.scheme())) * view.step;

@@ -17,25 +17,26 @@ const MOST_SWEEPS: usize = 16;
 pub(super) fn relaxation_modes<M: FreeEnergy<f64>>(
     hessian: &M::Hessian,
     viscosities: &M::Viscosities,
+    dashpots: usize,
 ) -> (M::Hessian, M::Viscosities) {
     let zeros = M::Variables::filled(0.0);
     let mut rows = M::Hessian::filled(zeros);
     let mut matrix = M::Hessian::filled(zeros);
-    for k in 0..M::DASHPOTS {
+    for k in 0..dashpots {
         let factor = viscosities[k].sqrt().recip();
         rows[k] = hessian[M::MEASURES + k];
         for entry in rows[k].as_mut() {
             *entry *= factor;
         }
-        for l in 0..M::DASHPOTS {
+        for l in 0..dashpots {
             matrix[k][l] = rows[k][M::MEASURES + l] / viscosities[l].sqrt();
         }
     }
     for _ in 0..MOST_SWEEPS {
         let mut has_turned = false;
-        for p in 0..M::DASHPOTS {
-            for q in p + 1..M::DASHPOTS {
-                has_turned |= turn::<M>([p, q], &mut matrix, &mut rows);
+        for p in 0..dashpots {
+            for q in p + 1..dashpots {
+                has_turned |= turn::<M>([p, q], &mut matrix, &mut rows, dashpots);
             }
         }
         if !has_turned {
@@ -43,7 +44,7 @@ pub(super) fn relaxation_modes<M: FreeEnergy<f64>>(
         }
     }
     let mut rates = M::Viscosities::filled(0.0);
-    for k in 0..M::DASHPOTS {
+    for k in 0..dashpots {
         rates[k] = matrix[k][k];
     }
     (rows, rates)
@@ -54,6 +55,7 @@ fn turn<M: FreeEnergy<f64>>(
     [p, q]: [usize; 2],
     matrix: &mut M::Hessian,
     rows: &mut M::Hessian,
+    dashpots: usize,
 ) -> bool {
     let (own, other, both) = (matrix[p][p], matrix[q][q], matrix[p][q]);
     let size = own.abs().sqrt() * other.abs().sqrt();
@@ -65,7 +67,7 @@ fn turn<M: FreeEnergy<f64>>(
     let tangent = tangent.copysign(half);
     let cosine = (tangent * tangent + 1.0).sqrt().recip();
     let sine = tangent * cosine;
-    for column in 0..M::DASHPOTS {
+    for column in 0..dashpots {
         let (a, b) = (matrix[column][p], matrix[column][q]);
         matrix[column][p] = cosine * a - sine * b;
         matrix[column][q] = sine * a + cosine * b;

@@ -69,10 +69,10 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         (self.start)
             .prepare(&self.model, &self.x, &mut self.corners)
             .map_err(|infeasible| infeasible.of(self.element))?;
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             self.creep[k] = self.x[M::MEASURES + k] - x0[M::MEASURES + k];
         }
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             self.drag.extension[a] = self.x[a] - x0[a];
         }
         Ok(())

@@ -79,14 +79,19 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// The variables in a state with these arms.
     pub(super) fn variables_in(&self, r: &Arms<K, D>, state: &State) -> M::Variables {
         let measures = self.kinematics.measure(r);
-        variables::<M>(measures.as_ref(), self.point.slots(), state)
+        variables(&self.model, measures.as_ref(), self.point.slots(), state)
     }
 
     /// The same; an error if the deformation is inadmissible.
     #[inline]
     pub(super) fn locate(&self, r: &Arms<K, D>, state: &State) -> Result<M::Variables, StateError> {
         let measures = self.admissible_measures(r)?;
-        Ok(variables::<M>(measures.as_ref(), self.point.slots(), state))
+        Ok(variables(
+            &self.model,
+            measures.as_ref(),
+            self.point.slots(),
+            state,
+        ))
     }
 
     /// The measures of arms, and those at which the scheme evaluates the model.
@@ -140,7 +145,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         let per_step = view.per_step;
         let corners = known.map(|(corners, ..)| corners);
         let measures = self.locate_trial::<C>(&arms.placed, trial.is_start, corners)?;
-        if M::Drag::LEN > 0 {
+        if self.drags() > 0 {
             let pose = self.pose::<C>(arms, &measures);
             self.extend::<C>(&pose, &arms.motion);
         }

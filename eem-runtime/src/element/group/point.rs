@@ -3,7 +3,7 @@
 
 use super::arms::measures_in;
 use super::damping::Damping;
-use super::eliminate::{Condensed, PerUnknown};
+use super::eliminate::{Condensed, PerUnknown, has_unknown};
 use crate::element::conjugates::{Family, Form, OneSet, Placement, Start};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
@@ -128,7 +128,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Number of variables.
     pub(super) const VARIABLES: usize = M::Variables::LEN;
 
-    /// Number of variables that are eliminated within the element: viscous stretches, temperature.
+    /// The most variables that are eliminated within the element: viscous stretches, temperature.
     pub(super) const UNKNOWNS: usize = M::Variables::LEN - M::MEASURES;
 
     /// The index of the temperature among the variables, and of θ* in the response.
@@ -166,6 +166,25 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             single: is_classical.then(|| Box::new(PointMemory::zero())),
             damping: is_damped.then(|| Box::new(DampingOf::<M>::none())),
         }
+    }
+
+    /// Number of dashpots in series.
+    #[inline]
+    pub(super) fn dashpots(&self) -> usize {
+        self.model.dashpots()
+    }
+
+    /// Number of measures with a dashpot of their own.
+    #[inline]
+    pub(super) fn drags(&self) -> usize {
+        self.model.drags()
+    }
+
+    /// The variables that are eliminated, from zero: the viscous stretches, and the temperature after the last that there may be.
+    #[inline]
+    pub(super) fn unknowns(&self) -> impl Iterator<Item = usize> + use<M, Q> {
+        let dashpots = self.dashpots();
+        (0..Self::UNKNOWNS).filter(move |&u| has_unknown::<M>(u, dashpots))
     }
 
     /// The state indices of its internal variables.
@@ -276,7 +295,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         theta: f64,
         known: Option<Viscosities<M>>,
     ) -> Result<(), StateError> {
-        if M::DASHPOTS == 0 {
+        if self.dashpots() == 0 {
             return Ok(());
         }
         self.viscosities = known.unwrap_or_else(|| self.model.viscosity(theta));
@@ -307,7 +326,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Stores Δγ and τ of the present trial, from which the next correction starts.
     #[inline]
     pub(super) fn remember(&mut self) {
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             self.previous.set(k, self.creep[k]);
         }
         if M::THERMAL {
@@ -319,7 +338,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// in its logarithm, so that it stays positive.
     #[inline]
     pub(super) fn apply<C: Family>(&mut self, share: f64) {
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let index = M::MEASURES + k;
             self.creep[k] = self.previous.get(k) + share * self.correction[index];
             self.x[index] = self.start.x0[index] + self.creep[k];
@@ -363,6 +382,7 @@ pub(super) fn temperature_in<M: FreeEnergy<f64>>(response: &M::Response) -> f64 
 /// The variables `x = (π, γ, θ)` of a point in a state, given its measures.
 #[inline]
 pub(super) fn variables<M: FreeEnergy<f64>>(
+    model: &M,
     measures: &[f64],
     slots: Slots,
     state: &State,
@@ -371,7 +391,7 @@ pub(super) fn variables<M: FreeEnergy<f64>>(
     for (a, &measure) in measures.iter().enumerate() {
         x[a] = measure;
     }
-    for k in 0..M::DASHPOTS {
+    for k in 0..model.dashpots() {
         x[M::MEASURES + k] = state.viscous.values()[slots.viscous + k];
     }
     if let Some(slot) = slots.thermal {

@@ -79,7 +79,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             increments[a] = along::<K, D>(row, change);
         }
         let slots = self.slots();
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             increments[M::MEASURES + k] = new.viscous.change(slots.viscous + k, &old.viscous);
         }
         if let Some(slot) = slots.thermal {

@@ -26,7 +26,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         (near, known): (f64, Option<&(Caloric<f64>, f64)>),
         state: &mut State,
     ) -> Result<Option<f64>, StateError> {
-        let mut x = variables::<M>(measures.as_ref(), self.slots(), state);
+        let mut x = variables(&self.model, measures.as_ref(), self.slots(), state);
         self.check_viscous(&x)?;
         let at = self.element.index();
         let Some(slot) = self.slots().thermal else {
@@ -103,7 +103,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     #[inline]
     fn check_viscous(&self, x: &M::Variables) -> Result<(), StateError> {
-        for dashpot in 0..M::DASHPOTS {
+        for dashpot in 0..self.dashpots() {
             let stretch = x[M::MEASURES + dashpot];
             if !stretch.is_finite() {
                 return Err(StateError::ViscousStretch {

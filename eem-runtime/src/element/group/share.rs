@@ -94,7 +94,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             forces[a] = impulse * form.0[a];
             forces_by_arm[a] = self.by_arm::<C>(&row, impulse);
             if let Some(by_rate) = by_rate
-                && a < M::Drag::LEN
+                && a < self.drags()
             {
                 let by = self.force_by_rate::<C>(a, step.recip(), impulse, by_rate);
                 add_scaled::<K, D>(&mut forces_by_arm[a], 1.0, &by);

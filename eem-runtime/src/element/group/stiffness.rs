@@ -80,7 +80,7 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: us
         .thermal
         .map(|slot| (slot, -theta * hessian[last][last]));
     let (viscosities, _) = model.viscosity(theta);
-    let relaxation = (0..M::DASHPOTS).fold(0.0, |most, k| {
+    let relaxation = (0..model.dashpots()).fold(0.0, |most, k| {
         let index = M::MEASURES + k;
         Scalar::maximum(most, hessian[index][index].abs() / viscosities[k])
     });
@@ -94,9 +94,9 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: us
         length,
         force,
         capacity,
-        dashpots: slots.viscous..slots.viscous + M::DASHPOTS,
+        dashpots: slots.viscous..slots.viscous + model.dashpots(),
         pull,
         relaxation,
-        has_viscous_stretch: K::Measures::IS_SPRING && M::DASHPOTS > 0,
+        has_viscous_stretch: K::Measures::IS_SPRING && model.dashpots() > 0,
     }
 }

@@ -75,13 +75,13 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> Closed<M, K, D> {
     /// Forces and viscosities at a temperature that is nearly that of the evaluation:
     /// `∂f/∂θ = −∂s/∂λ`, `∂g/∂θ = ∂s/∂γ`.
     #[inline]
-    pub(super) fn at(&self, theta: f64) -> Found<M, K, D> {
+    pub(super) fn at(&self, theta: f64, dashpots: usize) -> Found<M, K, D> {
         let change = theta - self.theta;
         let (mut rates, (mut viscosities, slopes)) = (self.rates, self.viscosities);
         for a in 0..M::MEASURES {
             rates.forces[a] -= rates.slopes[a] * change;
         }
-        for k in 0..M::DASHPOTS {
+        for k in 0..dashpots {
             let index = M::MEASURES + k;
             rates.forces[index] += rates.slopes[index] * change;
             viscosities[k] += slopes[k] * change;

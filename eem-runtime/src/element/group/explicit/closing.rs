@@ -51,7 +51,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
                     forces[nodes[0] as usize][axis] += pull;
                 }
             }
-            for k in 0..M::DASHPOTS {
+            for k in 0..member.only().dashpots() {
                 let g = closed.rates.forces[M::MEASURES + k];
                 let rate = g / closed.viscosities.0[k];
                 creep[member.only().slots().viscous + k] = [rate, g * rate];
@@ -62,7 +62,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
     pub(super) fn finish_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
         for ((point, nodes), closed) in self.placed().zip(&self.closed) {
-            if !point.write_rates(nodes, &closed.at(point.temperature_in(stage)), stage) {
+            if !point.write_rates(
+                nodes,
+                &closed.at(point.temperature_in(stage), point.dashpots()),
+                stage,
+            ) {
                 let r = arms_of::<K, D>(&nodes, &stage.places, Place::q);
                 return Err(point.refuse(&r, stage));
             }

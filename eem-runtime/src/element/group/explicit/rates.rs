@@ -88,7 +88,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             x[a] = measure;
         }
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.model.dashpots() {
             x[M::MEASURES + k] = stage.inner[self.slots().viscous + k].now;
         }
         if M::THERMAL {
@@ -145,7 +145,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         } else {
             1.0
         };
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.model.dashpots() {
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
             stage.inner[viscous + k].rate = creep;
@@ -194,8 +194,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         {
             return infeasible.of(element);
         }
-        let viscosities = found.viscosities.as_ref().iter().enumerate();
-        for (dashpot, &eta) in viscosities {
+        let viscosities = found.viscosities.as_ref()[..self.dashpots()].iter();
+        for (dashpot, &eta) in viscosities.enumerate() {
             if !is_positive(eta) {
                 return StateError::Viscosity {
                     element,

@@ -49,7 +49,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         for a in 0..M::MEASURES {
             rate += (own[a] - other[a]) * along::<K, D>(&gradient[a], &motion);
         }
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let at = M::MEASURES + k;
             rate -= (own[at] - other[at]) * stage.inner[self.slots().viscous + k].rate;
         }

@@ -75,12 +75,12 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let mut transposed = LocalSystem::<M>::empty(system.unit);
         let of_reservoirs = self.of_reservoirs(step);
         let Slots { viscous, thermal } = self.slots();
-        for u in 0..Self::UNKNOWNS {
+        for u in self.unknowns() {
             let column = M::MEASURES + u;
             for a in 0..M::MEASURES {
                 transposed.rows[u][a] = tangent[a][column];
             }
-            for v in 0..Self::UNKNOWNS {
+            for v in self.unknowns() {
                 transposed.rows[u][M::MEASURES + v] = system.rows[v][column];
             }
             let by_new = match thermal.filter(|_| u == M::DASHPOTS) {
@@ -95,9 +95,9 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             }
         }
         let solved = if paths.is_some() {
-            eliminate::<M, true>(&mut transposed)
+            eliminate::<M, true>(&mut transposed, self.dashpots())
         } else {
-            eliminate::<M, false>(&mut transposed)
+            eliminate::<M, false>(&mut transposed, self.dashpots())
         };
         solved.map_err(|singular| self.unsolved(singular))?;
         self.keep_solved(&transposed, paths.is_some());
@@ -107,7 +107,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 reduced.constant[b] = -of_reservoirs * by_theta;
                 reduced.by_heat[b] = -by_theta;
             }
-            for u in 0..Self::UNKNOWNS {
+            for u in self.unknowns() {
                 let by = system.rows[u][b];
                 reduced.constant[b] -= by * self.condensed.constant.get(u);
                 if paths.is_some() {

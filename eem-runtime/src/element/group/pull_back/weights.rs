@@ -75,7 +75,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         for a in 0..M::MEASURES {
             of.rho[a] = h * along[a];
         }
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let (eta, by_eta) = (self.viscosities.0[k], self.viscosities.1[k]);
             let (weight, rate) = (own(k), self.creep[k] * per_step);
             of.rho[M::MEASURES + k] = -weight;
@@ -87,7 +87,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             heat += eta * rate * rate;
             slope += by_eta * rate * rate;
         }
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             let (eta, by_eta) = (self.drag.viscosity.0[a], self.drag.viscosity.1[a]);
             let rate = self.drag.extension[a] * per_step;
             of.increments[a] = eta * (along[a] - (per_heat + per_heat) * rate);
@@ -138,7 +138,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         weights: &mut StepWeights,
     ) {
         let Slots { viscous, thermal } = self.slots();
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             by_old.viscous[viscous + k] = -by[M::MEASURES + k];
         }
         if let Some(slot) = thermal {
@@ -157,11 +157,11 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let (start, x) = (&self.start, &self.x);
         let mut sum = start.form_adjoint(&self.model, x, &self.corners, &of.rho);
         let theta = self.temperature();
-        if M::DASHPOTS > 0 {
+        if self.dashpots() > 0 {
             let by = self.model.viscosity_adjoint(theta, &of.viscosities);
             add::<M>(&mut sum, &by);
         }
-        if Self::DRAGS > 0 {
+        if self.drags() > 0 {
             add::<M>(&mut sum, &self.model.drag_adjoint(theta, &of.drag));
         }
         for entry in sum.as_mut() {

@@ -57,7 +57,8 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 by_heat: local.by_heat,
                 ..LocalSystem::empty(local.unit)
             };
-            eliminate::<M, true>(&mut solved).map_err(|singular| self.unsolved(singular))?;
+            eliminate::<M, true>(&mut solved, self.dashpots())
+                .map_err(|singular| self.unsolved(singular))?;
             self.keep_solved(&solved, paths.is_some());
         }
         Ok(Linearized {
@@ -90,7 +91,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         for a in 0..M::MEASURES {
             x[a] = moved[a];
         }
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             x[M::MEASURES + k] = direction.old.viscous[viscous + k];
         }
         if let Some(slot) = thermal {
@@ -111,7 +112,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             change.forces[a] = response[a];
         }
         let (mut heat, mut d_heat) = (0.0, 0.0);
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let (at, eta) = (M::MEASURES + k, self.viscosities.0[k]);
             let (rate, d_rate) = (self.creep[k] * per_step, -x[at] * per_step);
             let d_eta = self.viscosities.1[k] * theta + by_parameters.viscosities[k];
@@ -120,7 +121,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             heat += eta * rate * rate;
             d_heat += (force + eta * d_rate) * rate;
         }
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             let eta = self.drag.viscosity.0[a];
             let (rate, d_rate) = (self.drag.extension[a] * per_step, -x[a] * per_step);
             let d_eta = self.drag.viscosity.1[a] * theta + by_parameters.drag[a];
@@ -174,13 +175,13 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             *sum += by;
         }
         let theta = self.temperature();
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             let mut weights = M::Viscosities::filled(0.0);
             weights[k] = 1.0;
             let by = self.model.viscosity_adjoint(theta, &weights);
             changes.viscosities[k] = sum_of(&by, &parameters);
         }
-        for a in 0..Self::DRAGS {
+        for a in 0..self.drags() {
             let mut weights = M::Drag::filled(0.0);
             weights[a] = 1.0;
             changes.drag[a] = sum_of(&self.model.drag_adjoint(theta, &weights), &parameters);
@@ -204,11 +205,12 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             ..LocalSystem::empty(linear.local.unit)
         };
         if Self::UNKNOWNS > 0 {
-            eliminate::<M, false>(&mut solved).map_err(|singular| self.unsolved(singular))?;
+            eliminate::<M, false>(&mut solved, self.dashpots())
+                .map_err(|singular| self.unsolved(singular))?;
         }
         let condensed = |row: usize, value: f64| {
             let slopes = &linear.form.1[row];
-            (0..Self::UNKNOWNS).fold(value, |value, u| {
+            self.unknowns().fold(value, |value, u| {
                 value - slopes[M::MEASURES + u] * solved.constant[u]
             })
         };
@@ -217,7 +219,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             forces[a] = condensed(a, change.forces[a]);
         }
         let Slots { viscous, thermal } = self.slots();
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.dashpots() {
             direction.new.viscous[viscous + k] = solved.constant[k];
         }
         if let Some(slot) = thermal {
@@ -247,7 +249,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             x[a] = changes[a];
         }
         let Slots { viscous, thermal } = self.slots();
-        for u in 0..Self::UNKNOWNS {
+        for u in self.unknowns() {
             let place = match thermal.filter(|_| u == M::DASHPOTS) {
                 Some(slot) => &mut direction.new.temperatures[slot],
                 None => &mut direction.new.viscous[viscous + u],

@@ -40,6 +40,8 @@ pub(crate) struct StageMember<K: Kinematics<D>, C, const D: usize> {
 /// A point of an element, apart from its conjugates.
 pub(crate) struct StagePoint<K: Kinematics<D>, const D: usize> {
     pub(super) rule: &'static Tableau,
+    /// Number of dashpots in series.
+    pub(super) dashpots: usize,
     pub(super) kinematics: K,
     /// The matrix indices of its coupled interface temperatures, if it conducts heat to other elements.
     pub(super) contacts: Option<PerPair<Contact<K, D>>>,

@@ -155,7 +155,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
         let (gradient, hessian) = in_state.model.hessian(x0);
         self.old_form = in_state.model.temperature_form_old(x0);
         (self.old.rest, self.old.strain) = (*x0, kinematics.strain(r0));
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.point.dashpots {
             let row = M::MEASURES + k;
             self.stiffness[k] = hessian[row][row].abs();
         }
@@ -231,7 +231,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
     ) -> Result<(), StateError> {
         let stages = 0..self.point.rule.stages();
         for stage in stages.clone() {
-            for k in 0..M::DASHPOTS {
+            for k in 0..self.point.dashpots {
                 self.write_creep(local, [stage, k], view.per_step);
             }
         }
@@ -245,7 +245,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
             let theta = self.mean_temperature(stage);
             let flow = view.conduction.reservoir_flow(slot, theta);
             let heat = flow.heat + self.received[stage];
-            self.write_heat(local, stage, (view, [heat, flow.conductance]));
+            let has_drag = in_state.drags() > 0;
+            self.write_heat(local, stage, (view, [heat, flow.conductance]), has_drag);
         }
         Ok(())
     }
@@ -337,12 +338,15 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
     }
 
     fn correct(&mut self, local: &LocalStages) -> f64 {
-        let entropies = self.point.rule.sets() * M::DASHPOTS;
+        let entropies = self.point.rule.sets() * self.point.dashpots;
         let mut largest = 0.0;
         for unknown in 0..local.unknowns() {
             let change = local.change(&self.point.solved, unknown);
             let (stage, index) = if unknown < entropies {
-                (unknown / M::DASHPOTS, Self::FORCES + unknown % M::DASHPOTS)
+                (
+                    unknown / self.point.dashpots,
+                    Self::FORCES + unknown % self.point.dashpots,
+                )
             } else {
                 (unknown - entropies, Self::ENTROPY)
             };

@@ -23,8 +23,8 @@ where
     type Bases;
 
     /// Number of local unknowns: the viscous stretches, set after set, then a temperature or entropy per set.
-    fn unknowns_of(rule: &Tableau) -> usize {
-        rule.sets() * (M::DASHPOTS + usize::from(M::THERMAL))
+    fn unknowns_of(rule: &Tableau, dashpots: usize) -> usize {
+        rule.sets() * (dashpots + usize::from(M::THERMAL))
     }
 
     /// Number of inputs: one per force, set after set, and the heat Q from other elements, stage after stage.

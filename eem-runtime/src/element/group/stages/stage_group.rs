@@ -46,10 +46,15 @@ impl<M: Material, K: Kinematics<D>, C: Source<M, K, D>, const D: usize> StageGro
     ) -> Self {
         let scheme = OneSet::Point(PointRule::Variational);
         let elements = ElementGroup::new(scheme, elements, placed);
-        let [unknowns, inputs] = [C::unknowns_of(rule), C::inputs_of(rule)];
+        let dashpots = elements
+            .points()
+            .next()
+            .map_or(0, |in_state| in_state.dashpots());
+        let [unknowns, inputs] = [C::unknowns_of(rule, dashpots), C::inputs_of(rule)];
         let source = |kinematics: K| {
             C::new(StagePoint {
                 rule,
+                dashpots,
                 kinematics,
                 contacts: None,
                 entropy: 0.0,
@@ -151,7 +156,7 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
                     point.entropy = view.state.entropies.values()[slot];
                     point.prescribed = view.prescribed_at_stages(slot);
                 }
-                let x0 = variables::<M>(measures.as_ref(), slots, view.state);
+                let x0 = variables(&in_state.model, measures.as_ref(), slots, view.state);
                 source.begin(in_state, &x0, &r0);
                 source.hold();
             }

@@ -114,7 +114,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
     ) -> Result<(), StateError> {
         self.write_creep(local, view.step);
         let unknowns = local.unknowns();
-        let first = self.point.rule.sets() * M::DASHPOTS;
+        let first = self.point.rule.sets() * self.point.dashpots;
         for (set, balance) in self.point.rule.entropies.iter().enumerate() {
             if M::THERMAL && self.point.prescribed.is_none() {
                 self.write_balance(local, (first + set, balance), view.step);
@@ -185,13 +185,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
 
     fn correct(&mut self, local: &LocalStages) -> f64 {
         let rule = self.point.rule;
-        let temperatures = rule.sets() * M::DASHPOTS;
+        let temperatures = rule.sets() * self.point.dashpots;
         let mut largest = 0.0;
         for u in 0..local.unknowns() {
             let change = local.change(&self.point.solved, u);
             let (stage, index, scale) = if u < temperatures {
-                let stage = rule.stage_of(u / M::DASHPOTS);
-                let index = M::MEASURES + u % M::DASHPOTS;
+                let stage = rule.stage_of(u / self.point.dashpots);
+                let index = M::MEASURES + u % self.point.dashpots;
                 (stage, index, self.point.viscous_unit)
             } else {
                 let stage = rule.entropies[u - temperatures].unknown;
@@ -207,7 +207,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
     fn apply(&mut self, fraction: f64) {
         let rule = self.point.rule;
         for stage in rule.known..rule.stages() {
-            for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
+            for index in M::MEASURES..M::MEASURES + self.point.dashpots {
                 let change = fraction * self.correction[stage][index];
                 self.x[stage][index] = self.previous[stage][index] + change;
             }
@@ -303,7 +303,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
             });
         }
         in_state.find_viscosities(theta, None)?;
-        let dissipation_by = at_stage.creep(&in_state.viscosities);
+        let dissipation_by = at_stage.creep(in_state.dashpots(), &in_state.viscosities);
         let Some(slot) = in_state.slots().thermal else {
             return Ok(());
         };
@@ -320,18 +320,18 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
     fn differentiate(&self, local: &mut LocalStages, stage: usize, by: &M::Variables) {
         let rule = self.point.rule;
         let (measures, rest) = by.as_ref().split_at(M::MEASURES);
-        let (dashpots, theta) = rest.split_at(M::DASHPOTS);
+        let dashpots = &rest[..self.point.dashpots];
         local.clear_row();
         if let Some(set) = rule.set_of(stage) {
             let first = 1 + set * M::MEASURES;
             local.row[first..first + M::MEASURES].copy_from_slice(measures);
-            let first = set * M::DASHPOTS;
-            local.by_unknown[first..first + M::DASHPOTS].copy_from_slice(dashpots);
+            let first = set * self.point.dashpots;
+            local.by_unknown[first..first + dashpots.len()].copy_from_slice(dashpots);
         }
         if M::THERMAL && self.point.prescribed.is_none() {
-            let thetas = &mut local.by_unknown[rule.sets() * M::DASHPOTS..];
+            let thetas = &mut local.by_unknown[rule.sets() * self.point.dashpots..];
             for (entry, &share) in thetas.iter_mut().zip(rule.temperatures[stage]) {
-                *entry = share * theta[0];
+                *entry = share * by[Self::TEMPERATURE];
             }
         }
     }
@@ -340,8 +340,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
     fn write_creep(&mut self, local: &mut LocalStages, h: f64) {
         let rule = self.point.rule;
         for (set, weights) in rule.rates.iter().enumerate() {
-            for k in 0..M::DASHPOTS {
-                let (equation, index) = (set * M::DASHPOTS + k, M::MEASURES + k);
+            for k in 0..self.point.dashpots {
+                let (equation, index) = (set * self.point.dashpots + k, M::MEASURES + k);
                 let mut residual = self.x[rule.stage_of(set)][index] - self.old[index];
                 let diagonal = equation * (local.unknowns() + 1);
                 local.matrix[diagonal] = 1.0;
@@ -391,7 +391,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
         // Newton's method on θ r, which is far less curved than r where conduction is stiff, and zero
         // where it is.
         let scaled = residual / self.theta(balance.stage);
-        let row = &mut local.matrix[equation * unknowns + rule.sets() * M::DASHPOTS..];
+        let row = &mut local.matrix[equation * unknowns + rule.sets() * self.point.dashpots..];
         for (entry, &share) in row.iter_mut().zip(rule.temperatures[balance.stage]) {
             *entry += share * scaled;
         }
@@ -407,7 +407,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
                 sum + view.step * weight * of(stage)
             })
         };
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.point.dashpots {
             let creep = over_step(&|stage| stages[stage].rates[M::MEASURES + k]);
             (next.viscous).advance(slots.viscous + k, &old.viscous, creep);
         }

@@ -37,7 +37,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             terms.fold(0.0, |sum, term| sum + term)
         };
         let Some(slot) = in_state.slots().thermal else {
-            if M::DASHPOTS + M::Drag::LEN > 0 {
+            if in_state.dashpots() + in_state.drags() > 0 {
                 next.dissipated.add(sum(|received| received.heat));
             }
             return booked;
@@ -79,7 +79,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             }
         };
         let creep = self.increments(weights);
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.point.dashpots {
             let index = Self::STRAINS + k;
             (next.viscous).advance(slots.viscous + k, &view.state.viscous, creep[index]);
             for (stage, &weight) in weights.iter().enumerate() {
@@ -89,7 +89,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
                 dissipate(stage, heat, (slots.viscous + k, &mut *next));
             }
         }
-        if M::Drag::LEN > 0 {
+        if in_state.drags() > 0 {
             for (stage, &weight) in weights.iter().enumerate() {
                 let heat = weight * self.viscous_heat[stage];
                 let drag = view.state.viscous.values().len() + in_state.element.index();
@@ -186,7 +186,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             sum + view.step * weight * self.force_size(&self.arms[stage], size)
         });
         tally.exchange(impulse);
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.point.dashpots {
             let half = 0.5 * self.stiffness[k];
             tally.see_relaxation(view.step, half, self.viscosities[0].0[k]);
         }
@@ -197,7 +197,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             tally.see_relaxation(view.step, view.conduction.settling(slot), capacity);
         }
         for ((stage, &weight), received) in weights.iter().enumerate().zip(booked) {
-            for k in 0..M::DASHPOTS {
+            for k in 0..self.point.dashpots {
                 let index = Self::STRAINS + k;
                 let eta = self.viscosities[stage].0[k];
                 let drag = eta * view.per_step * self.rates[stage][index];

@@ -20,7 +20,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         in_state: &mut StatePoint<M, K, D>,
         per_step: f64,
     ) -> Result<(), StateError> {
-        if M::Drag::LEN == 0 {
+        if in_state.drags() == 0 {
             return Ok(());
         }
         for stage in 0..self.point.rule.stages() {
@@ -28,7 +28,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             let (viscosities, slopes) = in_state.drag.viscosity;
             (self.viscous_heat[stage], self.heat_by_theta[stage]) = (0.0, 0.0);
             self.heat_by_strain[stage] = [PerStrain::<K, D>::filled(0.0); MOST_SETS];
-            for a in 0..M::Drag::LEN {
+            for a in 0..in_state.drags() {
                 let per_step = [viscosities[a] * per_step, slopes[a] * per_step];
                 self.add_kelvin_voigt_of(in_state, [stage, a], per_step)?;
             }

@@ -16,7 +16,7 @@ use crate::element::group::stages::point::{LocalStages, StatePoint};
 use crate::element::group::view::StepView;
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::MOST_STAGES;
-use eem_material::free_energy::{Array, Material};
+use eem_material::free_energy::Material;
 
 impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Writes the derivatives of a conjugate of a stage to the row of the workspace.
@@ -27,14 +27,14 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             for q in 0..strains {
                 local.row[1 + set * strains + q] = by.at([index, q]);
             }
-            for k in 0..M::DASHPOTS {
+            for k in 0..self.point.dashpots {
                 let entry = by.at([index, strains + k]) * self.units[strains + k];
-                local.by_unknown[set * M::DASHPOTS + k] = entry;
+                local.by_unknown[set * self.point.dashpots + k] = entry;
             }
             if M::THERMAL {
                 let last = Self::ENTROPY;
                 let entry = by.at([index, last]) * self.units[last];
-                local.by_unknown[sets * M::DASHPOTS + set] = entry;
+                local.by_unknown[sets * self.point.dashpots + set] = entry;
             }
         }
     }
@@ -58,7 +58,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         [stage, k]: [usize; 2],
         per_step: f64,
     ) {
-        let (equation, index) = (stage * M::DASHPOTS + k, Self::STRAINS + k);
+        let (equation, index) = (stage * self.point.dashpots + k, Self::STRAINS + k);
         let unit = self.units[index];
         let (viscosities, slopes) = &self.viscosities[stage];
         let (drag, slope) = (viscosities[k] * per_step, slopes[k] * per_step);
@@ -81,23 +81,24 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         local: &mut LocalStages,
         stage: usize,
         (view, [heat, conductance]): (&StepView<'_>, [f64; 2]),
+        has_drag: bool,
     ) {
         let (sets, strains) = (self.point.rule.sets(), Self::STRAINS);
         let (unknowns, last) = (local.unknowns(), Self::ENTROPY);
-        let equation = sets * M::DASHPOTS + stage;
+        let equation = sets * self.point.dashpots + stage;
         let (theta, rate) = (self.mean_temperature(stage), self.rates[stage][last]);
         let mut residual = theta * rate - view.step * heat;
         let mut by_theta = rate + view.step * conductance;
         let (viscosities, slopes) = &self.viscosities[stage];
-        for k in 0..M::DASHPOTS {
+        for k in 0..self.point.dashpots {
             let creep = self.rates[stage][strains + k];
             let drag = viscosities[k] * view.per_step * creep;
             residual -= drag * creep;
             by_theta -= slopes[k] * view.per_step * creep * creep;
-            let unknown = stage * M::DASHPOTS + k;
+            let unknown = stage * self.point.dashpots + k;
             local.matrix[equation * unknowns + unknown] -= (drag + drag) * self.units[strains + k];
         }
-        if M::Drag::LEN > 0 {
+        if has_drag {
             residual -= self.viscous_heat[stage];
             by_theta -= self.heat_by_theta[stage];
             for (set, by) in self.heat_by_strain[stage].iter().enumerate().take(sets) {
@@ -126,7 +127,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             return Ok(());
         };
         let (strains, last) = (Self::STRAINS, Self::ENTROPY);
-        let (unknowns, first) = (local.unknowns(), rule.sets() * M::DASHPOTS);
+        let (unknowns, first) = (local.unknowns(), rule.sets() * self.point.dashpots);
         for (at, (shares, &theta)) in path.supports.integrals.iter().zip(prescribed).enumerate() {
             let equation = first + at;
             let y = self.path_at(shares);
@@ -147,9 +148,9 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
                     self.point.solved[input] += share * by;
                 }
                 let matrix = &mut local.matrix[equation * unknowns..];
-                for k in 0..M::DASHPOTS {
+                for k in 0..self.point.dashpots {
                     let entry = share * row[M::MEASURES + k] * self.units[strains + k];
-                    matrix[set * M::DASHPOTS + k] += entry;
+                    matrix[set * self.point.dashpots + k] += entry;
                 }
                 matrix[first + set] += share * self.units[last];
             }

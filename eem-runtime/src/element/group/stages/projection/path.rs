@@ -137,7 +137,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         let mut mean = M::Variables::filled(0.0);
         mean.as_mut()
             .copy_from_slice(&response.as_ref()[..M::Variables::LEN]);
-        for force in &mut mean.as_mut()[M::MEASURES..M::MEASURES + M::DASHPOTS] {
+        for force in &mut mean.as_mut()[M::MEASURES..M::MEASURES + self.point.dashpots] {
             *force = -*force;
         }
         if M::THERMAL {

@@ -45,10 +45,14 @@ impl<M: FreeEnergy<f64>> AtStage<M> {
     }
 
     /// Finds the rates of the dashpots with the viscosities `η` and `dη/dθ`; returns `∂(Σ g γ̇)/∂x`.
-    pub(super) fn creep(&mut self, viscosities: &(M::Viscosities, M::Viscosities)) -> M::Variables {
+    pub(super) fn creep(
+        &mut self,
+        dashpots: usize,
+        viscosities: &(M::Viscosities, M::Viscosities),
+    ) -> M::Variables {
         let mut dissipation_by = M::Variables::filled(0.0);
         self.dissipation = 0.0;
-        for k in 0..M::DASHPOTS {
+        for k in 0..dashpots {
             let index = M::MEASURES + k;
             let (eta, slope) = (viscosities.0[k], viscosities.1[k]);
             let g = -self.gradient[index];
