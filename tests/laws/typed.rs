@@ -322,6 +322,42 @@ fn springs_with_a_dashpot_beside_have_the_bits_of_derived_ones() {
     assert_same_bits([&derived, &typed], schemes_of(&derived), steps);
 }
 
+/// Its type has room for a dashpot in series, whose viscosity is not asked for.
+#[test]
+fn a_spring_without_a_dashpot_in_series_is_restored() {
+    let warm = "|lambda: Stretch, theta: Temperature| {
+        20 * (lambda - 1).powi(2) - 0.1 * (theta - 300) * (lambda - 1)
+            + 2 * (theta - 300 - theta * ln(theta / 300))
+    }";
+    let cold = "|lambda: Stretch| 20 * (lambda - 1).powi(2)";
+    let material = |text: &str| {
+        let compiled = eem::typed::compile(&Source::new(text)).unwrap();
+        Law::new(compiled, &[]).unwrap()
+    };
+    let restored = |scene: &Scene<2>| {
+        for scheme in schemes() {
+            let [mut first, mut again] =
+                [(); 2].map(|()| Simulation::new(scene.clone(), scheme, 0.02).unwrap());
+            first.step().unwrap();
+            again.restore(&first.checkpoint()).unwrap();
+            first.step().unwrap();
+            again.step().unwrap();
+            let states = [first, again].map(|run| format!("{:?}", run.checkpoint()));
+            assert!(states[0] == states[1], "{scheme}");
+        }
+    };
+    let warm: ThermalSpring1 = material(warm).model().unwrap();
+    restored(&single(warm).0);
+    let cold: Spring1 = material(cold).model().unwrap();
+    let mut scene = Scene::new();
+    let ends = [
+        scene.anchor([0.0, 0.0]),
+        scene.mass(1.0, [1.3, 0.0], [0.0, 1.0]),
+    ];
+    scene.spring(cold, ends);
+    restored(&scene);
+}
+
 /// Springs of materials A, B, A at one mass, whose sums depend on the order of the groups.
 fn three<A: eem::Material, B: eem::Material>(a: impl Fn() -> A, b: impl Fn() -> B) -> Built<2> {
     let mut scene = Scene::new();

@@ -82,6 +82,20 @@ fn refusal<const D: usize, const E: usize>(
     error
 }
 
+/// The sums of an explicit scheme, too, are not evaluated again: then the bound of the next step had other digits.
+#[test]
+fn a_refused_checkpoint_leaves_the_reports_as_they_were() {
+    for scheme in Scheme::ALL {
+        let run = || single_pendulum(scheme, STEP).run;
+        let [mut whole, mut tried] = [run(), run()];
+        trace(&mut whole, 7);
+        trace(&mut tried, 7);
+        refusal(&busy_scene(scheme), &mut tried);
+        let [whole, tried] = [&mut whole, &mut tried].map(|run| run.step().unwrap());
+        assert_eq!(whole, tried, "{scheme}");
+    }
+}
+
 #[test]
 fn a_scene_of_another_shape_is_refused_with_what_differs() {
     /// Two nodes, the second an anchor or a mass, and a spring with or without temperature.
