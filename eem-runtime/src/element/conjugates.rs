@@ -18,9 +18,7 @@ use crate::element::tableau::Tableau;
 #[cfg(feature = "gradients")]
 pub(crate) use exact::exchanged;
 pub(crate) use exact::{check_stable, prepare_rows, rows};
-pub(crate) use family::{
-    Classical, Damped, Exact, ExactForm, Family, OneSet, Placement, PointRule,
-};
+pub(crate) use family::{Any, Exact, ExactForm, Family, OneSet, Placement, PointRule};
 pub(crate) use fitting::{end_weight, end_weight_over};
 pub(crate) use infeasible::Infeasible;
 pub(crate) use start::{Form, KeptOf, Start};

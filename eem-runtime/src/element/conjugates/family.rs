@@ -122,24 +122,33 @@ impl OneSet {
     }
 }
 
-/// What is known of a scheme where code is compiled. The functions of a step are compiled for each family, with only its branches;
-/// which one a group calls is decided once per call.
+/// What is known of a scheme where code is compiled. The functions of a step are compiled for [`Exact`], with only its branches, and for
+/// [`Any`] scheme; which one a group calls is decided once per call.
 ///
 /// The variables of an element are `x = (π…, γ…, τ)` with a temperature τ > 0 that depends on the scheme: the new one for
 /// schemes that evaluate the ends of the step, the mean one for those that evaluate its middle. Newton's method
 /// corrects τ, or the entropy change Δs if [`PointRule::temperature`] finds τ from it.
 pub(crate) trait Family: 'static {
+    /// Whether the scheme is known to be [`OneSet::Exact`].
+    const IS_EXACT: bool;
+
     /// Whether `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, so that every step has to keep the laws. Then Newton's method works on
     /// `θ* r_s` instead of `r_s`, which converges for stiff conduction too.
-    const EXACT: bool;
+    #[inline]
+    fn is_exact(scheme: OneSet) -> bool {
+        Self::IS_EXACT || scheme.is_exact()
+    }
 
     /// Whether it is damped towards the end of the step.
-    const IS_DAMPED: bool = false;
+    #[inline]
+    fn is_damped(scheme: OneSet) -> bool {
+        !Self::IS_EXACT && matches!(scheme, OneSet::Damped)
+    }
 
     /// [`OneSet::placement`].
     #[inline]
     fn placement(scheme: OneSet) -> Placement {
-        if Self::EXACT {
+        if Self::IS_EXACT {
             Placement::Ends
         } else {
             scheme.placement()
@@ -149,13 +158,17 @@ pub(crate) trait Family: 'static {
     /// [`OneSet::implicit`].
     #[inline]
     fn implicit(scheme: OneSet) -> f64 {
-        if Self::EXACT { 1.0 } else { scheme.implicit() }
+        if Self::IS_EXACT {
+            1.0
+        } else {
+            scheme.implicit()
+        }
     }
 
     /// [`OneSet::is_in_temperature`].
     #[inline]
     fn is_in_temperature(scheme: OneSet) -> bool {
-        !Self::EXACT && scheme.is_in_temperature()
+        !Self::IS_EXACT && scheme.is_in_temperature()
     }
 }
 
@@ -163,22 +176,14 @@ pub(crate) trait Family: 'static {
 pub(crate) enum Exact {}
 
 impl Family for Exact {
-    const EXACT: bool = true;
+    const IS_EXACT: bool = true;
 }
 
-/// [`OneSet::Damped`].
-pub(crate) enum Damped {}
+/// Any scheme: the damped one and the classical ones.
+pub(crate) enum Any {}
 
-impl Family for Damped {
-    const EXACT: bool = true;
-    const IS_DAMPED: bool = true;
-}
-
-/// [`OneSet::Point`], the classical schemes.
-pub(crate) enum Classical {}
-
-impl Family for Classical {
-    const EXACT: bool = false;
+impl Family for Any {
+    const IS_EXACT: bool = false;
 }
 
 /// Functions of a family are called for its schemes only.

@@ -76,7 +76,7 @@ impl<M: FreeEnergy<f64>> Start<M> {
         x: &M::Variables,
         corners: &M::Corners,
     ) -> Form<f64, M> {
-        if !C::EXACT {
+        if !C::is_exact(scheme) {
             return scheme.point_rule().respond(model, self, x);
         }
         match &self.old {
@@ -110,7 +110,7 @@ impl<M: FreeEnergy<f64>> Start<M> {
         x: &M::Variables,
         corners: &M::Corners,
     ) -> M::Response {
-        if !C::EXACT {
+        if !C::is_exact(scheme) {
             return scheme.point_rule().respond(model, self, x).0;
         }
         match &self.old {

@@ -114,7 +114,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             let entropy = entropy.unwrap_or(0.0);
             (self.start).keep(self.scheme, &self.model, entropy, self.is_prescribed);
         }
-        if C::EXACT
+        if C::is_exact(self.scheme)
             && let Some(before) = before
         {
             self.predict(before);

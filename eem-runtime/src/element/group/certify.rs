@@ -222,7 +222,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 let drag = self.viscosities.0[k] * self.creep_rate::<C>(k, view);
                 let terms = drag.abs() + self.known_to(row, sizes, tally.care);
                 tally.balance(drag - self.pull_of_row::<C>(row), terms);
-                if !C::IS_DAMPED {
+                if !C::is_damped(self.scheme) {
                     // g* is a divided difference, with half the slope of g.
                     let slope = self.slopes[row][row].abs();
                     tally.see_relaxation(view.step, slope, self.viscosities.0[k]);
@@ -235,7 +235,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let theta = self.temperature();
         let taken = theta * self.response[Self::ENTROPY];
         if !self.is_prescribed {
-            if !C::IS_DAMPED {
+            if !C::is_damped(self.scheme) {
                 tally.see_relaxation(view.thermal_step(), self.settling, capacity);
             }
             let terms = magnitude + theta * received.terms;

@@ -87,7 +87,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
             if let Some(entropy) = point.recover_temperature::<C>(&measures, view, near, next)? {
                 point.book_thermostat(view, [entropy, received.entropy], next);
             }
-            if C::EXACT {
+            if C::is_exact(point.scheme) {
                 let sizes = [
                     point.sizes(&self.r0, &point.start.x0),
                     point.sizes(&r1, &point.x),
@@ -285,7 +285,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// See [`reservoir_correction`]; zero unless the scheme is exact and the temperature free.
     fn reservoir_correction<C: Family>(&self, view: &StepView<'_>, slot: usize, heat: f64) -> f64 {
-        if !C::EXACT || self.is_prescribed {
+        if !C::is_exact(self.scheme) || self.is_prescribed {
             return 0.0;
         }
         let theta = self.conducting_temperature::<C>(&self.response);

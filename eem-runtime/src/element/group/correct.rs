@@ -19,6 +19,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         motion: &Arms<K, D>,
         contact: Option<&Contact<K, D>>,
         solution: &[[f64; 1]],
+        by_factors: bool,
     ) -> f64 {
         let changes = Self::rates_along(&self.sensitivity, motion);
         let mut heat = 0.0;
@@ -27,12 +28,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         {
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
-        if !C::EXACT
+        if !C::IS_EXACT
             && let Some(by_increment) = &self.by_increment
         {
             heat += along::<K, D>(by_increment, motion);
         }
-        self.point.correct::<C>(&changes, heat, contact.is_some())
+        self.point
+            .correct::<C>(&changes, (heat, contact.is_some()), by_factors)
     }
 }
 
@@ -40,7 +42,12 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Applies the corrections of the local unknowns, given the changes of the measures and `δr_s`; returns the largest in
     /// their units.
     #[inline]
-    fn correct<C: Family>(&mut self, changes: &Numbers<Q>, heat: f64, is_coupled: bool) -> f64 {
+    fn correct<C: Family>(
+        &mut self,
+        changes: &Numbers<Q>,
+        (heat, is_coupled): (f64, bool),
+        by_factors: bool,
+    ) -> f64 {
         for a in 0..M::MEASURES {
             self.correction[a] = changes[a];
         }
@@ -68,7 +75,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             }
         }
         let update = self.scaled_update();
-        self.apply::<C>(1.0);
+        self.apply::<C>(1.0, by_factors);
         update
     }
 

@@ -15,17 +15,17 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Its damping in a damped scheme.
     #[inline]
     pub(super) fn damping<C: Family>(&self) -> Option<&DampingOf<M>> {
-        if C::IS_DAMPED {
-            self.damping.as_deref()
-        } else {
+        if C::IS_EXACT {
             None
+        } else {
+            self.damping.as_deref()
         }
     }
 
     /// Finds the damping of a step from its old state.
     #[inline]
     pub(super) fn begin_damping<C: Family>(&mut self, view: &StepView<'_>) {
-        if !C::IS_DAMPED {
+        if !C::is_damped(self.scheme) {
             return;
         }
         let mut damping = DampingOf::<M>::none();
@@ -67,7 +67,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Finds the damping of the dashpots at a trial; an error unless it is finite.
     #[inline]
     pub(super) fn find_damping<C: Family>(&mut self) -> Result<(), StateError> {
-        if self.dashpots() == 0 || !C::IS_DAMPED {
+        if self.dashpots() == 0 || !C::is_damped(self.scheme) {
             return Ok(());
         }
         let mut increments = M::Variables::filled(0.0);
@@ -207,7 +207,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         &self,
         response: &M::Response,
     ) -> Result<(), StateError> {
-        if !M::THERMAL || !C::IS_DAMPED {
+        if !M::THERMAL || !C::is_damped(self.scheme) {
             return Ok(());
         }
         check_temperature(self.element, self.conducting_temperature::<C>(response))

@@ -15,7 +15,7 @@ use super::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 #[cfg(feature = "gradients")]
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::{Classical, Damped, Exact, Family, OneSet, Placement};
+use crate::element::conjugates::{Any, Exact, Family, OneSet, Placement};
 use crate::element::error::StateError;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
@@ -31,6 +31,8 @@ pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, const D: usize> {
     pub(super) scheme: OneSet,
     pub(super) members: Vec<Member<M, K, D>>,
     pub(super) contacts: Vec<Contact<K, D>>,
+    /// See [`Old::by_factors`].
+    by_factors: bool,
     /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, D>>,
     /// Workspace for elements that are evaluated together.
@@ -45,6 +47,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
             scheme,
             members: members.collect(),
             contacts: Vec::new(),
+            by_factors: false,
             shares: Vec::new(),
             ahead: Ahead::new(),
         }
@@ -144,7 +147,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
             let motion = member.site.motion_in(solution);
             for point in member.points.as_mut() {
                 let contact = point.contact_in(&self.contacts);
-                let update = point.correct::<C>(&motion, contact, solution);
+                let update = point.correct::<C>(&motion, contact, solution, self.by_factors);
                 largest = Scalar::maximum(largest, update);
             }
         }
@@ -237,10 +240,10 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
     }
 
     fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
+        self.by_factors = old.by_factors;
         match self.scheme {
             OneSet::Exact(_) => self.begin_as::<Exact>(view, old),
-            OneSet::Damped => self.begin_as::<Damped>(view, old),
-            OneSet::Point(_) => self.begin_as::<Classical>(view, old),
+            OneSet::Damped | OneSet::Point(_) => self.begin_as::<Any>(view, old),
         }
     }
 
@@ -252,22 +255,21 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
     ) -> Result<(), StateError> {
         match self.scheme {
             OneSet::Exact(_) => self.evaluate_as::<Exact>(view, trial, system),
-            OneSet::Damped => self.evaluate_as::<Damped>(view, trial, system),
-            OneSet::Point(_) => self.evaluate_as::<Classical>(view, trial, system),
+            OneSet::Damped | OneSet::Point(_) => self.evaluate_as::<Any>(view, trial, system),
         }
     }
 
     fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
         match self.scheme {
             OneSet::Exact(_) | OneSet::Damped => self.correct_as::<Exact>(solution),
-            OneSet::Point(_) => self.correct_as::<Classical>(solution),
+            OneSet::Point(_) => self.correct_as::<Any>(solution),
         }
     }
 
     fn apply(&mut self, share: f64) {
         for member in &mut self.members {
             for point in member.points.as_mut() {
-                point.apply::<Classical>(share);
+                point.apply::<Any>(share, self.by_factors);
             }
         }
     }
@@ -275,7 +277,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
     fn hold(&mut self) {
         for member in &mut self.members {
             for point in member.points.as_mut() {
-                point.hold::<Classical>();
+                point.hold::<Any>();
             }
         }
     }
@@ -292,11 +294,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
             OneSet::Exact(_) => {
                 self.add_impulse_as::<Exact>(view, trial, along, impulses, magnitudes);
             }
-            OneSet::Damped => {
-                self.add_impulse_as::<Damped>(view, trial, along, impulses, magnitudes);
-            }
-            OneSet::Point(_) => {
-                self.add_impulse_as::<Classical>(view, trial, along, impulses, magnitudes);
+            OneSet::Damped | OneSet::Point(_) => {
+                self.add_impulse_as::<Any>(view, trial, along, impulses, magnitudes);
             }
         }
     }
@@ -310,8 +309,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
     ) -> Result<(), StateError> {
         match self.scheme {
             OneSet::Exact(_) => self.close_as::<Exact>(view, trial, next, tally),
-            OneSet::Damped => self.close_as::<Damped>(view, trial, next, tally),
-            OneSet::Point(_) => self.close_as::<Classical>(view, trial, next, tally),
+            OneSet::Damped | OneSet::Point(_) => self.close_as::<Any>(view, trial, next, tally),
         }
     }
 

@@ -27,7 +27,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// difference of lengths.
     #[inline]
     pub(super) fn has_rates<C: Family>(&self) -> bool {
-        self.drags() > 0 && !C::EXACT
+        self.drags() > 0 && !C::is_exact(self.scheme)
     }
 
     /// `λ̇` of the trial, m/s.

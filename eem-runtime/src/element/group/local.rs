@@ -16,7 +16,7 @@ use super::point::Point;
 use super::site::HeatPath;
 use crate::algebra::lu::Singular;
 use crate::element::conduction::{HeatFlow, InterfaceTemperatures};
-use crate::element::conjugates::{Classical, Family, Form};
+use crate::element::conjugates::{Any, Family, Form};
 use crate::element::error::StateError;
 use crate::element::group::point::temperature_in;
 use crate::element::group::view::StepView;
@@ -124,7 +124,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Factors that turn the rows of the local system into energies.
     #[inline]
     pub(super) fn pivot_units<C: Family>(&self, theta: f64) -> [f64; 2] {
-        if C::EXACT {
+        if C::is_exact(self.scheme) {
             [self.viscous_unit(), theta]
         } else {
             [1.0; 2]
@@ -166,7 +166,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// `γ̇_k` of the trial, to which the scheme gives the weight w, m/s.
     #[inline]
     pub(super) fn creep_rate<C: Family>(&self, k: usize, view: &StepView<'_>) -> f64 {
-        if C::EXACT {
+        if C::is_exact(self.scheme) {
             self.creep[k] * view.per_step
         } else {
             self.response[M::MEASURES + k] / self.viscosities.0[k]
@@ -196,7 +196,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             system.rows[k][index] = 1.0;
             return;
         }
-        if !C::EXACT {
+        if !C::is_exact(self.scheme) {
             self.ordinary_dashpot_balance(view, k, (response, tangent), system, dissipation);
             return;
         }
@@ -237,7 +237,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         let rate = response[index] * per_eta;
         dissipation.power += response[index] * rate;
         let h = view.thermal_step();
-        system.constant[k] = self.creep[k] - self.increment::<Classical>(index, rate, h);
+        system.constant[k] = self.creep[k] - self.increment::<Any>(index, rate, h);
         let mobility = -h * self.scheme.implicit() * per_eta;
         // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
         let thinning = rate * self.viscosities.1[k];
@@ -281,7 +281,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         let weight = h * C::implicit(self.scheme) * per_theta;
         self.condensed.heat_factor = -weight;
         let mut by_theta = weight * (flow.conductance + rate);
-        if SCALED && C::EXACT {
+        if SCALED && C::is_exact(self.scheme) {
             // Newton's method on θ* r_s, which has the same root as r_s and is far less curved where conduction is
             // stiff.
             by_theta += residual * per_theta;
@@ -291,7 +291,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         for column in 0..Self::VARIABLES {
             let mut entry =
                 tangent[Self::ENTROPY][column] + by_theta * tangent[Self::TEMPERATURE][column];
-            if C::IS_DAMPED {
+            if C::is_damped(self.scheme) {
                 entry += by_change * tangent[Self::ENTROPY][column];
             }
             if self.dashpots() + self.drags() > 0 {

@@ -211,7 +211,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Its variables of a scheme that evaluates the model at one point.
     #[inline]
     pub(super) fn single<C: Family>(&self) -> Option<&PointMemory<M::Variables>> {
-        if C::EXACT {
+        if C::IS_EXACT {
             None
         } else {
             self.single.as_deref()
@@ -221,7 +221,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// The same, mutable.
     #[inline]
     pub(super) fn single_mut<C: Family>(&mut self) -> Option<&mut PointMemory<M::Variables>> {
-        if C::EXACT {
+        if C::IS_EXACT {
             None
         } else {
             self.single.as_deref_mut()
@@ -334,10 +334,10 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         }
     }
 
-    /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature
-    /// in its logarithm, so that it stays positive.
+    /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature so that it stays positive: in classical
+    /// schemes, and otherwise if `by_factors`, in its logarithm.
     #[inline]
-    pub(super) fn apply<C: Family>(&mut self, share: f64) {
+    pub(super) fn apply<C: Family>(&mut self, share: f64, by_factors: bool) {
         for k in 0..self.dashpots() {
             let index = M::MEASURES + k;
             self.creep[k] = self.previous.get(k) + share * self.correction[index];
@@ -345,13 +345,42 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         }
         if M::THERMAL {
             let change = share * self.correction[Self::TEMPERATURE];
-            self.x[Self::TEMPERATURE] = grown(self.previous.get(M::DASHPOTS), change);
+            let previous = self.previous.get(M::DASHPOTS);
+            self.x[Self::TEMPERATURE] = if by_factors || !C::is_exact(self.scheme) {
+                grown(previous, change)
+            } else {
+                changed(previous, change)
+            };
         }
         if let Some(at) = self.single_mut::<C>() {
             at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
         }
     }
 }
+
+/// A temperature after the correction δθ, linear unless that would take more than half of it, and positive:
+///
+/// ```text
+/// θ + δθ            δθ ≥ −½θ
+/// −θ²/4δθ           below, with the same value and slope at −½θ
+/// ```
+#[inline]
+fn changed(theta: f64, change: f64) -> f64 {
+    let least = -LARGEST_FALL * theta;
+    if change >= -0.5 * theta {
+        let most = LARGEST_RISE * theta;
+        return if change < most {
+            theta + change
+        } else {
+            theta + most
+        };
+    }
+    -0.25 * theta * (theta / if change > least { change } else { least })
+}
+
+/// The largest changes of a temperature in one Newton iteration, a factor of 7 as below, in units of it.
+const LARGEST_RISE: f64 = 6.0;
+const LARGEST_FALL: f64 = 1.75;
 
 /// A temperature after the correction δθ, `θ (θ + ½δθ)/(θ − ½δθ)`.
 ///

@@ -44,7 +44,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             let theta = theta.map_err(|infeasible| infeasible.of(self.element))?;
             self.x[Self::TEMPERATURE] = theta;
         }
-        if !C::EXACT {
+        if !C::is_exact(self.scheme) {
             return Ok(());
         }
         if let Some(corners) = corners {
@@ -61,7 +61,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn form<C: Family>(&self, is_start: bool) -> Form<f64, M> {
         let (start, model, x) = (&self.start, &self.model, &self.x);
-        if C::EXACT
+        if C::is_exact(self.scheme)
             && is_start
             && let Some(form) = start.starting_form(model, x)
         {
@@ -79,7 +79,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         form: &Form<f64, M>,
         known: Option<Viscosities<M>>,
     ) -> Result<(), StateError> {
-        if C::EXACT {
+        if C::is_exact(self.scheme) {
             check_stable::<M>(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
         }
         self.accept_response::<C>(per_step, &form.0, known)

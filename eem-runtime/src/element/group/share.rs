@@ -61,7 +61,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             let by = factor * row.by_measure[a];
             add_scaled::<K, D>(&mut sum, by, &self.sensitivity[a]);
         }
-        if !C::EXACT
+        if !C::IS_EXACT
             && let Some(by_increment) = &self.by_increment
         {
             let by = -factor * row.by_heat;
@@ -130,7 +130,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         interface: &InterfaceTemperatures,
         form: &Form<f64, M>,
     ) -> Heat<K, D> {
-        let row = if C::IS_DAMPED {
+        let row = if C::is_damped(self.scheme) {
             self.condensed_row::<C>(M::MEASURES + M::DASHPOTS, &self.conducting::<C>(form), true)
         } else {
             self.condensed_row::<C>(M::MEASURES + M::DASHPOTS, form, true)

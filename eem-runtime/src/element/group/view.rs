@@ -193,6 +193,8 @@ pub(crate) struct Old<'a, const D: usize> {
     pub(crate) lengths: &'a mut [f64],
     /// The history from which γ and θ of the trial are predicted; `None` if the trial starts at the old ones.
     pub(crate) before: Option<Before<'a>>,
+    /// Whether exact schemes, too, correct temperatures by factors, as classical ones do: then Newton's method goes other ways.
+    pub(crate) by_factors: bool,
 }
 
 /// The internal variables at the start of the last step, from which those of the next one are predicted.

@@ -26,6 +26,8 @@ pub(super) enum Start {
     Motion,
     /// The old state.
     Rest,
+    /// The old state, with temperatures corrected by factors.
+    RestByFactors,
 }
 
 impl<const D: usize> Solver<D> {
@@ -46,8 +48,9 @@ impl<const D: usize> Solver<D> {
             lengths: &mut self.lengths,
             before: match start {
                 Start::Predicted => self.past.before(view.step),
-                Start::Motion | Start::Rest => None,
+                Start::Motion | Start::Rest | Start::RestByFactors => None,
             },
+            by_factors: start == Start::RestByFactors,
         };
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
@@ -120,8 +123,8 @@ impl<const D: usize> Solver<D> {
             self.trial.interface.set(interface.in_trial, theta);
             (right[interface.row], solution[interface.row]) = ([0.0], [0.0]);
         }
-        let is_predicted =
-            start != Start::Rest && view.phase.moves() && self.scheme.predicts_its_start();
+        let is_at_rest = matches!(start, Start::Rest | Start::RestByFactors);
+        let is_predicted = !is_at_rest && view.phase.moves() && self.scheme.predicts_its_start();
         let half_step = 0.5 * view.step;
         let predictor = self.past.predictor();
         let rule = self.scheme.tableau();

@@ -39,9 +39,10 @@ impl<const D: usize> Solver<D> {
     }
 
     /// Exact schemes start with the old internal variables, from the old state, and from the solution for another form if
-    /// they have one; then the solution is followed from a small step to the full one. If the first of these attempts was given up,
-    /// an exact scheme at last makes it again, and takes all its iterations even where they seem hopeless. What would repeat an
-    /// attempt bit by bit is left out: internal variables that are not predicted are the old ones, and heat starts from the old state.
+    /// they have one; then the solution is followed from a small step to the full one; then temperatures are corrected by
+    /// factors. If the first of these attempts was given up, an exact scheme at last makes it again, and takes all its
+    /// iterations even where they seem hopeless. What would repeat an attempt bit by bit is left out: internal variables that
+    /// are not predicted are the old ones, heat starts from the old state, and not every scene has temperatures.
     #[cold]
     fn try_other_starts(
         &mut self,
@@ -73,7 +74,17 @@ impl<const D: usize> Solver<D> {
             }
         }
         let found = self.follow(groups, view, effort, closing);
-        if found.is_ok() || !was_given_up {
+        if found.is_ok() {
+            return found;
+        }
+        if self.scheme.is_exact() && !view.state.temperatures.is_empty() {
+            let start = (Start::RestByFactors, &mut *closing);
+            let found = self.start_and_converge(groups, view, effort, start);
+            if found.is_ok() {
+                return found;
+            }
+        }
+        if !was_given_up {
             return found;
         }
         self.has_other_starts = false;

@@ -38,7 +38,7 @@ mod vector;
 use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
 use super::site::PerPair;
 use super::source::Source;
-use crate::element::conjugates::Classical;
+use crate::element::conjugates::Any;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, spread};
 use crate::element::group::view::{StepView, Trial};
@@ -394,7 +394,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
         let near = self.temperatures[MOST_POINTS];
         let measures = in_state.admissible_measures(r1)?;
         if let Some(entropy) =
-            in_state.recover_temperature::<Classical>(&measures, view, (near, None), next)?
+            in_state.recover_temperature::<Any>(&measures, view, (near, None), next)?
         {
             self.book_thermostat(&booked, entropy, next);
         }

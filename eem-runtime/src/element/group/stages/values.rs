@@ -13,7 +13,7 @@ mod at_stage;
 use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
 use super::source::Source;
 use crate::element::conduction::Partner;
-use crate::element::conjugates::{Classical, Infeasible};
+use crate::element::conjugates::{Any, Infeasible};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, measures_in, resultant};
 use crate::element::group::closing::pull;
@@ -261,7 +261,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
         let near = self.theta(self.point.rule.stages() - 1);
         let measures = in_state.admissible_measures(r1)?;
         if let Some(entropy) =
-            in_state.recover_temperature::<Classical>(&measures, view, (near, None), next)?
+            in_state.recover_temperature::<Any>(&measures, view, (near, None), next)?
         {
             self.book_thermostat(view.step, [entropy, received], next);
         }
