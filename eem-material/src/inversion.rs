@@ -127,7 +127,7 @@ pub fn temperature_near<const W: usize>(
             if is_stable && defect.abs() <= rounding {
                 return Ok((theta, other));
             }
-            let found = search_from(|theta| caloric_at(theta).0, entropy, guess)?;
+            let found = search_from(&mut |theta| caloric_at(theta).0, entropy, guess)?;
             let other = if W > 0 { caloric_at(found).1 } else { other };
             return Ok((found, other));
         }

@@ -135,10 +135,10 @@ struct Search {
     evaluations: usize,
 }
 
-/// The temperature of an entropy, for a scalar number.
+/// The temperature of an entropy. It is compiled once: a call of a function is nothing beside the evaluation.
 #[cold]
 pub(super) fn search_from(
-    mut evaluate: impl FnMut(f64) -> Caloric<f64>,
+    evaluate: &mut dyn FnMut(f64) -> Caloric<f64>,
     entropy: f64,
     start: f64,
 ) -> Result<f64, InversionError> {

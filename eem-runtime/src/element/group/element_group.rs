@@ -115,7 +115,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
-        if self.is_by_rows() {
+        if const { M::ROWS.is_some() } && self.is_by_rows() {
             return self.begin_by_rows::<C>(view, old);
         }
         self.begin_one_by_one::<C>(view, old)
@@ -127,14 +127,20 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         trial: &Trial<D>,
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        match system {
-            Some(system) if K::PerPoint::<()>::LEN > 1 => {
-                self.linearize_in_rounds::<C>(view, trial, system)
+        // A branch that a constant rules out is not compiled.
+        let is_by_rows = self.is_by_rows();
+        let Some(system) = system else {
+            if const { M::ROWS.is_some() } && is_by_rows {
+                return self.respond_by_rows::<C>(view, trial);
             }
-            Some(system) if self.is_by_rows() => self.linearize_by_rows::<C>(view, trial, system),
-            Some(system) => self.linearize_one_by_one::<C>(view, trial, system),
-            None if self.is_by_rows() => self.respond_by_rows::<C>(view, trial),
-            None => self.respond_one_by_one::<C>(view, trial),
+            return self.respond_one_by_one::<C>(view, trial);
+        };
+        if const { K::PerPoint::<()>::LEN > 1 } {
+            self.linearize_in_rounds::<C>(view, trial, system)
+        } else if const { M::ROWS.is_some() } && is_by_rows {
+            self.linearize_by_rows::<C>(view, trial, system)
+        } else {
+            self.linearize_one_by_one::<C>(view, trial, system)
         }
     }
 
@@ -201,7 +207,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        if self.is_by_rows() {
+        if const { M::ROWS.is_some() } && self.is_by_rows() {
             return self.close_by_rows::<C>(view, trial, next, tally);
         }
         self.close_one_by_one::<C>(view, trial, next, tally)

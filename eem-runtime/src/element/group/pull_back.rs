@@ -72,7 +72,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         let mut add = |member: &Member<M, K, D>, share: &Share<K, D>| {
             member.add_transposed(share, contacts, (&mut *values, &mut *right));
         };
-        if K::PerPoint::<()>::LEN > 1 {
+        if const { K::PerPoint::<()>::LEN > 1 } {
             return in_rounds(&mut self.members, &mut self.shares, &of_one, &mut add);
         }
         for member in &mut self.members {
