@@ -242,6 +242,62 @@ fn springs_of_texts_have_tangents_by_their_parameters() {
     }
 }
 
+/// And for more dashpots: even zeros have the signs of those of a derived spring.
+#[cfg(feature = "typed")]
+#[test]
+fn gradients_of_texts_have_the_bits_of_derived_ones() {
+    let (k, l, m1, m2, m3) = (30.0, 1.0, 12.0, 9.0, 7.0);
+    let text = "|x: Stretch, g1: Viscous, g2: Viscous, g3: Viscous| {
+        0.5 * k * ln(x / l).powi(2) + 0.5 * m1 * (x - l - g1).powi(2)
+            + 0.5 * m2 * (x - l - g2 - g3).powi(2) + 0.5 * m3 * (g3 + 0.3 * g1).powi(2)
+    }";
+    let mut source = eem::typed::Source::new(text).viscosity("x", "0.7");
+    for (dashpot, viscosity) in [("g1", "2"), ("g2", "3"), ("g3", "5")] {
+        source = source.viscosity(dashpot, viscosity);
+    }
+    let values = [("k", k), ("l", l), ("m1", m1), ("m2", m2), ("m3", m3)];
+    let source = (values.iter()).fold(source, |source, (name, _)| source.parameter(*name, None));
+    let law = eem::typed::Law::new(eem::typed::compile(&source).unwrap(), &values).unwrap();
+    let typed = || -> eem::typed::Spring8 { law.model().unwrap() };
+    let derived = || Branches { k, l, m1, m2, m3 };
+    for scheme in FORMS {
+        let shown = [
+            shown_gradient(scheme, derived),
+            shown_gradient(scheme, typed),
+        ];
+        assert!(shown[0] == shown[1], "{scheme}: {shown:#?}");
+    }
+}
+
+/// The derivatives of a position with respect to all viscous stretches and parameters, where one of two springs does not move.
+#[cfg(feature = "typed")]
+fn shown_gradient<M: eem::Material>(scheme: Scheme, model: impl Fn() -> M) -> String {
+    let mut scene = Scene::<2>::new();
+    let ends = [
+        scene.anchor([0.0, 0.0]),
+        scene.mass(1.0, [1.2, 0.1], [0.0, 0.5]),
+        scene.anchor([0.9, 0.2]),
+    ];
+    let springs = [
+        scene.spring(model(), [ends[0], ends[1]]),
+        scene.spring(model(), [ends[0], ends[2]]),
+    ];
+    let mut run = Simulation::new(scene, scheme, 2.0).unwrap();
+    run.keep_history(History::default());
+    for _ in 0..3 {
+        run.step().unwrap();
+    }
+    let end = Objective::at_end(Quantity::Position(ends[1]));
+    let gradient = run.gradient(&end).unwrap();
+    let by = |spring: Element| {
+        let stretches = [0, 1, 2].map(|k| gradient.by_viscous_stretch(spring, k).unwrap());
+        let names = ["k", "l", "m1", "m2", "m3"];
+        let parameters = names.map(|name| gradient.by_parameter(spring, name).unwrap());
+        format!("{stretches:?} {parameters:?}")
+    };
+    springs.map(by).join("\n")
+}
+
 /// There are derivatives by 64 at most.
 #[cfg(feature = "typed")]
 #[test]
@@ -316,4 +372,20 @@ fn derivatives_have_names_and_units() {
     let misfit = Objective::misfit(Quantity::Temperature(spring), [[1.0, 350.0, 0.5]]);
     let misfit = run.gradient(&misfit).unwrap();
     assert!(misfit.iter().any(|(.., unit)| unit == "1/kg"));
+}
+
+/// Dashpots that pull at one another, and one in parallel.
+#[cfg(feature = "typed")]
+#[derive(FreeEnergy)]
+#[free_energy(|x: Stretch, g1: Viscous, g2: Viscous, g3: Viscous| {
+    0.5 * k * ln(x / l).powi(2) + 0.5 * m1 * (x - l - g1).powi(2)
+        + 0.5 * m2 * (x - l - g2 - g3).powi(2) + 0.5 * m3 * (g3 + 0.3 * g1).powi(2)
+})]
+#[viscosity(x = 0.7, g1 = 2, g2 = 3, g3 = 5)]
+struct Branches {
+    k: f64,
+    l: f64,
+    m1: f64,
+    m2: f64,
+    m3: f64,
 }

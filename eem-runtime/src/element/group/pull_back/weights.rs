@@ -119,13 +119,34 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// The derivatives of `wᵀR` with respect to the variables of the old state.
     #[inline]
     pub(super) fn by_old(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
-        pulled::<M>(rho, &self.slopes_by_old(), increments, -1.0)
+        self.pulled(rho, &self.slopes_by_old(), increments, -1.0)
     }
 
     /// The derivatives of `wᵀR` with respect to the variables of the new state, without those to prescribed temperatures.
     pub(super) fn by_new(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
         let (_, tangent) = self.form::<Exact>(false);
-        pulled::<M>(rho, &tangent, increments, 1.0)
+        self.pulled(rho, &tangent, increments, 1.0)
+    }
+
+    /// `Tᵀρ ± increments`. Rows of dashpots that there might be are left out: a zero of theirs would take the sign of another.
+    #[inline]
+    fn pulled(
+        &self,
+        rho: &M::Response,
+        tangent: &M::Tangent,
+        increments: &M::Variables,
+        sign: f64,
+    ) -> M::Variables {
+        let unused = M::MEASURES + self.dashpots()..Self::TEMPERATURE;
+        let mut pulled = M::Variables::filled(0.0);
+        for (at, pulled) in pulled.as_mut().iter_mut().enumerate() {
+            *pulled = sign * increments[at];
+            let rows = rho.as_ref().iter().zip(tangent.as_ref()).enumerate();
+            for (_, (&rho, slopes)) in rows.filter(|(row, _)| !unused.contains(row)) {
+                *pulled += rho * slopes[at];
+            }
+        }
+        pulled
     }
 
     /// Writes the derivatives with respect to its old internal variables, and the weights of its balance of heat.
@@ -196,22 +217,4 @@ fn add<M: Material>(sum: &mut M::Parameters, by: &M::Parameters) {
     for (sum, &by) in sum.as_mut().iter_mut().zip(by.as_ref()) {
         *sum += by;
     }
-}
-
-/// `Tᵀρ ± increments`.
-#[inline]
-fn pulled<M: Material>(
-    rho: &M::Response,
-    tangent: &M::Tangent,
-    increments: &M::Variables,
-    sign: f64,
-) -> M::Variables {
-    let mut pulled = M::Variables::filled(0.0);
-    for (at, pulled) in pulled.as_mut().iter_mut().enumerate() {
-        *pulled = sign * increments[at];
-        for (&rho, row) in rho.as_ref().iter().zip(tangent.as_ref()) {
-            *pulled += rho * row[at];
-        }
-    }
-    pulled
 }
