@@ -135,7 +135,8 @@ struct Search {
     evaluations: usize,
 }
 
-/// The temperature of an entropy. It is compiled once: a call of a function is nothing beside the evaluation.
+/// The temperature of an entropy. The entropy is a `dyn` function, so that this is compiled once for all materials; such a call costs
+/// little beside what it evaluates.
 #[cold]
 pub(super) fn search_from(
     evaluate: &mut dyn FnMut(f64) -> Caloric<f64>,

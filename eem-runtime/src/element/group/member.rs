@@ -98,8 +98,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms; only schemes in temperature and Kelvin–Voigt dashpots use it.
     #[inline]
     fn motion<C: Family>(&self, view: &StepView<'_>, trial: &Trial<D>) -> Arms<K, D> {
-        let has_drags = (self.points.as_ref().iter()).any(|point| point.drags() > 0);
-        if !C::is_in_temperature(self.scheme()) && !has_drags {
+        if !C::is_in_temperature(self.scheme()) && self.only().drags() == 0 {
             return self.r0;
         }
         let rest = (1.0 - C::implicit(self.scheme())) * view.step;

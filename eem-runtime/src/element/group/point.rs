@@ -366,16 +366,12 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 /// ```
 #[inline]
 fn changed(theta: f64, change: f64) -> f64 {
-    let least = -LARGEST_FALL * theta;
-    if change >= -0.5 * theta {
-        let most = LARGEST_RISE * theta;
-        return if change < most {
-            theta + change
-        } else {
-            theta + most
-        };
+    if change < -0.5 * theta {
+        let least = -LARGEST_FALL * theta;
+        return -0.25 * theta * (theta / if least < change { change } else { least });
     }
-    -0.25 * theta * (theta / if change > least { change } else { least })
+    let most = LARGEST_RISE * theta;
+    theta + if most < change { most } else { change }
 }
 
 /// The largest changes of a temperature in one Newton iteration, a factor of 7 as below, in units of it.

@@ -93,8 +93,7 @@ impl<const D: usize> Simulation<D> {
         let taken = self.take_loads(&checkpoint.loads);
         let restored = taken.and_then(|()| self.restore_in_scheme(checkpoint));
         // What has not been touched is left as it is: the sums of an explicit scheme are evaluated again with other rounding.
-        let is_touched = self.in_use != before.scheme || self.saved_loads() != loads;
-        if restored.is_err() && is_touched {
+        if restored.is_err() && (self.in_use != before.scheme || self.saved_loads() != loads) {
             if self.in_use != before.scheme {
                 self.use_scheme(before.scheme)?;
             }
