@@ -35,7 +35,8 @@ pub use measures::{
     Arms, Blocks, Ends, Gradient, Kinematics, Length, MeasureSet, Measures, StrainSet, Weights,
 };
 pub(crate) use measures::{
-    Numbers, PerStrain, QuadraticStrain, StrainMatrix, StrainSlopes, add_blocks,
+    MeasuresOf, Numbers, PerStrain, QuadraticStrain, StrainMatrix, StrainMeasures, StrainSlopes,
+    add_blocks,
 };
 pub use solid::SolidPoint;
 pub use solid_state::SolidState;

@@ -115,11 +115,6 @@ impl<const D: usize> Trial<D> {
     pub(crate) fn displacements_of_set(&self, set: usize) -> &[[f64; D]] {
         &self.displacements[self.first_of_set(set)..self.first_of_set(set + 1)]
     }
-
-    /// The index of the interface temperature of a thermal slot in a set.
-    pub(crate) fn interface_of_set(&self, set: usize, slot: usize) -> usize {
-        set * (self.interface.values().len() / self.sets) + slot
-    }
 }
 
 /// Sums over elements, in twice the precision.

@@ -275,16 +275,45 @@ pub trait Kinematics<const D: usize>: Copy + Send + Sync + core::fmt::Debug + 's
 }
 
 /// A number per component of the strain C.
-pub(crate) type PerStrain<K, const D: usize> = <K as QuadraticStrain<D>>::PerStrain<f64>;
+pub(crate) type PerStrain<G> = <G as StrainMeasures>::PerStrain<f64>;
+
+/// A number per measure of a strain.
+pub(crate) type MeasuresOf<G> = Numbers<<G as StrainMeasures>::Measures>;
 
 /// Derivatives of measures with respect to the strain.
-pub(crate) type StrainSlopes<K, const D: usize> = PerMeasure<K, PerStrain<K, D>, D>;
+pub(crate) type StrainSlopes<G> =
+    <<G as StrainMeasures>::Measures as MeasureSet>::Per<PerStrain<G>>;
 
 /// A square matrix of the components of the strain.
-pub(crate) type StrainMatrix<K, const D: usize> =
-    <K as QuadraticStrain<D>>::PerStrain<PerStrain<K, D>>;
+pub(crate) type StrainMatrix<G> = <G as StrainMeasures>::PerStrain<PerStrain<G>>;
 
-/// Measures as functions of the strain C of an element, which is quadratic in the arms:
+/// Measures as functions of the strain C, apart from its nodes: all that the path of a point through a step knows of them.
+pub(crate) trait StrainMeasures: Copy + Send + Sync + core::fmt::Debug + 'static {
+    /// Its measures.
+    type Measures: MeasureSet;
+    /// `[T; number of components]`.
+    type PerStrain<T: Entry>: Array<T>;
+
+    /// The magnitude of the terms of each component of a strain.
+    fn sizes(&self, strain: &PerStrain<Self>) -> PerStrain<Self>;
+
+    /// The weight of each component in the square of a strain, and the unit of the strain.
+    fn metric(&self, strain: &PerStrain<Self>) -> (PerStrain<Self>, f64);
+
+    /// The measures of a strain; `None` if no deformation has it.
+    fn measures_of(&self, strain: &PerStrain<Self>) -> Option<MeasuresOf<Self>>;
+
+    /// Why an element cannot have this strain within a step.
+    fn refuse(&self, element: Element, strain: &PerStrain<Self>) -> StateError;
+
+    /// P with `P·(C¹ − C⁰) = π¹ − π⁰` exactly, symmetric in both.
+    fn slopes(&self, ends: [&PerStrain<Self>; 2]) -> StrainSlopes<Self>;
+
+    /// `Σ_a f_a ∂²π_a/∂C²`.
+    fn curvature(&self, strain: &PerStrain<Self>, force: &MeasuresOf<Self>) -> StrainMatrix<Self>;
+}
+
+/// Kinematics with the strain C of an element, which is quadratic in the arms:
 ///
 /// ```text
 /// spring    C = λ² = r·r             solid    C = E = ½(FᵀF − 1), component by component
@@ -293,45 +322,25 @@ pub(crate) type StrainMatrix<K, const D: usize> =
 ///
 /// A path of C through a step, with Ċ from the arms at Gauss points, ends at the strain of the new arms exactly.
 pub(crate) trait QuadraticStrain<const D: usize>: Kinematics<D> {
-    /// `[T; number of components]`.
-    type PerStrain<T: Entry>: Array<T>;
+    /// The measures as functions of C.
+    type Strain: StrainMeasures<Measures = Self::Measures>;
+
+    fn strain_measures(&self) -> Self::Strain;
 
     /// C of these arms.
-    fn strain(&self, r: &Arms<Self, D>) -> PerStrain<Self, D>;
+    fn strain(&self, r: &Arms<Self, D>) -> PerStrain<Self::Strain>;
 
     /// `∂C/∂r·w`, bilinear in r and w.
-    fn strain_rate(&self, r: &Arms<Self, D>, w: &Arms<Self, D>) -> PerStrain<Self, D>;
+    fn strain_rate(&self, r: &Arms<Self, D>, w: &Arms<Self, D>) -> PerStrain<Self::Strain>;
 
     /// `Σ n_q ∂C_q/∂r`, linear in r.
-    fn strain_force(&self, r: &Arms<Self, D>, n: &PerStrain<Self, D>) -> Arms<Self, D>;
+    fn strain_force(&self, r: &Arms<Self, D>, n: &PerStrain<Self::Strain>) -> Arms<Self, D>;
 
     /// The magnitude of the terms of [`strain_force`](Self::strain_force), given that of n.
-    fn strain_force_size(&self, r: &Arms<Self, D>, n: &PerStrain<Self, D>) -> f64;
+    fn strain_force_size(&self, r: &Arms<Self, D>, n: &PerStrain<Self::Strain>) -> f64;
 
     /// `Σ n_q ∂²C_q/∂r²`.
-    fn strain_stiffness(&self, n: &PerStrain<Self, D>) -> Weights<Self, D>;
-
-    /// The magnitude of the terms of each component of a strain.
-    fn strain_sizes(&self, strain: &PerStrain<Self, D>) -> PerStrain<Self, D>;
-
-    /// The weight of each component in the square of a strain, and the unit of the strain.
-    fn strain_metric(&self, strain: &PerStrain<Self, D>) -> (PerStrain<Self, D>, f64);
-
-    /// The measures of a strain; `None` if no deformation has it.
-    fn measures_of(&self, strain: &PerStrain<Self, D>) -> Option<Measures<Self, D>>;
-
-    /// Why an element cannot have this strain within a step.
-    fn refuse(&self, element: Element, strain: &PerStrain<Self, D>) -> StateError;
-
-    /// P with `P·(C¹ − C⁰) = π¹ − π⁰` exactly, symmetric in both.
-    fn strain_slopes(&self, ends: [&PerStrain<Self, D>; 2]) -> StrainSlopes<Self, D>;
-
-    /// `Σ_a f_a ∂²π_a/∂C²`.
-    fn strain_curvature(
-        &self,
-        strain: &PerStrain<Self, D>,
-        force: &Measures<Self, D>,
-    ) -> StrainMatrix<Self, D>;
+    fn strain_stiffness(&self, n: &PerStrain<Self::Strain>) -> Weights<Self, D>;
 }
 
 /// Adds blocks to a sum.

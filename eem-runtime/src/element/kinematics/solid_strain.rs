@@ -3,16 +3,26 @@
 //! Conjugates of components are `n_q = w_q S_q`, where w is 1 for normal components and 2 for shears, so that
 //! `Σ n_q E_q = S:E`.
 
+use core::marker::PhantomData;
+
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::measures::QuadraticStrain;
+use crate::element::kinematics::measures::{QuadraticStrain, StrainMeasures, StrainSet};
 use crate::element::kinematics::solid::{PerArm, SolidPoint, Strains};
+use crate::element::kinematics::strain::Measure;
 use eem_material::free_energy::{Array, Entry};
 use eem_material::number::scalar::is_positive;
 use eem_mesh::Shape;
 use eem_mesh::tensor::{Symmetric, add};
 
 type Components<H, const D: usize> = <H as Shape<D>>::PerComponent<f64>;
+
+/// N measures as functions of the strain at a point of a cell of shape `H`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SolidStrain<H, const N: usize, const D: usize> {
+    measures: [Measure<D>; N],
+    shape: PhantomData<H>,
+}
 
 /// Components as another type of the same length; those of shears are multiplied by a factor.
 #[inline]
@@ -43,7 +53,15 @@ fn stress<H: Shape<D>, const D: usize>(n: &Components<H, D>) -> H::Tensor {
 }
 
 impl<H: Shape<D>, const N: usize, const D: usize> QuadraticStrain<D> for SolidPoint<H, N, D> {
-    type PerStrain<T: Entry> = H::PerComponent<T>;
+    type Strain = SolidStrain<H, N, D>;
+
+    #[inline]
+    fn strain_measures(&self) -> Self::Strain {
+        SolidStrain {
+            measures: self.measures,
+            shape: PhantomData,
+        }
+    }
 
     #[inline]
     fn strain(&self, r: &PerArm<H, D>) -> Components<H, D> {
@@ -75,17 +93,22 @@ impl<H: Shape<D>, const N: usize, const D: usize> QuadraticStrain<D> for SolidPo
     fn strain_stiffness(&self, n: &Components<H, D>) -> H::PerArm<H::PerArm<f64>> {
         self.stiffness_of(&stress::<H, D>(n))
     }
+}
+
+impl<H: Shape<D>, const N: usize, const D: usize> StrainMeasures for SolidStrain<H, N, D> {
+    type Measures = StrainSet<N>;
+    type PerStrain<T: Entry> = H::PerComponent<T>;
 
     // ½ tr FᵀF + ½ = tr E + ½(D + 1) bounds the terms ½FᵀF and ½ of every component.
     #[inline]
-    fn strain_sizes(&self, strain: &Components<H, D>) -> Components<H, D> {
+    fn sizes(&self, strain: &Components<H, D>) -> Components<H, D> {
         let ones = (0..D).fold(1.0, |sum, _| sum + 1.0);
         let trace = tensor::<H, D>(strain).trace();
         Components::<H, D>::filled(trace + 0.5 * ones)
     }
 
     #[inline]
-    fn strain_metric(&self, _: &Components<H, D>) -> (Components<H, D>, f64) {
+    fn metric(&self, _: &Components<H, D>) -> (Components<H, D>, f64) {
         let ones = H::Tensor::filled(1.0);
         (conjugates::<H, D>(&ones), 1.0)
     }
@@ -108,7 +131,7 @@ impl<H: Shape<D>, const N: usize, const D: usize> QuadraticStrain<D> for SolidPo
         }
     }
 
-    fn strain_slopes(&self, [old, new]: [&Components<H, D>; 2]) -> [Components<H, D>; N] {
+    fn slopes(&self, [old, new]: [&Components<H, D>; 2]) -> [Components<H, D>; N] {
         let [old, new] = [old, new].map(tensor::<H, D>);
         let between = Strains::<H, D>::of_strains([&old, &new]);
         let slopes = self.measures.each_ref();
@@ -116,7 +139,7 @@ impl<H: Shape<D>, const N: usize, const D: usize> QuadraticStrain<D> for SolidPo
     }
 
     // The change of P with both ends is twice that with the new one.
-    fn strain_curvature(
+    fn curvature(
         &self,
         strain: &Components<H, D>,
         force: &[f64; N],

@@ -4,7 +4,9 @@ use core::array;
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::measures::{Ends, Kinematics, Length, QuadraticStrain};
+use crate::element::kinematics::measures::{
+    Ends, Kinematics, Length, QuadraticStrain, StrainMeasures,
+};
 use eem_material::free_energy::Entry;
 use eem_material::number::scalar::{Scalar, is_positive};
 use eem_mesh::tensor::dot;
@@ -161,7 +163,12 @@ impl<const D: usize> Kinematics<D> for Stretch<D> {
 
 // C = λ²
 impl<const D: usize> QuadraticStrain<D> for Stretch<D> {
-    type PerStrain<T: Entry> = [T; 1];
+    type Strain = Length;
+
+    #[inline]
+    fn strain_measures(&self) -> Length {
+        Length
+    }
 
     #[inline]
     fn strain(&self, [r]: &[[f64; D]; 1]) -> [f64; 1] {
@@ -188,14 +195,19 @@ impl<const D: usize> QuadraticStrain<D> for Stretch<D> {
     fn strain_stiffness(&self, &[n]: &[f64; 1]) -> [[f64; 1]; 1] {
         [[n + n]]
     }
+}
+
+impl StrainMeasures for Length {
+    type Measures = Self;
+    type PerStrain<T: Entry> = [T; 1];
 
     #[inline]
-    fn strain_sizes(&self, &strain: &[f64; 1]) -> [f64; 1] {
+    fn sizes(&self, &strain: &[f64; 1]) -> [f64; 1] {
         strain
     }
 
     #[inline]
-    fn strain_metric(&self, &[square]: &[f64; 1]) -> ([f64; 1], f64) {
+    fn metric(&self, &[square]: &[f64; 1]) -> ([f64; 1], f64) {
         ([1.0], square)
     }
 
@@ -215,14 +227,14 @@ impl<const D: usize> QuadraticStrain<D> for Stretch<D> {
     }
 
     #[inline]
-    fn strain_slopes(&self, ends: [&[f64; 1]; 2]) -> [[f64; 1]; 1] {
+    fn slopes(&self, ends: [&[f64; 1]; 2]) -> [[f64; 1]; 1] {
         let [old, new] = ends.map(|&[square]| square.sqrt());
         [[(old + new).recip()]]
     }
 
     // ∂²λ/∂C² = −1/4λ³
     #[inline]
-    fn strain_curvature(&self, &[square]: &[f64; 1], &[force]: &[f64; 1]) -> [[f64; 1]; 1] {
+    fn curvature(&self, &[square]: &[f64; 1], &[force]: &[f64; 1]) -> [[f64; 1]; 1] {
         let stretch = square.sqrt();
         let shrink = (stretch + stretch).recip();
         [[-(force / stretch) * shrink * shrink]]

@@ -1,8 +1,8 @@
 //! From the stages of the elements to the global system.
 
-use super::point::LocalStages;
+use super::point::{LocalStages, StagedPoint};
 use super::site::{PerPair, StageSite};
-use super::source::Source;
+use super::source::{Source, StageEquations};
 use crate::element::group::arms::add_scaled;
 use crate::element::group::site::Contact;
 use crate::element::group::view::Trial;
@@ -67,17 +67,17 @@ impl<K: Kinematics<D>, const D: usize> Target<'_, K, D> {
     /// from other elements on them.
     pub(super) fn add_forces<M: Material, C: Source<M, K, D>>(
         &mut self,
-        source: &C,
+        StagedPoint { source, contacts }: &StagedPoint<K, C, D>,
         bases: &C::Bases,
     ) {
-        let (rule, contacts) = (self.rule, &source.point().contacts);
+        let rule = self.rule;
         let nowhere = Arms::<K, D>::filled([0.0; D]);
         // The derivatives of the forces at each stage with respect to the heat at each stage.
         let mut by_heat = [[nowhere; MOST_STAGES]; MOST_STAGES];
         for (stage, by_heat) in by_heat.iter_mut().enumerate().take(rule.stages()) {
             for force in 0..C::FORCES {
                 let at = [stage, force];
-                let value = source.force(self.local, at) + self.local.row[0];
+                let value = source.equations().force(self.local, at) + self.local.row[0];
                 let by_arms = source.by_arms(bases, self.local);
                 let along = source.direction(bases, at);
                 self.forces
@@ -126,18 +126,18 @@ impl<K: Kinematics<D>, const D: usize> Target<'_, K, D> {
     /// Adds the equations `Θ − θ = 0` of the coupled interface temperatures of a point.
     pub(super) fn add_temperatures<M: Material, C: Source<M, K, D>>(
         &mut self,
-        source: &C,
+        StagedPoint { source, contacts }: &StagedPoint<K, C, D>,
         bases: &C::Bases,
         (slot, trial): (usize, &Trial<D>),
     ) {
         let rule = self.rule;
-        let contacts = source.point().contacts.iter().flatten();
+        let contacts = contacts.iter().flatten();
         for (set, contacts) in contacts.enumerate().take(rule.sets()) {
-            let theta = source.temperature(self.local, set) + self.local.row[0];
+            let theta = source.equations().temperature(self.local, set) + self.local.row[0];
             let by_arms = source.by_arms(bases, self.local);
             let by_heat = &self.local.row[1 + rule.sets() * C::FORCES..];
             let own = &contacts[set];
-            let interface = trial.interface.values()[trial.interface_of_set(set, slot)];
+            let interface = trial.interface.values()[trial.interface.of_set(rule, set, slot)];
             self.right[own.unknown as usize][0] += theta - interface;
             self.values[own.diagonal as usize] += 1.0;
             for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {

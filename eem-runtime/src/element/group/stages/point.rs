@@ -12,13 +12,15 @@
 //!
 //! except that an element with a thermostat has the prescribed `θ_i`.
 
+use core::array;
+
 use super::site::{PerPair, StageSite};
 use crate::algebra::lu::{self, Singular};
-use crate::element::conduction::Partner;
+use crate::element::conduction::{InterfaceTemperatures, Partner};
 use crate::element::group::arms::{add_scaled, arms_in, change_in_set};
 use crate::element::group::member::Member;
 use crate::element::group::placed::PlacedPoint;
-use crate::element::group::site::Contact;
+use crate::element::group::site::{Contact, HeatPath};
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
@@ -34,17 +36,21 @@ pub(super) type StatePoint<M, K, const D: usize> = PlacedPoint<M, K, D>;
 pub(crate) struct StageMember<K: Kinematics<D>, C, const D: usize> {
     pub(super) site: StageSite<K, D>,
     /// On the heap: cells with many points are large.
-    pub(super) points: Vec<C>,
+    pub(super) points: Vec<StagedPoint<K, C, D>>,
 }
 
-/// A point of an element, apart from its conjugates.
-pub(crate) struct StagePoint<K: Kinematics<D>, const D: usize> {
+/// A point of an element.
+pub(crate) struct StagedPoint<K: Kinematics<D>, C, const D: usize> {
+    pub(super) source: C,
+    /// The matrix indices of its coupled interface temperatures, if it conducts heat to other elements.
+    pub(super) contacts: Option<PerPair<Contact<K, D>>>,
+}
+
+/// A point of an element, apart from its nodes and its conjugates.
+pub(crate) struct StagePoint {
     pub(super) rule: &'static Tableau,
     /// Number of dashpots in series.
     pub(super) dashpots: usize,
-    pub(super) kinematics: K,
-    /// The matrix indices of its coupled interface temperatures, if it conducts heat to other elements.
-    pub(super) contacts: Option<PerPair<Contact<K, D>>>,
     /// s⁰, J/K; zero without temperature.
     pub(super) entropy: f64,
     /// The temperatures of a thermostat at the stages, or at the supports of the path, K.
@@ -54,6 +60,12 @@ pub(crate) struct StagePoint<K: Kinematics<D>, const D: usize> {
     /// The solved local system, see [`LocalStages`].
     pub(super) solved: Vec<f64>,
 }
+
+/// The paths of heat to other elements of each set, if there are any, and the interface temperatures.
+pub(super) type Outside<'a> = (
+    Option<[&'a [HeatPath]; MOST_SETS]>,
+    &'a InterfaceTemperatures,
+);
 
 /// The arms of an element at a trial, m.
 pub(crate) struct StageArms<K: Kinematics<D>, const D: usize> {
@@ -133,7 +145,16 @@ impl LocalStages {
     }
 }
 
-impl<K: Kinematics<D>, const D: usize> StagePoint<K, D> {
+impl StagePoint {
+    /// Reads the old state, given the unit of viscous stretches and the thermal slot.
+    pub(super) fn begin(&mut self, unit: f64, slot: Option<usize>, view: &StepView<'_>) {
+        self.viscous_unit = unit;
+        if let Some(slot) = slot {
+            self.entropy = view.state.entropies.values()[slot];
+            self.prescribed = view.prescribed_at_stages(slot);
+        }
+    }
+
     /// Adds a multiple of the quantity in the row to an equation.
     pub(super) fn add_row(&mut self, local: &mut LocalStages, equation: usize, factor: f64) {
         let unknowns = local.unknowns();
@@ -168,12 +189,36 @@ impl<K: Kinematics<D>, const D: usize> StagePoint<K, D> {
         }
     }
 
+    /// Q at a stage of the element with a thermal slot, W.
+    pub(super) fn heat_received(
+        &self,
+        stage: usize,
+        slot: usize,
+        (view, interface): (&StepView<'_>, &InterfaceTemperatures),
+    ) -> f64 {
+        let (rule, mut heat) = (self.rule, 0.0);
+        for link in view.conduction.links(slot) {
+            let Partner::Slot(partner) = link.partner else {
+                continue;
+            };
+            let mut drop = excess(rule, stage, partner, view) - excess(rule, stage, slot, view);
+            for (set, &share) in rule.temperatures[stage].iter().enumerate() {
+                let [near, far] = [slot, partner].map(|slot| interface.of_set(rule, set, slot));
+                drop += share * interface.drop(near, far);
+            }
+            heat += link.conductance * drop;
+        }
+        heat
+    }
+}
+
+impl<K: Kinematics<D>, C, const D: usize> StagedPoint<K, C, D> {
     /// The change of Q at a stage that follows from a global solution, W.
-    pub(super) fn heat_change(&self, stage: usize, solution: &[[f64; 1]]) -> f64 {
+    pub(super) fn heat_change(&self, rule: &Tableau, stage: usize, solution: &[[f64; 1]]) -> f64 {
         let mut change = 0.0;
         let contacts = self.contacts.iter().flatten().enumerate();
-        for (set, contacts) in contacts.take(self.rule.sets()) {
-            let share = self.rule.share(stage, set);
+        for (set, contacts) in contacts.take(rule.sets()) {
+            let share = rule.share(stage, set);
             let near = solution[contacts[set].unknown as usize][0];
             for path in &contacts[set].paths {
                 let far = solution[path.unknown as usize][0];
@@ -184,26 +229,18 @@ impl<K: Kinematics<D>, const D: usize> StagePoint<K, D> {
     }
 }
 
-/// Q at a stage of the element with a thermal slot, W.
-pub(super) fn heat_received<const D: usize>(
-    rule: &Tableau,
-    stage: usize,
-    slot: usize,
-    (view, trial): (&StepView<'_>, &Trial<D>),
-) -> f64 {
-    let mut heat = 0.0;
-    for link in view.conduction.links(slot) {
-        let Partner::Slot(partner) = link.partner else {
-            continue;
-        };
-        let mut drop = excess(rule, stage, partner, view) - excess(rule, stage, slot, view);
-        for (set, &share) in rule.temperatures[stage].iter().enumerate() {
-            let [near, far] = [slot, partner].map(|slot| trial.interface_of_set(set, slot));
-            drop += share * trial.interface.drop(near, far);
-        }
-        heat += link.conductance * drop;
+/// The paths of heat of each set.
+pub(super) fn paths_of<K: Kinematics<D>, const D: usize>(
+    contacts: &PerPair<Contact<K, D>>,
+) -> [&[HeatPath]; MOST_SETS] {
+    array::from_fn(|set| &contacts[set][set].paths[..])
+}
+
+impl InterfaceTemperatures {
+    /// The index of a thermal slot in a set of a rule.
+    pub(super) fn of_set(&self, rule: &Tableau, set: usize, slot: usize) -> usize {
+        set * (self.values().len() / rule.sets()) + slot
     }
-    heat
 }
 
 /// The difference of a prescribed temperature at a stage and the combination of interface temperatures there, K.

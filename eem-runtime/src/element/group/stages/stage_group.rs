@@ -5,9 +5,11 @@
 //! to rounding whatever that error is.
 
 use super::assemble::{StageForces, Target};
-use super::point::{LocalStages, StageArms, StageMember, StagePoint, StateMember};
+use super::point::{
+    LocalStages, StageArms, StageMember, StagePoint, StagedPoint, StateMember, StatePoint, paths_of,
+};
 use super::site::{StageSite, contacts};
-use super::source::Source;
+use super::source::{Source, StageEquations};
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::{OneSet, PointRule};
 use crate::element::error::StateError;
@@ -50,24 +52,23 @@ impl<M: Material, K: Kinematics<D>, C: Source<M, K, D>, const D: usize> StageGro
             .points()
             .next()
             .map_or(0, |in_state| in_state.dashpots());
-        let [unknowns, inputs] = [C::unknowns_of(rule, dashpots), C::inputs_of(rule)];
-        let source = |kinematics: K| {
-            C::new(StagePoint {
-                rule,
-                dashpots,
-                kinematics,
-                contacts: None,
-                entropy: 0.0,
-                prescribed: None,
-                viscous_unit: 1.0,
-                solved: vec![0.0; (1 + inputs) * unknowns],
-            })
+        let unknowns = C::Equations::unknowns_of(rule, dashpots);
+        let inputs = C::Equations::inputs_of(rule);
+        let point = || StagePoint {
+            rule,
+            dashpots,
+            entropy: 0.0,
+            prescribed: None,
+            viscous_unit: 1.0,
+            solved: vec![0.0; (1 + inputs) * unknowns],
+        };
+        let source = |in_state: &StatePoint<M, K, D>| StagedPoint {
+            source: C::new(in_state.kinematics, point()),
+            contacts: None,
         };
         let staged = |member: &StateMember<M, K, D>| StageMember {
             site: StageSite::unconnected(member.site),
-            points: (member.points.as_ref().iter())
-                .map(|in_state| source(in_state.kinematics))
-                .collect(),
+            points: member.points.as_ref().iter().map(source).collect(),
         };
         Self {
             rule,
@@ -98,16 +99,17 @@ impl<M: Material, K: Kinematics<D>, C: Source<M, K, D>, const D: usize> StageGro
                 values: &mut *values,
                 right: &mut *right,
             };
-            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
-                source.condense(in_state, target.local, view)?;
+            for (point, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
+                let source = &mut point.source;
+                (source.equations_mut()).condense(in_state, target.local, view)?;
                 let bases = source.bases();
-                target.add_forces(source, &bases);
+                target.add_forces(point, &bases);
                 for set in 0..rule.sets() {
                     let blocks = &mut target.forces.blocks[rule.stage_of(set)][set];
-                    add_blocks::<K, D>(blocks, &source.geometric_stiffness(set, &arms));
+                    add_blocks::<K, D>(blocks, &point.source.geometric_stiffness(set, &arms));
                 }
                 if let Some(slot) = in_state.slots().thermal {
-                    target.add_temperatures(source, &bases, (slot, trial));
+                    target.add_temperatures(point, &bases, (slot, trial));
                 }
             }
             target.add_impulses();
@@ -135,9 +137,9 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             let (rule, nodes) = (self.rule, &member.site.nodes);
             stages.site = StageSite::new(rule, nodes, sites);
-            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
+            for (point, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
                 let slot = in_state.slots().thermal;
-                source.point_mut().contacts = contacts(rule, nodes, slot, sites);
+                point.contacts = contacts(rule, nodes, slot, sites);
             }
         }
     }
@@ -146,19 +148,15 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             let nodes = &member.site.nodes;
             let r0 = arms_in::<K, D>(nodes, &view.state.positions);
-            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
-                let (slots, point) = (in_state.slots(), source.point_mut());
-                let measures = point.kinematics.measure(&r0);
-                let length = point.kinematics.length(&measures);
-                shorten::<K, D>(nodes, length, old.lengths);
-                point.viscous_unit = K::Measures::unit(&measures);
-                if let Some(slot) = slots.thermal {
-                    point.entropy = view.state.entropies.values()[slot];
-                    point.prescribed = view.prescribed_at_stages(slot);
-                }
+            for (point, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
+                let (slots, kinematics) = (in_state.slots(), &in_state.kinematics);
+                let measures = kinematics.measure(&r0);
+                shorten::<K, D>(nodes, kinematics.length(&measures), old.lengths);
                 let x0 = variables(&in_state.model, measures.as_ref(), slots, view.state);
+                let (unit, source) = (K::Measures::unit(&measures), &mut point.source);
+                (source.equations_mut().point_mut()).begin(unit, slots.thermal, view);
                 source.begin(in_state, &x0, &r0);
-                source.hold();
+                source.equations_mut().hold();
             }
         }
         Ok(())
@@ -172,8 +170,8 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
     ) -> Result<(), StateError> {
         for (member, stages) in (self.elements.members.iter_mut()).zip(&mut self.members) {
             let arms = StageArms::new(self.rule, &member.site.nodes, (view, trial));
-            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_mut()) {
-                source.evaluate(in_state, (view, trial), &arms)?;
+            for (point, in_state) in stages.points.iter_mut().zip(member.points.as_mut()) {
+                (point.source).evaluate(in_state, (view, &trial.interface), &arms)?;
             }
         }
         match system {
@@ -190,15 +188,16 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
             for (set, motion) in motions.iter_mut().enumerate().take(rule.sets()) {
                 *motion = stages.site.sets[set][set].motion_in(solution);
             }
-            for source in &mut stages.points {
+            for point in &mut stages.points {
                 let (strains, heat) = local.inputs.split_at_mut(rule.sets() * C::FORCES);
-                source.inputs(&motions, strains);
+                point.source.inputs(&motions, strains);
                 for (stage, input) in heat.iter_mut().enumerate() {
-                    *input = source.point().heat_change(stage, solution);
+                    *input = point.heat_change(rule, stage, solution);
                 }
-                source.hold();
-                largest = Scalar::maximum(largest, source.correct(local));
-                source.apply(1.0);
+                let equations = point.source.equations_mut();
+                equations.hold();
+                largest = Scalar::maximum(largest, equations.correct(local));
+                equations.apply(1.0);
             }
         }
         largest
@@ -206,16 +205,16 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
 
     fn apply(&mut self, share: f64) {
         for stages in &mut self.members {
-            for source in &mut stages.points {
-                source.apply(share);
+            for point in &mut stages.points {
+                point.source.equations_mut().apply(share);
             }
         }
     }
 
     fn hold(&mut self) {
         for stages in &mut self.members {
-            for source in &mut stages.points {
-                source.hold();
+            for point in &mut stages.points {
+                point.source.equations_mut().hold();
             }
         }
     }
@@ -234,15 +233,15 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             let nodes = &stages.site.first().nodes;
             let arms = StageArms::new(self.rule, nodes, (view, trial));
-            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
-                let force = source.nodal_force(stage, &arms);
+            for (point, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
+                let force = point.source.nodal_force(stage, &arms);
                 for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                     for (sum, &force) in impulses.of(node as usize).iter_mut().zip(force) {
                         *sum -= view.step * force;
                     }
                 }
                 if stage == 0 && !magnitudes.is_empty() {
-                    let magnitude = source.impulse_size(in_state, view.step);
+                    let magnitude = point.source.impulse_size(in_state, view.step);
                     for &node in nodes.as_ref() {
                         magnitudes[node as usize] += magnitude;
                     }
@@ -265,8 +264,8 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
             let site = stages.site.first();
             let mut known = arms_in::<K, D>(&site.nodes, &view.state.positions);
             site.add_anchors(&mut known, trial.displacements_of_set(set));
-            for source in &stages.points {
-                let weights = source.secant(stage);
+            for point in &stages.points {
+                let weights = point.source.secant(stage);
                 stages.site.add_secant(&weights, impulse, values);
                 site.subtract_known(&weights, (&known, impulse), right);
             }
@@ -282,14 +281,15 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
     ) -> Result<(), StateError> {
         for (member, stages) in (self.elements.members.iter_mut()).zip(&mut self.members) {
             let r1 = member.arms_in(next);
-            for (source, in_state) in stages.points.iter_mut().zip(member.points.as_mut()) {
-                source.close(in_state, (view, trial, &r1), next, tally)?;
+            for (point, in_state) in stages.points.iter_mut().zip(member.points.as_mut()) {
+                let outside = (point.contacts.as_ref().map(paths_of), &trial.interface);
+                (point.source).close(in_state, &r1, (view, outside), (next, tally))?;
             }
             if tally.care == Care::Thorough {
                 let nodes = member.site.nodes.as_ref();
                 let ways = StageWays::new(self.rule, nodes, (view, trial));
-                for source in &stages.points {
-                    tally.force(source.work_along(&ways, &r1));
+                for point in &stages.points {
+                    tally.force(point.source.work_along(&ways, &r1));
                 }
             }
         }
@@ -298,8 +298,8 @@ impl<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize> Gro
 
     fn reevaluate(&self, ends: [&State; 2], reevaluation: &mut Reevaluation) {
         for (member, stages) in self.elements.members.iter().zip(&self.members) {
-            for (source, in_state) in stages.points.iter().zip(member.points.as_ref()) {
-                source.reevaluate(in_state, &member.site.nodes, ends, reevaluation);
+            for (point, in_state) in stages.points.iter().zip(member.points.as_ref()) {
+                (point.source).reevaluate(in_state, &member.site.nodes, ends, reevaluation);
             }
         }
     }

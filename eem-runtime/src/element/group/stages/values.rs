@@ -9,128 +9,77 @@
 //! sets; their inputs are `y = (π…, Q…)`.
 
 mod at_stage;
+mod local;
 
-use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
+use super::point::{LocalStages, Outside, StageArms, StagePoint, StatePoint};
 use super::source::Source;
-use crate::element::conduction::Partner;
-use crate::element::conjugates::{Any, Infeasible};
+use crate::element::conduction::InterfaceTemperatures;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, measures_in, resultant};
 use crate::element::group::closing::pull;
-use crate::element::group::point::grown;
-use crate::element::group::respond::check_temperature;
-use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Weights};
-use crate::element::layout::Slots;
+use crate::element::group::view::StepView;
+use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Weights};
 use crate::element::state::State;
-use crate::element::tableau::{Ending, EntropyBalance, MOST_SETS, MOST_STAGES};
+use crate::element::tableau::{Ending, MOST_SETS, MOST_STAGES};
 use crate::element::tally::Tally;
-use at_stage::AtStage;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
-use eem_material::number::scalar::Scalar;
+use local::StageValues;
 
-/// A point with its variables and the model at the stages.
+/// A point among its nodes with its variables and the model at the stages.
 pub(crate) struct Values<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> {
-    point: StagePoint<K, D>,
-    /// The old variables `(π, γ, θ)⁰`.
-    old: M::Variables,
-    /// The trial variables at the stages.
-    x: [M::Variables; MOST_STAGES],
-    /// Those before the last correction, and the correction; temperatures only at the stages whose
-    /// temperatures are unknowns.
-    previous: [M::Variables; MOST_STAGES],
-    correction: [M::Variables; MOST_STAGES],
-    stages: [AtStage<M>; MOST_STAGES],
+    kinematics: K,
+    equations: StageValues<M>,
     /// `∂π/∂r`.
     gradients: [Gradient<K, D>; MOST_STAGES],
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M, K, D> {
-    const FORCES: usize = M::MEASURES;
+    type Equations = StageValues<M>;
 
     type Bases = ();
 
-    fn new(point: StagePoint<K, D>) -> Self {
-        let zeros = [M::Variables::filled(0.0); MOST_STAGES];
+    fn new(kinematics: K, point: StagePoint) -> Self {
         let nowhere = Arms::<K, D>::filled([0.0; D]);
         Self {
-            point,
-            old: zeros[0],
-            x: zeros,
-            previous: zeros,
-            correction: zeros,
-            stages: [(); MOST_STAGES].map(|()| AtStage::zero()),
+            kinematics,
+            equations: StageValues::new(point),
             gradients: [Gradient::<K, D>::filled(nowhere); MOST_STAGES],
         }
     }
 
-    fn point(&self) -> &StagePoint<K, D> {
-        &self.point
+    fn equations(&self) -> &StageValues<M> {
+        &self.equations
     }
 
-    fn point_mut(&mut self) -> &mut StagePoint<K, D> {
-        &mut self.point
+    fn equations_mut(&mut self) -> &mut StageValues<M> {
+        &mut self.equations
     }
 
     fn begin(&mut self, _: &StatePoint<M, K, D>, x0: &M::Variables, r0: &Arms<K, D>) {
-        let gradient = (self.point.kinematics).gradient(r0, &measures_in::<K::Measures>(x0));
+        let gradient = (self.kinematics).gradient(r0, &measures_in::<K::Measures>(x0));
         self.gradients = [gradient; MOST_STAGES];
-        (self.old, self.x) = (*x0, [*x0; MOST_STAGES]);
-        let prescribed = self.point.prescribed.into_iter().flatten();
-        for (x, theta) in self.x.iter_mut().zip(prescribed) {
-            x[Self::TEMPERATURE] = theta;
-        }
+        self.equations.begin(x0);
     }
 
     fn evaluate(
         &mut self,
         in_state: &mut StatePoint<M, K, D>,
-        (view, trial): (&StepView<'_>, &Trial<D>),
+        (view, interface): (&StepView<'_>, &InterfaceTemperatures),
         arms: &StageArms<K, D>,
     ) -> Result<(), StateError> {
-        let (rule, kinematics) = (self.point.rule, self.point.kinematics);
+        let (rule, kinematics) = (self.equations.point.rule, self.kinematics);
         for stage in 0..rule.stages() {
             // The measures of a known stage are those of the old state.
             if let Some(set) = rule.set_of(stage) {
                 let r = arms.of_set(set);
                 let measures = in_state.admissible_measures(&r)?;
                 self.gradients[stage] = kinematics.gradient(&r, &measures);
-                self.x[stage].as_mut()[..M::MEASURES].copy_from_slice(measures.as_ref());
+                self.equations.set_measures(stage, measures.as_ref());
             }
-            let heat = match in_state.slots().thermal {
-                Some(slot) => heat_received(rule, stage, slot, (view, trial)),
-                None => 0.0,
-            };
-            self.evaluate_stage(in_state, view, (stage, heat))?;
+            self.equations
+                .evaluate(&mut in_state.point, stage, (view, interface))?;
         }
         Ok(())
-    }
-
-    fn write_equations(
-        &mut self,
-        _: &StatePoint<M, K, D>,
-        local: &mut LocalStages,
-        view: &StepView<'_>,
-    ) -> Result<(), StateError> {
-        self.write_creep(local, view.step);
-        let unknowns = local.unknowns();
-        let first = self.point.rule.sets() * self.point.dashpots;
-        for (set, balance) in self.point.rule.entropies.iter().enumerate() {
-            if M::THERMAL && self.point.prescribed.is_none() {
-                self.write_balance(local, (first + set, balance), view.step);
-            } else if M::THERMAL {
-                // δθ = 0
-                local.matrix[(first + set) * (unknowns + 1)] = 1.0;
-            }
-        }
-        Ok(())
-    }
-
-    fn force(&self, local: &mut LocalStages, [stage, measure]: [usize; 2]) -> f64 {
-        let at_stage = &self.stages[stage];
-        self.differentiate(local, stage, &at_stage.hessian[measure]);
-        self.point.eliminate(local);
-        at_stage.gradient[measure]
     }
 
     fn bases(&self) {}
@@ -140,23 +89,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
     }
 
     fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, D>) -> Blocks<K, D> {
-        let stage = self.point.rule.stage_of(set);
-        let [measures, forces] = self.measures_and_forces(stage);
+        let stage = self.equations.point.rule.stage_of(set);
+        let [measures, forces] = self.equations.measures_and_forces::<K::Measures>(stage);
         let r = arms.of_set(set);
-        self.point.kinematics.curvature(&r, &measures, &forces)
-    }
-
-    fn temperature(&self, local: &mut LocalStages, set: usize) -> f64 {
-        let mut by = M::Variables::filled(0.0);
-        by[Self::TEMPERATURE] = 1.0;
-        let stage = self.point.rule.entropies[set].unknown;
-        self.differentiate(local, stage, &by);
-        self.point.eliminate(local);
-        self.theta(stage)
+        self.kinematics.curvature(&r, &measures, &forces)
     }
 
     fn by_arms(&self, (): &(), local: &LocalStages) -> [Arms<K, D>; MOST_SETS] {
-        let rule = self.point.rule;
+        let rule = self.equations.point.rule;
         let measures = local.row[1..].chunks_exact(M::MEASURES);
         let mut by_arm = [Arms::<K, D>::filled([0.0; D]); MOST_SETS];
         let sets = by_arm.iter_mut().take(rule.sets()).zip(measures);
@@ -171,66 +111,16 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
 
     fn inputs(&self, motions: &[Arms<K, D>; MOST_SETS], inputs: &mut [f64]) {
         for (set, measures) in inputs.chunks_exact_mut(M::MEASURES).enumerate() {
-            let rows = self.gradients[self.point.rule.stage_of(set)].as_ref();
+            let rows = self.gradients[self.equations.point.rule.stage_of(set)].as_ref();
             for (input, row) in measures.iter_mut().zip(rows) {
                 *input = along::<K, D>(row, &motions[set]);
             }
         }
     }
 
-    fn hold(&mut self) {
-        self.previous = self.x;
-        self.correction = [M::Variables::filled(0.0); MOST_STAGES];
-    }
-
-    fn correct(&mut self, local: &LocalStages) -> f64 {
-        let rule = self.point.rule;
-        let temperatures = rule.sets() * self.point.dashpots;
-        let mut largest = 0.0;
-        for u in 0..local.unknowns() {
-            let change = local.change(&self.point.solved, u);
-            let (stage, index, scale) = if u < temperatures {
-                let stage = rule.stage_of(u / self.point.dashpots);
-                let index = M::MEASURES + u % self.point.dashpots;
-                (stage, index, self.point.viscous_unit)
-            } else {
-                let stage = rule.entropies[u - temperatures].unknown;
-                (stage, Self::TEMPERATURE, self.theta(stage))
-            };
-            self.correction[stage][index] = change;
-            largest = Scalar::maximum(largest, (change / scale).abs());
-        }
-        largest
-    }
-
-    /// Viscous stretches linearly, temperatures in their logarithms, so that they stay positive.
-    fn apply(&mut self, fraction: f64) {
-        let rule = self.point.rule;
-        for stage in rule.known..rule.stages() {
-            for index in M::MEASURES..M::MEASURES + self.point.dashpots {
-                let change = fraction * self.correction[stage][index];
-                self.x[stage][index] = self.previous[stage][index] + change;
-            }
-        }
-        if !M::THERMAL || self.point.prescribed.is_some() {
-            return;
-        }
-        for stage in rule.entropies.iter().map(|balance| balance.unknown) {
-            let change = fraction * self.correction[stage][Self::TEMPERATURE];
-            self.x[stage][Self::TEMPERATURE] =
-                grown(self.previous[stage][Self::TEMPERATURE], change);
-        }
-        for (stage, shares) in rule.temperatures.iter().enumerate() {
-            let terms = shares.iter().zip(rule.entropies);
-            self.x[stage][Self::TEMPERATURE] = terms.fold(0.0, |sum, (&share, balance)| {
-                sum + share * self.theta(balance.unknown)
-            });
-        }
-    }
-
     /// With the forces of the last evaluation, along the directions at the trial.
     fn nodal_force(&self, stage: usize, arms: &StageArms<K, D>) -> K::PerNode<[f64; D]> {
-        let (rule, kinematics) = (self.point.rule, &self.point.kinematics);
+        let (rule, kinematics) = (self.equations.point.rule, &self.kinematics);
         let set = rule.set_of(stage);
         let r = set.map_or(arms.old, |set| arms.of_set(set));
         let depends_on_itself = set.is_some_and(|set| rule.positions[set][stage] != 0.0);
@@ -238,216 +128,27 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Source<M, K, D> for Values<M
             return pull::<K, D>(&self.secant(stage), &r);
         }
         let gradient = kinematics.gradient(&r, &kinematics.measure(&r));
-        let [_, forces] = self.measures_and_forces(stage);
+        let [_, forces] = self.equations.measures_and_forces::<K::Measures>(stage);
         resultant::<K, D>(&gradient, &forces)
     }
 
     fn secant(&self, stage: usize) -> Weights<K, D> {
-        let [measures, forces] = self.measures_and_forces(stage);
+        let [measures, forces] = self.equations.measures_and_forces::<K::Measures>(stage);
         let nowhere = Arms::<K, D>::filled([0.0; D]);
         // At rest in the stage; the secant of an element with one point does not depend on the arms.
-        let ends = Ends::new(&self.point.kinematics, [nowhere; 2], [measures; 2]);
-        self.point.kinematics.secant(&ends, &forces)
+        let ends = Ends::new(&self.kinematics, [nowhere; 2], [measures; 2]);
+        self.kinematics.secant(&ends, &forces)
     }
 
     fn close(
         &mut self,
         in_state: &mut StatePoint<M, K, D>,
-        (view, _, r1): (&StepView<'_>, &Trial<D>, &Arms<K, D>),
-        next: &mut State,
-        _: &mut Tally,
+        r1: &Arms<K, D>,
+        (view, _): (&StepView<'_>, Outside<'_>),
+        (next, _): (&mut State, &mut Tally),
     ) -> Result<(), StateError> {
-        let received = self.book(in_state.slots(), view, next);
-        let near = self.theta(self.point.rule.stages() - 1);
         let measures = in_state.admissible_measures(r1)?;
-        if let Some(entropy) =
-            in_state.recover_temperature::<Any>(&measures, view, (near, None), next)?
-        {
-            self.book_thermostat(view.step, [entropy, received], next);
-        }
-        Ok(())
-    }
-}
-
-impl<M: Material, K: Kinematics<D>, const D: usize> Values<M, K, D> {
-    /// The index of the last variable, the temperature of elements that have one.
-    const TEMPERATURE: usize = M::Variables::LEN - 1;
-
-    /// The temperature of a stage, K; without meaning for elements that have none.
-    fn theta(&self, stage: usize) -> f64 {
-        self.x[stage][Self::TEMPERATURE]
-    }
-
-    fn measures_and_forces(&self, stage: usize) -> [Measures<K, D>; 2] {
-        [&self.x[stage], &self.stages[stage].gradient].map(measures_in::<K::Measures>)
-    }
-
-    /// Evaluates the model at a stage whose variables are known, with the heat from other elements, W.
-    fn evaluate_stage(
-        &mut self,
-        in_state: &mut StatePoint<M, K, D>,
-        view: &StepView<'_>,
-        (stage, heat): (usize, f64),
-    ) -> Result<(), StateError> {
-        let (theta, at_stage) = (self.theta(stage), &mut self.stages[stage]);
-        if M::THERMAL {
-            check_temperature(in_state.element, theta)?;
-        }
-        (at_stage.gradient, at_stage.hessian) = in_state.model.hessian(&self.x[stage]);
-        let mut values = at_stage.gradient.as_ref().iter();
-        if let Some(value) = values.find(|value| !value.is_finite()) {
-            return Err(StateError::NotFinite {
-                element: in_state.element,
-                quantity: "force or entropy",
-                value: *value,
-            });
-        }
-        in_state.find_viscosities(theta, None)?;
-        let dissipation_by = at_stage.creep(in_state.dashpots(), &in_state.viscosities);
-        let Some(slot) = in_state.slots().thermal else {
-            return Ok(());
-        };
-        let slope = at_stage.entropy_by()[Self::TEMPERATURE];
-        Infeasible::unless_stable(theta * slope, theta)
-            .map_err(|infeasible| infeasible.of(in_state.element))?;
-        let mut flow = view.conduction.reservoir_flow(slot, theta);
-        flow.heat += heat;
-        at_stage.warm(theta, &flow, &dissipation_by);
-        Ok(())
-    }
-
-    /// Writes the derivatives of a quantity of a stage, given those with respect to x, to the row of the workspace.
-    fn differentiate(&self, local: &mut LocalStages, stage: usize, by: &M::Variables) {
-        let rule = self.point.rule;
-        let (measures, rest) = by.as_ref().split_at(M::MEASURES);
-        let dashpots = &rest[..self.point.dashpots];
-        local.clear_row();
-        if let Some(set) = rule.set_of(stage) {
-            let first = 1 + set * M::MEASURES;
-            local.row[first..first + M::MEASURES].copy_from_slice(measures);
-            let first = set * self.point.dashpots;
-            local.by_unknown[first..first + dashpots.len()].copy_from_slice(dashpots);
-        }
-        if M::THERMAL && self.point.prescribed.is_none() {
-            let thetas = &mut local.by_unknown[rule.sets() * self.point.dashpots..];
-            for (entry, &share) in thetas.iter_mut().zip(rule.temperatures[stage]) {
-                *entry = share * by[Self::TEMPERATURE];
-            }
-        }
-    }
-
-    /// Writes the equations of the viscous stretches.
-    fn write_creep(&mut self, local: &mut LocalStages, h: f64) {
-        let rule = self.point.rule;
-        for (set, weights) in rule.rates.iter().enumerate() {
-            for k in 0..self.point.dashpots {
-                let (equation, index) = (set * self.point.dashpots + k, M::MEASURES + k);
-                let mut residual = self.x[rule.stage_of(set)][index] - self.old[index];
-                let diagonal = equation * (local.unknowns() + 1);
-                local.matrix[diagonal] = 1.0;
-                for (stage, &weight) in weights.iter().enumerate() {
-                    let weight = -h * weight;
-                    residual += weight * self.stages[stage].rates[index];
-                    self.differentiate(local, stage, &self.stages[stage].rates_by[index]);
-                    self.point.add_row(local, equation, weight);
-                }
-                self.point.solved[equation] = residual;
-            }
-        }
-    }
-
-    /// Writes an equation of the entropies, if the temperature is free.
-    fn write_balance(
-        &mut self,
-        local: &mut LocalStages,
-        (equation, balance): (usize, &EntropyBalance),
-        h: f64,
-    ) {
-        let rule = self.point.rule;
-        let unknowns = local.unknowns();
-        let mut residual = -balance.old * self.point.entropy;
-        for (stage, &weight) in balance.entropies.iter().enumerate() {
-            if weight != 0.0 {
-                residual += weight * self.stages[stage].entropy();
-                self.differentiate(local, stage, &self.stages[stage].entropy_by());
-                self.point.add_row(local, equation, weight);
-            }
-        }
-        for (stage, &weight) in balance.rates.iter().enumerate() {
-            if weight != 0.0 {
-                let weight = -h * weight;
-                residual += weight * self.stages[stage].rates[Self::TEMPERATURE];
-                self.differentiate(
-                    local,
-                    stage,
-                    &self.stages[stage].rates_by[Self::TEMPERATURE],
-                );
-                self.point.add_row(local, equation, weight);
-                let heat = 1 + rule.sets() * M::MEASURES + stage;
-                self.point.solved[heat * unknowns + equation] = weight / self.theta(stage);
-            }
-        }
-        self.point.solved[equation] = residual;
-        // Newton's method on θ r, which is far less curved than r where conduction is stiff, and zero
-        // where it is.
-        let scaled = residual / self.theta(balance.stage);
-        let row = &mut local.matrix[equation * unknowns + rule.sets() * self.point.dashpots..];
-        for (entry, &share) in row.iter_mut().zip(rule.temperatures[balance.stage]) {
-            *entry += share * scaled;
-        }
-    }
-
-    /// Books the increments of the internal variables and of the reservoirs' entropies; returns the entropy that dashpots
-    /// and conduction gave to the point, J/K.
-    fn book(&self, slots: Slots, view: &StepView<'_>, next: &mut State) -> f64 {
-        let (stages, old) = (&self.stages, view.state);
-        let over_step = |of: &dyn Fn(usize) -> f64| {
-            let terms = self.point.rule.weights.iter().enumerate();
-            terms.fold(0.0, |sum, (stage, &weight)| {
-                sum + view.step * weight * of(stage)
-            })
-        };
-        for k in 0..self.point.dashpots {
-            let creep = over_step(&|stage| stages[stage].rates[M::MEASURES + k]);
-            (next.viscous).advance(slots.viscous + k, &old.viscous, creep);
-        }
-        let Some(slot) = slots.thermal else {
-            let heat = over_step(&|stage| stages[stage].dissipation);
-            next.dissipated.add(heat);
-            return 0.0;
-        };
-        let received = over_step(&|stage| stages[stage].rates[Self::TEMPERATURE]);
-        next.entropies.advance(slot, &old.entropies, received);
-        for link in view.conduction.links(slot) {
-            if let Partner::Reservoir(index) = link.partner {
-                let theta = view.conduction.reservoirs[index];
-                let flow = |stage: usize| link.conductance * (self.theta(stage) - theta) / theta;
-                next.reservoir_entropies.add(index, over_step(&flow));
-            }
-        }
-        received
-    }
-
-    /// Books the heat of the thermostat of an element whose new entropy is given: at the stages it gives what the equations
-    /// of the rule need with the prescribed temperatures, at the last stage the rest of the total.
-    fn book_thermostat(&self, h: f64, [new_entropy, received]: [f64; 2], next: &mut State) {
-        let total = new_entropy - self.point.entropy - received;
-        let mut rest = total;
-        for balance in self.point.rule.entropies {
-            let mut defect = -balance.old * self.point.entropy;
-            let terms = balance.entropies.iter().zip(balance.rates);
-            for ((&entropy, &rate), stage) in terms.zip(&self.stages) {
-                defect += entropy * stage.entropy();
-                defect -= h * rate * stage.rates[Self::TEMPERATURE];
-            }
-            for (stage, &supply) in balance.supply.iter().enumerate() {
-                let given = supply * defect;
-                next.heat.add(self.theta(stage) * given);
-                rest -= given;
-            }
-        }
-        let stages = self.point.rule.stages();
-        next.heat.add(self.theta(stages - 1) * rest);
-        next.thermostat_entropy.add(-total);
+        self.equations
+            .close(&mut in_state.point, &measures, view, next)
     }
 }

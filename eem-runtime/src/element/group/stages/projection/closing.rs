@@ -8,26 +8,51 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat at every stage, see
 //! [`conduction`](crate::element::conduction).
 
-use super::Projections;
+use super::path::PointPath;
 use crate::element::balances::{Balances, Received, reservoir_correction};
-use crate::element::group::stages::point::StatePoint;
-use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, MeasureSet, PerStrain, QuadraticStrain};
+use crate::element::conjugates::Any;
+use crate::element::error::StateError;
+use crate::element::group::point::Point;
+use crate::element::group::stages::point::Outside;
+use crate::element::group::view::StepView;
+use crate::element::kinematics::{MeasureSet, MeasuresOf, StrainMeasures};
 use crate::element::state::State;
-use crate::element::tableau::MOST_STAGES;
+use crate::element::tableau::{MOST_POINTS, MOST_STAGES};
 use crate::element::tally::{Care, Tally};
-use eem_material::free_energy::{Array, Material};
+use eem_material::free_energy::Material;
 use eem_material::number::scalar::Scalar;
 
 /// Heat and entropy received in a step, stage by stage.
-pub(super) type Booked = [Received; MOST_STAGES];
+type Booked = [Received; MOST_STAGES];
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
+impl<M: Material, G: StrainMeasures> PointPath<M, G> {
+    /// Closes the step at the new measures, except for the impulses of its forces.
+    pub(super) fn close(
+        &mut self,
+        in_state: &mut Point<M, G::Measures>,
+        measures: &MeasuresOf<G>,
+        (view, outside): (&StepView<'_>, Outside<'_>),
+        (next, tally): (&mut State, &mut Tally),
+    ) -> Result<(), StateError> {
+        let booked = self.book(in_state, (view, outside), next, tally);
+        let near = self.temperatures[MOST_POINTS];
+        if let Some(entropy) =
+            in_state.recover_temperature::<Any>(measures, view, (near, None), next)?
+        {
+            self.book_thermostat(&booked, entropy, next);
+        }
+        let energy = &mut next.energies[in_state.element.index()];
+        energy.terms += self.forces_at_end();
+        let magnitude = energy.magnitude;
+        self.certify(in_state, (view, outside), (&booked, magnitude), tally);
+        Ok(())
+    }
+
     /// Books the increments of the internal variables and of the reservoirs' entropies.
-    pub(super) fn book(
+    fn book(
         &self,
-        in_state: &StatePoint<M, K, D>,
-        (view, trial): (&StepView<'_>, &Trial<D>),
+        in_state: &Point<M, G::Measures>,
+        (view, outside): (&StepView<'_>, Outside<'_>),
         next: &mut State,
         tally: &mut Tally,
     ) -> Booked {
@@ -48,7 +73,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         let weights = self.point.rule.weights.iter();
         for ((stage, &weight), received) in weights.enumerate().zip(&mut booked) {
             let share = view.step * weight;
-            self.book_paths((stage, share), slot, trial, &mut balances, received);
+            self.book_paths((stage, share), slot, outside, &mut balances, received);
             let theta = self.mean_temperature(stage);
             let correction = self.reservoir_correction((stage, share), slot, view, received.heat);
             let share = (share, [theta, correction]);
@@ -60,7 +85,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// Books the viscous stretches; returns heat and entropy of the dashpots.
     fn book_dashpots(
         &self,
-        in_state: &StatePoint<M, K, D>,
+        in_state: &Point<M, G::Measures>,
         view: &StepView<'_>,
         next: &mut State,
         tally: &mut Tally,
@@ -104,17 +129,15 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
         &self,
         (stage, share): (usize, f64),
         slot: usize,
-        trial: &Trial<D>,
+        (paths, interface): Outside<'_>,
         balances: &mut Balances<'_>,
         received: &mut Received,
     ) {
-        let Some(contacts) = &self.point.contacts else {
-            return;
-        };
-        for site in &contacts[stage][stage].paths {
+        for site in paths.map_or(&[][..], |paths| paths[stage]) {
             let other = site.slot as usize;
-            let [own, far] = [slot, other].map(|slot| trial.interface_of_set(stage, slot));
-            let path = trial.interface.exchange(share * site.conductance, own, far);
+            let of_set = |slot| interface.of_set(self.point.rule, stage, slot);
+            let [own, far] = [slot, other].map(of_set);
+            let path = interface.exchange(share * site.conductance, own, far);
             let path = (site.link, &path);
             balances.conduct([slot, other], path, received);
         }
@@ -141,7 +164,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
 
     /// Books the heat of the thermostat of an element whose new entropy is given, stage by stage; the rounding of the
     /// entropy at the last one.
-    pub(super) fn book_thermostat(&self, booked: &Booked, entropy: f64, next: &mut State) {
+    fn book_thermostat(&self, booked: &Booked, entropy: f64, next: &mut State) {
         let rule = self.point.rule;
         let mut total = entropy - self.point.entropy;
         let mut heat = self.heat_beyond;
@@ -167,25 +190,16 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
 
     /// Adds the terms of its forces, and checks the balances of its internal variables, given the magnitude of the terms of
     /// its energy, J.
-    pub(super) fn certify(
+    fn certify(
         &self,
-        in_state: &StatePoint<M, K, D>,
-        (view, trial): (&StepView<'_>, &Trial<D>),
+        in_state: &Point<M, G::Measures>,
+        (view, (paths, interface)): (&StepView<'_>, Outside<'_>),
         (booked, energy): (&Booked, f64),
         tally: &mut Tally,
     ) {
         let weights = self.point.rule.weights;
         let forces = self.amplitude(tally.care);
         tally.force(forces);
-        // h Σ b |F|, each F limited by those at the ends: the rounding of larger forces, which cancel, is an error.
-        let [old_slopes, new_slopes] = &self.end_slopes;
-        let at_ends = |q: usize| Scalar::maximum(old_slopes[q].abs(), new_slopes[q].abs());
-        let impulse = weights.iter().enumerate();
-        let impulse = impulse.fold(0.0, |sum, (stage, &weight)| {
-            let size = |q: usize| Scalar::minimum(self.conjugates[stage][q].abs(), at_ends(q));
-            sum + view.step * weight * self.force_size(&self.arms[stage], size)
-        });
-        tally.exchange(impulse);
         for k in 0..self.point.dashpots {
             let half = 0.5 * self.stiffness[k];
             tally.see_relaxation(view.step, half, self.viscosities[0].0[k]);
@@ -216,18 +230,35 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
                 let terms = theta * received.terms;
                 tally.balance(defect, taken.abs() + terms + energy + forces);
             }
-            if self.point.contacts.is_some()
+            if paths.is_some()
                 && let Some(slot) = in_state.slots().thermal
             {
-                let interface = trial.interface.values()[trial.interface_of_set(stage, slot)];
+                let at = interface.of_set(self.point.rule, stage, slot);
                 let terms = self.size_of_conjugate([stage, last], tally.care);
-                tally.balance(interface - theta, terms);
+                tally.balance(interface.values()[at] - theta, terms);
             }
         }
     }
 
+    /// `Σ b (a·R − heat) + μ w`, the change of energy by the path, J.
+    pub(super) fn change_of_energy(&self) -> f64 {
+        let mut found = 0.0;
+        for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
+            let work = self.conjugates[stage].dot(&self.rates[stage]);
+            found += weight * (work - self.viscous_heat[stage]);
+        }
+        found + self.heat_beyond
+    }
+
+    /// The size of a conjugate of the strain, limited by those at the ends of the path.
+    pub(super) fn limited_size(&self, [stage, q]: [usize; 2]) -> f64 {
+        let [old, new] = &self.end_slopes;
+        let at_ends = Scalar::maximum(old[q].abs(), new[q].abs());
+        Scalar::minimum(self.conjugates[stage][q].abs(), at_ends)
+    }
+
     /// The size of a conjugate, for a thorough bound with its conditioning error, in units of ε.
-    fn size_of_conjugate(&self, [stage, index]: [usize; 2], care: Care) -> f64 {
+    pub(super) fn size_of_conjugate(&self, [stage, index]: [usize; 2], care: Care) -> f64 {
         let size = self.conjugates[stage][index].abs();
         match care {
             Care::Quick => size,
@@ -256,7 +287,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             }
         }
         // Strains of solids are ratios, whose sizes are unrelated to the motion.
-        if K::Measures::IS_SPRING && care == Care::Quick {
+        if G::Measures::IS_SPRING && care == Care::Quick {
             return sum;
         }
         for (stage, &weight) in weights.iter().enumerate() {
@@ -278,7 +309,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     }
 
     /// `Σ|f||π| + Σ|g||γ|` of the new state, J.
-    pub(super) fn forces_at_end(&self) -> f64 {
+    fn forces_at_end(&self) -> f64 {
         let strains = Self::STRAINS;
         (0..Self::ENTROPY).fold(0.0, |sum, index| {
             let size = self.size_at_end(1, index);
@@ -286,14 +317,5 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             // λ ∂e/∂λ = 2 C ∂ê/∂C
             sum + if index < strains { work + work } else { work }
         })
-    }
-
-    /// The magnitude of the terms of the force on the nodes with these arms, given that of each conjugate of the strain, N.
-    pub(super) fn force_size(&self, arms: &Arms<K, D>, of: impl Fn(usize) -> f64) -> f64 {
-        let mut sizes = PerStrain::<K, D>::filled(0.0);
-        for (q, size) in sizes.as_mut().iter_mut().enumerate() {
-            *size = of(q);
-        }
-        self.point.kinematics.strain_force_size(arms, &sizes)
     }
 }

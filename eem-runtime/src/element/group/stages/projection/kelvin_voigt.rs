@@ -6,18 +6,18 @@
 //!
 //! at the strain of the path, so that the heat is the work that the nodes lose.
 
-use super::Projections;
+use super::path::PointPath;
 use crate::element::error::StateError;
-use crate::element::group::stages::point::StatePoint;
-use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
+use crate::element::group::point::Point;
+use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
 use crate::element::tableau::MOST_SETS;
 use eem_material::free_energy::{Array, Material};
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
+impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// Adds the forces of the dashpot to conjugates that are exact without them.
     pub(super) fn add_kelvin_voigt(
         &mut self,
-        in_state: &mut StatePoint<M, K, D>,
+        in_state: &mut Point<M, G::Measures>,
         per_step: f64,
     ) -> Result<(), StateError> {
         if in_state.drags() == 0 {
@@ -27,7 +27,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             in_state.find_drag_viscosity(self.mean_temperature(stage))?;
             let (viscosities, slopes) = in_state.drag.viscosity;
             (self.viscous_heat[stage], self.heat_by_theta[stage]) = (0.0, 0.0);
-            self.heat_by_strain[stage] = [PerStrain::<K, D>::filled(0.0); MOST_SETS];
+            self.heat_by_strain[stage] = [PerStrain::<G>::filled(0.0); MOST_SETS];
             for a in 0..in_state.drags() {
                 let per_step = [viscosities[a] * per_step, slopes[a] * per_step];
                 self.add_kelvin_voigt_of(in_state, [stage, a], per_step)?;
@@ -39,21 +39,21 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     /// The same for a measure at a stage, given `η/h` and `(dη/dθ)/h`.
     fn add_kelvin_voigt_of(
         &mut self,
-        in_state: &StatePoint<M, K, D>,
+        in_state: &Point<M, G::Measures>,
         [stage, measure]: [usize; 2],
         [eta, slope]: [f64; 2],
     ) -> Result<(), StateError> {
         let (strains, last) = (Self::STRAINS, Self::ENTROPY);
-        let (kinematics, reaches) = (self.point.kinematics, self.point.rule.rates[stage]);
+        let (measures, reaches) = (self.measures, self.point.rule.rates[stage]);
         let strain = self.path_at(reaches).strain;
         self.measures_in_path(in_state.element, &strain)?;
-        let direction = kinematics.strain_slopes([&strain, &strain])[measure];
-        let mut unit = Measures::<K, D>::filled(0.0);
+        let direction = measures.slopes([&strain, &strain])[measure];
+        let mut unit = MeasuresOf::<G>::filled(0.0);
         unit[measure] = 1.0;
-        let turning = kinematics.strain_curvature(&strain, &unit);
+        let turning = measures.curvature(&strain, &unit);
         let rates = self.rates[stage].strain;
         // ∂P/∂C·R
-        let mut turned = PerStrain::<K, D>::filled(0.0);
+        let mut turned = PerStrain::<G>::filled(0.0);
         let mut extension = 0.0;
         for q in 0..strains {
             extension += direction[q] * rates[q];
@@ -62,7 +62,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             }
         }
         // The terms of the extension, which may cancel.
-        let sizes = kinematics.strain_sizes(&strain);
+        let sizes = measures.sizes(&strain);
         let terms = direction.as_ref().iter().zip(sizes.as_ref());
         let size = terms.fold(0.0, |sum, (&slope, &size)| sum + (slope * size).abs());
         let (force, thinning) = (eta * extension, slope * extension);

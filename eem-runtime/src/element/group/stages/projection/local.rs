@@ -9,18 +9,103 @@
 //! thermostat gives the temperature, the entropies of the path are those of the given temperatures at its
 //! supports instead.
 
-use super::Projections;
-use super::vector::chained;
+use super::path::PointPath;
+use super::vector::{Vector, chained};
 use crate::element::error::StateError;
-use crate::element::group::stages::point::{LocalStages, StatePoint};
+use crate::element::group::point::Point;
+use crate::element::group::stages::point::{LocalStages, StagePoint};
+use crate::element::group::stages::source::StageEquations;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::QuadraticStrain;
+use crate::element::kinematics::StrainMeasures;
 use crate::element::tableau::MOST_STAGES;
 use eem_material::free_energy::Material;
+use eem_material::number::scalar::Scalar;
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
+impl<M: Material, G: StrainMeasures> StageEquations<M, G::Measures> for PointPath<M, G> {
+    const FORCES: usize = Self::STRAINS;
+
+    fn point_mut(&mut self) -> &mut StagePoint {
+        &mut self.point
+    }
+
+    // All in J; the unknowns are in their units.
+    fn write_equations(
+        &mut self,
+        in_state: &Point<M, G::Measures>,
+        local: &mut LocalStages,
+        view: &StepView<'_>,
+    ) -> Result<(), StateError> {
+        let stages = 0..self.point.rule.stages();
+        for stage in stages.clone() {
+            for k in 0..self.point.dashpots {
+                self.write_creep(local, [stage, k], view.per_step);
+            }
+        }
+        let Some(slot) = in_state.slots().thermal else {
+            return Ok(());
+        };
+        if let Some(prescribed) = self.point.prescribed {
+            return self.prescribe(in_state, local, &prescribed);
+        }
+        for stage in stages {
+            let theta = self.mean_temperature(stage);
+            let flow = view.conduction.reservoir_flow(slot, theta);
+            let heat = flow.heat + self.received[stage];
+            let has_drag = in_state.drags() > 0;
+            self.write_heat(local, stage, (view, [heat, flow.conductance]), has_drag);
+        }
+        Ok(())
+    }
+
+    fn force(&self, local: &mut LocalStages, [stage, component]: [usize; 2]) -> f64 {
+        self.differentiate(local, [stage, component]);
+        self.point.eliminate(local);
+        self.conjugates[stage][component]
+    }
+
+    fn temperature(&self, local: &mut LocalStages, set: usize) -> f64 {
+        self.differentiate(local, [set, Self::ENTROPY]);
+        self.point.eliminate(local);
+        self.mean_temperature(set)
+    }
+
+    fn hold(&mut self) {
+        self.previous = self.rates;
+        self.correction = [Vector::zero(); MOST_STAGES];
+    }
+
+    fn correct(&mut self, local: &LocalStages) -> f64 {
+        let entropies = self.point.rule.sets() * self.point.dashpots;
+        let mut largest = 0.0;
+        for unknown in 0..local.unknowns() {
+            let change = local.change(&self.point.solved, unknown);
+            let (stage, index) = if unknown < entropies {
+                (
+                    unknown / self.point.dashpots,
+                    Self::STRAINS + unknown % self.point.dashpots,
+                )
+            } else {
+                (unknown - entropies, Self::ENTROPY)
+            };
+            self.correction[stage][index] = self.units[index] * change;
+            largest = Scalar::maximum(largest, change.abs());
+        }
+        largest
+    }
+
+    fn apply(&mut self, fraction: f64) {
+        for stage in 0..self.point.rule.stages() {
+            for index in Self::STRAINS..Self::LEN {
+                let change = fraction * self.correction[stage][index];
+                self.rates[stage][index] = self.previous[stage][index] + change;
+            }
+        }
+    }
+}
+
+impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// Writes the derivatives of a conjugate of a stage to the row of the workspace.
-    pub(super) fn differentiate(&self, local: &mut LocalStages, [stage, index]: [usize; 2]) {
+    fn differentiate(&self, local: &mut LocalStages, [stage, index]: [usize; 2]) {
         let (sets, strains) = (self.point.rule.sets(), Self::STRAINS);
         local.clear_row();
         for (set, by) in self.by_rates[stage].iter().enumerate().take(sets) {
@@ -52,12 +137,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     }
 
     /// The equation of a dashpot at a stage, times the unit of its stretch.
-    pub(super) fn write_creep(
-        &mut self,
-        local: &mut LocalStages,
-        [stage, k]: [usize; 2],
-        per_step: f64,
-    ) {
+    fn write_creep(&mut self, local: &mut LocalStages, [stage, k]: [usize; 2], per_step: f64) {
         let (equation, index) = (stage * self.point.dashpots + k, Self::STRAINS + k);
         let unit = self.units[index];
         let (viscosities, slopes) = &self.viscosities[stage];
@@ -76,7 +156,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
 
     /// The balance of heat at a stage, given the heat received from paths, W, and the conductance to
     /// reservoirs.
-    pub(super) fn write_heat(
+    fn write_heat(
         &mut self,
         local: &mut LocalStages,
         stage: usize,
@@ -116,9 +196,9 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     }
 
     /// The equations `θ (s(τ) − S(λ, γ, θ)) = 0` where the temperature θ is given.
-    pub(super) fn prescribe(
+    fn prescribe(
         &mut self,
-        in_state: &StatePoint<M, K, D>,
+        in_state: &Point<M, G::Measures>,
         local: &mut LocalStages,
         prescribed: &[f64; MOST_STAGES],
     ) -> Result<(), StateError> {
@@ -139,8 +219,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             let entropy = -gradient[M::MEASURES + M::DASHPOTS];
             let residual = (self.old[last] - entropy) + increment;
             self.point.solved[equation] = theta * residual;
-            let slopes = (self.point.kinematics).strain_slopes([&y.strain, &y.strain]);
-            let by_strain = chained::<K, D>(&slopes, &row.as_ref()[..M::MEASURES]);
+            let slopes = self.measures.slopes([&y.strain, &y.strain]);
+            let by_strain = chained::<G>(&slopes, &row.as_ref()[..M::MEASURES]);
             for (set, &share) in shares.iter().enumerate() {
                 let share = theta * share;
                 for (q, &by) in by_strain.as_ref().iter().enumerate() {

@@ -1,39 +1,213 @@
 //! The path of a point through a step: its beginning, its points at a trial, and the projections from them.
 
-use super::vector::{Matrix, Vector, chained, derivatives, sum_of};
-use super::{Projections, combined};
+use super::vector::{Matrix, Vector, chained, derivatives, steepness, sum_of};
+use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Infeasible, temperature_at};
 use crate::element::error::StateError;
-use crate::element::group::stages::point::{StageArms, StatePoint};
+use crate::element::group::point::Point;
+use crate::element::group::stages::point::StagePoint;
+use crate::element::group::stages::site::PerPair;
+use crate::element::group::view::StepView;
 use crate::element::handle::Element;
-use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
-use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path};
+use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
+use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES, Path};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::is_positive;
 
-/// `y = (C, γ, s)` and `x = (π, γ, θ)` at a point of a path.
-type PathPoint<M, K, const D: usize> = (Vector<M, K, D>, <M as FreeEnergy<f64>>::Variables);
+/// The path of a point through a step, and the projections from it. It knows the strain and no nodes, so that it is the same in any
+/// number of dimensions.
+pub(crate) struct PointPath<M: FreeEnergy<f64>, G: StrainMeasures> {
+    pub(super) point: StagePoint,
+    /// Its measures as functions of C.
+    pub(super) measures: G,
+    /// `y⁰ = (C, γ…, s)`, and the data of `(π, γ, θ)⁰` for the discrete derivatives.
+    pub(super) old: Vector<M, G>,
+    old_form: M::TemperatureFormOld,
+    /// The units of the increments of γ and s: that of viscous stretches, the old heat capacity.
+    pub(super) units: Vector<M, G>,
+    /// The diagonal of W.
+    pub(super) metric: Vector<M, G>,
+    /// R: the increments h ẏ at the stages.
+    pub(super) rates: [Vector<M, G>; MOST_STAGES],
+    /// R before the last correction, and the correction, both without C.
+    pub(super) previous: [Vector<M, G>; MOST_STAGES],
+    pub(super) correction: [Vector<M, G>; MOST_STAGES],
+    /// The temperatures of the points of the path, and that of its end, K; constant in a step if they are prescribed.
+    pub(super) temperatures: [f64; MOST_POINTS + 1],
+    /// w, of prescribed temperatures, and μ w, J.
+    pub(super) warming: f64,
+    pub(super) heat_beyond: f64,
+    /// y¹, and `∇ê` and the magnitudes of the terms of C at both ends.
+    pub(super) end: Vector<M, G>,
+    pub(super) end_slopes: [Vector<M, G>; 2],
+    pub(super) end_sizes: [PerStrain<G>; 2],
+    /// a.
+    pub(super) conjugates: [Vector<M, G>; MOST_STAGES],
+    /// `∂a_i/∂R_j`.
+    pub(super) by_rates: Box<PerPair<Matrix<M, G>>>,
+    /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, the conditioning error of the conjugates.
+    pub(super) conditioning: [Vector<M, G>; MOST_STAGES],
+    /// `|∂²ψ/∂γ_k²|` in the old state, N/m.
+    pub(super) stiffness: M::Viscosities,
+    /// `η_k` and `dη_k/dθ` at `Θ_i`.
+    pub(super) viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
+    /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives with respect to the temperature
+    /// and, at constant temperature, to the increments of C.
+    pub(super) viscous_heat: [f64; MOST_STAGES],
+    pub(super) heat_by_theta: [f64; MOST_STAGES],
+    pub(super) heat_by_strain: PerPair<PerStrain<G>>,
+    /// Heat from other elements at the stages, W.
+    pub(super) received: [f64; MOST_STAGES],
+}
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
-    /// Finds arms, their motion and the increments of C at the stages.
-    pub(super) fn move_along(
-        &mut self,
-        in_state: &StatePoint<M, K, D>,
-        arms: &StageArms<K, D>,
-    ) -> Result<(), StateError> {
-        let kinematics = &self.point.kinematics;
-        for (stage, row) in self.point.rule.motion.iter().enumerate() {
-            let r = arms.of_set(stage);
-            in_state.admissible_measures(&r)?;
-            let motion = combined::<K, D>(row, &arms.changes);
-            self.rates[stage].strain = kinematics.strain_rate(&r, &motion);
-            (self.arms[stage], self.motions[stage]) = (r, motion);
+impl<M: Material, G: StrainMeasures> PointPath<M, G> {
+    /// Number of variables y, of components of the strain among them, and the index of the entropy.
+    pub(super) const LEN: usize = Vector::<M, G>::LEN;
+    pub(super) const STRAINS: usize = Vector::<M, G>::STRAINS;
+    pub(super) const ENTROPY: usize = Vector::<M, G>::ENTROPY;
+
+    pub(super) fn new(measures: G, point: StagePoint) -> Self {
+        let (none, zeros) = (0.0, Vector::zero());
+        let viscosities = M::Viscosities::filled(none);
+        let strain = PerStrain::<G>::filled(none);
+        Self {
+            point,
+            measures,
+            old: zeros,
+            old_form: M::TemperatureFormOld::filled(none),
+            units: zeros,
+            metric: zeros,
+            rates: [zeros; MOST_STAGES],
+            previous: [zeros; MOST_STAGES],
+            correction: [zeros; MOST_STAGES],
+            temperatures: [none; MOST_POINTS + 1],
+            warming: none,
+            heat_beyond: none,
+            end: zeros,
+            end_slopes: [zeros; 2],
+            end_sizes: [strain; 2],
+            conjugates: [zeros; MOST_STAGES],
+            by_rates: Box::new([[Matrix::zero(); MOST_SETS]; MOST_SETS]),
+            conditioning: [zeros; MOST_STAGES],
+            stiffness: viscosities,
+            viscosities: [(viscosities, viscosities); MOST_STAGES],
+            viscous_heat: [none; MOST_STAGES],
+            heat_by_theta: [none; MOST_STAGES],
+            heat_by_strain: [[strain; MOST_SETS]; MOST_SETS],
+            received: [none; MOST_STAGES],
         }
-        Ok(())
+    }
+
+    /// Starts the trial at the old variables and the old strain.
+    pub(super) fn begin(
+        &mut self,
+        in_state: &Point<M, G::Measures>,
+        x0: &M::Variables,
+        strain: &PerStrain<G>,
+    ) {
+        let (measures, last) = (&self.measures, M::Variables::LEN - 1);
+        let (gradient, hessian) = in_state.model.hessian(x0);
+        self.old_form = in_state.model.temperature_form_old(x0);
+        (self.old.rest, self.old.strain) = (*x0, *strain);
+        for k in 0..self.point.dashpots {
+            let row = M::MEASURES + k;
+            self.stiffness[k] = hessian[row][row].abs();
+        }
+        let (slopes, curvatures) = self.derivatives(strain, (x0, &gradient, &hessian));
+        self.end_slopes[0] = slopes;
+        self.end_sizes[0] = measures.sizes(strain);
+        let strains = 0..Self::STRAINS;
+        let (counts, unit) = measures.metric(strain);
+        let derivatives = (&slopes, &curvatures);
+        let of_strain = steepness(derivatives, strains.clone(), |q| counts[q], unit);
+        for q in strains.clone() {
+            self.metric[q] = counts[q] * of_strain;
+        }
+        let entropy = Self::ENTROPY;
+        let components = entropy - M::VISCOUS_STRAIN..entropy;
+        for index in strains.end..components.start {
+            let unit = self.point.viscous_unit;
+            self.units[index] = unit;
+            self.metric[index] = steepness(derivatives, index..index + 1, |_| 1.0, unit);
+        }
+        // Components of a tensor count alike, whatever the axes are.
+        let of_components = steepness(derivatives, components.clone(), |_| 1.0, 1.0);
+        for index in components {
+            self.units[index] = self.point.viscous_unit;
+            self.metric[index] = of_components;
+        }
+        if M::THERMAL {
+            let theta = x0[last];
+            self.old[entropy] = self.point.entropy;
+            self.units[entropy] = -theta * hessian[last][last];
+            self.metric[entropy] = curvatures.at([entropy, entropy]);
+            self.temperatures = [theta; MOST_POINTS + 1];
+            self.warming = 0.0;
+            if let Some(prescribed) = self.point.prescribed {
+                let course = self.point.rule.course(theta, &prescribed);
+                if let Some((temperatures, squares)) = course {
+                    self.temperatures = temperatures;
+                    self.warming = -hessian[last][last] * squares;
+                }
+            }
+        }
+        self.rates = [Vector::zero(); MOST_STAGES];
+    }
+
+    /// Evaluates the model along the path, given the increments of C.
+    pub(super) fn evaluate(
+        &mut self,
+        in_state: &mut Point<M, G::Measures>,
+        (view, interface): (&StepView<'_>, &InterfaceTemperatures),
+    ) -> Result<(), StateError> {
+        if let Some(slot) = in_state.slots().thermal {
+            for stage in 0..self.point.rule.stages() {
+                self.received[stage] = self.point.heat_received(stage, slot, (view, interface));
+            }
+        }
+        self.project(in_state)?;
+        let end = self.reach_end(in_state)?;
+        self.make_exact(&end);
+        self.find_viscosities(in_state)?;
+        self.add_kelvin_voigt(in_state, view.per_step)
+    }
+
+    /// Whether a thermostat prescribes its temperature.
+    fn is_held(&self) -> bool {
+        self.point.prescribed.is_some()
+    }
+
+    /// Θ of a stage, K; zero without temperature.
+    pub(super) fn mean_temperature(&self, stage: usize) -> f64 {
+        if M::THERMAL {
+            self.conjugates[stage][Self::ENTROPY]
+        } else {
+            0.0
+        }
+    }
+
+    /// `Σ_j shares_j R_j`.
+    pub(super) fn increments(&self, shares: &[f64]) -> Vector<M, G> {
+        let mut sum = Vector::zero();
+        for (rates, &share) in self.rates.iter().zip(shares) {
+            for index in 0..Self::LEN {
+                sum[index] += share * rates[index];
+            }
+        }
+        sum
+    }
+
+    /// `y = (C, γ, s)` at the point of the path after these fractions of the increments.
+    pub(super) fn path_at(&self, shares: &[f64]) -> Vector<M, G> {
+        let mut y = self.increments(shares);
+        for index in 0..Self::LEN {
+            y[index] += self.old[index];
+        }
+        y
     }
 
     /// Finds the conjugates of the stages and their derivatives, before [`make_exact`](Self::make_exact).
-    pub(super) fn project(&mut self, in_state: &StatePoint<M, K, D>) -> Result<(), StateError> {
+    fn project(&mut self, in_state: &Point<M, G::Measures>) -> Result<(), StateError> {
         let rule = self.point.rule;
         let Some(path) = rule.path else {
             return Ok(());
@@ -54,23 +228,30 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
                     .map_err(|infeasible| infeasible.of(in_state.element))?;
             }
             check_finite(in_state.element, sum_of(gradient.as_ref()))?;
-            let of_model = (&x, &gradient, &hessian);
-            let kinematics = &self.point.kinematics;
-            let of_energy = derivatives(kinematics, &y.strain, of_model, self.is_held());
+            let of_energy = self.derivatives(&y.strain, (&x, &gradient, &hessian));
             self.take((&path, r), &y, &of_energy);
         }
         Ok(())
+    }
+
+    /// `∇ê` and `∇²ê` at a strain, given the derivatives of ψ.
+    pub(super) fn derivatives(
+        &self,
+        strain: &PerStrain<G>,
+        of_model: (&M::Variables, &M::Variables, &M::Hessian),
+    ) -> (Vector<M, G>, Matrix<M, G>) {
+        derivatives(&self.measures, strain, of_model, self.is_held())
     }
 
     /// Adds the contribution of a point of the path to the projections.
     fn take(
         &mut self,
         (path, r): (&Path, usize),
-        y: &Vector<M, K, D>,
-        (slopes, curvatures): &(Vector<M, K, D>, Matrix<M, K, D>),
+        y: &Vector<M, G>,
+        (slopes, curvatures): &(Vector<M, G>, Matrix<M, G>),
     ) {
         let mut sizes = *y;
-        sizes.strain = self.point.kinematics.strain_sizes(&y.strain);
+        sizes.strain = self.measures.sizes(&y.strain);
         let variables = 0..Self::LEN;
         for (stage, shares) in path.projection.iter().enumerate() {
             let share = shares[r];
@@ -96,19 +277,19 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     pub(super) fn measures_in_path(
         &self,
         element: Element,
-        strain: &PerStrain<K, D>,
-    ) -> Result<Measures<K, D>, StateError> {
-        let measures = self.point.kinematics.measures_of(strain);
-        measures.ok_or_else(|| self.point.kinematics.refuse(element, strain))
+        strain: &PerStrain<G>,
+    ) -> Result<MeasuresOf<G>, StateError> {
+        let measures = self.measures.measures_of(strain);
+        measures.ok_or_else(|| self.measures.refuse(element, strain))
     }
 
-    /// The point of the path after these fractions of the increments.
+    /// `y = (C, γ, s)` and `x = (π, γ, θ)` at the point of the path after these fractions of the increments.
     pub(super) fn find_point(
         &mut self,
-        in_state: &StatePoint<M, K, D>,
+        in_state: &Point<M, G::Measures>,
         shares: &[f64],
         point: usize,
-    ) -> Result<PathPoint<M, K, D>, StateError> {
+    ) -> Result<(Vector<M, G>, M::Variables), StateError> {
         let y = self.path_at(shares);
         let measures = self.measures_in_path(in_state.element, &y.strain)?;
         let near = self.temperatures[point];
@@ -124,14 +305,14 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
 
     /// Finds the end of the path; returns `∇ê` there, and the discrete derivatives between both ends, whose product with
     /// the increments is Δê. Of a prescribed temperature, the first are the derivatives of that product by the increments.
-    pub(super) fn reach_end(
+    fn reach_end(
         &mut self,
-        in_state: &StatePoint<M, K, D>,
-    ) -> Result<[Vector<M, K, D>; 2], StateError> {
+        in_state: &Point<M, G::Measures>,
+    ) -> Result<[Vector<M, G>; 2], StateError> {
         let (end, x) = self.find_point(in_state, self.point.rule.weights, MOST_POINTS)?;
-        let (kinematics, model) = (&self.point.kinematics, &in_state.model);
+        let (measures, model) = (&self.measures, &in_state.model);
         self.end = end;
-        self.end_sizes[1] = kinematics.strain_sizes(&end.strain);
+        self.end_sizes[1] = measures.sizes(&end.strain);
         let mut gradient = model.gradient(&x);
         let response = model.temperature_form_response(&self.old_form, &x);
         let mut mean = M::Variables::filled(0.0);
@@ -145,7 +326,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
             gradient[last] = x[last];
         }
         let between = |ends, by: M::Variables| Vector {
-            strain: chained::<K, D>(&kinematics.strain_slopes(ends), by.as_ref()),
+            strain: chained::<G>(&measures.slopes(ends), by.as_ref()),
             rest: by,
         };
         let slopes = between([&end.strain, &end.strain], gradient);
@@ -165,10 +346,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
     }
 
     /// Finds the viscosities at the temperatures of the stages; an error unless both are positive.
-    pub(super) fn find_viscosities(
-        &mut self,
-        in_state: &mut StatePoint<M, K, D>,
-    ) -> Result<(), StateError> {
+    fn find_viscosities(&mut self, in_state: &mut Point<M, G::Measures>) -> Result<(), StateError> {
         for stage in 0..self.point.rule.stages() {
             let theta = self.mean_temperature(stage);
             if M::THERMAL && !is_positive(theta) {

@@ -9,32 +9,32 @@
 use core::ops::{Index, IndexMut, Range};
 
 use crate::element::group::arms::measures_in;
-use crate::element::kinematics::{PerStrain, QuadraticStrain, StrainMatrix, StrainSlopes};
+use crate::element::kinematics::{PerStrain, StrainMatrix, StrainMeasures, StrainSlopes};
 use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::Scalar;
 
 /// A number per variable.
 #[derive(Debug)]
-pub(super) struct Vector<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> {
+pub(super) struct Vector<M: FreeEnergy<f64>, G: StrainMeasures> {
     /// Of the components of the strain.
-    pub(super) strain: PerStrain<K, D>,
+    pub(super) strain: PerStrain<G>,
     /// Of γ and s, at their indices among the variables of the model, whose measures are ignored.
     pub(super) rest: M::Variables,
 }
 
 /// A number per two variables.
 #[derive(Debug)]
-pub(super) struct Matrix<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> {
-    strains: StrainMatrix<K, D>,
+pub(super) struct Matrix<M: FreeEnergy<f64>, G: StrainMeasures> {
+    strains: StrainMatrix<G>,
     /// Rows of the strain, columns of the rest; and rows of the rest, columns of the strain, stored transposed.
-    right: K::PerStrain<M::Variables>,
-    below: K::PerStrain<M::Variables>,
+    right: G::PerStrain<M::Variables>,
+    below: G::PerStrain<M::Variables>,
     rest: M::Hessian,
 }
 
-impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Vector<M, K, D> {
+impl<M: FreeEnergy<f64>, G: StrainMeasures> Vector<M, G> {
     /// Number of components of the strain.
-    pub(super) const STRAINS: usize = <PerStrain<K, D> as Array<f64>>::LEN;
+    pub(super) const STRAINS: usize = <PerStrain<G> as Array<f64>>::LEN;
     /// Number of variables.
     pub(super) const LEN: usize = Self::STRAINS + M::DASHPOTS + M::THERMAL as usize;
     /// The index of the entropy.
@@ -42,7 +42,7 @@ impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Vector<M, K, D> 
 
     pub(super) fn zero() -> Self {
         Self {
-            strain: PerStrain::<K, D>::filled(0.0),
+            strain: PerStrain::<G>::filled(0.0),
             rest: M::Variables::filled(0.0),
         }
     }
@@ -80,20 +80,20 @@ pub(super) fn sum_of(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |sum, number| sum + number)
 }
 
-impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Matrix<M, K, D> {
+impl<M: FreeEnergy<f64>, G: StrainMeasures> Matrix<M, G> {
     pub(super) fn zero() -> Self {
         let zeros = M::Variables::filled(0.0);
         Self {
-            strains: K::PerStrain::filled(PerStrain::<K, D>::filled(0.0)),
-            right: K::PerStrain::filled(zeros),
-            below: K::PerStrain::filled(zeros),
+            strains: G::PerStrain::filled(PerStrain::<G>::filled(0.0)),
+            right: G::PerStrain::filled(zeros),
+            below: G::PerStrain::filled(zeros),
             rest: M::Hessian::filled(zeros),
         }
     }
 
     #[inline]
     pub(super) fn at(&self, [row, column]: [usize; 2]) -> f64 {
-        let strains = Vector::<M, K, D>::STRAINS;
+        let strains = Vector::<M, G>::STRAINS;
         match (row.checked_sub(strains), column.checked_sub(strains)) {
             (None, None) => self.strains[row][column],
             (None, Some(beyond)) => self.right[row][M::MEASURES + beyond],
@@ -104,7 +104,7 @@ impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Matrix<M, K, D> 
 
     #[inline]
     pub(super) fn at_mut(&mut self, [row, column]: [usize; 2]) -> &mut f64 {
-        let strains = Vector::<M, K, D>::STRAINS;
+        let strains = Vector::<M, G>::STRAINS;
         match (row.checked_sub(strains), column.checked_sub(strains)) {
             (None, None) => &mut self.strains[row][column],
             (None, Some(beyond)) => &mut self.right[row][M::MEASURES + beyond],
@@ -114,23 +114,23 @@ impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Matrix<M, K, D> 
     }
 }
 
-impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Clone for Vector<M, K, D> {
+impl<M: FreeEnergy<f64>, G: StrainMeasures> Clone for Vector<M, G> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Copy for Vector<M, K, D> {}
+impl<M: FreeEnergy<f64>, G: StrainMeasures> Copy for Vector<M, G> {}
 
-impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Clone for Matrix<M, K, D> {
+impl<M: FreeEnergy<f64>, G: StrainMeasures> Clone for Matrix<M, G> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Copy for Matrix<M, K, D> {}
+impl<M: FreeEnergy<f64>, G: StrainMeasures> Copy for Matrix<M, G> {}
 
-impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Index<usize> for Vector<M, K, D> {
+impl<M: FreeEnergy<f64>, G: StrainMeasures> Index<usize> for Vector<M, G> {
     type Output = f64;
 
     #[inline]
@@ -142,9 +142,7 @@ impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> Index<usize> for
     }
 }
 
-impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> IndexMut<usize>
-    for Vector<M, K, D>
-{
+impl<M: FreeEnergy<f64>, G: StrainMeasures> IndexMut<usize> for Vector<M, G> {
     #[inline]
     fn index_mut(&mut self, index: usize) -> &mut f64 {
         match index.checked_sub(Self::STRAINS) {
@@ -156,27 +154,27 @@ impl<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> IndexMut<usize>
 
 /// `∇ê` and `∇²ê` with respect to `(C, γ, s)` from the derivatives of ψ with respect to `x = (π, γ, θ)`. If the temperature
 /// `is_given`, `∇ψ` with respect to `(C, γ)` and θ, which depends on none of them.
-pub(super) fn derivatives<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize>(
-    kinematics: &K,
-    strain: &PerStrain<K, D>,
+pub(super) fn derivatives<M: FreeEnergy<f64>, G: StrainMeasures>(
+    measures: &G,
+    strain: &PerStrain<G>,
     of_model: (&M::Variables, &M::Variables, &M::Hessian),
     is_given: bool,
-) -> (Vector<M, K, D>, Matrix<M, K, D>) {
+) -> (Vector<M, G>, Matrix<M, G>) {
     let (first, second) = if is_given {
         at_given_temperature::<M>(of_model)
     } else {
         by_entropy::<M>(of_model)
     };
-    let along = kinematics.strain_slopes([strain, strain]);
+    let along = measures.slopes([strain, strain]);
     let slopes = Vector {
-        strain: chained::<K, D>(&along, first.as_ref()),
+        strain: chained::<G>(&along, first.as_ref()),
         rest: first,
     };
     let mut curvatures = Matrix::zero();
-    let geometric = kinematics.strain_curvature(strain, &measures_in::<K::Measures>(&first));
-    let strains = Vector::<M, K, D>::STRAINS;
+    let geometric = measures.curvature(strain, &measures_in::<G::Measures>(&first));
+    let strains = Vector::<M, G>::STRAINS;
     for column in 0..M::Variables::LEN {
-        let by_strain = chained::<K, D>(&along, second[column].as_ref());
+        let by_strain = chained::<G>(&along, second[column].as_ref());
         for (q, &by) in by_strain.as_ref().iter().enumerate() {
             match column.checked_sub(M::MEASURES) {
                 None => {
@@ -242,11 +240,11 @@ fn at_given_temperature<M: FreeEnergy<f64>>(
 }
 
 /// `Σ_a f_a P_a`.
-pub(super) fn chained<K: QuadraticStrain<D>, const D: usize>(
-    slopes: &StrainSlopes<K, D>,
+pub(super) fn chained<G: StrainMeasures>(
+    slopes: &StrainSlopes<G>,
     by_measure: &[f64],
-) -> PerStrain<K, D> {
-    let mut sum = PerStrain::<K, D>::filled(0.0);
+) -> PerStrain<G> {
+    let mut sum = PerStrain::<G>::filled(0.0);
     for (row, &by) in slopes.as_ref().iter().zip(by_measure) {
         for (sum, &slope) in sum.as_mut().iter_mut().zip(row.as_ref()) {
             *sum += by * slope;
@@ -257,8 +255,8 @@ pub(super) fn chained<K: QuadraticStrain<D>, const D: usize>(
 
 /// The norm of the second derivatives by some variables, plus that of the first ones over `unit`; each derivative by a
 /// variable is divided by the root of its count. The metric made of it vanishes only where all these derivatives do.
-pub(super) fn steepness<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize>(
-    (slopes, curvatures): (&Vector<M, K, D>, &Matrix<M, K, D>),
+pub(super) fn steepness<M: FreeEnergy<f64>, G: StrainMeasures>(
+    (slopes, curvatures): (&Vector<M, G>, &Matrix<M, G>),
     variables: Range<usize>,
     counts: impl Fn(usize) -> f64,
     unit: f64,
