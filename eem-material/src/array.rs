@@ -24,6 +24,9 @@ pub trait Array<T>:
     /// The array with `value` everywhere.
     fn filled(value: T) -> Self;
 
+    /// The array at the beginning of a slice that is at least as long.
+    fn beginning_of(slice: &[T]) -> &Self;
+
     /// The array with the first `count` elements of another one, and its own beyond.
     #[must_use]
     #[inline]
@@ -51,5 +54,10 @@ impl<T: Entry, const N: usize> Array<T> for [T; N] {
     #[inline]
     fn filled(value: T) -> Self {
         [value; N]
+    }
+
+    #[inline]
+    fn beginning_of(slice: &[T]) -> &Self {
+        slice.first_chunk().expect("the slice is long enough")
     }
 }

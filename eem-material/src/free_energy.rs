@@ -1,29 +1,12 @@
 //! The interface between free energies and schemes: the trait that the derive implements.
 
+use core::any::Any;
+
 pub use crate::array::{Array, Entry};
+use crate::inversion::Inverse;
 use crate::number::scalar::Scalar;
-
-/// Entropy and heat capacity of an element at one temperature.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Caloric<S> {
-    /// `S(θ)`, J/K.
-    pub entropy: S,
-    /// `C = θ ∂S/∂θ`, J/K.
-    pub heat_capacity: S,
-    /// The sum of the absolute values of the terms of `S`, J/K; times ε it bounds the rounding of `entropy`.
-    pub magnitude: S,
-}
-
-/// Forces and slopes that determine the rates of a state. `V` is an array with an entry per variable of `x = (π₁ …
-/// π_M, γ₁ … γ_K, θ)`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rates<V> {
-    /// `(f₁ … f_M, g₁ … g_K, c)` with `f = ∂ψ/∂π`, `g = −∂ψ/∂γ` and `c = θ ∂s/∂θ`, J/K; without c if there is no
-    /// temperature.
-    pub forces: V,
-    /// `(∂s/∂π₁ … ∂s/∂π_M, ∂s/∂γ₁ … ∂s/∂γ_K, 0)`; all zero without temperature.
-    pub slopes: V,
-}
+use crate::values::absent;
+pub use crate::values::{Caloric, Each, OfEach, Rates};
 
 /// A Helmholtz free energy `ψ(x)` with everything that the schemes need.
 ///
@@ -136,8 +119,15 @@ pub trait FreeEnergy<S: Scalar> {
         0
     }
 
+    /// The material that was derived: this one, unless it is behind a table.
+    fn as_any(&self) -> &dyn Any
+    where
+        Self: Sized + 'static,
+    {
+        self
+    }
+
     /// The number of [`PARAMETERS`](Self::PARAMETERS), unless it is known only at run time.
-    #[inline]
     fn parameter_count(&self) -> usize {
         Self::PARAMETERS.len()
     }
@@ -146,6 +136,16 @@ pub trait FreeEnergy<S: Scalar> {
     /// known only at run time.
     fn parameter_names(&self) -> &'static [&'static str] {
         Self::PARAMETERS
+    }
+
+    /// [`PARAMETER_UNITS`](Self::PARAMETER_UNITS), unless they are known only at run time.
+    fn parameter_units(&self) -> &'static [&'static str] {
+        Self::PARAMETER_UNITS
+    }
+
+    /// [`HAS_PARAMETER_DERIVATIVES`](Self::HAS_PARAMETER_DERIVATIVES), unless it is known only at run time.
+    fn has_parameter_derivatives(&self) -> bool {
+        Self::HAS_PARAMETER_DERIVATIVES
     }
 
     /// [`HAS_CONSTANT_CAPACITY`](Self::HAS_CONSTANT_CAPACITY), unless it is known only at run time.
@@ -211,6 +211,11 @@ pub trait FreeEnergy<S: Scalar> {
         }
     }
 
+    /// The inversion of its entropy, if the material is behind a table.
+    fn inverse(&self) -> Option<&dyn Inverse<Self::Variables>> {
+        None
+    }
+
     /// [`caloric_at`](Self::caloric_at) of the mixed state with the first `new` measures and viscous variables
     /// of `x1` and the others of `x0`, one of the [`Corners`](Self::Corners).
     #[inline]
@@ -271,6 +276,11 @@ pub trait FreeEnergy<S: Scalar> {
     /// The values of the old state for [`entropy_form`](Self::entropy_form).
     fn entropy_form_old(&self, x0: &Self::Variables) -> Self::EntropyFormOld;
 
+    /// The same in its place.
+    fn keep_for_entropy_form(&self, x0: &Self::Variables, old: &mut Self::EntropyFormOld) {
+        *old = self.entropy_form_old(x0);
+    }
+
     /// The response in entropy form and its tangent `∂(response)/∂x¹`.
     ///
     /// `corners` are the temperatures of the mixed states between old and new:
@@ -321,6 +331,11 @@ pub trait FreeEnergy<S: Scalar> {
 
     /// The values of the old state for [`temperature_form`](Self::temperature_form).
     fn temperature_form_old(&self, x0: &Self::Variables) -> Self::TemperatureFormOld;
+
+    /// The same in its place.
+    fn keep_for_temperature_form(&self, x0: &Self::Variables, old: &mut Self::TemperatureFormOld) {
+        *old = self.temperature_form_old(x0);
+    }
 
     /// The response in temperature form and its tangent `∂(response)/∂x¹`
     /// (Conde Martín, Betsch & García Orden 2016, eqs. 37–39):
@@ -415,24 +430,13 @@ pub trait FreeEnergy<S: Scalar> {
     }
 }
 
-/// NaN, for derivatives that have not been generated.
-fn absent<S: Scalar, A: Array<S>>() -> A {
-    A::filled(S::from_f64(f64::NAN))
-}
-
 /// A response and its derivatives with respect to the new variables.
 pub type Form<S, M> = (
     <M as FreeEnergy<S>>::Response,
     <M as FreeEnergy<S>>::Tangent,
 );
 
-/// The arguments of a function for an element, by the index of the element.
-pub type Each<'e, T> = dyn Fn(usize) -> T + 'e;
-
-/// Evaluates a function of the model and one argument for several elements: as many as there are results in the slice.
-pub type OfEach<M, A, T> = for<'a> fn(&Each<'_, (&'a M, &'a A)>, &mut [T]);
-
-/// The same for a function of the model, the values kept of the old state, the new variables, and temperatures of corners.
+/// [`OfEach`] for a function of the model, the values kept of the old state, the new variables, and temperatures of corners.
 pub type OfEachStep<S, M, Old, Memory, T> = for<'a> fn(
     &Each<
         '_,

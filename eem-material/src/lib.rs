@@ -7,6 +7,8 @@ mod array;
 pub mod component_energy;
 pub mod describe;
 pub mod domain;
+#[doc(hidden)]
+pub mod formulas;
 pub mod free_energy;
 pub mod inversion;
 pub mod joint;
@@ -14,6 +16,9 @@ pub mod joint;
 pub mod number;
 #[doc(hidden)]
 pub mod point_energy;
+#[doc(hidden)]
+pub mod tabled;
+mod values;
 
 pub use component_energy::ComponentEnergy;
 pub use describe::{Describe, Description};

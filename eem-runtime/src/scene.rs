@@ -23,6 +23,8 @@ pub(crate) mod refused;
 pub(crate) mod solid;
 pub(crate) mod solid_error;
 
+use core::any::TypeId;
+
 use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::{Conduction, Conductor};
 use crate::element::ends::Ends;
@@ -166,11 +168,15 @@ impl<const D: usize> Scene<D> {
     }
 
     /// The index of the group for elements of one type and kind, created if necessary, and the group.
-    fn set_of<B: Loose<D>>(&mut self, kind: u64, new: impl FnOnce() -> B) -> (usize, &mut B) {
+    fn set_of<B: Loose<D>>(
+        &mut self,
+        kind: (TypeId, u64),
+        new: impl FnOnce() -> Box<dyn Loose<D>>,
+    ) -> (usize, &mut B) {
         let mut groups = self.groups.iter();
         let same = groups.position(|group| group.as_any().is::<B>() && group.kind() == kind);
         let group = same.unwrap_or_else(|| {
-            self.groups.push(Box::new(new()));
+            self.groups.push(new());
             self.groups.len() - 1
         });
         let set = self.groups[group].as_any_mut().downcast_mut();

@@ -3,8 +3,8 @@
 //! Every step either reduces the residual as fast as Newton's method should, or halves an interval.
 
 use super::error::InversionError;
-use crate::free_energy::Caloric;
 use crate::number::scalar::Scalar;
+use crate::values::Caloric;
 
 /// The limit of evaluations in [`invert`](crate::invert): twice what bisection of the whole range of `ln θ` to the last
 /// bit would take.

@@ -1,7 +1,7 @@
 //! All elements of one model, stepped together.
 //!
 //! [`Group`] is the interface to the solver: one dynamic call per group and phase. `ElementGroup` implements it for schemes
-//! with one set of forces, `StageGroup` for several stages, both monomorphic in model, kinematics and scheme; elements of
+//! with one set of forces, `StageGroup` for several stages, both generic in model and kinematics; elements of
 //! explicit schemes are an [`ExplicitGroup`]. The phases of a step of an `ElementGroup` are
 //!
 //! ```text
@@ -53,6 +53,7 @@ mod recovery;
 mod respond;
 mod share;
 mod site;
+pub(crate) mod springs;
 mod stages;
 mod stiffness;
 #[cfg(feature = "gradients")]
@@ -62,11 +63,12 @@ mod ways;
 
 pub(crate) use arms::points;
 pub(crate) use audit::Misfit;
+pub(crate) use build::identity;
 pub(crate) use explicit::{
     ClosingView, ComponentEnergy, Inner, Past, Place, Stage, Thermostat, UnkeptEntropy, is_met,
 };
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
-pub(crate) use loose::LooseElements;
+pub(crate) use loose::{LooseElements, Parts};
 #[cfg(feature = "gradients")]
 pub(crate) use point_step::{
     Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights,

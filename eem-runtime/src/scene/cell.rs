@@ -1,14 +1,16 @@
 //! Cells of solids: their integration points, and their mass at the nodes.
 
 use super::Scene;
-use crate::element::group::LooseElements;
+use crate::element::group::{ExplicitGroup, Loose, LooseElements, Parts, Placed, identity};
 use crate::element::handle::{Element, Node};
-use crate::element::kinematics::{Measure, Points, Shape, SolidPoint, Strain, StrainEnergy};
+use crate::element::kinematics::{
+    Measure, Points, QuadraticStrain, Shape, SolidPoint, Strain, StrainEnergy,
+};
 use crate::scene::check::check_position;
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
-use eem_material::free_energy::FreeEnergy;
+use eem_material::free_energy::{FreeEnergy, Material};
 use eem_material::number::scalar::is_positive;
 use eem_material::point_energy::PointEnergy;
 use eem_mesh::{integrals, per_node};
@@ -26,6 +28,11 @@ pub(super) struct CellProperties<'a, const D: usize> {
     pub(super) lumped: bool,
     /// Whether the solid is invalid; an error is then already recorded.
     pub(super) is_invalid: bool,
+}
+
+/// Explicit schemes refuse scenes with solids.
+fn no_explicit<const D: usize>(_: Box<dyn Loose<D>>, _: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
+    unreachable!("explicit schemes refuse solids")
 }
 
 impl<const D: usize> Scene<D> {
@@ -50,11 +57,7 @@ impl<const D: usize> Scene<D> {
                         let energy = PointEnergy::new(model.at_point(), point.volume());
                         (energy, point)
                     });
-                    let new = LooseElements::<_, SolidPoint<H, N, D>, D>::new;
-                    let (group, set) = self.set_of(model.kind(), new);
-                    let place = set.points();
-                    set.elements.push((first, parts));
-                    (group, place)
+                    self.push_parts::<_, SolidPoint<H, N, D>>(first, parts)
                 }
                 // The handles must be valid until the scene is checked.
                 Err(errors) => {
@@ -66,6 +69,20 @@ impl<const D: usize> Scene<D> {
             self.push_element(nodes.as_ref(), [group, place + point]);
         }
         points
+    }
+
+    /// Adds an element to the group of its material.
+    fn push_parts<M: Material, K: QuadraticStrain<D>>(
+        &mut self,
+        first: Element,
+        parts: Parts<M, K, D>,
+    ) -> (usize, usize) {
+        let kind = identity(&parts.as_ref()[0].0);
+        let new = || -> Box<dyn Loose<D>> { Box::new(LooseElements::<M, K, D>::new(no_explicit)) };
+        let (group, set) = self.set_of::<LooseElements<M, K, D>>(kind, new);
+        let place = set.points();
+        set.elements.push((first, parts));
+        (group, place)
     }
 
     /// The points of a cell, whose mass is added to its nodes. `Err(None)` if the error is already recorded.

@@ -5,7 +5,10 @@ use std::sync::Arc;
 use super::Scene;
 use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::Conductor;
-use crate::element::group::LooseElements;
+use crate::element::group::springs::{
+    ElasticSpring, NewGroup, Springs, ViscousSpring, WarmSpring, explicit, group_of,
+};
+use crate::element::group::{LooseElements, identity};
 use crate::element::handle::{Element, HeatPartner, HeatPath, Kind, Node, Reservoir};
 use crate::element::kinematics::Stretch;
 use crate::scene::error::SceneError;
@@ -53,11 +56,32 @@ impl<const D: usize> Scene<D> {
             let node = nodes[0];
             self.refuse(SceneError::SelfSpring { element, node });
         }
-        let (group, set) = self.set_of(model.kind(), LooseElements::<M, Stretch<D>, D>::new);
+        // A branch that a constant rules out is not compiled.
+        let at = if const { ElasticSpring::is_for::<M>() } {
+            self.push_spring::<M, _>(element, ElasticSpring::new(model), Springs::get().elastic)
+        } else if const { WarmSpring::is_for::<M>() } {
+            self.push_spring::<M, _>(element, WarmSpring::new(model), Springs::get().warm)
+        } else if const { ViscousSpring::is_for::<M>() } {
+            self.push_spring::<M, _>(element, ViscousSpring::new(model), Springs::get().viscous)
+        } else {
+            self.push_spring::<M, _>(element, model, group_of::<M, D>)
+        };
+        self.push_element(&nodes, at);
+        element
+    }
+
+    /// Adds a spring of the material `M`, which may be behind the table `A`, to its group; returns the indices of group and place.
+    fn push_spring<M: Material, A: Material>(
+        &mut self,
+        element: Element,
+        model: A,
+        new: NewGroup<D>,
+    ) -> [usize; 2] {
+        let new = || new(explicit::<M, A, D>);
+        let (group, set) = self.set_of::<LooseElements<A, Stretch<D>, D>>(identity(&model), new);
         let place = set.points();
         set.elements.push((element, [(model, Stretch)]));
-        self.push_element(&nodes, [group, place]);
-        element
+        [group, place]
     }
 
     /// The initial temperature of an element, K. Every element with a temperature needs one, also if a thermostat

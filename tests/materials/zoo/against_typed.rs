@@ -1,8 +1,9 @@
-//! Materials of texts against derived ones: every function has the same bits.
+//! Materials of texts, and those behind tables, against derived ones: every function has the same bits.
 
 use eem::typed::{Law, Source, Spring1, Spring8, ThermalSpring1, ThermalSpring8, compile, solid};
-use eem::{Array, FreeEnergy};
+use eem::{Array, FreeEnergy, Material};
 use eem_material::free_energy::{Form, FormRows};
+use eem_material::tabled::Tabled;
 
 use crate::zoo::families;
 use crate::zoo::states;
@@ -110,7 +111,7 @@ pub(crate) fn everything<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
 /// The derivatives by the parameters that there are: an array of a law has more room.
 #[cfg(feature = "gradients")]
 fn by_parameters<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
-    assert!(M::HAS_PARAMETER_DERIVATIVES);
+    assert!(model.has_parameter_derivatives());
     let used = Used::of(model);
     let [x0, x1] = [&at.x0, &at.x1].map(|x| array::<M::Variables>(used.in_state(), x));
     let corners: M::Corners = array(used.in_corners(), &at.corners);
@@ -368,9 +369,45 @@ shapes! {
     solid!(strains: 2, invariants: 3, volume_flow: 1, dashpots: 1, temperature: 1),
 }
 
+/// The same of a material behind a table, if it fits.
+fn behind_table<
+    M: Material,
+    const N: usize,
+    const K: usize,
+    const C: usize,
+    const R: usize,
+    const O: usize,
+>(
+    model: &M,
+    at: &At,
+) -> Option<Results> {
+    if !Tabled::<N, K, C, R, O>::is_for::<M>() {
+        return None;
+    }
+    let tabled = Tabled::<N, K, C, R, O>::new(model.duplicate());
+    assert!(tabled.as_any().is::<M>());
+    assert_eq!(tabled.model(), model.model());
+    Some(everything(&tabled.duplicate(), at))
+}
+
+/// The same behind each table, with room for what forms keep of the old state, and without.
+pub(crate) fn behind_tables<M: Material>(model: &M, at: &At) -> Vec<Results> {
+    let all = [
+        behind_table::<M, 1, 0, 0, 1, 8>,
+        behind_table::<M, 1, 0, 0, 1, 1>,
+        behind_table::<M, 2, 0, 2, 3, 24>,
+        behind_table::<M, 2, 0, 2, 3, 2>,
+        behind_table::<M, 3, 1, 4, 4, 40>,
+        behind_table::<M, 3, 1, 4, 4, 3>,
+    ];
+    all.iter()
+        .filter_map(|behind_table| behind_table(model, at))
+        .collect()
+}
+
 #[test]
-fn materials_of_texts_have_the_bits_of_derived_ones() {
-    let mut laws = 0;
+fn materials_of_texts_and_behind_tables_have_the_bits_of_derived_ones() {
+    let (mut laws, mut tables) = (0, 0);
     for specimen in families::all() {
         let text = specimen.text();
         let mut source = Source::new(text.free_energy);
@@ -396,8 +433,13 @@ fn materials_of_texts_have_the_bits_of_derived_ones() {
                     "{name}, {function} at {at:?}"
                 );
             }
+            for tabled in specimen.behind_tables(&at) {
+                assert_eq!(derived, tabled, "{name} behind a table at {at:?}");
+                tables += 1;
+            }
         }
         laws += 1;
     }
     assert!(laws > 50, "{laws} laws");
+    assert!(tables > 2 * laws, "{tables} steps behind tables");
 }

@@ -39,6 +39,9 @@ pub(crate) trait Formula: FreeEnergy<f64> + Clone + Send + Sync + 'static {
     /// All functions.
     #[cfg(feature = "typed")]
     fn all_functions(&self, at: &against_typed::At) -> against_typed::Results;
+    /// The same behind tables.
+    #[cfg(feature = "typed")]
+    fn functions_behind_tables(&self, at: &against_typed::At) -> Vec<against_typed::Results>;
     /// `η_k`.
     fn viscosities<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Vec<Num<V>>;
 }
@@ -112,6 +115,14 @@ macro_rules! specimen {
                 $crate::zoo::against_typed::everything(self, at)
             }
 
+            #[cfg(feature = "typed")]
+            fn functions_behind_tables(
+                &self,
+                at: &$crate::zoo::against_typed::At,
+            ) -> Vec<$crate::zoo::against_typed::Results> {
+                $crate::zoo::against_typed::behind_tables(self, at)
+            }
+
             fn viscosities<V: $crate::zoo::number::Value>(
                 x: &[$crate::zoo::number::Num<V>],
                 fields: &[$crate::zoo::number::Num<V>],
@@ -150,6 +161,9 @@ pub(crate) trait Specimen: Table {
     /// All functions.
     #[cfg(feature = "typed")]
     fn everything(&self, at: &against_typed::At) -> against_typed::Results;
+    /// The same behind tables.
+    #[cfg(feature = "typed")]
+    fn behind_tables(&self, at: &against_typed::At) -> Vec<against_typed::Results>;
 
     /// What the macro should have understood.
     fn symbolic(&self) -> Model;
@@ -208,6 +222,11 @@ impl<F: Formula> Specimen for F {
     #[cfg(feature = "typed")]
     fn everything(&self, at: &against_typed::At) -> against_typed::Results {
         self.all_functions(at)
+    }
+
+    #[cfg(feature = "typed")]
+    fn behind_tables(&self, at: &against_typed::At) -> Vec<against_typed::Results> {
+        self.functions_behind_tables(at)
     }
 
     fn symbolic(&self) -> Model {

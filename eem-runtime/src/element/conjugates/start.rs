@@ -44,10 +44,20 @@ impl<M: FreeEnergy<f64>> Start<M> {
     pub(crate) fn keep(&mut self, scheme: OneSet, model: &M, entropy: f64, is_prescribed: bool) {
         match scheme {
             OneSet::Exact(ExactForm::Entropy) if !is_prescribed => {
-                self.old = Kept::Entropy(model.entropy_form_old(&self.x0));
+                if !matches!(self.old, Kept::Entropy(_)) {
+                    self.old = Kept::Entropy(M::EntropyFormOld::filled(0.0));
+                }
+                if let Kept::Entropy(old) = &mut self.old {
+                    model.keep_for_entropy_form(&self.x0, old);
+                }
             }
             OneSet::Exact(_) | OneSet::Damped => {
-                self.old = Kept::Temperature(model.temperature_form_old(&self.x0));
+                if !matches!(self.old, Kept::Temperature(_)) {
+                    self.old = Kept::Temperature(M::TemperatureFormOld::filled(0.0));
+                }
+                if let Kept::Temperature(old) = &mut self.old {
+                    model.keep_for_temperature_form(&self.x0, old);
+                }
             }
             OneSet::Point(_) => self.old = Kept::State(entropy),
         }

@@ -1,9 +1,8 @@
 //! Groups of elements for a scheme.
 
-use core::any::Any;
+use core::any::{Any, TypeId};
 
 use super::element_group::ElementGroup;
-use super::explicit::ExplicitElements;
 use super::interface::{ExplicitGroup, Group, Loose};
 use super::loose::LooseElements;
 use super::stages::{Projections, Source, StageGroup, Values};
@@ -31,8 +30,9 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
         Self::POINTS
     }
 
-    fn kind(&self) -> u64 {
-        self.model().map_or(0, M::kind)
+    fn kind(&self) -> (TypeId, u64) {
+        let model = self.model();
+        model.map_or((TypeId::of::<M>(), 0), identity)
     }
 
     fn name(&self) -> &'static &'static str {
@@ -53,7 +53,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
             Conjugates::Stages(rule) if rule.path.is_some() => {
                 staged::<M, K, Projections<M, K, D>, D>(rule, *self, placed)
             }
-            // Not compiled for solids, which these schemes refuse, nor are explicit ones below.
+            // Not compiled for solids, which these schemes refuse.
             Conjugates::Stages(rule) if K::Measures::IS_SPRING => {
                 staged::<M, K, Values<M, K, D>, D>(rule, *self, placed)
             }
@@ -62,11 +62,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
     }
 
     fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
-        if K::Measures::IS_SPRING {
-            Box::new(ExplicitElements::new(*self, placed))
-        } else {
-            unreachable!("they are refused in scenes with solids")
-        }
+        (self.make_explicit)(self, placed)
     }
 }
 
@@ -77,4 +73,9 @@ fn staged<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize
     placed: Placed<'_>,
 ) -> Box<dyn Group<D>> {
     Box::new(StageGroup::<M, K, C, D>::new(rule, elements, placed))
+}
+
+/// The type and the kind of a model.
+pub(crate) fn identity<M: Material>(model: &M) -> (TypeId, u64) {
+    (model.as_any().type_id(), model.kind())
 }

@@ -3,7 +3,7 @@
 use super::ahead::Ahead;
 use super::arms::change_in;
 use super::interface::{Elements, Group, Loose};
-use super::loose::LooseElements;
+use super::loose::{LooseElements, MakeExplicit};
 use super::member::Member;
 use super::placed::PlacedPoint;
 use super::point::Point;
@@ -31,6 +31,7 @@ pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, const D: usize> {
     pub(super) scheme: OneSet,
     pub(super) members: Vec<Member<M, K, D>>,
     pub(super) contacts: Vec<Contact<K, D>>,
+    make_explicit: MakeExplicit<D>,
     /// See [`Old::by_factors`].
     by_factors: bool,
     /// Workspace for elements with many points, a round of elements at a time.
@@ -47,6 +48,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
             scheme,
             members: members.collect(),
             contacts: Vec::new(),
+            make_explicit: loose.make_explicit,
             by_factors: false,
             shares: Vec::new(),
             ahead: Ahead::new(),
@@ -58,6 +60,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         let elements = self.members.into_iter().map(Member::into_parts);
         LooseElements {
             elements: elements.collect(),
+            make_explicit: self.make_explicit,
         }
     }
 

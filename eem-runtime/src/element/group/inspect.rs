@@ -165,12 +165,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
 
     #[cfg(feature = "gradients")]
     fn parameter_units(&self) -> &'static [&'static str] {
-        M::PARAMETER_UNITS
+        let first = self.points().next();
+        first.map_or(M::PARAMETER_UNITS, |point| point.model.parameter_units())
     }
 
     #[cfg(feature = "gradients")]
     fn has_parameter_derivatives(&self) -> bool {
-        M::HAS_PARAMETER_DERIVATIVES
+        let first = self.points().next();
+        first.is_some_and(|point| point.model.has_parameter_derivatives())
     }
 
     #[cfg(feature = "gradients")]
@@ -180,14 +182,17 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
     }
 
     fn digest(&self, digest: &mut Digest) {
-        for name in M::PARAMETERS {
-            digest.bytes(name.as_bytes());
-            digest.bytes(&[0]);
-        }
         // Elements of a group are of one kind.
-        let kind = self.points().next().map(|point| point.model.kind());
-        if let Some(kind) = kind.filter(|&kind| kind != 0) {
-            digest.bytes(&kind.to_le_bytes());
+        if let Some(first) = self.points().next() {
+            let kind = first.model.kind();
+            if kind == 0 {
+                for name in first.model.parameter_names() {
+                    digest.bytes(name.as_bytes());
+                    digest.bytes(&[0]);
+                }
+            } else {
+                digest.bytes(&kind.to_le_bytes());
+            }
         }
         for point in self.points() {
             digest.count(point.element.index());

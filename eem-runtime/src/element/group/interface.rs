@@ -1,6 +1,6 @@
 //! The interface of the elements to the solvers: one dynamic call per group and phase.
 
-use core::any::Any;
+use core::any::{Any, TypeId};
 use core::fmt::Debug;
 
 use super::explicit::stage::Stage;
@@ -271,8 +271,8 @@ pub(crate) trait Loose<const D: usize>: Any + Debug + Send + Sync {
     )]
     fn points_per_element(&self) -> usize;
 
-    /// The kind of their model; see [`FreeEnergy::kind`](eem_material::FreeEnergy::kind).
-    fn kind(&self) -> u64;
+    /// The type and the kind of their model; see [`FreeEnergy::kind`](eem_material::FreeEnergy::kind).
+    fn kind(&self) -> (TypeId, u64);
 
     /// The name of their model.
     fn name(&self) -> &'static &'static str;

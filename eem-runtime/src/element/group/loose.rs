@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use super::interface::{ExplicitGroup, Loose};
+use super::view::Placed;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Kinematics, MeasureSet, Points};
 use crate::element::layout::Shape;
@@ -10,18 +12,25 @@ use eem_material::free_energy::Material;
 /// Model and kinematics of the points of an element.
 pub(crate) type Parts<M, K, const D: usize> = <K as Kinematics<D>>::PerPoint<(M, K)>;
 
+/// Makes the group of an explicit scheme.
+pub(crate) type MakeExplicit<const D: usize> =
+    fn(Box<dyn Loose<D>>, Placed<'_>) -> Box<dyn ExplicitGroup<D>>;
+
 /// Elements of the model `M` with the kinematics `K`, each with the handle of its first point.
-pub(crate) struct LooseElements<M: Send + Sync, K: Kinematics<D>, const D: usize> {
+pub(crate) struct LooseElements<M: Material, K: Kinematics<D>, const D: usize> {
     pub(crate) elements: Vec<(Element, Parts<M, K, D>)>,
+    /// Explicit schemes are compiled for each material: a call of a table takes a good part of their time.
+    pub(super) make_explicit: MakeExplicit<D>,
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
     pub(super) const POINTS: usize = K::PerPoint::<(M, K)>::LEN;
 
     /// No elements yet.
-    pub(crate) const fn new() -> Self {
+    pub(crate) fn new(make_explicit: MakeExplicit<D>) -> Self {
         Self {
             elements: Vec::new(),
+            make_explicit,
         }
     }
 
@@ -53,7 +62,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
     pub(super) fn infinite_parameter_at(&self, place: usize) -> Option<(&'static str, f64)> {
         let (_, points) = &self.elements[place / Self::POINTS];
         let (model, _) = &points.as_ref()[place % Self::POINTS];
-        let parameters = M::PARAMETERS.iter().enumerate();
+        let parameters = model.parameter_names().iter().enumerate();
         let mut values = parameters.map(|(index, &name)| (name, model.parameter(index)));
         values.find(|(_, value)| !value.is_finite())
     }
@@ -69,12 +78,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
         });
         Self {
             elements: elements.collect(),
+            make_explicit: self.make_explicit,
         }
     }
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> fmt::Debug for LooseElements<M, K, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} elements of {}", self.elements.len(), M::MODEL)
+        let name = self.model().map_or(&M::MODEL, M::model);
+        write!(f, "{} elements of {name}", self.elements.len())
     }
 }

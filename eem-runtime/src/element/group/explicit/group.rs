@@ -21,10 +21,16 @@ pub(crate) struct ExplicitElements<M: Material, K: Kinematics<D>, const D: usize
     pub(super) places: Vec<(u32, K::PerNode<u32>)>,
     /// Per element: its last evaluation in a closing.
     pub(super) closed: Vec<Closed<M, K, D>>,
+    /// The elements without a scheme, whose models may be behind a table.
+    loose: Box<dyn Loose<D>>,
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
-    pub(crate) fn new(elements: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
+    pub(crate) fn new(
+        elements: LooseElements<M, K, D>,
+        placed: Placed<'_>,
+        loose: Box<dyn Loose<D>>,
+    ) -> Self {
         let scheme = OneSet::Point(PointRule::Variational);
         let elements = ElementGroup::new(scheme, elements, placed);
         let count = elements.members.len();
@@ -32,6 +38,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
             places: vec![(0, K::PerNode::filled(0)); count],
             closed: (0..count).map(|_| Closed::none()).collect(),
             elements,
+            loose,
         }
     }
 
@@ -55,7 +62,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> ExplicitGroup<D>
     }
 
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
-        Box::new(self.elements.into_loose())
+        self.loose
     }
 
     fn join(&mut self, component_of: &[u32], place_of: &dyn Fn(u32, u32) -> u32) {

@@ -1,0 +1,98 @@
+//! Springs of materials behind a table, compiled with this crate in one to three dimensions.
+
+#[cfg(not(test))]
+use core::any::Any;
+
+use super::explicit::ExplicitElements;
+use super::interface::{ExplicitGroup, Loose};
+use super::loose::{LooseElements, MakeExplicit};
+use super::view::Placed;
+use crate::element::kinematics::Stretch;
+use eem_material::free_energy::Material;
+use eem_material::tabled::Tabled;
+
+/// Without temperature and dashpots.
+pub(crate) type ElasticSpring = Tabled<1, 0, 0, 1, 4>;
+
+/// With a temperature and without dashpots.
+pub(crate) type WarmSpring = Tabled<2, 0, 2, 3, 16>;
+
+/// With a temperature and a dashpot in series.
+pub(crate) type ViscousSpring = Tabled<3, 1, 4, 4, 24>;
+
+/// Makes a group without elements.
+pub(crate) type NewGroup<const D: usize> = fn(MakeExplicit<D>) -> Box<dyn Loose<D>>;
+
+/// The groups of springs in one dimension.
+pub(crate) struct Springs<const D: usize> {
+    pub(crate) elastic: NewGroup<D>,
+    pub(crate) warm: NewGroup<D>,
+    pub(crate) viscous: NewGroup<D>,
+}
+
+#[cfg(not(test))]
+static LINE: Springs<1> = Springs::HERE;
+#[cfg(not(test))]
+static PLANE: Springs<2> = Springs::HERE;
+#[cfg(not(test))]
+static SPACE: Springs<3> = Springs::HERE;
+
+/// A group of springs of one material.
+pub(crate) fn group_of<M: Material, const D: usize>(
+    make_explicit: MakeExplicit<D>,
+) -> Box<dyn Loose<D>> {
+    Box::new(LooseElements::<M, Stretch<D>, D>::new(make_explicit))
+}
+
+impl<const D: usize> Springs<D> {
+    /// Compiled where they are used.
+    const HERE: Self = Self {
+        elastic: group_of::<ElasticSpring, D>,
+        warm: group_of::<WarmSpring, D>,
+        viscous: group_of::<ViscousSpring, D>,
+    };
+
+    /// Those of this crate if it has them. A branch that a constant rules out is not compiled.
+    #[inline]
+    pub(crate) fn get() -> &'static Self {
+        #[cfg(not(test))]
+        if const { D == 1 } {
+            return cast(&LINE);
+        } else if const { D == 2 } {
+            return cast(&PLANE);
+        } else if const { D == 3 } {
+            return cast(&SPACE);
+        }
+        const { &Self::HERE }
+    }
+}
+
+/// The same table by its own type.
+#[cfg(not(test))]
+#[inline]
+fn cast<const D: usize>(springs: &'static dyn Any) -> &'static Springs<D> {
+    springs
+        .downcast_ref()
+        .expect("the dimension is that of the table")
+}
+
+/// Springs of the material `M` in an explicit scheme, given those that are `A` in the scene: `M`, or a table.
+pub(crate) fn explicit<M: Material, A: Material, const D: usize>(
+    loose: Box<dyn Loose<D>>,
+    placed: Placed<'_>,
+) -> Box<dyn ExplicitGroup<D>> {
+    let all = loose
+        .as_any()
+        .downcast_ref::<LooseElements<A, Stretch<D>, D>>();
+    let all = all.unwrap_or_else(|| unreachable!("the group has made this function known"));
+    let elements = all.elements.iter().map(|(element, [(model, stretch)])| {
+        let model = model.as_any().downcast_ref::<M>();
+        let model = model.unwrap_or_else(|| unreachable!("the models of a group are of one type"));
+        (*element, [(model.duplicate(), *stretch)])
+    });
+    let own = LooseElements::<M, Stretch<D>, D> {
+        elements: elements.collect(),
+        make_explicit: all.make_explicit,
+    };
+    Box::new(ExplicitElements::new(own, placed, loose))
+}
