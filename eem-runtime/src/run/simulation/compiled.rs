@@ -1,8 +1,9 @@
 //! Simulations in one to three dimensions are compiled with this crate.
 //!
 //! Generic functions are compiled again in every optimised program that calls them: a program with one material took 30
-//! CPU seconds, and 5 without those of `Simulation`; with the groups of `element/group/springs.rs`, 2. So the work of a simulation starts in a table of functions:
-//! that of this crate or, for other dimensions, one that is compiled where it is used.
+//! CPU seconds, and 5 without those of `Simulation`; 2 without the groups of `element/group/springs.rs`. So the work of a
+//! simulation starts in a table of functions: that of this crate or, for other dimensions, one that is compiled where it is
+//! used.
 
 #[cfg(not(test))]
 use core::any::Any;
