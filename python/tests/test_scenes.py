@@ -112,7 +112,7 @@ def test_names_of_schemes(hooke):
         scene.simulate("euler", step=0.1)
     with pytest.raises(eem.SceneError, match="step"):
         scene.simulate("eem-entropy", step=-0.1)
-    with pytest.raises(TypeError):
+    with pytest.raises(eem.SceneError, match="give a `step`, a `tolerance`, or both"):
         scene.simulate("eem-entropy")
 
 
