@@ -25,7 +25,6 @@ pub struct Facts {
     pub kind: u64,
     pub parameter_names: &'static [&'static str],
     pub parameter_units: &'static [&'static str],
-    pub has_constant_capacity: bool,
     pub has_parameter_derivatives: bool,
 }
 
@@ -134,7 +133,6 @@ impl<M: Material, O: Array<f64>>
             kind: self.kind(),
             parameter_names: self.parameter_names(),
             parameter_units: self.parameter_units(),
-            has_constant_capacity: self.has_constant_capacity(),
             has_parameter_derivatives: self.has_parameter_derivatives(),
         }
     }

@@ -27,12 +27,6 @@ pub(crate) fn temperature_at<M: FreeEnergy<f64>>(
     found.map_err(|source| Infeasible::Entropy { entropy, source })
 }
 
-/// The last correction of ln θ.
-#[inline]
-fn enough() -> f64 {
-    LAST_CORRECTION * f64::EPSILON.sqrt()
-}
-
 /// The same, given the caloric quantities as functions of the temperature.
 #[inline]
 pub(crate) fn temperature_of(
@@ -42,6 +36,12 @@ pub(crate) fn temperature_of(
 ) -> Result<f64, Infeasible> {
     let found = near(|theta| (caloric_at(theta).0, []), entropy, guess, enough())?;
     Ok(found.0)
+}
+
+/// The largest last correction of ln θ.
+#[inline]
+fn enough() -> f64 {
+    LAST_CORRECTION * f64::EPSILON.sqrt()
 }
 
 /// Temperature and energies of a new state, from its entropy.

@@ -56,24 +56,19 @@ impl<const D: usize> Springs<D> {
     #[inline]
     pub(crate) fn get() -> &'static Self {
         #[cfg(not(test))]
-        if const { D == 1 } {
-            return cast(&LINE);
-        } else if const { D == 2 } {
-            return cast(&PLANE);
-        } else if const { D == 3 } {
-            return cast(&SPACE);
+        if const { 1 <= D && D <= 3 } {
+            return of_dimension(D, [&LINE, &PLANE, &SPACE]);
         }
         const { &Self::HERE }
     }
 }
 
-/// The same table by its own type.
+/// The table of a dimension, one of those for one to three, by its own type.
 #[cfg(not(test))]
 #[inline]
-fn cast<const D: usize>(springs: &'static dyn Any) -> &'static Springs<D> {
-    springs
-        .downcast_ref()
-        .expect("the dimension is that of the table")
+pub(crate) fn of_dimension<T: Any>(dimension: usize, tables: [&'static dyn Any; 3]) -> &'static T {
+    let table = tables[dimension - 1].downcast_ref();
+    table.expect("the dimension is that of the table")
 }
 
 /// Springs of the material `M` in an explicit scheme, given those that are `A` in the scene: `M`, or a table.

@@ -322,9 +322,10 @@ pub(crate) trait StrainMeasures: Copy + Send + Sync + core::fmt::Debug + 'static
 ///
 /// A path of C through a step, with Ċ from the arms at Gauss points, ends at the strain of the new arms exactly.
 pub(crate) trait QuadraticStrain<const D: usize>: Kinematics<D> {
-    /// The measures as functions of C.
+    /// What [`strain_measures`](Self::strain_measures) gives.
     type Strain: StrainMeasures<Measures = Self::Measures>;
 
+    /// The measures as functions of C.
     fn strain_measures(&self) -> Self::Strain;
 
     /// C of these arms.

@@ -5,13 +5,12 @@
 //! simulation starts in a table of functions: that of this crate or, for other dimensions, one that is compiled where it is
 //! used.
 
-#[cfg(not(test))]
-use core::any::Any;
-
 use super::event::Event;
 use super::start::Begin;
 use super::{Simulation, StepResult};
 use crate::algebra::memory::TooLarge;
+#[cfg(not(test))]
+use crate::element::group::springs::of_dimension;
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
@@ -191,22 +190,9 @@ impl<const D: usize> Functions<D> {
     #[inline]
     pub(super) fn get() -> &'static Self {
         #[cfg(not(test))]
-        if const { D == 1 } {
-            return cast(&LINE);
-        } else if const { D == 2 } {
-            return cast(&PLANE);
-        } else if const { D == 3 } {
-            return cast(&SPACE);
+        if const { 1 <= D && D <= 3 } {
+            return of_dimension(D, [&LINE, &PLANE, &SPACE]);
         }
         const { &Self::HERE }
     }
-}
-
-/// The same table by its own type.
-#[cfg(not(test))]
-#[inline]
-fn cast<const D: usize>(functions: &'static dyn Any) -> &'static Functions<D> {
-    functions
-        .downcast_ref()
-        .expect("the dimension is that of the table")
 }

@@ -107,7 +107,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     ) {
         let (measures, last) = (&self.measures, M::Variables::LEN - 1);
         let (gradient, hessian) = in_state.model.hessian(x0);
-        self.old_form = in_state.model.temperature_form_old(x0);
+        (in_state.model).keep_for_temperature_form(x0, &mut self.old_form);
         (self.old.rest, self.old.strain) = (*x0, *strain);
         for k in 0..self.point.dashpots {
             let row = M::MEASURES + k;
