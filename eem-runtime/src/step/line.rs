@@ -1,6 +1,6 @@
 //! The line along which a rocket pushes.
 
-use core::array;
+use crate::algebra::vector;
 
 /// A line between two nodes at a time of a step.
 #[derive(Clone, Copy, Debug)]
@@ -26,8 +26,8 @@ impl<const D: usize> Line<D> {
     pub(super) fn turning(&self, factor: f64) -> [[f64; D]; D] {
         let size = factor / self.length;
         let n = &self.direction;
-        array::from_fn(|row| {
-            array::from_fn(|column| {
+        core::array::from_fn(|row| {
+            vector(|column| {
                 let own = if row == column { 1.0 } else { 0.0 };
                 size * (own - n[row] * n[column])
             })

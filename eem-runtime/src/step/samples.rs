@@ -16,6 +16,7 @@
 //! An estimate that compares two rules is wrong where both miss the same. So the integral that the step takes is compared with
 //! that of the samples, too.
 
+use crate::algebra::vector;
 use crate::step::load_rule::LoadRule;
 use eem_material::number::scalar::Scalar;
 
@@ -165,7 +166,7 @@ impl Grid {
             return Ok([whole; 2]);
         }
         let halves = [mean(0.0, 0.5)?, mean(0.5, 0.5)?];
-        let sum = core::array::from_fn(|at| halves[0][at] + halves[1][at]);
+        let sum = vector(|at| halves[0][at] + halves[1][at]);
         Ok([whole, sum])
     }
 }

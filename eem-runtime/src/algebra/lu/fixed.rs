@@ -5,7 +5,7 @@
 //! compared with the others; from the first row on where it is, columns are exchanged. One or two unknowns need one
 //! division.
 
-use core::array;
+use crate::algebra::vector;
 
 /// The most unknowns for which there is an elimination of its own.
 pub(crate) const MOST_FIXED: usize = 12;
@@ -197,7 +197,7 @@ fn exchange_from<const W: usize>(
     a: &mut [f64],
     b: &mut [[f64; W]],
 ) -> Result<(), Singular> {
-    let mut order: [usize; MOST_FIXED] = array::from_fn(|at| at);
+    let mut order: [usize; MOST_FIXED] = vector(|at| at);
     for at in first..n {
         eliminate_before(at, n, a, b);
         let pivot = largest_behind(&a[at * n..][..n], at)?;
@@ -325,11 +325,11 @@ mod tests {
     #[test]
     fn every_number_of_unknowns_is_solved() {
         fn both<const N: usize>() {
-            check::<N>(array::from_fn(|i| {
-                array::from_fn(|j| if i == j { 4.0 } else { 0.25 })
+            check::<N>(core::array::from_fn(|i| {
+                vector(|j| if i == j { 4.0 } else { 0.25 })
             }));
-            check::<N>(array::from_fn(|i| {
-                array::from_fn(|j| if (i + 1) % N == j { 4.0 } else { 0.25 })
+            check::<N>(core::array::from_fn(|i| {
+                vector(|j| if (i + 1) % N == j { 4.0 } else { 0.25 })
             }));
         }
         both::<1>();

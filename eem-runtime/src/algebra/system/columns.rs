@@ -1,7 +1,5 @@
 //! One matrix with any number of right-hand sides, and its products.
 
-use core::array;
-
 use super::{LinearSystem, MOST_FIXED, Storage, solve_fixed};
 use crate::algebra::lu::{self, Singular};
 
@@ -71,7 +69,8 @@ fn solve_fixed_each<'a>(
     let matrix = &mut matrix[..values.len()];
     matrix.copy_from_slice(values);
     loop {
-        let mut some: [Option<&'a mut [[f64; 1]]>; AT_ONCE] = array::from_fn(|_| columns.next());
+        let mut some: [Option<&'a mut [[f64; 1]]>; AT_ONCE] =
+            core::array::from_fn(|_| columns.next());
         if some[0].is_none() {
             values.fill(0.0);
             return Ok(());

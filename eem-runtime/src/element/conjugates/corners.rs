@@ -4,7 +4,6 @@
 
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
-use core::array;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 
 /// The largest first correction of ln θ with which Newton's method continues, and the factor by which corrections have to
@@ -50,7 +49,7 @@ pub(super) fn find_corners_of_each<'a, M: Material>(
         let each = |index: usize| each(part * TOGETHER + index);
         let count = corners.len();
         let mut searches: [_; TOGETHER] =
-            array::from_fn(|index| Search::<M>::new(&corners[index % count]));
+            core::array::from_fn(|index| Search::<M>::new(&corners[index % count]));
         let searches = &mut searches[..count];
         let mut mixed = [[corners[0]; 2]; TOGETHER];
         let mixed = &mut mixed[..count];

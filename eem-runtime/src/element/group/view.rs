@@ -1,8 +1,7 @@
 //! Data that groups and solvers exchange.
 
-use core::array;
-
 use crate::algebra::system::LinearSystem;
+use crate::algebra::vector;
 use crate::element::conduction::{Conduction, InterfaceTemperatures};
 use crate::element::conjugates::Placement;
 use crate::element::ends::Ends;
@@ -48,7 +47,7 @@ impl StepView<'_> {
     pub(crate) fn change_of_speed<const D: usize>(&self, node: usize) -> [f64; D] {
         let speed = self.loads.speed::<D>(node);
         let old = self.state.velocities.point::<D>(node)[0];
-        array::from_fn(|axis| speed[axis] - old[axis])
+        vector(|axis| speed[axis] - old[axis])
     }
 
     /// The time during which internal variables evolve, s.

@@ -1,9 +1,8 @@
 //! The ways of the nodes of an element in a step. Rounding of the sums of forces at nodes does work along them, and of the
 //! ends of paths.
 
-use core::array;
-
 use super::view::{StepView, Trial};
+use crate::algebra::vector;
 use crate::element::tableau::{Ending, MOST_STAGES, Tableau};
 
 /// `Σ |Δq|` of the components of nodes, m.
@@ -52,8 +51,7 @@ impl StageWays {
                 ways.of_end += size_of(&flight);
                 for (set, &weight) in displacements.iter().enumerate() {
                     let time = rule.times[rule.stage_of(set)];
-                    let beyond: [f64; D] =
-                        array::from_fn(|axis| moved(set)[axis] - time * flight[axis]);
+                    let beyond: [f64; D] = vector(|axis| moved(set)[axis] - time * flight[axis]);
                     ways.of_end += weight.abs() * size_of(&beyond);
                 }
             }

@@ -1,7 +1,6 @@
 //! The strain at a point of a cell of a solid.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::kinematics::between::Between;
 use crate::element::kinematics::strain::Measure;
 use eem_material::free_energy::Array;
@@ -98,7 +97,7 @@ impl<H: Shape<D>, const N: usize, const D: usize> SolidPoint<H, N, D> {
         let mut largest = 0.0;
         for gradient in self.gradients.as_ref() {
             largest = Scalar::maximum(largest, size(gradient));
-            first = array::from_fn(|axis| first[axis] - gradient[axis]);
+            first = vector(|axis| first[axis] - gradient[axis]);
         }
         Scalar::maximum(largest, size(&first))
     }

@@ -1,9 +1,8 @@
 //! The measures at a point of a solid as functions of its arms, and its stress.
 
-use core::array;
-
 use nalgebra::SMatrix;
 
+use crate::algebra::vector;
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::between::{Between, Deformed};
@@ -157,7 +156,7 @@ impl<H: Shape<D>, const N: usize, const D: usize> Kinematics<D> for SolidPoint<H
     #[inline]
     fn between(&self, arms: [&PerArm<H, D>; 2]) -> Deformations<H, D> {
         let [old, new] = arms.map(|r| self.deformation(r));
-        let mean = array::from_fn(|i| array::from_fn(|j| 0.5 * (old[i][j] + new[i][j])));
+        let mean = core::array::from_fn(|i| vector(|j| 0.5 * (old[i][j] + new[i][j])));
         Deformations {
             mean,
             new,

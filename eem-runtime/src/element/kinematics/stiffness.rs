@@ -8,8 +8,7 @@
 //! 𝔸 is computed once per point, and multiplied with all arms at once, in loops of fixed length that the compiler
 //! vectorises.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
 use eem_material::free_energy::Array;
 use eem_mesh::Shape;
@@ -128,7 +127,7 @@ impl<H: Shape<D>, const N: usize, const D: usize> SolidPoint<H, N, D> {
     /// `𝔸_m·B_j` of all arms j, for each m.
     #[inline]
     fn changes(&self, moduli: &[Tensor<D>; D]) -> [PerArm<H, D>; D] {
-        array::from_fn(|m| {
+        core::array::from_fn(|m| {
             let mut change = self.gradients;
             for b in change.as_mut() {
                 *b = pushed(&moduli[m], b);
@@ -158,7 +157,7 @@ fn combined<H: Shape<D>, const D: usize>(b: &[f64; D], rows: &[PerArm<H, D>; D])
     let mut sum = rows[0];
     let rows = rows.each_ref().map(|row| row.as_ref().as_flattened());
     for (at, sum) in sum.as_mut().as_flattened_mut().iter_mut().enumerate() {
-        *sum = dot(b, &array::from_fn(|m| rows[m][at]));
+        *sum = dot(b, &vector(|m| rows[m][at]));
     }
     sum
 }

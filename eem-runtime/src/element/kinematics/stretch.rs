@@ -1,7 +1,6 @@
 //! The distance of two nodes.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::measures::{
@@ -146,7 +145,7 @@ impl<const D: usize> Kinematics<D> for Stretch<D> {
         let n1 = scaled(&ends.r1[0], lambda1.recip());
         let direction = mean_direction(ends);
         let tension = force * (lambda0 + lambda1).recip();
-        let along = array::from_fn(|axis| force_by_arm[axis] - tension * n1[axis]);
+        let along = vector(|axis| force_by_arm[axis] - tension * n1[axis]);
         let mut block = direction.map(|row| scaled(&along, row));
         for (axis, row) in block.iter_mut().enumerate() {
             row[axis] += tension;
@@ -256,11 +255,11 @@ fn admissible() -> [f64; 2] {
 fn mean_direction<const D: usize>(ends: &Ends<Stretch<D>, D>) -> [f64; D] {
     let (r0, r1) = (&ends.r0[0], &ends.r1[0]);
     let shrink = (ends.measures0[0] + ends.measures1[0]).recip();
-    array::from_fn(|axis| (r0[axis] + r1[axis]) * shrink)
+    vector(|axis| (r0[axis] + r1[axis]) * shrink)
 }
 
 /// `factor r`.
 #[inline]
 fn scaled<const D: usize>(r: &[f64; D], factor: f64) -> [f64; D] {
-    array::from_fn(|axis| r[axis] * factor)
+    vector(|axis| r[axis] * factor)
 }

@@ -1,10 +1,10 @@
 //! Descriptions of motions that no force resists.
 
-use core::array;
 use core::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::algebra::vector;
 use crate::element::handle::Node;
 use crate::scene::Scene;
 
@@ -176,7 +176,7 @@ fn kind_of<const D: usize>(places: &[Moved<D>]) -> MotionKind {
     let planes: Vec<_> = (0..D).flat_map(|a| (0..a).map(move |b| [a, b])).collect();
     // The displacement of a place by a unit rotation in a plane.
     let turned = |r: &[f64; D], [a, b]: [usize; 2]| -> [f64; D] {
-        array::from_fn(|axis| match axis {
+        vector(|axis| match axis {
             axis if axis == a => r[b] - centre[b],
             axis if axis == b => centre[a] - r[a],
             _ => 0.0,
@@ -187,7 +187,7 @@ fn kind_of<const D: usize>(places: &[Moved<D>]) -> MotionKind {
     let mut right = DVector::<f64>::zeros(planes.len());
     for (r, by) in places {
         let turns: Vec<_> = planes.iter().map(|&plane| turned(r, plane)).collect();
-        let by = array::from_fn(|axis| by[axis] - shift[axis]);
+        let by = vector(|axis| by[axis] - shift[axis]);
         for (i, one) in turns.iter().enumerate() {
             right[i] += dot(one, &by);
             for (j, other) in turns.iter().enumerate() {

@@ -10,10 +10,10 @@
 //! image is not at rest, and the other half may end the fall to it. What has flown along its own line has passed its other end, which
 //! tells, too. Where vibrations are resolved, the estimate sees it, and a mass may fly through its anchor.
 
-use core::array;
 use core::f64::consts::TAU;
 
 use super::Simulation;
+use crate::algebra::vector;
 use crate::element::group::points;
 use crate::step::control::{Scales, norm};
 use eem_material::number::scalar::Scalar;
@@ -35,7 +35,7 @@ impl<const D: usize> Simulation<D> {
         let states = states.map(|state| points::<D>(state.positions.values()));
         let share = (order.exp2() - 1.0).recip();
         let flies = |[a, b]: [usize; 2]| {
-            let arms = states.map(|at| array::from_fn(|axis| at[b][axis] - at[a][axis]));
+            let arms = states.map(|at| vector(|axis| at[b][axis] - at[a][axis]));
             let [start, middle, end]: [[f64; D]; 3] = arms;
             let way = |from: [f64; D], to: [f64; D]| norm((0..D).map(|axis| to[axis] - from[axis]));
             let (first, second) = (way(start, middle), way(middle, end));
@@ -69,9 +69,9 @@ impl<const D: usize> Simulation<D> {
 /// Whether the straight way of an arm passes its other end nearer than [`NEAREST`] of its lengths before and after.
 fn passes<const D: usize>(from: [f64; D], to: [f64; D]) -> bool {
     let dot = |a: [f64; D], b: [f64; D]| (0..D).map(|axis| a[axis] * b[axis]).sum::<f64>();
-    let way = array::from_fn(|axis| to[axis] - from[axis]);
+    let way = vector(|axis| to[axis] - from[axis]);
     let share = -dot(from, way) / dot(way, way);
-    let nearest = array::from_fn(|axis| from[axis] + share * way[axis]);
+    let nearest = vector(|axis| from[axis] + share * way[axis]);
     let least = Scalar::minimum(dot(from, from), dot(to, to));
     0.0 < share && share < 1.0 && dot(nearest, nearest) < NEAREST * NEAREST * least
 }

@@ -1,10 +1,9 @@
 //! The initial state of a scene.
 
-use core::array;
-
 use nalgebra::SVector;
 
 use super::stepper::Parts;
+use crate::algebra::vector;
 use crate::element::group::Elements;
 use crate::element::layout::Layout;
 use crate::element::meters::Meters;
@@ -128,7 +127,7 @@ pub(super) fn find_speeds<const D: usize>(
 fn first_speed<const D: usize>(motion: &OfTime<D>, [start, step]: [f64; 2]) -> [f64; D] {
     let spans = shares().map(|share| share * step);
     let (first, places) = (motion(start), spans.map(|span| motion(start + span)));
-    array::from_fn(|axis| {
+    vector(|axis| {
         let values = places.map(|place| place[axis]);
         derivative(first[axis], (spans, values))
     })

@@ -1,9 +1,8 @@
 //! The values of cells in files: of springs, cells of solids and single nodes.
 
-use core::array;
-
 use nalgebra::SMatrix;
 
+use crate::algebra::vector;
 use crate::element::handle::Element;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
@@ -89,7 +88,7 @@ impl Cell {
         let mut total = [0.0; N];
         for &element in &self.elements {
             let values = of(element)?;
-            total = array::from_fn(|k| total[k] + values[k]);
+            total = vector(|k| total[k] + values[k]);
         }
         Ok(total)
     }

@@ -1,8 +1,7 @@
 //! Inertia in the linear systems of the adjoint and the tangents of a step.
 
-use core::array;
-
 use crate::algebra::system::LinearSystem;
+use crate::algebra::vector;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 
@@ -33,7 +32,7 @@ struct Coupling<const D: usize> {
 impl<const D: usize> Inertia<D> {
     pub(super) fn new(layout: &Layout, masses: &Masses, system: &LinearSystem<1>) -> Self {
         let place = |row: usize, column: usize| {
-            array::from_fn(|axis| system.place(Some(row + axis), Some(column + axis)))
+            vector(|axis| system.place(Some(row + axis), Some(column + axis)))
         };
         let nodes = masses.iter().zip(&layout.nodes).enumerate();
         let nodes = nodes.filter_map(|(node, (mass, unknown))| {

@@ -1,8 +1,7 @@
 //! Rockets in the adjoint and in the tangents of a step: `h F n(r_m)` in the momentum balance of the node that is pushed.
 
-use core::array;
-
 use crate::algebra::system::LinearSystem;
+use crate::algebra::vector;
 use crate::element::group::{Direction, PerVariable, StepWeights, points};
 use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
@@ -23,7 +22,7 @@ pub(crate) struct RocketStep<const D: usize> {
 impl<const D: usize> RocketStep<D> {
     /// A rocket with the impulse `h F` in the step between two states.
     pub(crate) fn new(line: PushLine, impulse: f64, states: [&State; 2]) -> Self {
-        let arm: [f64; D] = array::from_fn(|axis| {
+        let arm: [f64; D] = vector(|axis| {
             let arms = states.map(|state| {
                 let positions = points::<D>(state.positions.values());
                 positions[line.head.index][axis] - positions[line.tail.index][axis]
@@ -97,7 +96,7 @@ impl<const D: usize> RocketStep<D> {
         weights: &mut StepWeights,
     ) {
         let node = self.line.node.index;
-        let w: [f64; D] = array::from_fn(|axis| weights.motion[node * D + axis]);
+        let w: [f64; D] = vector(|axis| weights.motion[node * D + axis]);
         for (end, sign) in self.ends() {
             for axis in 0..D {
                 let rows = self.turning.iter().zip(w);

@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 use std::collections::BTreeMap;
 
+use crate::algebra::vector;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::group::{Elements, points};
 use crate::element::masses::Masses;
@@ -228,7 +229,7 @@ impl LeastScales {
         let [old, new] = positions;
         let distance = Scalar::maximum(length(*old), length(*new));
         let rounding = self.rounding(node, period, distance);
-        let way = length(core::array::from_fn(|axis| new[axis] - old[axis]));
+        let way = length(vector(|axis| new[axis] - old[axis]));
         let momentum = Scalar::maximum(length(*momenta[0]), length(*momenta[1]));
         let is_held = period < f64::MAX;
         mass <= 0.0 || (is_held && Scalar::maximum(momentum, mass * way * TAU / period) <= rounding)

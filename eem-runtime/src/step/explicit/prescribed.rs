@@ -6,6 +6,7 @@
 
 use core::f64::consts::PI;
 
+use crate::algebra::vector;
 use crate::element::group::points;
 use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
@@ -32,8 +33,7 @@ impl Interpolation {
     fn new() -> Self {
         let index = |m: usize| f64::from(u8::try_from(m).unwrap_or(0));
         let degree = index(POINTS - 1);
-        let at: [f64; POINTS] =
-            core::array::from_fn(|m| 0.5 - 0.5 * Scalar::cos(PI * index(m) / degree));
+        let at: [f64; POINTS] = vector(|m| 0.5 - 0.5 * Scalar::cos(PI * index(m) / degree));
         let mut values = [[0.0; POINTS]; STAGES];
         let mut slopes = values;
         for (stage, &time) in TIMES.iter().enumerate() {

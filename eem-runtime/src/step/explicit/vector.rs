@@ -1,5 +1,6 @@
 //! Vectors of positions and momenta, and points from which arms are counted.
 
+use crate::algebra::vector;
 use eem_material::number::scalar::Scalar;
 
 #[inline]
@@ -28,7 +29,7 @@ pub(super) fn add<const D: usize>(sum: &mut [f64; D], factor: f64, a: &[f64; D])
 
 #[inline]
 pub(super) fn difference<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {
-    core::array::from_fn(|axis| a[axis] - b[axis])
+    vector(|axis| a[axis] - b[axis])
 }
 
 /// A point from which arms are counted: an anchor, or a centre of mass by its distance from one of the masses, so that
@@ -61,12 +62,12 @@ impl<const D: usize> Origin<D> {
 
     #[inline]
     pub(super) fn arm(&self, position: &[f64; D]) -> [f64; D] {
-        core::array::from_fn(|axis| (position[axis] - self.base[axis]) - self.offset[axis])
+        vector(|axis| (position[axis] - self.base[axis]) - self.offset[axis])
     }
 
     /// `self + by`.
     pub(super) fn moved(&self, by: &[f64; D]) -> [f64; D] {
-        core::array::from_fn(|axis| self.base[axis] + (self.offset[axis] + by[axis]))
+        vector(|axis| self.base[axis] + (self.offset[axis] + by[axis]))
     }
 }
 

@@ -1,8 +1,7 @@
 //! The momentum balance of a node that moves.
 
-use core::array;
-
 use super::places::MovingNode;
+use crate::algebra::vector;
 use crate::element::group::{StepView, Trial, points};
 use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Speeds;
@@ -71,7 +70,7 @@ impl<const D: usize> Balance<D> {
 
     #[inline]
     fn beyond_flight(&self, [displacement, rest]: [&[f64; D]; 2]) -> [f64; D] {
-        array::from_fn(|axis| (displacement[axis] - self.flight[axis]) + rest[axis])
+        vector(|axis| (displacement[axis] - self.flight[axis]) + rest[axis])
     }
 
     /// Its velocities in a step.
@@ -121,6 +120,6 @@ impl<const D: usize> Balance<D> {
             values[place] = self.inertia;
         }
         let [impulse, _] = self.impulse(displacement);
-        *self.place.rows_mut(right) = array::from_fn(|axis| self.push[axis] - impulse[axis]);
+        *self.place.rows_mut(right) = vector(|axis| self.push[axis] - impulse[axis]);
     }
 }

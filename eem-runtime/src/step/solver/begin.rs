@@ -4,12 +4,12 @@
 //! q¹ = q⁰ + (h/m)(p⁰ + ½h F)      F: the mean force of the step, predicted from those of the last ones
 //! ```
 
-use core::array;
 use core::ops::Range;
 
 use super::Solver;
 use super::balance::Balance;
 use super::places::MovingNode;
+use crate::algebra::vector;
 use crate::element::group::{Group, Old, StepView, points};
 use crate::element::loads::StepLoads;
 use crate::element::tableau::{MOST_SETS, Tableau};
@@ -141,7 +141,7 @@ impl<const D: usize> Solver<D> {
                 let mobility = set.time * view.step * node.place.per_mass;
                 let force = predictor.of(at);
                 displacement =
-                    array::from_fn(|axis| mobility * (momenta[at][axis] + half_step * force[axis]));
+                    vector(|axis| mobility * (momenta[at][axis] + half_step * force[axis]));
             }
             // The displacement from the old state is the first correction.
             *node.place.rows_mut(solution) = displacement;

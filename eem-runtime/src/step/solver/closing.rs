@@ -5,10 +5,9 @@ mod path;
 mod stages;
 mod supports;
 
-use core::array;
-
 use super::Solver;
 use super::begin::old_force;
+use crate::algebra::vector;
 use crate::element::group::{Along, Group, StepView, points};
 use crate::element::state::State;
 use crate::element::tally::{Care, Reevaluation, Tally};
@@ -200,8 +199,7 @@ impl<const D: usize> Solver<D> {
             self.trial.carries[at] = [0.0; D];
             let mobility = view.step * node.place.per_mass;
             let impulse = impulses.of(at);
-            let displacement =
-                array::from_fn(|axis| mobility * (p0[at][axis] + 0.5 * impulse[axis]));
+            let displacement = vector(|axis| mobility * (p0[at][axis] + 0.5 * impulse[axis]));
             self.trial.displacements[at] = displacement;
         }
         for group in groups.iter_mut() {
@@ -209,7 +207,7 @@ impl<const D: usize> Solver<D> {
         }
         for (node, impulse) in impulses.iter_mut().enumerate() {
             let force = old_force(&self.old_force, node);
-            *impulse = array::from_fn(|axis| 0.5 * (impulse[axis] - view.step * force[axis]));
+            *impulse = vector(|axis| 0.5 * (impulse[axis] - view.step * force[axis]));
         }
     }
 }
@@ -224,7 +222,7 @@ fn carry<const D: usize>(
 ) -> f64 {
     let momentum = points::<D>(view.state.momenta.values())[node];
     let end = points::<D>(next.momenta.values())[node];
-    let impulse = array::from_fn(|axis| end[axis] - momentum[axis]);
+    let impulse = vector(|axis| end[axis] - momentum[axis]);
     let change = view.change_of_speed(node);
     let old = points::<D>(view.state.velocities.values())[node];
     let load = view

@@ -7,10 +7,10 @@
 //! for moving nodes b and moved anchors m. The velocities of m come from its prescribed motion and not from the
 //! positions alone, so that they do not oscillate from step to step.
 
-use core::array;
 use std::collections::BTreeSet;
 
 use super::balance::Balance;
+use crate::algebra::vector;
 use crate::element::group::{Sites, StepView, Trial};
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
@@ -76,9 +76,7 @@ impl<const D: usize> Coupling<D> {
                 let [a, b] = pair.nodes().map(first);
                 let rows = [a?, b?];
                 let place = |[row, column]: [usize; 2]| {
-                    array::from_fn(|axis| {
-                        compact(sites.place(Some(row + axis), Some(column + axis)))
-                    })
+                    vector(|axis| compact(sites.place(Some(row + axis), Some(column + axis))))
                 };
                 Some(CoupledPair {
                     nodes: rows.map(|row| compact(row / D)),

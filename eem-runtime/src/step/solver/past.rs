@@ -1,8 +1,7 @@
 //! The forces and internal variables of the last steps, from which the initial guess of Newton's method is predicted.
 //! Nothing else depends on them.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::group::Before;
 use crate::element::impulse::{Impulses, PLACES};
 
@@ -47,7 +46,7 @@ impl<const D: usize> Predictor<'_, D> {
     pub(super) fn of(&self, node: usize) -> [f64; D] {
         let [last, before, _] = self.turn.map(|step| &self.forces[node][step]);
         let [by_last, by_before] = self.weights;
-        array::from_fn(|axis| by_last * last[axis] + by_before * before[axis])
+        vector(|axis| by_last * last[axis] + by_before * before[axis])
     }
 }
 
@@ -114,7 +113,7 @@ impl<const D: usize> Past<D> {
         let [nothing, constant, linear] = self.errors;
         let is_linear = linear < constant && linear < nothing;
         let is_constant = constant < nothing;
-        let weights = array::from_fn(|k| {
+        let weights = vector(|k| {
             let [nothing, constant, linear] = PREDICTORS.map(|weights| weights[k]);
             let other = if is_constant { constant } else { nothing };
             if is_linear { linear } else { other }

@@ -1,7 +1,6 @@
 //! The indices of the unknowns of nodes and of interface temperatures in the global systems.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::group::Sites;
 use crate::element::masses::Masses;
 use eem_material::number::compact::compact;
@@ -101,7 +100,7 @@ pub(super) fn moving<const D: usize>(masses: &Masses, sites: &Sites<'_, D>) -> V
             trial: compact(set * masses.len() + node),
             set: compact(set),
             row: compact(sites.row(Some(first))),
-            diagonal: array::from_fn(|axis| {
+            diagonal: vector(|axis| {
                 let unknown = Some(first + axis);
                 compact(sites.place(unknown, unknown))
             }),

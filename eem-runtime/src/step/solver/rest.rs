@@ -29,6 +29,7 @@ mod system;
 
 use super::Solver;
 use super::begin::Start;
+use crate::algebra::vector;
 use crate::element::group::{Group, StepView};
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
@@ -295,6 +296,6 @@ impl<'a, const D: usize> AtRest<'a, D> {
     pub(crate) fn position(&self, node: usize) -> [f64; D] {
         let [old, _] = self.view.state.positions.point::<D>(node);
         let moved = &self.solver.trial.displacements[node];
-        core::array::from_fn(|axis| old[axis] + moved[axis])
+        vector(|axis| old[axis] + moved[axis])
     }
 }

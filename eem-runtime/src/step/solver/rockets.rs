@@ -5,9 +5,8 @@
 //! ∂n/∂q = (1 − n nᵀ)(∂q_head − ∂q_tail)/|r|
 //! ```
 
-use core::array;
-
 use crate::algebra::system::LinearSystem;
+use crate::algebra::vector;
 use crate::element::error::StateError;
 use crate::element::group::{Sites, StepView, Trial, points};
 use crate::element::impulse::Impulses;
@@ -51,8 +50,8 @@ impl<const D: usize> Rockets<D> {
         let rockets = loads.pushes.iter().map(|push| {
             let PushLine { node, tail, head } = push.line;
             let place = |sites: &Sites<'_, D>, end: usize| {
-                array::from_fn(|row| {
-                    array::from_fn(|column| {
+                core::array::from_fn(|row| {
+                    vector(|column| {
                         compact(sites.place(unknown(node.index, row), unknown(end, column)))
                     })
                 })
@@ -61,9 +60,9 @@ impl<const D: usize> Rockets<D> {
             let of_sets = |sets_of: [usize; 2]| sites.of_sets(sets_of.map(|set| set.min(sets - 1)));
             Rocket {
                 line: push.line,
-                rows: array::from_fn(|set| compact(of_sets([set; 2]).row(unknown(node.index, 0)))),
-                places: array::from_fn(|row| {
-                    array::from_fn(|column| {
+                rows: vector(|set| compact(of_sets([set; 2]).row(unknown(node.index, 0)))),
+                places: core::array::from_fn(|row| {
+                    core::array::from_fn(|column| {
                         let sites = of_sets([row, column]);
                         [tail.index, head.index].map(|end| place(&sites, end))
                     })
@@ -100,7 +99,7 @@ impl<const D: usize> Rockets<D> {
             return load;
         }
         let force = &self.of_stage(stage)[node];
-        array::from_fn(|axis| load[axis] + force[axis])
+        vector(|axis| load[axis] + force[axis])
     }
 
     /// Finds the forces at a trial, and adds them to the system of an iteration if there is one.
@@ -190,7 +189,7 @@ impl<const D: usize> Rocket<D> {
         let PushLine { node, tail, head } = self.line;
         let [from, to] = [tail.index, head.index];
         let positions = points::<D>(view.state.positions.values());
-        let arm: [f64; D] = array::from_fn(|axis| {
+        let arm: [f64; D] = vector(|axis| {
             let turned = moved[to][axis] - moved[from][axis];
             (positions[to][axis] - positions[from][axis]) + share * turned
         });

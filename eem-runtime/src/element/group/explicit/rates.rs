@@ -4,6 +4,7 @@
 //! γ̇ = g/η,     Q = Σ g γ̇ + heat that flows in,     θ̇ = (Q − θ (s_λ λ̇ + Σ s_γ γ̇))/c
 //! ```
 
+use crate::algebra::vector;
 use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, scale};
@@ -42,7 +43,7 @@ pub(super) fn arms_of<K: Kinematics<D>, const D: usize>(
     let mut arms = Arms::<K, D>::filled([0.0; D]);
     for (index, arm) in arms.as_mut().iter_mut().enumerate() {
         let other = of(&places[nodes[index + 1] as usize]);
-        *arm = core::array::from_fn(|axis| other[axis] - first[axis]);
+        *arm = vector(|axis| other[axis] - first[axis]);
     }
     arms
 }

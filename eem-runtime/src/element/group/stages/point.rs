@@ -12,10 +12,9 @@
 //!
 //! except that an element with a thermostat has the prescribed `θ_i`.
 
-use core::array;
-
 use super::site::{PerPair, StageSite};
 use crate::algebra::lu::{self, Singular};
+use crate::algebra::vector;
 use crate::element::conduction::{InterfaceTemperatures, Partner};
 use crate::element::group::arms::{add_scaled, arms_in, change_in_set};
 use crate::element::group::member::Member;
@@ -233,7 +232,7 @@ impl<K: Kinematics<D>, C, const D: usize> StagedPoint<K, C, D> {
 pub(super) fn paths_of<K: Kinematics<D>, const D: usize>(
     contacts: &PerPair<Contact<K, D>>,
 ) -> [&[HeatPath]; MOST_SETS] {
-    array::from_fn(|set| &contacts[set][set].paths[..])
+    vector(|set| &contacts[set][set].paths[..])
 }
 
 impl InterfaceTemperatures {

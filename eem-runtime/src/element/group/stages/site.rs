@@ -4,8 +4,6 @@
 //! [`Site`] in each. The secant system, which closes a step stage by stage, has one unknown per mass and a right-hand
 //! side per axis.
 
-use core::array;
-
 use crate::element::group::closing::pull_of_arms;
 use crate::element::group::site::{Contact, Site};
 use crate::element::group::view::Sites;
@@ -134,5 +132,5 @@ fn of_sets<'a, const D: usize>(
 }
 
 fn pairs<T>(make: impl Fn([usize; 2]) -> T) -> PerPair<T> {
-    array::from_fn(|row| array::from_fn(|column| make([row, column])))
+    core::array::from_fn(|row| core::array::from_fn(|column| make([row, column])))
 }

@@ -7,6 +7,7 @@ use super::super::inertia::{Inertia, Moments, WEAK};
 use super::super::scratch::{Motion, farther};
 use super::super::vector::{Origin, add, dot, size};
 use crate::algebra::bivector::Bivector;
+use crate::algebra::vector;
 use crate::element::group::Place;
 use eem_material::number::compensated::Sum;
 
@@ -176,7 +177,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     pub(in super::super) fn missing_momenta(&self, index: usize) -> ([f64; D], Bivector<f64, D>) {
         let (motion, target) = (&self.scratch.motions[index], &self.books.targets[index]);
-        let linear = core::array::from_fn(|axis| target.linear[axis].beyond(motion.linear[axis]));
+        let linear = vector(|axis| target.linear[axis].beyond(motion.linear[axis]));
         let angular = target.angular.zip(&motion.angular, 0.0, Sum::beyond);
         (linear, angular)
     }

@@ -2,6 +2,7 @@
 
 use super::moments::{Moments, NO_INERTIA};
 use crate::algebra::bivector::{Bivector, planes};
+use crate::algebra::vector;
 
 /// Sweeps over all pairs of axes; convergence is quadratic, so that a handful suffice.
 const MOST_SWEEPS: usize = 40;
@@ -35,7 +36,7 @@ impl<const D: usize> Principal<D> {
             }
         }
         // Sums of squares, but rounding may leave −0 or less.
-        let moments = core::array::from_fn(|axis| matrix[axis][axis].max(0.0));
+        let moments = vector(|axis| matrix[axis][axis].max(0.0));
         Self { axes, moments }
     }
 
@@ -79,8 +80,8 @@ fn rotate<const D: usize>(
     }
     for rows in [&mut *matrix, axes] {
         let [x, y] = [rows[i], rows[j]];
-        rows[i] = core::array::from_fn(|k| cosine * x[k] - sine * y[k]);
-        rows[j] = core::array::from_fn(|k| sine * x[k] + cosine * y[k]);
+        rows[i] = vector(|k| cosine * x[k] - sine * y[k]);
+        rows[j] = vector(|k| sine * x[k] + cosine * y[k]);
     }
     (matrix[i][j], matrix[j][i]) = (0.0, 0.0);
     true

@@ -16,6 +16,7 @@
 use super::moments::{NO_INERTIA, WEAK};
 use super::principal::Principal;
 use crate::algebra::bivector::{Bivector, planes};
+use crate::algebra::vector;
 use eem_material::number::scalar::Scalar;
 
 /// Rounds of corrections. With a single plane they converge quadratically; several planes are corrected in turn.
@@ -113,7 +114,7 @@ pub(in super::super) fn turning<const D: usize>(
     }
     has_turned.then(|| {
         core::array::from_fn(|i| {
-            core::array::from_fn(|j| (0..D).map(|a| turned.changes[a][i] * axes[a][j]).sum())
+            vector(|j| (0..D).map(|a| turned.changes[a][i] * axes[a][j]).sum())
         })
     })
 }
@@ -152,7 +153,7 @@ mod tests {
         };
         // The target of arms that are elsewhere.
         let shift = |r: &[f64; D], by: f64| {
-            core::array::from_fn(|i| r[i] + off * (by + f64::from(u8::try_from(i).unwrap())).sin())
+            vector(|i| r[i] + off * (by + f64::from(u8::try_from(i).unwrap())).sin())
         };
         let pairs = arms.iter().zip([1.0, 3.0, 7.0]);
         let others: Vec<[f64; D]> = pairs.map(|(r, by)| shift(r, by)).collect();
@@ -171,7 +172,7 @@ mod tests {
         );
         let change = change.expect("is off");
         let turn = |r: &[f64; D]| -> [f64; D] {
-            core::array::from_fn(|i| r[i] + (0..D).map(|j| change[i][j] * r[j]).sum::<f64>())
+            vector(|i| r[i] + (0..D).map(|j| change[i][j] * r[j]).sum::<f64>())
         };
         let arms: Vec<[f64; D]> = arms.iter().map(turn).collect();
         let mut momenta: Vec<[f64; D]> = momenta.iter().map(turn).collect();
@@ -181,7 +182,7 @@ mod tests {
             let omega = Inertia::of_body(moments(&arms)).solve(&missing);
             for (p, r) in momenta.iter_mut().zip(&arms) {
                 let change = omega.turn(r);
-                *p = core::array::from_fn(|i| p[i] + change[i]);
+                *p = vector(|i| p[i] + change[i]);
             }
         }
         let mut missing = target;

@@ -1,7 +1,6 @@
 //! The nodes at the end of a step: new positions and momenta.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
@@ -40,7 +39,7 @@ impl<const D: usize> Solver<D> {
             if takes_increments {
                 let [impulse, terms] = (self.coupling).impulse((moving, node), &self.trial);
                 let found = remembering.impulse_mut(at);
-                let residual = array::from_fn(|axis| impulse[axis] - found[axis]);
+                let residual = vector(|axis| impulse[axis] - found[axis]);
                 for &residual in &residual {
                     largest.see(residual);
                 }

@@ -8,8 +8,7 @@
 //! own rounding acts along the arms, and so has no torque on a path that gives positions and momenta at its stages. The
 //! residuals of the balances at the stages are judged.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
@@ -39,7 +38,7 @@ impl<const D: usize> Solver<D> {
                 let [gained, terms] = (self.coupling).impulse((index, moving), &self.trial);
                 let terms = self.coupling.found(index).map_or([0.0; D], |_| terms);
                 let impulse = stages.combined(node, weights);
-                let residual = array::from_fn(|axis| gained[axis] - impulse[axis]);
+                let residual = vector(|axis| gained[axis] - impulse[axis]);
                 for &residual in &residual {
                     largest.see(residual);
                 }
@@ -112,7 +111,7 @@ impl<const D: usize> Solver<D> {
                 let impulse = gained.map(|gained| place.mass * view.per_step * gained);
                 (impulse, Speeds::OfMass(place.per_mass))
             };
-            let displacement = array::from_fn(|axis| flight[axis] + rest[axis]);
+            let displacement = vector(|axis| flight[axis] + rest[axis]);
             move_node(node, [&flight, &rest, &impulse], state, next)?;
             let moved = NodeStep {
                 speeds,

@@ -1,7 +1,6 @@
 //! The end of a step through stages: positions and momenta from the forces at the stages.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::group::{Along, Group, StepView, points};
 use crate::element::impulse::Impulses;
 use crate::element::state::State;
@@ -85,7 +84,7 @@ impl<const D: usize> Solver<D> {
                 Ending::Forces(weights) => {
                     let (impulse, mobility) =
                         (stages.combined(node, weights), view.step * mass.per_mass);
-                    array::from_fn(|axis| mobility * (momenta[node][axis] + impulse[axis]))
+                    vector(|axis| mobility * (momenta[node][axis] + impulse[axis]))
                 }
                 // `move_along_path` finds the displacements from those of the stages.
                 Ending::Increments { .. } => break,
@@ -104,7 +103,7 @@ impl<const D: usize> Solver<D> {
             let (momentum, impulse) =
                 (&momenta[mass.node()], stages.combined(mass.node(), weights));
             let mobility = time * view.step * mass.per_mass;
-            let displacement = array::from_fn(|axis| mobility * (momentum[axis] + impulse[axis]));
+            let displacement = vector(|axis| mobility * (momentum[axis] + impulse[axis]));
             self.place(mass.in_trial(), displacement);
         }
     }
@@ -188,7 +187,7 @@ impl<const D: usize> Solver<D> {
                 view.stages[0].total_force::<D>(node),
                 view.stages[0].force::<D>(node),
             );
-            let weight = array::from_fn(|axis| total[axis] - load[axis]);
+            let weight = vector(|axis| total[axis] - load[axis]);
             motion.see(&moved, Some(&weight), view.step);
         }
         Ok(())

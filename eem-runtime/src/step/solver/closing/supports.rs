@@ -6,8 +6,7 @@
 //!
 //! with the forces F of the elements and the motion of the path at the stages, and polynomials for v and p.
 
-use core::array;
-
+use crate::algebra::vector;
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Path};
@@ -65,7 +64,7 @@ impl<const D: usize> Solver<D> {
         let displacement = view.loads.motion::<D>(node);
         let momentum = points::<D>(state.momenta.values())[node];
         let end = points::<D>(next.momenta.values())[node];
-        let impulse = array::from_fn(|axis| end[axis] - momentum[axis]);
+        let impulse = vector(|axis| end[axis] - momentum[axis]);
         let carried = NodeStep {
             speeds: Speeds::Given {
                 old,

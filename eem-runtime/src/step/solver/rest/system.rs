@@ -4,6 +4,7 @@ use core::array;
 use eem_material::number::scalar::Scalar;
 
 use super::{AtRest, LONG, Place};
+use crate::algebra::vector;
 use crate::element::tally::Care;
 use crate::step::error::StepFailure;
 
@@ -290,12 +291,12 @@ impl<const D: usize> AtRest<'_, D> {
         let moved: Vec<[f64; D]> = now
             .iter()
             .zip(from)
-            .map(|(now, from)| array::from_fn(|axis| now[axis] - from[axis]))
+            .map(|(now, from)| vector(|axis| now[axis] - from[axis]))
             .collect();
         let turns = self.arms.iter().map(|ends| {
             let [from, to] = ends.map(|end| self.position(end));
-            let by: [f64; D] = array::from_fn(|axis| moved[ends[1]][axis] - moved[ends[0]][axis]);
-            let before: [f64; D] = array::from_fn(|axis| (to[axis] - from[axis]) - by[axis]);
+            let by: [f64; D] = vector(|axis| moved[ends[1]][axis] - moved[ends[0]][axis]);
+            let before: [f64; D] = vector(|axis| (to[axis] - from[axis]) - by[axis]);
             norm(&by) / norm(&before)
         });
         turns.fold(0.0, f64::max)
