@@ -5,12 +5,11 @@ use core::any::{Any, TypeId};
 use super::element_group::ElementGroup;
 use super::interface::{ExplicitGroup, Group, Loose};
 use super::loose::LooseElements;
-use super::stages::{Projections, Source, StageGroup, Values};
+use super::stages::{OfMaterial, PointPath, Projections, StageGroup, StageValues, Values};
 use super::view::Placed;
 use crate::element::conjugates::Conjugates;
 use crate::element::kinematics::{MeasureSet, QuadraticStrain};
 use crate::element::layout::Shape;
-use crate::element::tableau::Tableau;
 use eem_material::free_energy::Material;
 
 impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseElements<M, K, D> {
@@ -51,11 +50,22 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
         match by {
             Conjugates::One(scheme) => Box::new(ElementGroup::new(scheme, *self, placed)),
             Conjugates::Stages(rule) if rule.path.is_some() => {
-                staged::<M, K, Projections<M, K, D>, D>(rule, *self, placed)
+                let models = OfMaterial::new(rule, *self, placed, |kinematics: &K, point| {
+                    PointPath::new(kinematics.strain_measures(), point)
+                });
+                Box::new(StageGroup::<K, Projections<K, D>, D>::new(
+                    rule,
+                    Box::new(models),
+                ))
             }
             // Not compiled for solids, which these schemes refuse.
             Conjugates::Stages(rule) if K::Measures::IS_SPRING => {
-                staged::<M, K, Values<M, K, D>, D>(rule, *self, placed)
+                let models =
+                    OfMaterial::new(rule, *self, placed, |_, point| StageValues::new(point));
+                Box::new(StageGroup::<K, Values<K, D>, D>::new(
+                    rule,
+                    Box::new(models),
+                ))
             }
             Conjugates::Stages(_) => unreachable!("they are refused in scenes with solids"),
         }
@@ -64,15 +74,6 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
     fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
         (self.make_explicit)(self, placed)
     }
-}
-
-/// The group of a scheme that goes through stages, with conjugates of `C`.
-fn staged<M: Material, K: QuadraticStrain<D>, C: Source<M, K, D>, const D: usize>(
-    rule: &'static Tableau,
-    elements: LooseElements<M, K, D>,
-    placed: Placed<'_>,
-) -> Box<dyn Group<D>> {
-    Box::new(StageGroup::<M, K, C, D>::new(rule, elements, placed))
 }
 
 /// The type and the kind of a model.

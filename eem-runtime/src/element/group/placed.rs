@@ -9,6 +9,7 @@ use super::respond::TrialArms;
 use crate::element::conjugates::{Family, Form, OneSet};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
+use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
 use crate::element::state::State;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
@@ -58,9 +59,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Its measures with these arms; an error if the deformation is inadmissible.
     #[inline]
     pub(super) fn admissible_measures(&self, r: &Arms<K, D>) -> Result<Measures<K, D>, StateError> {
-        let measures = self.kinematics.measure(r);
-        self.check_measures(&measures, r)?;
-        Ok(measures)
+        admissible(&self.kinematics, self.point.element, r)
     }
 
     /// An error unless the deformation given by these arms is admissible.
@@ -204,4 +203,18 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         }
         rates
     }
+}
+
+/// The measures of these arms; an error if the deformation of the element is inadmissible.
+#[inline]
+pub(super) fn admissible<K: Kinematics<D>, const D: usize>(
+    kinematics: &K,
+    element: Element,
+    r: &Arms<K, D>,
+) -> Result<Measures<K, D>, StateError> {
+    let measures = kinematics.measure(r);
+    if kinematics.is_admissible(r, &measures) {
+        return Ok(measures);
+    }
+    Err(kinematics.refusal(element, r))
 }

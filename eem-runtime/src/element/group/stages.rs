@@ -1,11 +1,11 @@
 //! All elements of one model, stepped through the stages of a [`Tableau`](crate::element::tableau::Tableau).
 //!
-//! The internal variables of all stages are eliminated together, point by point. The conjugates of the stages come
-//! from a [`Source`](source::Source): values of the free energy at the stages, or projections of its derivatives along
-//! the path through the step.
+//! The internal variables of all stages are eliminated together, point by point. The conjugates of the stages are
+//! values of the free energy at the stages, or projections of its derivatives along the path through the step. The
+//! models stand behind a table ([`StageModels`](models::StageModels)), the nodes in front of it.
 //!
 //! ```text
-//! begin     reads the old state, once                                 (stage_group, values, projection)
+//! begin     reads the old state, once                                 (stage_group, geometry, models)
 //! evaluate  conjugates of the stages                                  (values, projection)
 //!           local unknowns eliminated                                 (point, values, projection)
 //!           contributions to the global residual and tangent          (assemble)
@@ -14,14 +14,16 @@
 //! ```
 
 mod assemble;
+mod equations;
+mod geometry;
+mod models;
 mod point;
 mod projection;
 mod site;
-mod source;
 mod stage_group;
 mod values;
 
-pub(crate) use projection::Projections;
-pub(crate) use source::Source;
+pub(crate) use models::OfMaterial;
+pub(crate) use projection::{PointPath, Projections};
 pub(crate) use stage_group::StageGroup;
-pub(crate) use values::Values;
+pub(crate) use values::{StageValues, Values};

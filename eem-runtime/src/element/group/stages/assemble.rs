@@ -1,14 +1,15 @@
 //! From the stages of the elements to the global system.
 
+use super::geometry::Geometry;
+use super::models::StageModels;
 use super::point::{LocalStages, StagedPoint};
 use super::site::{PerPair, StageSite};
-use super::source::{Source, StageEquations};
 use crate::element::group::arms::add_scaled;
 use crate::element::group::site::Contact;
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Blocks, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
-use eem_material::free_energy::{Array, Material};
+use eem_material::free_energy::Array;
 
 /// The forces of an element at the stages, as functions of the arms of each set.
 pub(super) struct StageForces<K: Kinematics<D>, const D: usize> {
@@ -65,32 +66,33 @@ pub(super) struct Target<'a, K: Kinematics<D>, const D: usize> {
 impl<K: Kinematics<D>, const D: usize> Target<'_, K, D> {
     /// Adds the forces of a point at all stages with their derivatives for constant directions, and the effect of heat
     /// from other elements on them.
-    pub(super) fn add_forces<M: Material, C: Source<M, K, D>>(
+    pub(super) fn add_forces<G: Geometry<K, D>>(
         &mut self,
-        StagedPoint { source, contacts }: &StagedPoint<K, C, D>,
-        bases: &C::Bases,
+        models: &G::Models,
+        point: &StagedPoint<K, G, D>,
+        bases: &G::Bases,
     ) {
-        let rule = self.rule;
+        let (rule, geometry) = (self.rule, &point.geometry);
         let nowhere = Arms::<K, D>::filled([0.0; D]);
         // The derivatives of the forces at each stage with respect to the heat at each stage.
         let mut by_heat = [[nowhere; MOST_STAGES]; MOST_STAGES];
         for (stage, by_heat) in by_heat.iter_mut().enumerate().take(rule.stages()) {
-            for force in 0..C::FORCES {
+            for force in 0..G::FORCES {
                 let at = [stage, force];
-                let value = source.equations().force(self.local, at) + self.local.row[0];
-                let by_arms = source.by_arms(bases, self.local);
-                let along = source.direction(bases, at);
+                let value = models.force(point.place, self.local, at) + self.local.row[0];
+                let by_arms = geometry.by_arms(bases, self.local);
+                let along = geometry.direction(bases, at);
                 self.forces
                     .add(stage, (value, along), &by_arms[..rule.sets()]);
-                if contacts.is_some() {
-                    let heats = &self.local.row[1 + rule.sets() * C::FORCES..];
+                if point.contacts.is_some() {
+                    let heats = &self.local.row[1 + rule.sets() * G::FORCES..];
                     for (sum, &by) in by_heat.iter_mut().zip(heats) {
                         add_scaled::<K, D>(sum, by, along);
                     }
                 }
             }
         }
-        let Some(contacts) = contacts else {
+        let Some(contacts) = &point.contacts else {
             return;
         };
         for (set, weights) in rule.positions.iter().enumerate() {
@@ -124,18 +126,19 @@ impl<K: Kinematics<D>, const D: usize> Target<'_, K, D> {
     }
 
     /// Adds the equations `Θ − θ = 0` of the coupled interface temperatures of a point.
-    pub(super) fn add_temperatures<M: Material, C: Source<M, K, D>>(
+    pub(super) fn add_temperatures<G: Geometry<K, D>>(
         &mut self,
-        StagedPoint { source, contacts }: &StagedPoint<K, C, D>,
-        bases: &C::Bases,
+        models: &G::Models,
+        point: &StagedPoint<K, G, D>,
+        bases: &G::Bases,
         (slot, trial): (usize, &Trial<D>),
     ) {
         let rule = self.rule;
-        let contacts = contacts.iter().flatten();
+        let contacts = point.contacts.iter().flatten();
         for (set, contacts) in contacts.enumerate().take(rule.sets()) {
-            let theta = source.equations().temperature(self.local, set) + self.local.row[0];
-            let by_arms = source.by_arms(bases, self.local);
-            let by_heat = &self.local.row[1 + rule.sets() * C::FORCES..];
+            let theta = models.temperature(point.place, self.local, set) + self.local.row[0];
+            let by_arms = point.geometry.by_arms(bases, self.local);
+            let by_heat = &self.local.row[1 + rule.sets() * G::FORCES..];
             let own = &contacts[set];
             let interface = trial.interface.values()[trial.interface.of_set(rule, set, slot)];
             self.right[own.unknown as usize][0] += theta - interface;

@@ -17,30 +17,28 @@ use crate::algebra::lu::{self, Singular};
 use crate::algebra::vector;
 use crate::element::conduction::{InterfaceTemperatures, Partner};
 use crate::element::group::arms::{add_scaled, arms_in, change_in_set};
-use crate::element::group::member::Member;
-use crate::element::group::placed::PlacedPoint;
 use crate::element::group::site::{Contact, HeatPath};
 use crate::element::group::view::{StepView, Trial};
+use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
 use eem_material::free_energy::Array;
 
-/// The same element in a state, apart from any step.
-pub(super) type StateMember<M, K, const D: usize> = Member<M, K, D>;
-
-/// One of its points.
-pub(super) type StatePoint<M, K, const D: usize> = PlacedPoint<M, K, D>;
-
-/// An element, whose points are [sources](super::source::Source) of conjugates.
-pub(crate) struct StageMember<K: Kinematics<D>, C, const D: usize> {
+/// An element, whose points have the [geometry](super::geometry::Geometry) `G`.
+pub(crate) struct StageMember<K: Kinematics<D>, G, const D: usize> {
     pub(super) site: StageSite<K, D>,
     /// On the heap: cells with many points are large.
-    pub(super) points: Vec<StagedPoint<K, C, D>>,
+    pub(super) points: Vec<StagedPoint<K, G, D>>,
 }
 
 /// A point of an element.
-pub(crate) struct StagedPoint<K: Kinematics<D>, C, const D: usize> {
-    pub(super) source: C,
+pub(crate) struct StagedPoint<K: Kinematics<D>, G, const D: usize> {
+    /// Its index among the models of the group.
+    pub(super) place: usize,
+    pub(super) element: Element,
+    /// Its thermal slot.
+    pub(super) slot: Option<usize>,
+    pub(super) geometry: G,
     /// The matrix indices of its coupled interface temperatures, if it conducts heat to other elements.
     pub(super) contacts: Option<PerPair<Contact<K, D>>>,
 }
@@ -211,7 +209,7 @@ impl StagePoint {
     }
 }
 
-impl<K: Kinematics<D>, C, const D: usize> StagedPoint<K, C, D> {
+impl<K: Kinematics<D>, G, const D: usize> StagedPoint<K, G, D> {
     /// The change of Q at a stage that follows from a global solution, W.
     pub(super) fn heat_change(&self, rule: &Tableau, stage: usize, solution: &[[f64; 1]]) -> f64 {
         let mut change = 0.0;

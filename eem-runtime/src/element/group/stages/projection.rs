@@ -35,25 +35,28 @@ mod path;
 mod rounding;
 mod vector;
 
-use super::point::{LocalStages, Outside, StageArms, StagePoint, StatePoint};
-use super::source::Source;
+use super::geometry::{At, AtMut, Geometry};
+use super::models::{PathModels, StrainOf};
+use super::point::{LocalStages, StageArms};
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, spread};
+use crate::element::group::placed::admissible;
 use crate::element::group::view::StepView;
 use crate::element::group::ways::StageWays;
-use crate::element::kinematics::{Arms, Blocks, PerStrain, QuadraticStrain, StrainMeasures};
-use crate::element::state::State;
-use crate::element::tableau::{MOST_SETS, MOST_STAGES};
-use crate::element::tally::{Care, Reevaluation, Tally};
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use crate::element::handle::Element;
+use crate::element::kinematics::{Arms, Blocks, Measures, QuadraticStrain, StrainMeasures};
+use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
+use crate::element::tally::Tally;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
-use path::PointPath;
 
-/// A point among its nodes with its path through a step, and the projections from it.
-pub(crate) struct Projections<M: FreeEnergy<f64>, K: QuadraticStrain<D>, const D: usize> {
+pub(crate) use path::PointPath;
+
+/// A point among its nodes on its path through a step.
+pub(crate) struct Projections<K: QuadraticStrain<D>, const D: usize> {
+    rule: &'static Tableau,
     kinematics: K,
-    path: PointPath<M, K::Strain>,
     /// `d_i` and `h ḋ_i`, m.
     arms: [Arms<K, D>; MOST_STAGES],
     motions: [Arms<K, D>; MOST_STAGES],
@@ -69,58 +72,63 @@ pub(crate) struct Directions<K: QuadraticStrain<D>, const D: usize> {
 type PerComponent<K, T, const D: usize> =
     <<K as QuadraticStrain<D>>::Strain as StrainMeasures>::PerStrain<T>;
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Projections<M, K, D> {
-    type Equations = PointPath<M, K::Strain>;
+impl<K: QuadraticStrain<D>, const D: usize> Geometry<K, D> for Projections<K, D> {
+    type Models = dyn PathModels<K, D>;
 
     type Bases = Directions<K, D>;
 
-    fn new(kinematics: K, point: StagePoint) -> Self {
+    const FORCES: usize = StrainOf::<K, D>::LEN;
+
+    fn new(rule: &'static Tableau, kinematics: K) -> Self {
         let nowhere = Arms::<K, D>::filled([0.0; D]);
         Self {
-            path: PointPath::new(kinematics.strain_measures(), point),
+            rule,
             kinematics,
             arms: [nowhere; MOST_STAGES],
             motions: [nowhere; MOST_STAGES],
         }
     }
 
-    fn equations(&self) -> &PointPath<M, K::Strain> {
-        &self.path
+    fn kinematics(&self) -> &K {
+        &self.kinematics
     }
 
-    fn equations_mut(&mut self) -> &mut PointPath<M, K::Strain> {
-        &mut self.path
-    }
-
-    fn begin(&mut self, in_state: &StatePoint<M, K, D>, x0: &M::Variables, r0: &Arms<K, D>) {
+    fn begin(
+        &mut self,
+        (models, place): AtMut<'_, Self::Models>,
+        (r0, measures): (&Arms<K, D>, &Measures<K, D>),
+        view: &StepView<'_>,
+    ) {
         let strain = self.kinematics.strain(r0);
-        self.path.begin(in_state, x0, &strain);
+        models.begin(place, (measures, strain.as_ref()), view);
     }
 
     fn evaluate(
         &mut self,
-        in_state: &mut StatePoint<M, K, D>,
-        (view, interface): (&StepView<'_>, &InterfaceTemperatures),
+        (models, place): AtMut<'_, Self::Models>,
+        element: Element,
+        view_and_interface: (&StepView<'_>, &InterfaceTemperatures),
         arms: &StageArms<K, D>,
     ) -> Result<(), StateError> {
         let kinematics = &self.kinematics;
-        for (stage, row) in self.path.point.rule.motion.iter().enumerate() {
+        let mut strain_rates = [StrainOf::<K, D>::filled(0.0); MOST_STAGES];
+        for (stage, row) in self.rule.motion.iter().enumerate() {
             let r = arms.of_set(stage);
-            in_state.admissible_measures(&r)?;
+            admissible(kinematics, element, &r)?;
             let motion = combined::<K, D>(row, &arms.changes);
-            self.path.rates[stage].strain = kinematics.strain_rate(&r, &motion);
+            strain_rates[stage] = kinematics.strain_rate(&r, &motion);
             (self.arms[stage], self.motions[stage]) = (r, motion);
         }
-        self.path.evaluate(in_state, (view, interface))
+        models.evaluate(place, &strain_rates, view_and_interface)
     }
 
     fn bases(&self) -> Directions<K, D> {
         let nowhere = Arms::<K, D>::filled([0.0; D]);
         let none = [PerComponent::<K, _, D>::filled(nowhere); MOST_STAGES];
         let (mut along, mut turning) = (none, none);
-        for stage in 0..self.path.point.rule.stages() {
-            for component in 0..Self::STRAINS {
-                let mut unit = PerStrain::<K::Strain>::filled(0.0);
+        for stage in 0..self.rule.stages() {
+            for component in 0..Self::FORCES {
+                let mut unit = StrainOf::<K, D>::filled(0.0);
                 unit[component] = 1.0;
                 let force = |arms| self.kinematics.strain_force(arms, &unit);
                 along[stage][component] = force(&self.arms[stage]);
@@ -138,10 +146,14 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
         &bases.along[stage].as_ref()[component]
     }
 
-    fn geometric_stiffness(&self, set: usize, _: &StageArms<K, D>) -> Blocks<K, D> {
+    fn geometric_stiffness(
+        &self,
+        (models, place): At<'_, Self::Models>,
+        set: usize,
+        _: &StageArms<K, D>,
+    ) -> Blocks<K, D> {
         let mut blocks = Blocks::<K, D>::filled(K::PerArm::filled([[0.0; D]; D]));
-        let stress = &self.path.conjugates[set].strain;
-        let weights = self.kinematics.strain_stiffness(stress);
+        let weights = self.kinematics.strain_stiffness(&models.stress(place, set));
         for (row, weights) in blocks.as_mut().iter_mut().zip(weights.as_ref()) {
             for (block, &weight) in row.as_mut().iter_mut().zip(weights.as_ref()) {
                 for (axis, row) in block.iter_mut().enumerate() {
@@ -156,11 +168,11 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
     fn by_arms(&self, bases: &Directions<K, D>, local: &LocalStages) -> [Arms<K, D>; MOST_SETS] {
         let nowhere = Arms::<K, D>::filled([0.0; D]);
         let mut by_arms = [nowhere; MOST_SETS];
-        for (stage, row) in self.path.point.rule.motion.iter().enumerate() {
+        for (stage, row) in self.rule.motion.iter().enumerate() {
             let mut along = nowhere;
             let rows = bases.along[stage].as_ref().iter();
             let rows = rows.zip(bases.turning[stage].as_ref());
-            for ((own, turning), &by) in rows.zip(&local.row[1 + stage * Self::STRAINS..]) {
+            for ((own, turning), &by) in rows.zip(&local.row[1 + stage * Self::FORCES..]) {
                 add_scaled::<K, D>(&mut along, by, own);
                 add_scaled::<K, D>(&mut by_arms[stage], by, turning);
             }
@@ -173,26 +185,30 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
 
     fn inputs(&self, motions: &[Arms<K, D>; MOST_SETS], inputs: &mut [f64]) {
         let kinematics = &self.kinematics;
-        for (stage, row) in self.path.point.rule.motion.iter().enumerate() {
+        for (stage, row) in self.rule.motion.iter().enumerate() {
             let turned = kinematics.strain_rate(&self.motions[stage], &motions[stage]);
             let change = combined::<K, D>(row, motions);
             let moved = kinematics.strain_rate(&self.arms[stage], &change);
-            for q in 0..Self::STRAINS {
-                inputs[stage * Self::STRAINS + q] = turned[q] + moved[q];
+            for q in 0..Self::FORCES {
+                inputs[stage * Self::FORCES + q] = turned[q] + moved[q];
             }
         }
     }
 
-    fn nodal_force(&self, stage: usize, _: &StageArms<K, D>) -> K::PerNode<[f64; D]> {
-        let (kinematics, stress) = (&self.kinematics, &self.path.conjugates[stage].strain);
-        spread::<K, D>(&kinematics.strain_force(&self.arms[stage], stress))
+    fn nodal_force(
+        &self,
+        (models, place): At<'_, Self::Models>,
+        stage: usize,
+        _: &StageArms<K, D>,
+    ) -> K::PerNode<[f64; D]> {
+        let stress = models.stress(place, stage);
+        spread::<K, D>(&self.kinematics.strain_force(&self.arms[stage], &stress))
     }
 
-    fn impulse_size(&mut self, in_state: &StatePoint<M, K, D>, step: f64) -> f64 {
-        self.path.add_conditioning_of_path(in_state);
-        let size = |at| self.path.size_of_conjugate(at, Care::Thorough);
-        let stages = 0..self.path.point.rule.stages();
-        let forces = stages.map(|stage| self.force_size(&self.arms[stage], |q| size([stage, q])));
+    fn impulse_size(&self, (models, place): AtMut<'_, Self::Models>, step: f64) -> f64 {
+        let sizes = models.conditioned_stress(place);
+        let stages = sizes.iter().zip(&self.arms).take(self.rule.stages());
+        let forces = stages.map(|(sizes, arms)| self.force_size(arms, sizes));
         step * forces.fold(0.0, Scalar::maximum)
     }
 
@@ -202,60 +218,41 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Source<M, K, D> for Pro
     ///
     /// with the terms of `R_j = ∂C/∂d_j·h ḋ_j`, by which the path misses the new arms.
     #[cold]
-    fn work_along(&self, ways: &StageWays, new_arms: &Arms<K, D>) -> f64 {
-        let at_end =
-            |arms: &Arms<K, D>| self.force_size(arms, |q| self.path.end_slopes[1][q].abs());
-        let mut work = at_end(new_arms) * ways.of_end;
-        for (stage, &weight) in self.path.point.rule.weights.iter().enumerate() {
+    fn work_along(
+        &self,
+        (models, place): At<'_, Self::Models>,
+        ways: &StageWays,
+        new_arms: &Arms<K, D>,
+    ) -> f64 {
+        let end = models.stress_at_end(place);
+        let mut work = self.force_size(new_arms, &end) * ways.of_end;
+        for (stage, &weight) in self.rule.weights.iter().enumerate() {
             let arms = &self.arms[stage];
-            let force = self.force_size(arms, |q| self.path.conjugates[stage][q].abs());
+            let force = self.force_size(arms, &models.stress(place, stage));
             let motion = self.motions[stage].as_ref().as_flattened().iter();
             let motion = motion.fold(0.0, |sum, x| sum + x.abs());
-            work += weight * (force * ways.at_stages[stage] + at_end(arms) * motion);
+            work += weight * (force * ways.at_stages[stage] + self.force_size(arms, &end) * motion);
         }
         work
     }
 
-    fn close(
-        &mut self,
-        in_state: &mut StatePoint<M, K, D>,
-        r1: &Arms<K, D>,
-        (view, outside): (&StepView<'_>, Outside<'_>),
-        (next, tally): (&mut State, &mut Tally),
-    ) -> Result<(), StateError> {
-        let measures = in_state.admissible_measures(r1)?;
-        // h Σ b |F|, each F limited by those at the ends: the rounding of larger forces, which cancel, is an error.
-        let impulse = self.path.point.rule.weights.iter().enumerate();
+    /// h Σ b |F|, each F limited by those at the ends: the rounding of larger forces, which cancel, is an error.
+    fn see_impulse(&self, (models, place): At<'_, Self::Models>, step: f64, tally: &mut Tally) {
+        let impulse = self.rule.weights.iter().enumerate();
         let impulse = impulse.fold(0.0, |sum, (stage, &weight)| {
-            let size = |q: usize| self.path.limited_size([stage, q]);
-            sum + view.step * weight * self.force_size(&self.arms[stage], size)
+            let sizes = models.limited_stress(place, stage);
+            sum + step * weight * self.force_size(&self.arms[stage], &sizes)
         });
         tally.exchange(impulse);
-        (self.path).close(in_state, &measures, (view, outside), (next, tally))
-    }
-
-    fn reevaluate(
-        &self,
-        in_state: &StatePoint<M, K, D>,
-        nodes: &K::PerNode<u32>,
-        ends: [&State; 2],
-        reevaluation: &mut Reevaluation,
-    ) {
-        let own = in_state.balance_between(nodes, ends);
-        let found = self.path.change_of_energy();
-        reevaluation.element(in_state.element, own.by_values, own.by_differences, found);
     }
 }
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> Projections<M, K, D> {
-    /// Number of components of the strain.
-    const STRAINS: usize = PerStrain::<K::Strain>::LEN;
-
-    /// The magnitude of the terms of the force on the nodes with these arms, given that of each conjugate of the strain, N.
-    fn force_size(&self, arms: &Arms<K, D>, of: impl Fn(usize) -> f64) -> f64 {
-        let mut sizes = PerStrain::<K::Strain>::filled(0.0);
-        for (q, size) in sizes.as_mut().iter_mut().enumerate() {
-            *size = of(q);
+impl<K: QuadraticStrain<D>, const D: usize> Projections<K, D> {
+    /// The magnitude of the terms of the force on the nodes with these arms, given conjugates of the strain, N.
+    fn force_size(&self, arms: &Arms<K, D>, conjugates: &StrainOf<K, D>) -> f64 {
+        let mut sizes = *conjugates;
+        for size in sizes.as_mut() {
+            *size = size.abs();
         }
         self.kinematics.strain_force_size(arms, &sizes)
     }

@@ -15,11 +15,11 @@ use crate::element::error::StateError;
 use crate::element::group::point::Point;
 use crate::element::group::stages::point::Outside;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{MeasureSet, MeasuresOf, StrainMeasures};
+use crate::element::kinematics::{MeasureSet, MeasuresOf, PerStrain, StrainMeasures};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES};
 use crate::element::tally::{Care, Tally};
-use eem_material::free_energy::Material;
+use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Scalar;
 
 /// Heat and entropy received in a step, stage by stage.
@@ -27,7 +27,7 @@ type Booked = [Received; MOST_STAGES];
 
 impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// Closes the step at the new measures, except for the impulses of its forces.
-    pub(super) fn close(
+    pub(super) fn close_at(
         &mut self,
         in_state: &mut Point<M, G::Measures>,
         measures: &MeasuresOf<G>,
@@ -241,7 +241,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     }
 
     /// `Σ b (a·R − heat) + μ w`, the change of energy by the path, J.
-    pub(super) fn change_of_energy(&self) -> f64 {
+    pub(super) fn change_along_path(&self) -> f64 {
         let mut found = 0.0;
         for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
             let work = self.conjugates[stage].dot(&self.rates[stage]);
@@ -250,11 +250,30 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
         found + self.heat_beyond
     }
 
-    /// The size of a conjugate of the strain, limited by those at the ends of the path.
-    pub(super) fn limited_size(&self, [stage, q]: [usize; 2]) -> f64 {
+    /// The sizes of the conjugates of the strain, limited by those at the ends of the path.
+    pub(crate) fn limited_stress(&self, stage: usize) -> PerStrain<G> {
         let [old, new] = &self.end_slopes;
-        let at_ends = Scalar::maximum(old[q].abs(), new[q].abs());
-        Scalar::minimum(self.conjugates[stage][q].abs(), at_ends)
+        let mut sizes = self.conjugates[stage].strain;
+        for (q, size) in sizes.as_mut().iter_mut().enumerate() {
+            let at_ends = Scalar::maximum(old[q].abs(), new[q].abs());
+            *size = Scalar::minimum(size.abs(), at_ends);
+        }
+        sizes
+    }
+
+    /// The sizes of the conjugates of the strain at all stages, with the conditioning errors of the path.
+    pub(crate) fn conditioned_stress(
+        &mut self,
+        in_state: &Point<M, G::Measures>,
+    ) -> [PerStrain<G>; MOST_STAGES] {
+        self.add_conditioning_of_path(in_state);
+        let mut sizes = [PerStrain::<G>::filled(0.0); MOST_STAGES];
+        for (stage, sizes) in sizes.iter_mut().enumerate() {
+            for (q, size) in sizes.as_mut().iter_mut().enumerate() {
+                *size = self.size_of_conjugate([stage, q], Care::Thorough);
+            }
+        }
+        sizes
     }
 
     /// The size of a conjugate, for a thorough bound with its conditioning error, in units of ε.

@@ -13,12 +13,14 @@ use super::path::PointPath;
 use super::vector::{Vector, chained};
 use crate::element::error::StateError;
 use crate::element::group::point::Point;
-use crate::element::group::stages::point::{LocalStages, StagePoint};
-use crate::element::group::stages::source::StageEquations;
+use crate::element::group::stages::equations::StageEquations;
+use crate::element::group::stages::point::{LocalStages, Outside, StagePoint};
 use crate::element::group::view::StepView;
-use crate::element::kinematics::StrainMeasures;
+use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
+use crate::element::state::State;
 use crate::element::tableau::MOST_STAGES;
-use eem_material::free_energy::Material;
+use crate::element::tally::Tally;
+use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Scalar;
 
 impl<M: Material, G: StrainMeasures> StageEquations<M, G::Measures> for PointPath<M, G> {
@@ -26,6 +28,10 @@ impl<M: Material, G: StrainMeasures> StageEquations<M, G::Measures> for PointPat
 
     fn point_mut(&mut self) -> &mut StagePoint {
         &mut self.point
+    }
+
+    fn begin(&mut self, in_state: &Point<M, G::Measures>, x0: &M::Variables, strain: &[f64]) {
+        self.begin_at(in_state, x0, PerStrain::<G>::beginning_of(strain));
     }
 
     // All in J; the unknowns are in their units.
@@ -100,6 +106,20 @@ impl<M: Material, G: StrainMeasures> StageEquations<M, G::Measures> for PointPat
                 self.rates[stage][index] = self.previous[stage][index] + change;
             }
         }
+    }
+
+    fn close(
+        &mut self,
+        in_state: &mut Point<M, G::Measures>,
+        measures: &MeasuresOf<G>,
+        view_and_outside: (&StepView<'_>, Outside<'_>),
+        next_and_tally: (&mut State, &mut Tally),
+    ) -> Result<(), StateError> {
+        self.close_at(in_state, measures, view_and_outside, next_and_tally)
+    }
+
+    fn change_of_energy(&self) -> Option<f64> {
+        Some(self.change_along_path())
     }
 }
 

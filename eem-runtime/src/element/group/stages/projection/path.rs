@@ -39,10 +39,10 @@ pub(crate) struct PointPath<M: FreeEnergy<f64>, G: StrainMeasures> {
     pub(super) heat_beyond: f64,
     /// y¹, and `∇ê` and the magnitudes of the terms of C at both ends.
     pub(super) end: Vector<M, G>,
-    pub(super) end_slopes: [Vector<M, G>; 2],
+    pub(crate) end_slopes: [Vector<M, G>; 2],
     pub(super) end_sizes: [PerStrain<G>; 2],
     /// a.
-    pub(super) conjugates: [Vector<M, G>; MOST_STAGES],
+    pub(crate) conjugates: [Vector<M, G>; MOST_STAGES],
     /// `∂a_i/∂R_j`.
     pub(super) by_rates: Box<PerPair<Matrix<M, G>>>,
     /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, the conditioning error of the conjugates.
@@ -66,7 +66,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     pub(super) const STRAINS: usize = Vector::<M, G>::STRAINS;
     pub(super) const ENTROPY: usize = Vector::<M, G>::ENTROPY;
 
-    pub(super) fn new(measures: G, point: StagePoint) -> Self {
+    pub(crate) fn new(measures: G, point: StagePoint) -> Self {
         let (none, zeros) = (0.0, Vector::zero());
         let viscosities = M::Viscosities::filled(none);
         let strain = PerStrain::<G>::filled(none);
@@ -99,7 +99,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     }
 
     /// Starts the trial at the old variables and the old strain.
-    pub(super) fn begin(
+    pub(super) fn begin_at(
         &mut self,
         in_state: &Point<M, G::Measures>,
         x0: &M::Variables,
@@ -155,11 +155,15 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     }
 
     /// Evaluates the model along the path, given the increments of C.
-    pub(super) fn evaluate(
+    pub(crate) fn evaluate(
         &mut self,
         in_state: &mut Point<M, G::Measures>,
+        strain_rates: &[PerStrain<G>; MOST_STAGES],
         (view, interface): (&StepView<'_>, &InterfaceTemperatures),
     ) -> Result<(), StateError> {
+        for (rates, strain) in self.rates.iter_mut().zip(strain_rates) {
+            rates.strain = *strain;
+        }
         if let Some(slot) = in_state.slots().thermal {
             for stage in 0..self.point.rule.stages() {
                 self.received[stage] = self.point.heat_received(stage, slot, (view, interface));

@@ -15,9 +15,9 @@ use eem_material::number::scalar::Scalar;
 
 /// A number per variable.
 #[derive(Debug)]
-pub(super) struct Vector<M: FreeEnergy<f64>, G: StrainMeasures> {
+pub(crate) struct Vector<M: FreeEnergy<f64>, G: StrainMeasures> {
     /// Of the components of the strain.
-    pub(super) strain: PerStrain<G>,
+    pub(crate) strain: PerStrain<G>,
     /// Of γ and s, at their indices among the variables of the model, whose measures are ignored.
     pub(super) rest: M::Variables,
 }

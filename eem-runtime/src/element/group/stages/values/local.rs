@@ -7,13 +7,14 @@ use crate::element::error::StateError;
 use crate::element::group::arms::measures_in;
 use crate::element::group::point::{Point, grown};
 use crate::element::group::respond::check_temperature;
-use crate::element::group::stages::point::{LocalStages, StagePoint};
-use crate::element::group::stages::source::StageEquations;
+use crate::element::group::stages::equations::StageEquations;
+use crate::element::group::stages::point::{LocalStages, Outside, StagePoint};
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::element::tableau::{EntropyBalance, MOST_STAGES};
+use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::Scalar;
 
@@ -36,6 +37,14 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
 
     fn point_mut(&mut self) -> &mut StagePoint {
         &mut self.point
+    }
+
+    fn begin(&mut self, _: &Point<M, Q>, x0: &M::Variables, _strain: &[f64]) {
+        (self.old, self.x) = (*x0, [*x0; MOST_STAGES]);
+        let prescribed = self.point.prescribed.into_iter().flatten();
+        for (x, theta) in self.x.iter_mut().zip(prescribed) {
+            x[Self::TEMPERATURE] = theta;
+        }
     }
 
     fn write_equations(
@@ -123,13 +132,30 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
             });
         }
     }
+
+    fn close(
+        &mut self,
+        in_state: &mut Point<M, Q>,
+        measures: &Numbers<Q>,
+        (view, _): (&StepView<'_>, Outside<'_>),
+        (next, _): (&mut State, &mut Tally),
+    ) -> Result<(), StateError> {
+        let received = self.book(in_state.slots(), view, next);
+        let near = self.theta(self.point.rule.stages() - 1);
+        if let Some(entropy) =
+            in_state.recover_temperature::<Any>(measures, view, (near, None), next)?
+        {
+            self.book_thermostat(view.step, [entropy, received], next);
+        }
+        Ok(())
+    }
 }
 
 impl<M: Material> StageValues<M> {
     /// The index of the last variable, the temperature of elements that have one.
     const TEMPERATURE: usize = M::Variables::LEN - 1;
 
-    pub(super) fn new(point: StagePoint) -> Self {
+    pub(crate) fn new(point: StagePoint) -> Self {
         let zeros = [M::Variables::filled(0.0); MOST_STAGES];
         Self {
             point,
@@ -141,17 +167,8 @@ impl<M: Material> StageValues<M> {
         }
     }
 
-    /// Starts the trial at the old variables.
-    pub(super) fn begin(&mut self, x0: &M::Variables) {
-        (self.old, self.x) = (*x0, [*x0; MOST_STAGES]);
-        let prescribed = self.point.prescribed.into_iter().flatten();
-        for (x, theta) in self.x.iter_mut().zip(prescribed) {
-            x[Self::TEMPERATURE] = theta;
-        }
-    }
-
     /// Sets the measures of a stage.
-    pub(super) fn set_measures(&mut self, stage: usize, measures: &[f64]) {
+    pub(crate) fn set_measures(&mut self, stage: usize, measures: &[f64]) {
         self.x[stage].as_mut()[..M::MEASURES].copy_from_slice(measures);
     }
 
@@ -161,12 +178,12 @@ impl<M: Material> StageValues<M> {
     }
 
     /// Measures and forces of a stage.
-    pub(super) fn measures_and_forces<Q: MeasureSet>(&self, stage: usize) -> [Numbers<Q>; 2] {
+    pub(crate) fn measures_and_forces<Q: MeasureSet>(&self, stage: usize) -> [Numbers<Q>; 2] {
         [&self.x[stage], &self.stages[stage].gradient].map(measures_in::<Q>)
     }
 
     /// Evaluates the model at a stage whose measures are known.
-    pub(super) fn evaluate<Q: MeasureSet>(
+    pub(crate) fn evaluate<Q: MeasureSet>(
         &mut self,
         in_state: &mut Point<M, Q>,
         stage: usize,
@@ -278,24 +295,6 @@ impl<M: Material> StageValues<M> {
         for (entry, &share) in row.iter_mut().zip(rule.temperatures[balance.stage]) {
             *entry += share * scaled;
         }
-    }
-
-    /// Closes the step at the new measures.
-    pub(super) fn close<Q: MeasureSet>(
-        &self,
-        in_state: &mut Point<M, Q>,
-        measures: &Numbers<Q>,
-        view: &StepView<'_>,
-        next: &mut State,
-    ) -> Result<(), StateError> {
-        let received = self.book(in_state.slots(), view, next);
-        let near = self.theta(self.point.rule.stages() - 1);
-        if let Some(entropy) =
-            in_state.recover_temperature::<Any>(measures, view, (near, None), next)?
-        {
-            self.book_thermostat(view.step, [entropy, received], next);
-        }
-        Ok(())
     }
 
     /// Books the increments of the internal variables and of the reservoirs' entropies; returns the entropy that dashpots
