@@ -7,7 +7,7 @@ use super::point::Point;
 use super::site::HeatPath;
 use crate::element::balances::Received;
 use crate::element::conduction::InterfaceTemperatures;
-use crate::element::conjugates::Family;
+use crate::element::conjugates::{Any, Family};
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
 use crate::element::state::Energy;
@@ -22,7 +22,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// h Σ_π (|∂²π/∂r²| |r| |f*| + |∂π/∂r| Σ |∂f*/∂x_j| |x_j|) (1 + |Δr|/ℓ)
     /// ```
     #[cold]
-    pub(super) fn add_magnitude<C: Family>(
+    pub(super) fn add_magnitude(
         &self,
         h: f64,
         [r1, change]: [&Arms<K, D>; 2],
@@ -35,7 +35,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
             }
         }
         for point in self.points.as_ref() {
-            let magnitude = h * point.magnitude_of_pull::<C>(r1, largest);
+            let magnitude = h * point.magnitude_of_pull(r1, largest);
             for &node in self.site.nodes.as_ref() {
                 magnitudes[node as usize] += magnitude;
             }
@@ -66,14 +66,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         forces.fold(0.0, |sum, (&force, &slope)| sum + slope * force.abs())
     }
 
-    fn magnitude_of_pull<C: Family>(&self, r1: &Arms<K, D>, motion: f64) -> f64 {
+    fn magnitude_of_pull(&self, r1: &Arms<K, D>, motion: f64) -> f64 {
         let sizes = self.sizes(r1, &self.x);
         let [old, new] = [&self.start.x0, &self.x].map(measures_in::<K::Measures>);
         let slopes = self.kinematics.slopes(r1, &new);
         let slope_sizes = self.kinematics.slope_sizes(r1, &new);
         let mut sum = 0.0;
         for a in 0..M::MEASURES {
-            sum += slope_sizes[a] * self.pull_of_row::<C>(a).abs();
+            sum += slope_sizes[a] * self.pull_of_row::<Any>(a).abs();
             sum += slopes[a] * self.resolution_of_row(a, &sizes);
         }
         let lengths = [old, new].map(|measures| self.kinematics.length(&measures));
@@ -145,7 +145,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// `f* + Σ T_λj Δx_j` over the mechanical variables is the force of the new state, since f* is a divided
     /// difference: where only λ changes, `T_λλ = (f¹ − f*)/Δλ`. It is exact for energies that are quadratic in them.
     /// Where the temperature changes, it is the mean of the forces at both temperatures.
-    /// A thorough bound of a spring or a solid also has the rounding of the sums of forces at its nodes, given their way:
+    /// A thorough bound also has `of_sums`, the rounding of the sums of forces at its nodes:
     ///
     /// ```text
     /// Σ_a |∂π_a/∂r| |f*_a| Σ |Δq|
@@ -155,7 +155,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         &self,
         [sizes0, sizes1]: &[M::Variables; 2],
         care: Care,
-        of_sums: impl Fn() -> f64,
+        of_sums: f64,
     ) -> [f64; 2] {
         let (mut sum, mut at_end) = (0.0, 0.0);
         for row in 0..M::MEASURES + self.dashpots() {
@@ -179,7 +179,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             }
             return [sum, at_end];
         }
-        sum += self.work_of_arguments(sizes1) + of_sums();
+        sum += self.work_of_arguments(sizes1) + of_sums;
         [sum, at_end]
     }
 

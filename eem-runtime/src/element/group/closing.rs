@@ -17,38 +17,30 @@ use super::site::{Contact, HeatPath, paths_of};
 use super::ways::way_of_nodes;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::conduction::{InterfaceTemperatures, Partner};
-use crate::element::conjugates::{Family, Placement};
+use crate::element::conjugates::{Any, Family, Placement};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Weights};
 use crate::element::state::State;
-use crate::element::tally::Tally;
+use crate::element::tally::{Care, Tally};
 use eem_material::free_energy::{Array, Caloric, Material};
 
 impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     /// The nodal forces of the last responses along the gradient between two configurations, N.
-    pub(super) fn force<C: Family>(
-        &self,
-        at: Placement,
-        ends: [&Arms<K, D>; 2],
-    ) -> K::PerNode<[f64; D]> {
+    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
         let mut sum = None;
         for point in self.points.as_ref() {
-            sum_nodes::<K, D>(&mut sum, point.force::<C>(at, ends));
+            sum_nodes::<K, D>(&mut sum, point.force(at, ends));
         }
         sum.unwrap_or_else(|| K::PerNode::filled([0.0; D]))
     }
 
     /// The nodal forces of the last responses in the form `A r_m`, N.
     #[inline]
-    pub(super) fn pull<C: Family>(
-        &self,
-        ends: [&Arms<K, D>; 2],
-        mean: &Arms<K, D>,
-    ) -> K::PerNode<[f64; D]> {
+    pub(super) fn pull(&self, ends: [&Arms<K, D>; 2], mean: &Arms<K, D>) -> K::PerNode<[f64; D]> {
         let mut sum: Option<Weights<K, D>> = None;
         for point in self.points.as_ref() {
-            let own = point.secant::<C>(ends);
+            let own = point.secant(ends);
             let Some(sum) = &mut sum else {
                 sum = Some(own);
                 continue;
@@ -93,9 +85,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
                     point.sizes(&r1, &point.x),
                 ];
                 let largest = point.largest_pull::<C>(&r1);
-                let [forces, at_end] = point.amplitude::<C>(&sizes, tally.care, || {
-                    largest * way_of_nodes(self.site.nodes.as_ref(), trial)
-                });
+                let of_sums = match tally.care {
+                    Care::Quick => 0.0,
+                    Care::Thorough => largest * way_of_nodes(self.site.nodes.as_ref(), trial),
+                };
+                let [forces, at_end] = point.amplitude::<C>(&sizes, tally.care, of_sums);
                 tally.force(forces);
                 tally.exchange(view.step * largest);
                 let energy = &mut next.energies[point.element.index()];
@@ -154,27 +148,23 @@ pub(super) fn pull_of_arms<K: Kinematics<D>, const D: usize>(
 impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// The matrix A of the force `A r_m` at the last response.
     #[inline]
-    fn secant<C: Family>(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
+    fn secant(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
         let measures1 = measures_in::<K::Measures>(&self.x);
-        let (arms, measures0) = match C::placement(self.scheme) {
+        let (arms, measures0) = match self.scheme.placement() {
             Placement::Middle => ([mean::<K, D>(r0, r1); 2], measures1),
             Placement::Ends | Placement::End | Placement::Start => {
                 ([*r0, *r1], self.old_measures())
             }
         };
         let ends = Ends::new(&self.kinematics, arms, [measures0, measures1]);
-        self.kinematics.secant(&ends, &self.pulls::<C>())
+        self.kinematics.secant(&ends, &self.pulls::<Any>())
     }
 
     /// The nodal forces of the last response along the gradient between two configurations, N.
-    pub(super) fn force<C: Family>(
-        &self,
-        at: Placement,
-        ends: [&Arms<K, D>; 2],
-    ) -> K::PerNode<[f64; D]> {
+    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
         let measures0 = self.old_measures();
         let pose = Pose::between(&self.kinematics, at, ends, measures0);
-        spread::<K, D>(&pose.pull(&self.kinematics, at, &self.pulls::<C>()))
+        spread::<K, D>(&pose.pull(&self.kinematics, at, &self.pulls::<Any>()))
     }
 }
 

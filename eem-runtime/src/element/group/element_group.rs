@@ -42,11 +42,14 @@ pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, const D: usize> {
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     pub(crate) fn new(scheme: OneSet, loose: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
-        let members = loose.elements.into_iter();
-        let members = members.map(|parts| Member::new(scheme, parts, placed));
+        // A loop: collected, it takes four times the code.
+        let mut members = Vec::with_capacity(loose.elements.len());
+        for parts in loose.elements {
+            members.push(Member::new(scheme, parts, placed));
+        }
         Self {
             scheme,
-            members: members.collect(),
+            members,
             contacts: Vec::new(),
             make_explicit: loose.make_explicit,
             by_factors: false,
@@ -57,9 +60,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
 
     /// The elements without the scheme.
     pub(super) fn into_loose(self) -> LooseElements<M, K, D> {
-        let elements = self.members.into_iter().map(Member::into_parts);
+        let mut elements = Vec::with_capacity(self.members.len());
+        for member in self.members {
+            elements.push(member.into_parts());
+        }
         LooseElements {
-            elements: elements.collect(),
+            elements,
             make_explicit: self.make_explicit,
         }
     }
@@ -163,46 +169,6 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         largest
     }
 
-    fn add_impulse_as<C: Family>(
-        &self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        along: Along,
-        impulses: &mut Impulses<'_, D>,
-        magnitudes: &mut [f64],
-    ) {
-        let at = match along {
-            Along::Secant => None,
-            Along::Scheme => Some(C::placement(self.scheme)),
-            Along::Gradient => Some(Placement::End),
-            Along::Stage(_) => return,
-        };
-        for member in &self.members {
-            let (nodes, r0) = (&member.site.nodes, &member.r0);
-            let r1 = member.new_arms(trial);
-            if !magnitudes.is_empty() {
-                let change = change_in::<K, D>(nodes, trial);
-                member.add_magnitude::<C>(view.step, [&r1, &change], magnitudes);
-            }
-            let (h, force) = if let Some(at) = at {
-                let share = view.step * C::implicit(self.scheme);
-                (share, member.force::<C>(at, [r0, &r1]))
-            } else {
-                let mut mean = change_in::<K, D>(nodes, trial);
-                let old = r0.as_ref().as_flattened();
-                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
-                    *mean = old + 0.5 * *mean;
-                }
-                (view.step, member.pull::<C>([r0, &r1], &mean))
-            };
-            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
-                    *impulse -= h * force;
-                }
-            }
-        }
-    }
-
     fn close_as<C: Family>(
         &mut self,
         view: &StepView<'_>,
@@ -299,12 +265,34 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
         impulses: &mut Impulses<'_, D>,
         magnitudes: &mut [f64],
     ) {
-        match self.scheme {
-            OneSet::Exact(_) => {
-                self.add_impulse_as::<Exact>(view, trial, along, impulses, magnitudes);
+        let at = match along {
+            Along::Secant => None,
+            Along::Scheme => Some(self.scheme.placement()),
+            Along::Gradient => Some(Placement::End),
+            Along::Stage(_) => return,
+        };
+        for member in &self.members {
+            let (nodes, r0) = (&member.site.nodes, &member.r0);
+            let r1 = member.new_arms(trial);
+            if !magnitudes.is_empty() {
+                let change = change_in::<K, D>(nodes, trial);
+                member.add_magnitude(view.step, [&r1, &change], magnitudes);
             }
-            OneSet::Damped | OneSet::Point(_) => {
-                self.add_impulse_as::<Any>(view, trial, along, impulses, magnitudes);
+            let (h, force) = if let Some(at) = at {
+                let share = view.step * self.scheme.implicit();
+                (share, member.force(at, [r0, &r1]))
+            } else {
+                let mut mean = change_in::<K, D>(nodes, trial);
+                let old = r0.as_ref().as_flattened();
+                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
+                    *mean = old + 0.5 * *mean;
+                }
+                (view.step, member.pull([r0, &r1], &mean))
+            };
+            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
+                    *impulse -= h * force;
+                }
             }
         }
     }

@@ -92,14 +92,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
         let point = &member.points.as_ref()[point];
         let r = member.arms_in(state);
         let x = point.variables_in(&r, state);
-        let (gradient, theta) = (point.model.gradient(&x), x[M::Variables::LEN - 1]);
-        let (viscosities, _) = point.model.viscosity(theta);
-        let mut power = 0.0;
-        for dashpot in 0..point.dashpots() {
-            let g = gradient[M::MEASURES + dashpot];
-            power += g * g / viscosities[dashpot];
+        let mut power = point.power_in_series(&x);
+        if const { !Point::<M, K::Measures>::MAY_HAVE_DRAG } {
+            return power;
         }
-        let (drags, _) = point.model.drag(theta);
+        let (drags, _) = point.model.drag(x[M::Variables::LEN - 1]);
         let nodes = member.site.nodes.as_ref();
         let first = velocity(nodes[0] as usize);
         for (a, &drag) in drags.as_ref().iter().enumerate() {
@@ -119,10 +116,15 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
         for member in &self.members {
             let (nodes, r) = (member.site.nodes.as_ref(), member.arms_in(state));
             for point in member.points.as_ref() {
-                let (model, kinematics) = (&point.model, &point.kinematics);
                 let x = point.variables_in(&r, state);
-                let of = (model, kinematics, nodes);
-                see(stiffness_of::<M, K, D>(of, (&r, &x), point.slots()));
+                let measures = measures_in::<K::Measures>(&x);
+                let kinematics = &point.kinematics;
+                let length = kinematics.length(&measures);
+                let slopes = kinematics.slopes(&r, &measures);
+                let sizes = kinematics.sizes(&r, &measures);
+                let of = (&point.model, nodes, point.slots());
+                let sizes = (length, &slopes, &sizes);
+                see(stiffness_of::<M, K::Measures>(of, &x, sizes));
             }
         }
     }
@@ -184,21 +186,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
     fn digest(&self, digest: &mut Digest) {
         // Elements of a group are of one kind.
         if let Some(first) = self.points().next() {
-            let kind = first.model.kind();
-            if kind == 0 {
-                for name in first.model.parameter_names() {
-                    digest.bytes(name.as_bytes());
-                    digest.bytes(&[0]);
-                }
-            } else {
-                digest.bytes(&kind.to_le_bytes());
-            }
+            digest_kind(&first.model, digest);
         }
         for point in self.points() {
-            digest.count(point.element.index());
-            for index in 0..point.model.parameter_count() {
-                digest.number(point.model.parameter(index));
-            }
+            point.point.digest(digest);
             point
                 .kinematics
                 .numbers(&mut |number| digest.number(number));
@@ -255,6 +246,24 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         Ok(energy)
     }
 
+    /// The power that its dashpots in series turn into heat, W.
+    fn power_in_series(&self, x: &M::Variables) -> f64 {
+        let gradient = self.model.gradient(x);
+        let (viscosities, _) = self.model.viscosity(x[M::Variables::LEN - 1]);
+        (0..self.dashpots()).fold(0.0, |power, dashpot| {
+            let g = gradient[M::MEASURES + dashpot];
+            power + g * g / viscosities[dashpot]
+        })
+    }
+
+    /// Adds its parameters.
+    fn digest(&self, digest: &mut Digest) {
+        digest.count(self.element.index());
+        for index in 0..self.model.parameter_count() {
+            digest.number(self.model.parameter(index));
+        }
+    }
+
     /// The energy in a state whose temperature and entropy are known.
     fn energy_in(&self, x: &M::Variables, state: &State) -> Energy {
         let psi = self.model.free_energy(x);
@@ -273,6 +282,18 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             Some(slot) => psi + state.temperatures[slot] * state.entropies.values()[slot],
             None => psi,
         }
+    }
+}
+
+/// Adds the kind of a model, or the names of its parameters.
+fn digest_kind<M: FreeEnergy<f64>>(model: &M, digest: &mut Digest) {
+    let kind = model.kind();
+    if kind != 0 {
+        return digest.bytes(&kind.to_le_bytes());
+    }
+    for name in model.parameter_names() {
+        digest.bytes(name.as_bytes());
+        digest.bytes(&[0]);
     }
 }
 

@@ -23,6 +23,9 @@ use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::is_positive;
 
 impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
+    /// Whether its type has room for such a dashpot. What only they need is not compiled for others.
+    pub(super) const MAY_HAVE_DRAG: bool = M::Drag::LEN > 0;
+
     /// Whether `λ̇` is the rate of a classical scheme, with its own derivatives with respect to the arms, and not a
     /// difference of lengths.
     #[inline]
@@ -45,7 +48,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Evaluates the viscosity at a temperature; an error unless it is positive.
     #[inline]
     pub(super) fn find_drag_viscosity(&mut self, theta: f64) -> Result<(), StateError> {
-        if self.drags() == 0 {
+        if const { !Self::MAY_HAVE_DRAG } || self.drags() == 0 {
             return Ok(());
         }
         self.drag.viscosity = self.model.drag(theta);
@@ -141,7 +144,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         rates: &mut M::Variables,
     ) -> Result<f64, StateError> {
         let mut power = 0.0;
-        if self.drags() == 0 {
+        if const { !Self::MAY_HAVE_DRAG } || self.drags() == 0 {
             return Ok(power);
         }
         let x0 = self.start.x0;
@@ -206,6 +209,9 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> 
         pose: &Pose<K, D>,
         motion: &Arms<K, D>,
     ) -> Option<Gradient<K, D>> {
+        if const { !Point::<M, K::Measures>::MAY_HAVE_DRAG } {
+            return None;
+        }
         if self.has_rates::<C>() {
             let (own, by_arm) =
                 pose.increase(&self.kinematics, self.point.scheme.placement(), motion);
@@ -226,6 +232,9 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> 
         view: &StepView<'_>,
         by_arm: &Gradient<K, D>,
     ) {
+        if const { !Point::<M, K::Measures>::MAY_HAVE_DRAG } {
+            return;
+        }
         let (drags, per_share) = (self.drags(), self.per_share::<C>(view.per_step));
         if let Some(by_increment) = &mut self.by_increment {
             for a in 0..drags {

@@ -69,15 +69,16 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
 
     /// A copy of the elements.
     pub(super) fn duplicate_all(&self) -> Self {
-        let elements = self.elements.iter().map(|(first, points)| {
+        let mut elements = Vec::with_capacity(self.elements.len());
+        for (first, points) in &self.elements {
             let copy = |point: usize| {
                 let (model, kinematics) = &points.as_ref()[point];
                 (model.duplicate(), *kinematics)
             };
-            (*first, K::PerPoint::from_fn(copy))
-        });
+            elements.push((*first, K::PerPoint::from_fn(copy)));
+        }
         Self {
-            elements: elements.collect(),
+            elements,
             make_explicit: self.make_explicit,
         }
     }

@@ -3,8 +3,7 @@
 
 use core::ops::Range;
 
-use super::arms::measures_in;
-use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
+use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::Scalar;
@@ -44,16 +43,12 @@ impl Stiffness<'_> {
 }
 
 /// The larger of `Σ |∂π_a/∂r| |∂²e/∂π_a∂π_b| |∂π_b/∂r|`, along the measures at constant entropy, and `Σ |f_a||∂π_a/∂r|/l`, across
-/// them; `∂²e/∂π_a∂π_b = ψ_ab − ψ_aθ ψ_bθ/ψ_θθ`.
-pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize>(
-    (model, kinematics, nodes): (&M, &K, &'a [u32]),
-    (r, x): (&Arms<K, D>, &M::Variables),
-    slots: Slots,
+/// them; `∂²e/∂π_a∂π_b = ψ_ab − ψ_aθ ψ_bθ/ψ_θθ`. Of the measures, length, slopes and sizes are given.
+pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, Q: MeasureSet>(
+    (model, nodes, slots): (&M, &'a [u32], Slots),
+    x: &M::Variables,
+    (length, slopes, sizes): (f64, &Numbers<Q>, &Numbers<Q>),
 ) -> Stiffness<'a> {
-    let measures = measures_in::<K::Measures>(x);
-    let length = kinematics.length(&measures);
-    let slopes = kinematics.slopes(r, &measures);
-    let sizes = kinematics.sizes(r, &measures);
     let (gradient, hessian) = model.hessian(x);
     let last = M::MEASURES + M::DASHPOTS;
     let [mut along, mut isothermal, mut across, mut force] = [0.0; 4];
@@ -97,6 +92,6 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, K: Kinematics<D>, const D: us
         dashpots: slots.viscous..slots.viscous + model.dashpots(),
         pull,
         relaxation,
-        has_viscous_stretch: K::Measures::IS_SPRING && model.dashpots() > 0,
+        has_viscous_stretch: Q::IS_SPRING && model.dashpots() > 0,
     }
 }

@@ -20,7 +20,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
         in_state: &mut Point<M, G::Measures>,
         per_step: f64,
     ) -> Result<(), StateError> {
-        if in_state.drags() == 0 {
+        if const { !Point::<M, G::Measures>::MAY_HAVE_DRAG } || in_state.drags() == 0 {
             return Ok(());
         }
         for stage in 0..self.point.rule.stages() {
