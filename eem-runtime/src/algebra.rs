@@ -1,6 +1,7 @@
 //! Linear systems: small ones by dense elimination, large ones by `eem-sparse`.
 
 pub(crate) mod bivector;
+pub(crate) mod jacobi;
 pub(crate) mod lu;
 pub(crate) mod memory;
 pub(crate) mod pattern;

@@ -2,6 +2,34 @@
 
 use crate::error::{Error, Operand};
 
+/// A column of right-hand sides, which lie row by row.
+#[derive(Clone, Copy)]
+pub(crate) struct Column<'a> {
+    pub(crate) rows: &'a [f64],
+    /// The number of columns, and which of them it is.
+    pub(crate) width: usize,
+    pub(crate) at: usize,
+}
+
+impl Column<'_> {
+    /// The numbers of a node.
+    #[inline]
+    pub(crate) fn of<const L: usize>(self, node: usize) -> [f64; L] {
+        let mut numbers = [0.0; L];
+        for (at, number) in numbers.iter_mut().enumerate() {
+            *number = self.rows[(node * L + at) * self.width + self.at];
+        }
+        numbers
+    }
+
+    /// All numbers in the order of elimination.
+    pub(crate) fn copy_to<const L: usize>(self, x: &mut [[f64; L]], order: &[u32]) {
+        for (x, &node) in x.iter_mut().zip(order) {
+            *x = self.of(node as usize);
+        }
+    }
+}
+
 /// An error with the position of the first number that is not finite.
 pub(crate) fn all_finite(
     what: Operand,
@@ -13,11 +41,11 @@ pub(crate) fn all_finite(
     }
 }
 
-/// Writes a solution in the order of elimination to a column in that of the unknowns.
-pub(crate) fn store<const W: usize, const L: usize>(
+/// Writes a solution in the order of elimination to a column of `right`, of this width, in that of the unknowns.
+pub(crate) fn store<const L: usize>(
     x: &[[f64; L]],
     order: &[u32],
-    (right, column): (&mut [[f64; W]], usize),
+    (right, width, column): (&mut [f64], usize, usize),
 ) -> Result<(), Error> {
     if !x.as_flattened().iter().all(|x| x.is_finite()) {
         let mut natural = order.iter().zip(x);
@@ -31,9 +59,8 @@ pub(crate) fn store<const W: usize, const L: usize>(
         });
     }
     for (x, &node) in x.iter().zip(order) {
-        let rows = &mut right[node as usize * L..][..L];
-        for (row, &x) in rows.iter_mut().zip(x) {
-            row[column] = x;
+        for (at, &x) in x.iter().enumerate() {
+            right[(node as usize * L + at) * width + column] = x;
         }
     }
     Ok(())

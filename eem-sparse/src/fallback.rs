@@ -7,17 +7,16 @@ use crate::refinement::{Equations, Failure};
 
 /// Solves with delayed pivots; returns the number of refinements.
 #[cold]
-pub(crate) fn solve_by_pivoting<B: Fn(usize) -> [f64; L], const L: usize>(
-    equations: &Equations<'_, B, L>,
+pub(crate) fn solve_by_pivoting<const L: usize>(
+    equations: &Equations<'_, L>,
     (x, residual): (&mut [[f64; L]], &mut Vec<f64>),
 ) -> Result<usize, Error> {
     let matrix = &equations.matrix;
     let entries = matrix.values.iter().copied();
     all_finite(Operand::Matrix, entries)?;
-    all_finite(Operand::Right, (0..x.len()).flat_map(&equations.b))?;
-    for (x, &node) in x.iter_mut().zip(&matrix.fronts.order) {
-        *x = (equations.b)(node as usize);
-    }
+    let right = (0..x.len()).flat_map(|node| equations.b.of::<L>(node));
+    all_finite(Operand::Right, right)?;
+    equations.b.copy_to(x, &matrix.fronts.order);
     let refinements = Pivoting::new(matrix)?.and_then(|mut pivoting| {
         let mut solve = |x: &mut [[f64; L]]| pivoting.solve(x.as_flattened_mut());
         solve(x);

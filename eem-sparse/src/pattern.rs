@@ -39,6 +39,9 @@ pub struct Pattern {
     columns: Vec<u32>,
 }
 
+/// Names pairs of unknowns to a function.
+type Visit<'a> = dyn Fn(&mut dyn FnMut(usize, usize)) + 'a;
+
 impl Pattern {
     /// The pattern with the whole diagonal, all pairs that `visit` names, and their mirror images.
     ///
@@ -56,6 +59,10 @@ impl Pattern {
     /// with a row than the first.
     #[must_use]
     pub fn new(unknowns: usize, visit: impl Fn(&mut dyn FnMut(usize, usize))) -> Self {
+        Self::of_pairs(unknowns, &visit)
+    }
+
+    fn of_pairs(unknowns: usize, visit: &Visit<'_>) -> Self {
         let mut ends = vec![0; unknowns + 1];
         for end in &mut ends[1..] {
             *end = 1;

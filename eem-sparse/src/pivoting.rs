@@ -9,7 +9,6 @@
 //! more rows can be pivots (Duff & Reid 1983). In the last front all rows can. This takes more time and memory than
 //! the elimination without delays. The caller checks the solution.
 
-use core::array;
 use core::mem;
 use core::ops::Range;
 
@@ -147,20 +146,20 @@ impl Dense {
         at: &mut [Vec<u32>; 2],
     ) -> Result<Self, Error> {
         let of_node = |place: usize| compact(place * L)..compact(place * L + L);
-        let lists = array::from_fn(|which| {
-            let own = front.own.clone().flat_map(of_node);
-            let delayed = children.iter().flat_map(|child| {
-                [&child.rows, &child.columns][which][..child.delayed]
-                    .iter()
-                    .copied()
-            });
-            let later = front.rows.iter().flat_map(|&place| of_node(place as usize));
-            let list: Vec<u32> = own.chain(delayed).chain(later).collect();
+        let mut lists = [Vec::new(), Vec::new()];
+        for (which, list) in lists.iter_mut().enumerate() {
+            list.extend(of_node(front.own.start).start..of_node(front.own.end).start);
+            for child in children {
+                let all = [&child.rows, &child.columns][which];
+                list.extend_from_slice(&all[..child.delayed]);
+            }
+            for &place in front.rows {
+                list.extend(of_node(place as usize));
+            }
             for (place, &unknown) in list.iter().enumerate() {
                 at[which][unknown as usize] = compact(place);
             }
-            list
-        });
+        }
         let [rows, columns] = lists;
         let count = rows.len();
         let [row_at, column_at] = at;
@@ -325,7 +324,7 @@ impl Dense {
 }
 
 /// Calls a function with row, column and value of every entry of a block.
-fn each<N: Copy, const L: usize>(block: &[[N; L]; L], mut call: impl FnMut(usize, usize, N)) {
+fn each<const L: usize>(block: &[[f64; L]; L], mut call: impl FnMut(usize, usize, f64)) {
     for (row, entries) in block.iter().enumerate() {
         for (column, &entry) in entries.iter().enumerate() {
             call(row, column, entry);

@@ -12,6 +12,7 @@
 //!
 //! Solutions are in the order of elimination, right-hand sides in that of the unknowns.
 
+use crate::columns::Column;
 use crate::gathering::Matrix;
 
 /// The backward error of rows with at most 255 entries that counts as rounding, in units of the last
@@ -44,14 +45,14 @@ pub(crate) struct Failure {
     pub(crate) bound: f64,
 }
 
-/// A matrix, and a right-hand side as a function of the number of the node.
+/// A matrix and a right-hand side.
 #[derive(Clone, Copy)]
-pub(crate) struct Equations<'a, B, const L: usize> {
+pub(crate) struct Equations<'a, const L: usize> {
     pub(crate) matrix: Matrix<'a, L>,
-    pub(crate) b: B,
+    pub(crate) b: Column<'a>,
 }
 
-impl<B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, B, L> {
+impl<const L: usize> Equations<'_, L> {
     /// `b − A x` and `|b| + |A| (|x| + floor)` in the rows of a node.
     ///
     /// Numbers below the smallest normal one have an absolute error instead of a relative one, so
@@ -59,7 +60,7 @@ impl<B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, B, L> {
     #[expect(clippy::inline_always, reason = "a few numbers in registers")]
     #[inline(always)]
     fn residual(&self, node: usize, x: &[[f64; L]], floor: f64) -> ([f64; L], [f64; L]) {
-        let mut residual = (self.b)(node);
+        let mut residual = self.b.of(node);
         let mut size = residual.map(|b| b.abs() + f64::MIN_POSITIVE);
         for (column, block) in self.matrix.blocks_of(node) {
             let x = &x[self.matrix.fronts.places[column] as usize];
@@ -125,33 +126,31 @@ impl<B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, B, L> {
     /// The row that misses its bound by the largest factor.
     #[cold]
     pub(crate) fn worst(&self, x: &[[f64; L]]) -> Failure {
-        let rows = (0..x.len()).flat_map(|node| {
-            let (residual, size) = self.residual(node, x, f64::MIN_POSITIVE);
-            let bound = self.bound(node);
-            residual
-                .into_iter()
-                .zip(size)
-                .enumerate()
-                .map(move |(at, (residual, size))| {
-                    let ratio = residual.abs() / size;
-                    Failure {
-                        row: node * L + at,
-                        backward_error: if ratio.is_finite() {
-                            ratio
-                        } else {
-                            f64::INFINITY
-                        },
-                        bound,
-                    }
-                })
-        });
-        let excess = |failure: &Failure| failure.backward_error / failure.bound;
-        let worst = rows.max_by(|a, b| excess(a).total_cmp(&excess(b)));
-        worst.unwrap_or(Failure {
+        let mut worst = Failure {
             row: 0,
             backward_error: f64::INFINITY,
             bound: bound(0),
-        })
+        };
+        let mut largest = 0.0;
+        for node in 0..x.len() {
+            let (residual, size) = self.residual(node, x, f64::MIN_POSITIVE);
+            let bound = self.bound(node);
+            for at in 0..L {
+                let ratio = residual[at].abs() / size[at];
+                let is_number = ratio.is_finite();
+                let backward_error = if is_number { ratio } else { f64::INFINITY };
+                let excess = backward_error / bound;
+                if excess >= largest {
+                    largest = excess;
+                    worst = Failure {
+                        row: node * L + at,
+                        backward_error,
+                        bound,
+                    };
+                }
+            }
+        }
+        worst
     }
 
     /// Adds corrections to a solution until it passes the check; returns how many that took, or `None`
@@ -163,7 +162,7 @@ impl<B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, B, L> {
         &self,
         x: &mut [[f64; L]],
         memory: &mut Vec<f64>,
-        mut correct: impl FnMut(&mut [[f64; L]]),
+        correct: &mut dyn FnMut(&mut [[f64; L]]),
     ) -> Option<usize> {
         for refinement in 1..=REFINEMENTS {
             memory.resize(x.as_flattened().len(), 0.0);
@@ -191,18 +190,21 @@ mod tests {
 
     const EPSILON: f64 = f64::EPSILON;
 
+    /// The only column of right-hand sides.
+    fn column(rows: &[f64]) -> Column<'_> {
+        let (width, at) = (1, 0);
+        Column { rows, width, at }
+    }
+
     /// Calls `ask` with the equations `diagonal[i] x[i] = b[i]`.
-    fn ask<R>(
-        [diagonal, b]: [[f64; 2]; 2],
-        ask: impl FnOnce(&Equations<'_, &dyn Fn(usize) -> [f64; 1], 1>) -> R,
-    ) -> R {
+    fn ask<R>([diagonal, b]: [[f64; 2]; 2], ask: impl FnOnce(&Equations<'_, 1>) -> R) -> R {
         let pattern = Pattern::new(2, |_| {});
         let matrix = Matrix {
             fronts: &Fronts::new(&pattern).unwrap(),
             pattern: &pattern,
             values: &diagonal,
         };
-        let b: &dyn Fn(usize) -> [f64; 1] = &|node| [b[node]];
+        let b = column(&b);
         ask(&Equations { matrix, b })
     }
 
@@ -274,7 +276,7 @@ mod tests {
     fn ask_star<R>(
         nodes: usize,
         b: &dyn Fn(usize) -> [f64; 2],
-        ask: impl FnOnce(&Equations<'_, &dyn Fn(usize) -> [f64; 2], 2>) -> R,
+        ask: impl FnOnce(&Equations<'_, 2>) -> R,
     ) -> R {
         let star = Pattern::new(nodes, |pair| (1..nodes).for_each(|node| pair(0, node)));
         let pattern = star.in_blocks(2).unwrap();
@@ -287,6 +289,8 @@ mod tests {
             pattern: &pattern,
             values: &values,
         };
+        let right: Vec<f64> = (0..nodes).flat_map(b).collect();
+        let b = column(&right);
         ask(&Equations { matrix, b })
     }
 
@@ -331,12 +335,12 @@ mod tests {
         let steps = |share: f64| {
             ask([[2.0; 2], [6.0; 2]], |equations| {
                 let mut x = [[0.0_f64]; 2];
-                let correct = |rest: &mut [[f64; 1]]| {
+                let mut correct = |rest: &mut [[f64; 1]]| {
                     for [rest] in rest {
                         *rest *= 0.5 * (1.0 - share);
                     }
                 };
-                let steps = equations.refine(&mut x, &mut Vec::new(), correct);
+                let steps = equations.refine(&mut x, &mut Vec::new(), &mut correct);
                 (steps, x.map(|[x]| (x - 3.0).abs() <= 1e3 * EPSILON))
             })
         };

@@ -1,9 +1,7 @@
 //! Factors a matrix and solves with it; every solution that is returned has passed the check.
 
-use core::array;
-
 use crate::analysis::Analysis;
-use crate::columns::store;
+use crate::columns::{Column, store};
 use crate::error::Error;
 use crate::factors::Factors;
 use crate::fallback::solve_by_pivoting;
@@ -198,10 +196,14 @@ impl Solver {
     /// [`Error::Count`] unless `right` has a row for each unknown; [`Error::NotFinite`] if a solution is infinite or NaN.
     pub fn solve_again<const W: usize>(&mut self, right: &mut [[f64; W]]) -> Result<(), Error> {
         self.expect_rows(right.len())?;
+        self.solve_columns_again(right.as_flattened_mut(), W)
+    }
+
+    fn solve_columns_again(&mut self, right: &mut [f64], width: usize) -> Result<(), Error> {
         match self.pattern.block_length() {
-            1 => self.solve_blocks_again::<W, 1>(right),
-            2 => self.solve_blocks_again::<W, 2>(right),
-            _ => self.solve_blocks_again::<W, 3>(right),
+            1 => self.solve_blocks_again::<1>(right, width),
+            2 => self.solve_blocks_again::<2>(right, width),
+            _ => self.solve_blocks_again::<3>(right, width),
         }
     }
 
@@ -214,18 +216,18 @@ impl Solver {
         Err(Error::Count { expected, found })
     }
 
-    fn solve_blocks_again<const W: usize, const L: usize>(
+    fn solve_blocks_again<const L: usize>(
         &mut self,
-        right: &mut [[f64; W]],
+        right: &mut [f64],
+        width: usize,
     ) -> Result<(), Error> {
         let order = &self.fronts.order;
         let x = self.solution.as_chunks_mut::<L>().0;
-        for column in 0..W {
-            for (x, &node) in x.iter_mut().zip(order) {
-                *x = array::from_fn(|at| right[node as usize * L + at][column]);
-            }
+        for at in 0..width {
+            let rows = &*right;
+            Column { rows, width, at }.copy_to(x, order);
             self.factors.solve(&self.fronts, x);
-            store::<W, L>(x, order, (right, column))?;
+            store(x, order, (right, width, at))?;
         }
         Ok(())
     }
@@ -284,16 +286,21 @@ impl Factored<'_> {
     /// After an error, columns before the one that failed are solved, and all others are unchanged.
     pub fn solve<const W: usize>(&mut self, right: &mut [[f64; W]]) -> Result<Report, Error> {
         self.solver.expect_rows(right.len())?;
+        self.solve_columns(right.as_flattened_mut(), W)
+    }
+
+    fn solve_columns(&mut self, right: &mut [f64], width: usize) -> Result<Report, Error> {
         match self.solver.pattern.block_length() {
-            1 => self.solve_blocks::<W, 1>(right),
-            2 => self.solve_blocks::<W, 2>(right),
-            _ => self.solve_blocks::<W, 3>(right),
+            1 => self.solve_blocks::<1>(right, width),
+            2 => self.solve_blocks::<2>(right, width),
+            _ => self.solve_blocks::<3>(right, width),
         }
     }
 
-    fn solve_blocks<const W: usize, const L: usize>(
+    fn solve_blocks<const L: usize>(
         &mut self,
-        right: &mut [[f64; W]],
+        right: &mut [f64],
+        width: usize,
     ) -> Result<Report, Error> {
         let Solver {
             pattern,
@@ -308,24 +315,23 @@ impl Factored<'_> {
             values: self.values,
         };
         let mut report = Report::default();
-        for column in 0..W {
-            let b = |node: usize| array::from_fn(|at| right[node * L + at][column]);
+        for at in 0..width {
+            let rows = &*right;
+            let b = Column { rows, width, at };
             let equations = Equations { matrix, b };
             let x = solution.as_chunks_mut::<L>().0;
-            for (x, &node) in x.iter_mut().zip(&fronts.order) {
-                *x = b(node as usize);
-            }
+            b.copy_to(x, &fronts.order);
             factors.solve(fronts, x);
             if !equations.are_solved(x, residual) {
-                let correct = |rest: &mut [[f64; L]]| factors.solve(fronts, rest);
-                if let Some(refinements) = equations.refine(x, residual, correct) {
+                let mut correct = |rest: &mut [[f64; L]]| factors.solve(fronts, rest);
+                if let Some(refinements) = equations.refine(x, residual, &mut correct) {
                     report.refinements += refinements;
                 } else {
                     report.refinements += solve_by_pivoting(&equations, (x, residual))?;
                     report.fallbacks += 1;
                 }
             }
-            store::<W, L>(x, &fronts.order, (right, column))?;
+            store(x, &fronts.order, (right, width, at))?;
         }
         Ok(report)
     }

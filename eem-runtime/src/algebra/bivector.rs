@@ -102,7 +102,13 @@ impl<const D: usize> Bivector<f64, D> {
     /// `Σ J_ij²` over all planes.
     #[inline]
     pub(crate) fn square(&self) -> f64 {
-        planes::<D>().fold(0.0, |sum, plane| sum + self.at(plane) * self.at(plane))
+        let mut sum = 0.0;
+        for i in 0..D {
+            for j in i + 1..D {
+                sum += self.0[i][j] * self.0[i][j];
+            }
+        }
+        sum
     }
 
     /// The largest `|J_ij|`.
@@ -120,8 +126,11 @@ impl<const D: usize> Bivector<f64, D> {
     /// `Σ_ij a_i J_ij b_j` over all i and j: the component of the plane of two unit vectors.
     pub(crate) fn between(&self, a: &[f64; D], b: &[f64; D]) -> f64 {
         let turned = self.turn(a);
-        let terms = turned.iter().zip(b);
-        terms.fold(0.0, |sum, (&turned, &b)| sum + turned * b)
+        let mut sum = 0.0;
+        for axis in 0..D {
+            sum += turned[axis] * b[axis];
+        }
+        sum
     }
 }
 

@@ -132,7 +132,7 @@ impl Storage {
         right: &mut [[f64; W]],
     ) -> Result<(), Singular> {
         match self {
-            Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
+            Self::Fixed { unknowns } => lu::solve_fixed(*unknowns, values, right),
             Self::Dense { pivots } => solve_dense(values, pivots, right),
             #[cfg(feature = "sparse")]
             Self::Sparse(sparse) => solve_sparse(values, sparse, right),
@@ -168,31 +168,6 @@ fn solve_sparse<const W: usize>(
     solved.map_err(|_| Singular)?;
     values.fill(0.0);
     Ok(())
-}
-
-/// The elimination that is compiled for this number of unknowns, more than two.
-#[inline]
-fn solve_fixed<const W: usize>(
-    unknowns: usize,
-    values: &mut [f64],
-    right: &mut [[f64; W]],
-) -> Result<(), Singular> {
-    match unknowns {
-        3 => lu::solve_fixed::<3, W>(values, right),
-        4 => lu::solve_fixed::<4, W>(values, right),
-        5 => lu::solve_fixed::<5, W>(values, right),
-        6 => lu::solve_fixed::<6, W>(values, right),
-        7 => lu::solve_fixed::<7, W>(values, right),
-        8 => lu::solve_fixed::<8, W>(values, right),
-        9 => lu::solve_fixed::<9, W>(values, right),
-        10 => lu::solve_fixed::<10, W>(values, right),
-        11 => lu::solve_fixed::<11, W>(values, right),
-        MOST_FIXED => lu::solve_fixed::<MOST_FIXED, W>(values, right),
-        0 => Ok(()),
-        _ => {
-            unreachable!("{unknowns} unknowns are solved in line, or not by a compiled elimination")
-        }
-    }
 }
 
 impl<const W: usize> LinearSystem<W> {

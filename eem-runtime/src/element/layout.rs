@@ -55,8 +55,16 @@ impl Layout {
     /// Numbers a scene whose elements exchange no heat.
     pub(crate) fn new(
         dimension: usize,
-        is_mass: impl Iterator<Item = bool>,
-        shapes: impl Iterator<Item = Shape>,
+        mut is_mass: impl Iterator<Item = bool>,
+        mut shapes: impl Iterator<Item = Shape>,
+    ) -> Self {
+        Self::of(dimension, &mut is_mass, &mut shapes)
+    }
+
+    fn of(
+        dimension: usize,
+        is_mass: &mut dyn Iterator<Item = bool>,
+        shapes: &mut dyn Iterator<Item = Shape>,
     ) -> Self {
         let (mut unknowns, mut viscous, mut thermal) = (0, 0, 0);
         let mut nodes = Vec::with_capacity(is_mass.size_hint().0);

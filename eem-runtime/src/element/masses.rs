@@ -32,10 +32,17 @@ impl Masses {
     /// the same pair add up.
     pub(crate) fn new(
         masses: impl Iterator<Item = Option<f64>>,
-        mut pairs: Vec<([usize; 2], f64)>,
+        pairs: Vec<([usize; 2], f64)>,
     ) -> Self {
-        let mut own: Vec<_> = masses.map(|mass| mass.unwrap_or(0.0)).collect();
+        let mut own = Vec::new();
+        for mass in masses {
+            own.push(mass.unwrap_or(0.0));
+        }
         own.shrink_to_fit();
+        Self::of(own, pairs)
+    }
+
+    fn of(own: Vec<f64>, mut pairs: Vec<([usize; 2], f64)>) -> Self {
         let mut masses = Self {
             own,
             pairs: Vec::new(),

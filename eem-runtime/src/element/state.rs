@@ -1,5 +1,6 @@
 //! The state of a scene: everything a step changes, and nothing else.
 
+use crate::algebra::vector;
 use crate::element::masses::Masses;
 use crate::element::meters::Meters;
 use eem_material::free_energy::Caloric;
@@ -183,9 +184,11 @@ impl State {
             &self.entropies,
         ];
         Digest::of(|digest| {
-            for (value, carry) in sums.into_iter().flat_map(Compensated::sums) {
-                digest.number(value);
-                digest.number(carry);
+            for sums in sums {
+                for (value, carry) in sums.sums() {
+                    digest.number(value);
+                    digest.number(carry);
+                }
             }
             for &theta in &self.temperatures {
                 digest.number(theta);
@@ -197,10 +200,11 @@ impl State {
     #[inline]
     pub(crate) fn velocity<const D: usize>(&self, node: usize, mass: f64) -> [f64; D] {
         let velocities = self.velocities.values().as_chunks::<D>().0;
-        match velocities.get(node) {
-            Some(velocity) => *velocity,
-            None => self.momenta.values().as_chunks::<D>().0[node].map(|p| p / mass),
+        if let Some(velocity) = velocities.get(node) {
+            return *velocity;
         }
+        let momentum = self.momenta.values().as_chunks::<D>().0[node];
+        vector(|axis| momentum[axis] / mass)
     }
 
     /// Copies the accumulated sums of `old`, a state of the same scene; a step adds to them.

@@ -138,7 +138,7 @@ impl<const D: usize> Explicit<D> {
         let moves = !prescribed.moved.is_empty();
         let has_loads = loads.has_total_force() || moves;
         let masses = components.masses_of(site.masses);
-        let stage = Stage::new(masses, site.layout, reservoirs.len(), thermostats);
+        let stage = Stage::new(&masses, site.layout, reservoirs.len(), thermostats);
         let books = Books::new(&components);
         Self {
             produces: produces(&components, site.layout),
@@ -210,11 +210,17 @@ impl<const D: usize> Explicit<D> {
 /// Whether each thermal slot has a path of heat or a dashpot.
 fn produces(components: &Components, layout: &Layout) -> Vec<bool> {
     let mut produces = vec![false; layout.thermal];
-    let ends = components.paths.iter().flat_map(|path| path.ends);
-    let dashpots = components.dashpots.iter();
-    for slot in ends.chain(dashpots.filter_map(|dashpot| dashpot.slot)) {
-        if let Some(produces) = produces.get_mut(slot as usize) {
-            *produces = true;
+    for path in &components.paths {
+        for end in path.slots() {
+            // Reservoirs come after the thermal slots.
+            if let Some(produces) = produces.get_mut(end) {
+                *produces = true;
+            }
+        }
+    }
+    for dashpot in &components.dashpots {
+        if let Some(slot) = dashpot.slot {
+            produces[slot as usize] = true;
         }
     }
     produces

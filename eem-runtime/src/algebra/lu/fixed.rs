@@ -31,7 +31,9 @@ pub(crate) fn solve_one<const W: usize>(
     if !pivot.is_finite() || *pivot == 0.0 {
         return Err(Singular);
     }
-    *x = right.map(|value| value / *pivot);
+    for (x, value) in x.iter_mut().zip(right) {
+        *x = value / *pivot;
+    }
     *pivot = 0.0;
     Ok(())
 }
@@ -58,7 +60,7 @@ pub(crate) fn solve_two<const W: usize>(
     let is_small = LARGEST_RATIO * a.abs() <= u.abs();
     if is_small {
         *x = *b;
-        return solve_fixed::<2, W>(matrix, x);
+        return solve_fixed(2, matrix, x);
     }
     let (c, d) = (matrix[2], matrix[3]);
     let determinant = a * d - c * u;
@@ -67,7 +69,7 @@ pub(crate) fn solve_two<const W: usize>(
     let is_normal = square > f64::MAX.recip() && square <= f64::MAX;
     if !is_normal {
         *x = *b;
-        return solve_fixed::<2, W>(matrix, x);
+        return solve_fixed(2, matrix, x);
     }
     let inverse = determinant.recip();
     for column in 0..W {
@@ -79,24 +81,49 @@ pub(crate) fn solve_two<const W: usize>(
     Ok(())
 }
 
-/// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns, and A with zeros.
-pub(crate) fn solve_fixed<const N: usize, const W: usize>(
+/// Overwrites the columns of `b` with the solutions of `A x = b` for at most [`MOST_FIXED`] unknowns, and A with zeros.
+pub(crate) fn solve_fixed<const W: usize>(
+    unknowns: usize,
     matrix: &mut [f64],
     b: &mut [[f64; W]],
 ) -> Result<(), Singular> {
-    if W > 1 {
-        return solve_rows(N, matrix, b);
+    match unknowns {
+        0 => Ok(()),
+        _ if W > 1 => solve_rows(unknowns, matrix, b),
+        _ => solve_column(unknowns, matrix, b.as_flattened_mut()),
     }
+}
+
+/// The elimination that is compiled for this number of unknowns.
+fn solve_column(unknowns: usize, matrix: &mut [f64], b: &mut [f64]) -> Result<(), Singular> {
+    match unknowns {
+        1 => solve_compiled::<1>(matrix, b),
+        2 => solve_compiled::<2>(matrix, b),
+        3 => solve_compiled::<3>(matrix, b),
+        4 => solve_compiled::<4>(matrix, b),
+        5 => solve_compiled::<5>(matrix, b),
+        6 => solve_compiled::<6>(matrix, b),
+        7 => solve_compiled::<7>(matrix, b),
+        8 => solve_compiled::<8>(matrix, b),
+        9 => solve_compiled::<9>(matrix, b),
+        10 => solve_compiled::<10>(matrix, b),
+        11 => solve_compiled::<11>(matrix, b),
+        MOST_FIXED => solve_compiled::<MOST_FIXED>(matrix, b),
+        _ => unreachable!("{unknowns} unknowns have no compiled elimination"),
+    }
+}
+
+fn solve_compiled<const N: usize>(matrix: &mut [f64], b: &mut [f64]) -> Result<(), Singular> {
     let [a, ..] = matrix.as_chunks_mut::<N>().0.as_chunks_mut::<N>().0 else {
         return Err(Singular);
     };
-    let [right, ..] = b.as_flattened_mut().as_chunks_mut::<N>().0 else {
+    let [right, ..] = b.as_chunks_mut::<N>().0 else {
         return Err(Singular);
     };
     // `exchange_from` finishes the solution itself: a return to `eliminate` would load rows again.
     match eliminate(a, right) {
         Ok(()) => substitute(a, right),
-        Err(row) => exchange_from(row, N, a.as_flattened_mut(), b)?,
+        Err(row) => exchange_from(row, N, a.as_flattened_mut(), b.as_chunks_mut::<1>().0)?,
     }
     *a = [[0.0; N]; N];
     Ok(())
@@ -106,48 +133,49 @@ pub(crate) fn solve_fixed<const N: usize, const W: usize>(
 #[inline]
 fn eliminate<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) -> Result<(), usize> {
     // Unrolled by hand, as the compiler does not unroll loops in loops: rows stay in registers.
-    eliminate_row::<0, N>(a, b)?;
-    eliminate_row::<1, N>(a, b)?;
-    eliminate_row::<2, N>(a, b)?;
-    eliminate_row::<3, N>(a, b)?;
-    eliminate_row::<4, N>(a, b)?;
-    eliminate_row::<5, N>(a, b)?;
-    eliminate_row::<6, N>(a, b)?;
-    eliminate_row::<7, N>(a, b)?;
-    eliminate_row::<8, N>(a, b)?;
-    eliminate_row::<9, N>(a, b)?;
-    eliminate_row::<10, N>(a, b)?;
-    eliminate_row::<11, N>(a, b)?;
+    eliminate_row(0, a, b)?;
+    eliminate_row(1, a, b)?;
+    eliminate_row(2, a, b)?;
+    eliminate_row(3, a, b)?;
+    eliminate_row(4, a, b)?;
+    eliminate_row(5, a, b)?;
+    eliminate_row(6, a, b)?;
+    eliminate_row(7, a, b)?;
+    eliminate_row(8, a, b)?;
+    eliminate_row(9, a, b)?;
+    eliminate_row(10, a, b)?;
+    eliminate_row(11, a, b)?;
     Ok(())
 }
 
-/// Eliminates the entries of row `I` before the diagonal, and divides the row by its diagonal entry. If that is no good
+/// Eliminates the entries of a row before the diagonal, and divides the row by its diagonal entry. If that is no good
 /// pivot, the row does not change, and the error is its index.
 #[inline(always)]
 #[expect(clippy::inline_always, reason = "only then is the row a constant")]
-fn eliminate_row<const I: usize, const N: usize>(
+fn eliminate_row<const N: usize>(
+    at: usize,
     a: &mut [[f64; N]; N],
     b: &mut [f64; N],
 ) -> Result<(), usize> {
-    if I >= N {
+    if at >= N {
         return Ok(());
     }
-    let (mut row, mut right) = (a[I], b[I]);
-    for k in 0..I {
+    let (mut row, mut right) = (a[at], b[at]);
+    for k in 0..at {
         let factor = row[k];
         let first = even(k + 1);
         subtract(&mut row[first..], factor, &a[k][first..]);
         right -= factor * b[k];
     }
-    if !dominates(&row, I) {
-        return Err(I);
+    if !dominates(&row, at) {
+        return Err(at);
     }
-    let inverse = row[I].recip();
-    let first = even(I + 1);
-    for (entry, &value) in a[I][first..].iter_mut().zip(&row[first..]) {
+    let inverse = row[at].recip();
+    let first = even(at + 1);
+    for (entry, &value) in a[at][first..].iter_mut().zip(&row[first..]) {
         *entry = value * inverse;
     }
-    b[I] = right * inverse;
+    b[at] = right * inverse;
     Ok(())
 }
 
@@ -301,13 +329,13 @@ mod tests {
     fn check<const N: usize>(mut a: [[f64; N]; N]) {
         let mut b = image(&a);
         let (mut copy, mut two) = (a, b.map(|[b]| [b; 2]));
-        solve_fixed::<N, 1>(a.as_flattened_mut(), &mut b).unwrap();
+        solve_fixed(N, a.as_flattened_mut(), &mut b).unwrap();
         for (found, exact) in b.iter().zip(1_u8..) {
             let exact = f64::from(exact);
             assert!((found[0] - exact).abs() <= 16.0 * f64::EPSILON * exact);
         }
         // Several columns have the bits of one.
-        solve_fixed::<N, 2>(copy.as_flattened_mut(), &mut two).unwrap();
+        solve_fixed(N, copy.as_flattened_mut(), &mut two).unwrap();
         for (two, one) in two.iter().zip(&b) {
             assert_eq!(two.map(f64::to_bits), [one[0].to_bits(); 2]);
         }
@@ -349,7 +377,7 @@ mod tests {
             [1.0, 0.0, 0.0, f64::INFINITY],
             [f64::INFINITY, 1.0, 1.0, 1.0],
         ] {
-            let solved = solve_fixed::<2, 1>(&mut [a, b, c, d], &mut [[1.0]; 2]);
+            let solved = solve_fixed(2, &mut [a, b, c, d], &mut [[1.0]; 2]);
             assert_eq!(solved, Err(Singular));
         }
     }

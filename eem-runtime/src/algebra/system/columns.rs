@@ -1,6 +1,6 @@
 //! One matrix with any number of right-hand sides, and its products.
 
-use super::{LinearSystem, MOST_FIXED, Storage, solve_fixed};
+use super::{LinearSystem, MOST_FIXED, Storage};
 use crate::algebra::lu::{self, Singular};
 
 impl LinearSystem<1> {
@@ -89,7 +89,7 @@ fn solve_fixed_each<'a>(
         match unknowns {
             1 => lu::solve_one(values, &given, &mut right)?,
             2 => lu::solve_two(values, &given, &mut right)?,
-            _ => solve_fixed(unknowns, values, &mut right[..unknowns])?,
+            _ => lu::solve_fixed(unknowns, values, &mut right[..unknowns])?,
         }
         for (place, column) in some.iter_mut().enumerate() {
             for (row, value) in right

@@ -2,8 +2,7 @@
 
 use core::fmt;
 
-use nalgebra::{DMatrix, DVector};
-
+use crate::algebra::jacobi::shortest_solution;
 use crate::algebra::vector;
 use crate::element::handle::Node;
 use crate::scene::Scene;
@@ -183,26 +182,21 @@ fn kind_of<const D: usize>(places: &[Moved<D>]) -> MotionKind {
         })
     };
     let dot = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let mut gram = DMatrix::<f64>::zeros(planes.len(), planes.len());
-    let mut right = DVector::<f64>::zeros(planes.len());
+    let mut gram = vec![0.0; planes.len() * planes.len()];
+    let mut right = vec![0.0; planes.len()];
     for (r, by) in places {
         let turns: Vec<_> = planes.iter().map(|&plane| turned(r, plane)).collect();
         let by = vector(|axis| by[axis] - shift[axis]);
         for (i, one) in turns.iter().enumerate() {
             right[i] += dot(one, &by);
             for (j, other) in turns.iter().enumerate() {
-                gram[(i, j)] += dot(one, other);
+                gram[i * planes.len() + j] += dot(one, other);
             }
         }
     }
     // The cut-off `least` leaves out the rotation of a line about itself.
-    let solved = if planes.is_empty() {
-        None
-    } else {
-        let least = f64::EPSILON.sqrt() * gram.amax();
-        gram.svd(true, true).solve(&right, least).ok()
-    };
-    let turn = solved.unwrap_or_else(|| DVector::zeros(planes.len()));
+    let largest = gram.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let turn = shortest_solution(&gram, &right, f64::EPSILON.sqrt() * largest);
     let (mut rotation, mut misfit) = (0.0_f64, 0.0_f64);
     for (r, by) in places {
         let mut turned_by = [0.0; D];
@@ -223,9 +217,9 @@ fn kind_of<const D: usize>(places: &[Moved<D>]) -> MotionKind {
         return MotionKind::Translation;
     }
     // In space the axis of W has the components W_21, −W_20, W_10, and a screw moves along it.
-    if let ([w10, w20, w21], [x, y, z]) = (turn.as_slice(), &shift[..]) {
+    if let ([w10, w20, w21], [x, y, z]) = (&turn[..], &shift[..]) {
         let along: f64 = w21 * x - w20 * y + w10 * z;
-        if along.abs() > LIKENESS * turn.norm() {
+        if along.abs() > LIKENESS * turn.iter().map(|w| w * w).sum::<f64>().sqrt() {
             return MotionKind::Screw;
         }
     }

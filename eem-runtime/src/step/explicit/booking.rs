@@ -6,6 +6,7 @@ use super::thermostats::shift_weights;
 use super::vector::{add, difference, dot};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
+use crate::algebra::vector;
 use crate::element::state::State;
 use eem_material::number::scalar::Scalar;
 
@@ -32,8 +33,10 @@ impl<const D: usize> Explicit<D> {
         let (stage, scratch) = (&mut self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
         for (path, kept) in self.components.paths.iter().zip(&mut scratch.paths) {
-            let [a, b] = path.ends.map(|end| end as usize);
-            let are_fixed = [a, b].map(|end| end >= slots || stage.is_held(end));
+            let [a, b] = path.slots();
+            let is_fixed = |end: usize| end >= slots || stage.is_held(end);
+            // The closing does not change production that neither end stores.
+            let closes = !(is_fixed(a) && is_fixed(b));
             let progress = &mut scratch.progress[path.component as usize];
             let [near, far] = &path.temperatures;
             let ([flow, production], shift) =
@@ -48,8 +51,6 @@ impl<const D: usize> Explicit<D> {
             }
             *kept = production;
             progress.production.add(production);
-            // The closing does not change production that neither end stores.
-            let closes = are_fixed != [true; 2];
             let least = if closes {
                 &mut progress.least
             } else {
@@ -108,7 +109,7 @@ impl<const D: usize> Explicit<D> {
             }
         }
         for (path, &production) in components.paths.iter().zip(&self.scratch.paths) {
-            let [a, b] = path.ends.map(|end| end as usize);
+            let [a, b] = path.slots();
             let progress = progress(path.component);
             let is_fixed = |end: usize| end >= slots || stage.is_held(end);
             let scale = if is_fixed(a) && is_fixed(b) {
@@ -152,7 +153,7 @@ impl<const D: usize> Explicit<D> {
                 // would have an error that nothing can close.
                 let mut impulse = mass.force;
                 add(&mut impulse, 1.0, &sums.impulse);
-                let impulse = impulse.map(|sum| h * sum);
+                let impulse = vector(|axis| h * impulse[axis]);
                 let mut mean = mass.past.start[1];
                 add(&mut mean, 0.5, &impulse);
                 let way = difference(mass.q(), &mass.past.start[0]);
@@ -160,12 +161,15 @@ impl<const D: usize> Explicit<D> {
             }
             target.energy.add(work);
             next.work.add(work);
-            let constant = masses.iter().map(|place| &place.force);
-            for impulse in constant.chain([&sums.impulse]) {
-                for (linear, &force) in target.linear.iter_mut().zip(impulse) {
+            let mut push = |force: &[f64; D]| {
+                for (linear, &force) in target.linear.iter_mut().zip(force) {
                     linear.add(h * force);
                 }
+            };
+            for place in masses {
+                push(&place.force);
             }
+            push(&sums.impulse);
             for plane in planes::<D>() {
                 target.angular.at_mut(plane).add(h * sums.torque.at(plane));
             }
@@ -179,9 +183,8 @@ impl<const D: usize> Explicit<D> {
         }
         for place in &self.stage.places[..self.components.masses] {
             let way = difference(place.q(), &place.past.start[0]);
-            let weight = view.loads.gravity.iter().map(|g| place.mass * g);
-            for ((&force, weight), way) in place.force.iter().zip(weight).zip(way) {
-                let load = force - weight;
+            for (axis, way) in way.iter().enumerate() {
+                let load = place.force[axis] - place.mass * view.loads.gravity[axis];
                 if load != 0.0 {
                     next.work.add(load * way);
                 }
@@ -196,20 +199,21 @@ impl<const D: usize> Explicit<D> {
         let (stage, scratch) = (&self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
         for (path, &production) in self.components.paths.iter().zip(&scratch.paths) {
-            let ends = path.ends.map(|end| end as usize);
-            let capacities = ends.map(|end| {
+            let [a, b] = path.slots();
+            let capacity = |end: usize| {
                 let takes = end < slots && !stage.is_held(end);
                 if takes {
                     scratch.capacities[end][0]
                 } else {
                     0.0
                 }
-            });
-            let all = capacities[0] + capacities[1];
+            };
+            let ends = [(a, capacity(a)), (b, capacity(b))];
+            let all = ends[0].1 + ends[1].1;
             if all <= 0.0 {
                 continue;
             }
-            for (end, capacity) in ends.into_iter().zip(capacities) {
+            for (end, capacity) in ends {
                 if capacity > 0.0 {
                     scratch.produced[end] += production * (capacity / all);
                 }

@@ -7,10 +7,12 @@ use core::ops::Range;
 use std::collections::BTreeMap;
 
 use super::guard::PerWeight;
+use crate::algebra::vector;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::ends::Ends;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
+use crate::element::state::{Energy, State};
 use eem_material::number::compact::compact;
 
 /// The anchors of a component.
@@ -45,7 +47,13 @@ impl Component {
     /// The velocity of the centre of mass for a linear momentum, m/s; zero with an anchor.
     pub(super) fn velocity<const D: usize>(&self, linear: &[f64; D]) -> [f64; D] {
         let is_free = self.support == Support::Free;
-        linear.map(|p| if is_free { p / self.mass } else { 0.0 })
+        vector(|axis| {
+            if is_free {
+                linear[axis] / self.mass
+            } else {
+                0.0
+            }
+        })
     }
 }
 
@@ -65,6 +73,14 @@ pub(super) struct Path {
     pub(super) conductance: f64,
     /// The temperatures of both ends at the stages with weights, K.
     pub(super) temperatures: [PerWeight; 2],
+}
+
+impl Path {
+    /// Its [`ends`](Self::ends) as indices.
+    #[inline]
+    pub(super) fn slots(&self) -> [usize; 2] {
+        [self.ends[0] as usize, self.ends[1] as usize]
+    }
 }
 
 /// The entropy that a reservoir receives from a component.
@@ -117,7 +133,7 @@ impl Sets {
     }
 
     fn merge(&mut self, one: usize, other: usize) {
-        let [one, other] = [one, other].map(|of| self.first(of));
+        let [one, other] = [self.first(one), self.first(other)];
         self.0[one.max(other)] = one.min(other);
     }
 }
@@ -185,9 +201,11 @@ impl Components {
     }
 
     /// The mass at each place, zero for anchors, kg.
-    pub(super) fn masses_of(&self, masses: &Masses) -> impl Iterator<Item = f64> {
+    pub(super) fn masses_of(&self, masses: &Masses) -> Vec<f64> {
         let nodes = self.nodes.iter();
-        nodes.map(|&node| masses.get(node as usize).unwrap_or(0.0))
+        nodes
+            .map(|&node| masses.get(node as usize).unwrap_or(0.0))
+            .collect()
     }
 
     /// Whether an element with a dashpot has no temperature, so that the heat leaves the scene.
@@ -196,9 +214,22 @@ impl Components {
     }
 
     /// The places of an anchor.
-    pub(super) fn anchors_of(&self, node: usize) -> impl Iterator<Item = usize> {
-        let anchors = self.nodes.iter().enumerate().skip(self.masses);
-        anchors.filter_map(move |(place, &own)| (own as usize == node).then_some(place))
+    pub(super) fn anchors_of(&self, node: usize) -> Vec<usize> {
+        let places = self.masses..self.nodes.len();
+        places
+            .filter(|&place| self.nodes[place] as usize == node)
+            .collect()
+    }
+
+    /// The energies of the elements of a component in a state.
+    pub(super) fn energies_in<'a>(
+        &'a self,
+        state: &'a State,
+        index: usize,
+    ) -> impl Iterator<Item = &'a Energy> {
+        let elements = self.of_element.iter().zip(&state.energies);
+        let own = elements.filter(move |&(&component, _)| component as usize == index);
+        own.map(|(_, energy)| energy)
     }
 
     /// Gives the masses their places, component after component.
@@ -254,7 +285,7 @@ impl Components {
 
     /// Gives each anchor a place for every component that it holds.
     fn place_anchors(&mut self, masses: &Masses, elements: &Ends) {
-        let mut places = BTreeMap::new();
+        let mut places = BTreeMap::<_, u32>::new();
         for (element, ends) in elements.iter().enumerate() {
             let component = self.of_element[element];
             let is_anchor = |node: &&u32| masses.get(**node as usize).is_none();
@@ -264,7 +295,7 @@ impl Components {
                     continue;
                 }
                 let place = self.nodes.len();
-                places.insert(key, place);
+                places.insert(key, compact(place));
                 self.nodes.push(node);
                 self.of_place.push(component);
                 let support = &mut self.all[component as usize].support;
@@ -295,7 +326,7 @@ impl Components {
                 component: compact(component),
                 link: compact(place),
                 ends,
-                places: ends.map(|end| dashpots + end),
+                places: [dashpots + ends[0], dashpots + ends[1]],
                 share,
                 conductance: link.conductance,
                 temperatures: [[1.0; _]; 2],
@@ -340,10 +371,10 @@ fn numbered(sets: &mut Sets, masses: &Masses, nodes: usize) -> (Vec<u32>, usize)
 /// All dashpots, given the component of each element.
 fn dashpots(layout: &Layout, components: &[u32]) -> Vec<Dashpot> {
     let mut all = Vec::with_capacity(layout.viscous);
-    let ends = layout.elements.iter().skip(1).map(|slots| slots.viscous);
-    let ends = ends.chain([layout.viscous]);
-    for ((slots, end), &component) in layout.elements.iter().zip(ends).zip(components) {
-        let slot = slots.thermal.map(compact);
+    for (element, &component) in components.iter().enumerate() {
+        let slot = layout.elements[element].thermal.map(compact);
+        let next = layout.elements.get(element + 1);
+        let end = next.map_or(layout.viscous, |next| next.viscous);
         all.resize(end, Dashpot { component, slot });
     }
     all

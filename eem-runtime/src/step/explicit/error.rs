@@ -45,11 +45,12 @@ impl<const D: usize> Explicit<D> {
         let is_normal = |sum: &f64| *sum > f64::MIN_POSITIVE && *sum <= f64::MAX;
         if !squares.iter().all(is_normal) {
             self.expect_finite()?;
-            sizes = [
-                norm(masses.iter().flat_map(|place| place.past.start[0])),
-                norm(masses.iter().flat_map(|place| place.now[0])),
-                norm(masses.iter().flat_map(|place| place.now[1])),
-            ];
+            let parts: [fn(&Place<D>) -> &[f64; D]; 3] =
+                [|place| &place.past.start[0], Place::q, Place::p];
+            for (size, part) in sizes.iter_mut().zip(parts) {
+                let numbers = 0..masses.len() * D;
+                *size = norm(numbers.map(|at| part(&masses[at / D])[at % D]));
+            }
         }
         let [start, end, momentum] = sizes;
         Ok(Scales {
@@ -62,13 +63,13 @@ impl<const D: usize> Explicit<D> {
     fn expect_finite(&self) -> Result<(), StepFailure> {
         let masses = self.stage.places[..self.components.masses].iter();
         for (place, &node) in masses.zip(&self.components.nodes) {
-            for (quantity, vector) in ["position", "momentum"].into_iter().zip(place.now) {
-                if let Some(axis) = vector.iter().position(|value| !value.is_finite()) {
+            for (at, &value) in place.now.as_flattened().iter().enumerate() {
+                if !value.is_finite() {
                     return Err(StepFailure::Unbounded {
                         node: node as usize,
-                        axis,
-                        quantity,
-                        value: vector[axis],
+                        axis: at % D,
+                        quantity: ["position", "momentum"][at / D],
+                        value,
                     });
                 }
             }
@@ -92,7 +93,7 @@ impl<const D: usize> Explicit<D> {
         scales: Scales,
     ) -> f64 {
         let mut sums = [0.0; 2];
-        self.each_error::<false>(view, tolerance, scales, |_, errors, [per_scale, _]| {
+        self.each_error::<false>(view, tolerance, scales, &mut |_, errors, [per_scale, _]| {
             for (sum, error) in sums.iter_mut().zip(errors) {
                 let error = view.step * error * per_scale;
                 *sum += error * error;
@@ -121,31 +122,30 @@ impl<const D: usize> Explicit<D> {
         scales: Scales,
     ) -> f64 {
         let mut sums = [0.0; 2];
-        self.each_error::<true>(
+        self.each_rounded_error(
             view,
             tolerance,
             scales,
-            |_, errors, [per_scale, rounding]| {
-                let [fifth, third] = errors.map(|error| view.step * error);
-                let beyond = Scalar::maximum(fifth.abs() - rounding, 0.0);
-                for (sum, error) in sums.iter_mut().zip([beyond, third]) {
-                    let error = error * per_scale;
-                    *sum += error * error;
-                }
+            &mut |_, [fifth, third], [per_scale, rounding]| {
+                let fifth = view.step * fifth;
+                let beyond = Scalar::maximum(fifth.abs() - rounding, 0.0) * per_scale;
+                let third = view.step * third * per_scale;
+                sums[0] += beyond * beyond;
+                sums[1] += third * third;
             },
         );
         let accurate = (tolerance.relative, Scheme::EemExplicit.accuracy());
         let beyond = Scalar::maximum(combined(sums), HIDDEN);
-        let masses = self.stage.places[..self.components.masses].iter();
-        let mut rests = masses.zip(&self.components.nodes).map(|(place, &node)| {
+        let masses = &self.stage.places[..self.components.masses];
+        for (place, &node) in masses.iter().zip(&self.components.nodes) {
             let [position, momentum] = &place.past.start;
             let positions = [position, place.q()];
-            (view.least).rests(node as usize, positions, [momentum, place.p()])
-        });
-        if rests.all(|rests| rests) {
-            return beyond;
+            let momenta = [momentum, place.p()];
+            if !view.least.rests(node as usize, positions, momenta) {
+                return view.least.hidden(beyond, view.step, accurate);
+            }
         }
-        view.least.hidden(beyond, view.step, accurate)
+        beyond
     }
 
     /// At least what rounding of positions changes in the estimate.
@@ -196,11 +196,11 @@ impl<const D: usize> Explicit<D> {
         let scales = tried?;
         self.find_rounding(view);
         let mut worst = Worst::none();
-        self.each_error::<true>(
+        self.each_rounded_error(
             view,
             tolerance,
             scales,
-            |unknown, [fifth, _], [per_scale, rounding]| {
+            &mut |unknown, [fifth, _], [per_scale, rounding]| {
                 let allowed = per_scale.recip() + rounding;
                 worst.see(unknown, [(view.step * fifth).abs(), allowed]);
             },
@@ -260,10 +260,8 @@ impl<const D: usize> Explicit<D> {
             let rounding = self.rounding_of(view, place, node);
             let momentum = momentum_scale(view, tolerance, scales, (node, rounding));
             let before = unclosed(&place.past, view.step);
-            for ((now, before), allowed) in place.now.iter().zip(&before).zip([position, momentum])
-            {
-                see(length(&difference(now, before)), allowed);
-            }
+            see(length(&difference(place.q(), &before[0])), position);
+            see(length(&difference(place.p(), &before[1])), momentum);
         }
         let change = |at: usize| {
             let [before] = unclosed(&self.stage.inner_past[at / 2], view.step);
@@ -284,15 +282,26 @@ impl<const D: usize> Explicit<D> {
         largest
     }
 
-    /// Calls `see` with the errors of fifth and third order of every unknown, per time, the reciprocal of its scale and, if `ROUNDED`,
-    /// its rounding.
+    /// Calls `see` with the errors of fifth and third order of every unknown, per time, the reciprocal of its scale and its rounding.
+    #[cold]
+    fn each_rounded_error(
+        &self,
+        view: &ExplicitView<'_, D>,
+        tolerance: &Tolerance,
+        scales: Scales,
+        see: &mut dyn FnMut(Unknown, [f64; 2], [f64; 2]),
+    ) {
+        self.each_error::<true>(view, tolerance, scales, see);
+    }
+
+    /// The same, without the rounding unless `ROUNDED`.
     #[inline]
     fn each_error<const ROUNDED: bool>(
         &self,
         view: &ExplicitView<'_, D>,
         tolerance: &Tolerance,
         scales: Scales,
-        mut see: impl FnMut(Unknown, [f64; 2], [f64; 2]),
+        see: &mut (impl FnMut(Unknown, [f64; 2], [f64; 2]) + ?Sized),
     ) {
         let per_scale = |size: f64, absolute: f64| {
             let scale = tolerance.relative * size + absolute;
@@ -377,8 +386,7 @@ impl<const D: usize> Explicit<D> {
         place: &Place<D>,
         node: usize,
     ) -> f64 {
-        let [start, end] = [&place.past.start[0], place.q()].map(|q| norm(q.iter().copied()));
-        let distance = Scalar::maximum(start, end);
+        let distance = Scalar::maximum(norm_of(&place.past.start[0]), norm_of(place.q()));
         view.least.rounding(node, view.step, distance) + self.rounding.impulse(node)
     }
 }
@@ -392,8 +400,11 @@ const HIDDEN: f64 = 1e-4;
 
 /// The largest |q| of the step, that of all nodes included, m.
 fn farthest<const D: usize>(view: &ExplicitView<'_, D>, scales: Scales) -> f64 {
-    let of_all = norm(view.state.positions.values().iter().copied());
-    Scalar::maximum(scales.position, of_all)
+    Scalar::maximum(scales.position, norm_of(view.state.positions.values()))
+}
+
+fn norm_of(x: &[f64]) -> f64 {
+    norm(x.iter().copied())
 }
 
 /// The rounding of a viscous stretch whose ends are this far from the origin, m.

@@ -76,12 +76,15 @@ impl PathRates {
         } else {
             (usual, Shift::none())
         };
-        (counting.map(|sum| h * sum), shift)
+        ([h * counting[0], h * counting[1]], shift)
     }
 
     #[inline]
     fn integrals(&self, weights: &[f64; WEIGHTED.len()]) -> [f64; 2] {
-        [&self.flows, &self.productions].map(|rates| integral(weights, rates))
+        [
+            integral(weights, &self.flows),
+            integral(weights, &self.productions),
+        ]
     }
 }
 

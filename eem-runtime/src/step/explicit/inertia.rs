@@ -15,6 +15,7 @@ pub(super) mod turning;
 
 use super::vector::{dot, length};
 use crate::algebra::bivector::Bivector;
+use crate::algebra::vector;
 
 pub(super) use moments::{Moments, WEAK};
 pub(super) use principal::Principal;
@@ -54,7 +55,7 @@ impl<const D: usize> Inertia<D> {
         }
         let far = length(arm);
         let has_length = far > 0.0;
-        let along = arm.map(|component| if has_length { component / far } else { 0.0 });
+        let along = vector(|axis| if has_length { arm[axis] / far } else { 0.0 });
         Self::Line { along, moment }
     }
 
@@ -69,7 +70,13 @@ impl<const D: usize> Inertia<D> {
             Self::Line { along, moment } => {
                 let is_none = *moment <= 0.0;
                 let turning = momentum.turn(along);
-                let speed = turning.map(|w| if is_none { 0.0 } else { w / *moment });
+                let speed = vector(|axis| {
+                    if is_none {
+                        0.0
+                    } else {
+                        turning[axis] / *moment
+                    }
+                });
                 Bivector::wedge(along, &speed)
             }
             Self::Space(inverse) => inverse.solve(momentum),
@@ -110,9 +117,7 @@ impl Inverse {
             -momentum.at([0, 2]),
             momentum.at([0, 1]),
         ];
-        let [x, y, z] = self
-            .cofactors
-            .map(|row| dot(&row, &right) / self.determinant);
+        let [x, y, z] = vector(|axis| dot(&self.cofactors[axis], &right) / self.determinant);
         let mut rotation = Bivector::zero();
         *rotation.at_mut([1, 2]) = x;
         *rotation.at_mut([0, 2]) = -y;

@@ -63,10 +63,12 @@ impl<const D: usize> Target<D> {
     }
 
     /// Calls a function for each of its sums, in the order in which they are saved.
-    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut Sum)) {
+    pub(super) fn each_mut(&mut self, visit: &mut dyn FnMut(&mut Sum)) {
         visit(&mut self.energy);
         visit(&mut self.lost);
-        self.linear.iter_mut().for_each(&mut visit);
+        for linear in &mut self.linear {
+            visit(linear);
+        }
         for plane in planes::<D>() {
             visit(self.angular.at_mut(plane));
         }

@@ -11,7 +11,7 @@ use crate::element::group::points;
 use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
 use crate::element::state::State;
-use crate::scene::loads::Loads;
+use crate::scene::loads::{Loads, TemperatureCourse};
 use crate::step::error::StepFailure;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::tableau::{STAGES, TIMES};
@@ -96,32 +96,22 @@ impl<const D: usize> Prescribed<D> {
         // Of several motions of one anchor the last one counts, as in the implicit schemes.
         let mut moved: Vec<Moved<D>> = Vec::new();
         for (motion, (node, _)) in loads.motions.iter().enumerate() {
-            moved.retain(|moved| moved.node != *node);
-            moved.push(Moved {
-                node: *node,
-                places: components.anchors_of(node.index).collect(),
-                motion,
-                positions: [[0.0; D]; STAGES],
-                velocities: [[0.0; D]; STAGES],
-            });
+            let mut later = loads.motions[motion + 1..].iter();
+            if later.all(|(later, _)| later != node) {
+                moved.push(Moved {
+                    node: *node,
+                    places: components.anchors_of(node.index),
+                    motion,
+                    positions: [[0.0; D]; STAGES],
+                    velocities: [[0.0; D]; STAGES],
+                });
+            }
         }
-        let mut held: Vec<Held> = Vec::new();
-        for (temperature, (element, _)) in loads.temperatures.iter().enumerate() {
-            let Some(slot) = layout.elements[element.index()].thermal else {
-                continue;
-            };
-            held.retain(|held| held.slot != slot);
-            held.push(Held {
-                element: *element,
-                slot,
-                temperature,
-                temperatures: [1.0; STAGES],
-            });
-        }
+        let has_moved = !moved.is_empty();
         Self {
-            interpolation: (!moved.is_empty()).then(Interpolation::new),
+            interpolation: has_moved.then(Interpolation::new),
             moved,
-            held,
+            held: held(&loads.temperatures, layout),
         }
     }
 
@@ -139,19 +129,52 @@ impl<const D: usize> Prescribed<D> {
             }
         }
         for held in &mut self.held {
-            for (stage, &share) in TIMES.iter().enumerate() {
-                let at = time + share * step;
-                let (_, course) = &loads.temperatures[held.temperature];
-                let theta = course.at(at, old.temperatures[held.slot], share);
-                if !is_positive(theta) {
-                    return Err(StepFailure::PrescribedTemperature {
-                        element: held.element,
-                        value: theta,
-                        time: at,
-                    });
-                }
-                held.temperatures[stage] = theta;
+            let (_, course) = &loads.temperatures[held.temperature];
+            held.evaluate(course, [time, step], old.temperatures[held.slot])?;
+        }
+        Ok(())
+    }
+}
+
+/// The thermostats of a scene. Of several at one element the last one counts.
+fn held(temperatures: &[(Element, TemperatureCourse)], layout: &Layout) -> Vec<Held> {
+    let mut held = Vec::new();
+    let slot_of = |element: Element| layout.elements[element.index()].thermal;
+    for (temperature, (element, _)) in temperatures.iter().enumerate() {
+        let Some(slot) = slot_of(*element) else {
+            continue;
+        };
+        let mut later = temperatures[temperature + 1..].iter();
+        if later.all(|(later, _)| slot_of(*later) != Some(slot)) {
+            held.push(Held {
+                element: *element,
+                slot,
+                temperature,
+                temperatures: [1.0; STAGES],
+            });
+        }
+    }
+    held
+}
+
+impl Held {
+    fn evaluate(
+        &mut self,
+        course: &TemperatureCourse,
+        [time, step]: [f64; 2],
+        from: f64,
+    ) -> Result<(), StepFailure> {
+        for (theta, &share) in self.temperatures.iter_mut().zip(&TIMES) {
+            let at = time + share * step;
+            let value = course.at(at, from, share);
+            if !is_positive(value) {
+                return Err(StepFailure::PrescribedTemperature {
+                    element: self.element,
+                    value,
+                    time: at,
+                });
             }
+            *theta = value;
         }
         Ok(())
     }
@@ -188,7 +211,11 @@ impl<const D: usize> Moved<D> {
                 // Differences do not lose digits to the distance from the origin.
                 let from_start = |m: usize| positions[m][axis] - start[axis];
                 let sum = |row: &[f64; POINTS]| {
-                    (1..POINTS).fold(0.0, |sum, m| sum + row[m] * from_start(m))
+                    let mut sum = 0.0;
+                    for (m, weight) in row.iter().enumerate().skip(1) {
+                        sum += weight * from_start(m);
+                    }
+                    sum
                 };
                 self.positions[stage][axis] = start[axis] + sum(&interpolation.values[stage]);
                 self.velocities[stage][axis] = sum(&interpolation.slopes[stage]) / step;

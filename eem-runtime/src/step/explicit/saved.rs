@@ -48,7 +48,7 @@ impl<const D: usize> Explicit<D> {
         let books = &mut self.books;
         let mut sums = saved.targets.iter();
         for target in &mut books.targets {
-            target.each_mut(|own| {
+            target.each_mut(&mut |own| {
                 if let Some(sum) = sums.next() {
                     *own = *sum;
                 }
@@ -59,10 +59,12 @@ impl<const D: usize> Explicit<D> {
         books.residue = saved.residue;
         books.terms = None;
         self.old_books.copy_from(books, true);
-        let own = self.stage.rates_mut(self.kept_places);
-        for ([start, _], rate) in own.zip(&saved.rates) {
-            *start = *rate;
-        }
+        let mut rates = saved.rates.iter();
+        self.stage.each_rate(self.kept_places, &mut |[start, _]| {
+            if let Some(rate) = rates.next() {
+                *start = *rate;
+            }
+        });
         let loads = &mut self.start_loads;
         let loads = loads.total_force.iter_mut().chain(&mut loads.force);
         for (own, load) in loads.zip(&saved.loads) {
@@ -74,7 +76,7 @@ impl<const D: usize> Explicit<D> {
 fn sums_of<const D: usize>(books: &mut Books<D>) -> Vec<Sum> {
     let mut sums = Vec::new();
     for target in &mut books.targets {
-        target.each_mut(|sum| sums.push(*sum));
+        target.each_mut(&mut |sum| sums.push(*sum));
     }
     sums
 }

@@ -258,6 +258,6 @@ impl<const D: usize> Scratch<D> {
 
 /// The size of an arm or of the coordinates of its end, whichever is larger: positions are rounded to ε of their coordinates.
 #[inline]
-pub(super) fn farther<const D: usize>(arm: &[f64; D], position: &[f64; D]) -> f64 {
+pub(super) fn farther(arm: &[f64], position: &[f64]) -> f64 {
     Scalar::maximum(size(arm), size(position))
 }

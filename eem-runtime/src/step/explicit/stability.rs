@@ -1,7 +1,9 @@
 //! Why an explicit step failed: it is longer than the fastest motion allows, or an element is too cold.
 
+use super::components::Path;
 use super::scratch::RowSums;
 use super::tableau::{IMAGINARY_LIMIT, REAL_LIMIT};
+use super::vector::largest;
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::step::error::StepFailure;
@@ -56,12 +58,10 @@ impl<const D: usize> Explicit<D> {
         let time = view.state.time.value + view.step;
         let h = view.step;
         let rates = self.fastest(view);
-        let limits = ["ωh", "κh/c", "kh/η"].into_iter().zip(LIMITS);
-        let mut processes = limits.zip(rates).skip(first);
-        let ((rate, limit), fastest) =
-            processes.find(|((_, limit), fastest)| h * fastest > *limit)?;
+        let process = (first..rates.len()).find(|&process| h * rates[process] > LIMITS[process])?;
+        let (fastest, limit) = (rates[process], LIMITS[process]);
         Some(StepFailure::Unstable {
-            rate,
+            rate: ["ωh", "κh/c", "kh/η"][process],
             product: h * fastest,
             limit,
             longest: limit / fastest,
@@ -72,9 +72,11 @@ impl<const D: usize> Explicit<D> {
 
     /// The step as a fraction of the longest stable one.
     pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, D>) -> f64 {
-        let rates = self.fastest(view).into_iter();
-        let shares = rates.zip(LIMITS).map(|(rate, limit)| rate / limit);
-        view.step * shares.fold(0.0, f64::max)
+        let mut largest = 0.0_f64;
+        for (rate, limit) in self.fastest(view).iter().zip(LIMITS) {
+            largest = largest.max(rate / limit);
+        }
+        view.step * largest
     }
 
     /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the
@@ -85,9 +87,9 @@ impl<const D: usize> Explicit<D> {
             capacities,
             flows,
         } = &mut self.scratch.stability;
-        for rows in [&mut *squares, &mut *capacities, &mut *flows] {
-            rows.fill(0.0);
-        }
+        squares.fill(0.0);
+        capacities.fill(0.0);
+        flows.fill(0.0);
         let per_root = |node: usize| {
             let mass = view.masses.get(node);
             mass.map_or(0.0, |mass| mass.sqrt().recip())
@@ -98,7 +100,7 @@ impl<const D: usize> Explicit<D> {
                 view.state,
                 &mut (|element| {
                     let [a, b] = element.ends();
-                    let [by_a, by_b] = [a, b].map(per_root);
+                    let [by_a, by_b] = [per_root(a), per_root(b)];
                     let both = by_a + by_b;
                     let held = |slot: usize| self.stage.is_held(slot);
                     let stiffness = match element.capacity {
@@ -115,22 +117,8 @@ impl<const D: usize> Explicit<D> {
                 }),
             );
         }
-        for path in &self.components.paths {
-            let ends = path.ends.map(|end| end as usize);
-            let per_root = |end: usize| {
-                let capacity = capacities.get(end).copied();
-                capacity.map_or(0.0, |capacity| capacity.sqrt().recip())
-            };
-            let both = per_root(ends[0]) + per_root(ends[1]);
-            for end in ends {
-                if let Some(flow) = flows.get_mut(end) {
-                    *flow += path.conductance * per_root(end) * both;
-                }
-            }
-        }
-        let largest = |values: &[f64]| values.iter().fold(0.0, |most, &x| Scalar::maximum(most, x));
-        let vibration = largest(squares).sqrt();
-        [vibration, largest(flows), relaxation]
+        add_conduction(&self.components.paths, capacities, flows);
+        [largest(squares).sqrt(), largest(flows), relaxation]
     }
 
     /// The element without an admissible temperature, as it was at the start of the step.
@@ -143,8 +131,8 @@ impl<const D: usize> Explicit<D> {
         else {
             return None;
         };
-        let mut elements = self.components.elements.iter();
-        let slot = elements.position(|&own| own as usize == element.index())?;
+        let elements = &self.components.elements;
+        let slot = (0..elements.len()).find(|&at| elements[at] as usize == element.index())?;
         let mut heat_capacity = 0.0;
         for group in &self.groups {
             group.elements().stiffness(view.state, &mut |found| {
@@ -163,5 +151,22 @@ impl<const D: usize> Explicit<D> {
             scheme: Scheme::EemEntropy.name(),
             time: view.state.time.value + view.step,
         })
+    }
+}
+
+/// Adds the flows along paths of heat to the sums of the rows of their slots, given the heat capacities, J/K.
+fn add_conduction(paths: &[Path], capacities: &[f64], flows: &mut [f64]) {
+    for path in paths {
+        let ends = path.slots();
+        let per_root = |end: usize| {
+            let capacity = capacities.get(end).copied();
+            capacity.map_or(0.0, |capacity| capacity.sqrt().recip())
+        };
+        let both = per_root(ends[0]) + per_root(ends[1]);
+        for end in ends {
+            if let Some(flow) = flows.get_mut(end) {
+                *flow += path.conductance * per_root(end) * both;
+            }
+        }
     }
 }

@@ -49,6 +49,30 @@ pub(super) fn unclosed<const N: usize, const P: usize>(past: &Past<N, P>, h: f64
     past.after(h, WEIGHTED_ROWS, &WEIGHTS)
 }
 
+/// The same as [`combine`](Explicit::combine) for the internal variables.
+#[inline(always)]
+#[expect(
+    clippy::inline_always,
+    reason = "rows and coefficients are constants of the caller"
+)]
+fn combine_inner<const T: usize>(
+    (inner, past): (&mut [Inner], &mut [Past<2, 1>]),
+    last: usize,
+    h: f64,
+    rows: [usize; T],
+    a: &[f64; T],
+) {
+    let pairs = inner.as_chunks_mut::<2>().0;
+    for (pair, past) in pairs.iter_mut().zip(past) {
+        if last == 0 {
+            past.start = [[pair[0].now, pair[1].now]];
+        }
+        past.rates[ROWS[last]] = [[pair[0].rate, pair[1].rate]];
+        let [[first, second]] = past.after(h, rows, a);
+        *pair = [Inner::new(first), Inner::new(second)];
+    }
+}
+
 impl<const D: usize> Explicit<D> {
     /// Goes through all stages to the end of the step, before it is closed.
     pub(super) fn go_through_stages(
@@ -87,9 +111,7 @@ impl<const D: usize> Explicit<D> {
     ) -> Result<(), StepFailure> {
         self.combine(STAGE - 1, view.step, rows, a);
         if self.is_driven {
-            self.move_to(STAGE);
-            let share = TIMES[STAGE];
-            self.evaluate_loads(view, view.state.time.value + share * view.step)?;
+            self.drive(view, STAGE)?;
         }
         self.find_rates(From::Model, WEIGHT_OF[STAGE])?;
         Ok(())
@@ -108,15 +130,15 @@ impl<const D: usize> Explicit<D> {
             place.now = place.past.after(h, rows, a);
             place.begin_rates();
         }
-        let pairs = self.stage.inner.as_chunks_mut::<2>().0;
-        for (pair, past) in pairs.iter_mut().zip(&mut self.stage.inner_past) {
-            if last == 0 {
-                past.start = [pair.map(|own| own.now)];
-            }
-            past.rates[ROWS[last]] = [pair.map(|own| own.rate)];
-            let [now] = past.after(h, rows, a);
-            *pair = now.map(Inner::new);
-        }
+        let (inner, past) = (&mut self.stage.inner, &mut self.stage.inner_past);
+        combine_inner((inner, past), last, h, rows, a);
+    }
+
+    /// Sets what is prescribed at a stage, and the loads.
+    fn drive(&mut self, view: &ExplicitView<'_, D>, stage: usize) -> Result<(), StepFailure> {
+        self.move_to(stage);
+        let share = TIMES[stage];
+        self.evaluate_loads(view, view.state.time.value + share * view.step)
     }
 
     /// Initialises the forces on masses with loads and weights, at a time if they depend on it.
@@ -182,7 +204,7 @@ impl<const D: usize> Explicit<D> {
     fn conduct(&mut self, weight: Option<usize>) {
         let inner = &mut self.stage.inner[..];
         for path in &mut self.components.paths {
-            let [a, b] = path.places.map(|place| place as usize);
+            let [a, b] = [path.places[0] as usize, path.places[1] as usize];
             let [near, far] = [inner[a].now, inner[b].now];
             let flow = path.conductance * (far - near);
             inner[a].rate += flow;

@@ -38,9 +38,9 @@ impl<const D: usize> Explicit<D> {
             self.begin_heats();
         }
         for path in &mut self.components.paths {
-            for (temperatures, end) in path.temperatures.iter_mut().zip(path.ends) {
-                temperatures[0] = self.stage.theta(end as usize);
-            }
+            let [a, b] = path.slots();
+            path.temperatures[0][0] = self.stage.theta(a);
+            path.temperatures[1][0] = self.stage.theta(b);
         }
         if self.is_driven {
             self.begin_outside();
@@ -78,13 +78,15 @@ impl<const D: usize> Explicit<D> {
             place.force = self.loads.total_force(node as usize);
             place.begin_rates();
         }
-        let viscous = state.viscous.values().iter();
-        let temperatures = state.temperatures.iter();
-        let inner = viscous
-            .chain(temperatures)
-            .chain(&view.conduction.reservoirs);
-        for (own, &value) in stage.inner.iter_mut().zip(inner) {
-            *own = Inner::new(value);
+        let mut inner = stage.inner.iter_mut();
+        for values in [
+            state.viscous.values(),
+            &state.temperatures,
+            &view.conduction.reservoirs,
+        ] {
+            for (&value, own) in values.iter().zip(&mut inner) {
+                *own = Inner::new(value);
+            }
         }
         Ok(())
     }
@@ -103,9 +105,9 @@ impl<const D: usize> Explicit<D> {
     /// Restores rates and sums at the start of the last attempt.
     #[cold]
     fn rewind(&mut self) {
-        for [start, now] in self.stage.rates_mut(self.kept_places) {
-            *now = *start;
-        }
+        let places = self.kept_places;
+        self.stage
+            .each_rate(places, &mut |[start, now]| *now = *start);
         copy_loads(&mut self.loads, &self.start_loads);
         self.books.copy_from(&self.old_books, self.is_driven);
     }
@@ -130,7 +132,9 @@ impl<const D: usize> Explicit<D> {
             let motion = &self.scratch.motions[index];
             let mut target = Target::none();
             if self.components.all[index].support != Support::Several {
-                target.linear = motion.linear.map(Sum::new);
+                for (target, &linear) in target.linear.iter_mut().zip(&motion.linear) {
+                    *target = Sum::new(linear);
+                }
                 target.angular = motion.angular.map(Sum::new(0.0), Sum::new);
             }
             let [energy, _] = self.energy_of(index);
@@ -144,10 +148,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     pub(super) fn origin(places: &[Place<D>], component: &Component) -> Origin<D> {
         match component.support {
-            Support::Free => {
-                let masses = places[component.masses.clone()].iter();
-                Origin::center(masses.map(|place| (place.mass, place.q())), component.mass)
-            }
+            Support::Free => Origin::center(&places[component.masses.clone()], component.mass),
             Support::Anchor(place) => Origin::at(places[place].q()),
             Support::Several => Origin::at(&[0.0; D]),
         }

@@ -1,21 +1,26 @@
 //! Vectors of positions and momenta, and points from which arms are counted.
 
 use crate::algebra::vector;
+use crate::element::group::Place;
 use eem_material::number::scalar::Scalar;
 
 #[inline]
 pub(super) fn dot<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
-    a.iter().zip(b).fold(0.0, |sum, (&a, &b)| sum + a * b)
+    let mut sum = 0.0;
+    for axis in 0..D {
+        sum += a[axis] * b[axis];
+    }
+    sum
 }
 
 /// `|a|`, where squares may over- or underflow too.
-pub(super) fn length<const D: usize>(a: &[f64; D]) -> f64 {
+pub(super) fn length(a: &[f64]) -> f64 {
     a.iter().fold(0.0, |length, &x| Scalar::hypot(length, x))
 }
 
 /// `Σ |a_i|`, no less than `|a|`.
 #[inline]
-pub(super) fn size<const D: usize>(a: &[f64; D]) -> f64 {
+pub(super) fn size(a: &[f64]) -> f64 {
     a.iter().fold(0.0, |size, &x| size + x.abs())
 }
 
@@ -47,16 +52,13 @@ impl<const D: usize> Origin<D> {
     }
 
     /// The centre of some masses with this sum.
-    pub(super) fn center<'a>(
-        mut masses: impl Iterator<Item = (f64, &'a [f64; D])>,
-        mass: f64,
-    ) -> Self {
+    pub(super) fn center(masses: &[Place<D>], mass: f64) -> Self {
         let mut sum = [0.0; D];
-        let base = masses.next().map_or(sum, |(_, &first)| first);
-        for (mass, position) in masses {
-            add(&mut sum, mass, &difference(position, &base));
+        let base = masses.first().map_or(sum, |first| *first.q());
+        for place in masses.iter().skip(1) {
+            add(&mut sum, place.mass, &difference(place.q(), &base));
         }
-        let offset = sum.map(|moment| moment / mass);
+        let offset = vector(|axis| sum[axis] / mass);
         Self { base, offset }
     }
 
@@ -72,6 +74,7 @@ impl<const D: usize> Origin<D> {
 }
 
 /// The largest `|a_i|`.
-pub(super) fn largest<const D: usize>(a: &[f64; D]) -> f64 {
+#[inline]
+pub(super) fn largest(a: &[f64]) -> f64 {
     a.iter().fold(0.0, |most, x| Scalar::maximum(most, x.abs()))
 }

@@ -132,7 +132,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             drift += slopes[a] * speed;
         }
         for (index, arm) in pull.as_ref().iter().enumerate() {
-            stage.places[nodes[index + 1] as usize].pull(&arm.map(|component| -component));
+            stage.places[nodes[index + 1] as usize].push(arm);
             stage.places[nodes[0] as usize].pull(arm);
         }
         let viscous = self.slots().viscous;

@@ -1,5 +1,6 @@
 //! The state of a scene at a stage of an explicit step, and its rates.
 
+use crate::algebra::vector;
 use crate::element::layout::Layout;
 
 /// The number of stages whose rates are stored at the same time.
@@ -98,7 +99,7 @@ impl<const D: usize> Place<D> {
     /// The rates that follow from the momentum; forces are added to them.
     #[inline]
     pub(crate) fn begin_rates(&mut self) {
-        self.rates = [self.now[1].map(|p| p * self.per_mass), [0.0; D]];
+        self.rates = [vector(|axis| self.now[1][axis] * self.per_mass), [0.0; D]];
     }
 
     /// Adds a force, N.
@@ -107,6 +108,16 @@ impl<const D: usize> Place<D> {
         let mut force = self.rates[1];
         for (force, &by) in force.iter_mut().zip(by) {
             *force += by;
+        }
+        self.rates[1] = force;
+    }
+
+    /// Subtracts a force, N.
+    #[inline]
+    pub(crate) fn push(&mut self, by: &[f64; D]) {
+        let mut force = self.rates[1];
+        for (force, &by) in force.iter_mut().zip(by) {
+            *force -= by;
         }
         self.rates[1] = force;
     }
@@ -250,7 +261,7 @@ pub(crate) struct Stage<const D: usize> {
 impl<const D: usize> Stage<D> {
     /// A stage with places of these masses.
     pub(crate) fn new(
-        masses: impl Iterator<Item = f64>,
+        masses: &[f64],
         layout: &Layout,
         reservoirs: usize,
         thermostats: Vec<Thermostat>,
@@ -258,8 +269,12 @@ impl<const D: usize> Stage<D> {
         let size = layout.viscous + layout.thermal;
         let pairs = size.div_ceil(2);
         let all = (size + reservoirs).max(2 * pairs);
+        let mut places = Vec::with_capacity(masses.len());
+        for &mass in masses {
+            places.push(Place::new(mass));
+        }
         Self {
-            places: masses.map(Place::new).collect(),
+            places,
             inner: vec![Inner::new(1.0); all],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
@@ -305,36 +320,50 @@ impl<const D: usize> Stage<D> {
     }
 
     /// Pairs of all rates, at the start of the step and now; of places only the first `places`.
-    pub(crate) fn rates(&self, places: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let places = self.places[..places].iter().flat_map(|of| {
-            let starts = of.past.rates[0].as_flattened().iter();
-            starts.zip(of.rates.as_flattened())
-        });
-        let inner = self.inner_past.iter().flat_map(|of| &of.rates[0][0]);
-        let inner = inner.zip(self.inner.iter().map(|own| &own.rate));
-        let productions = self.productions.iter();
-        let productions = productions.map(|of| (&of.start, &of.rate));
-        let thermostats = self.thermostats.iter();
-        let thermostats = thermostats.map(|of| (&of.start, &of.received));
-        let all = places.chain(inner).chain(productions).chain(thermostats);
-        all.map(|(&start, &now)| [start, now])
+    pub(crate) fn rates(&self, places: usize) -> Vec<[f64; 2]> {
+        let mut all = Vec::new();
+        for of in &self.places[..places] {
+            for part in 0..2 {
+                for axis in 0..D {
+                    all.push([of.past.rates[0][part][axis], of.rates[part][axis]]);
+                }
+            }
+        }
+        for (past, own) in self.inner_past.iter().zip(self.inner.as_chunks::<2>().0) {
+            let [starts] = past.rates[0];
+            all.extend([[starts[0], own[0].rate], [starts[1], own[1].rate]]);
+        }
+        for of in &self.productions {
+            all.push([of.start, of.rate]);
+        }
+        for of in &self.thermostats {
+            all.push([of.start, of.received]);
+        }
+        all
     }
 
-    /// The same, mutable.
-    pub(crate) fn rates_mut(&mut self, places: usize) -> impl Iterator<Item = [&mut f64; 2]> + '_ {
-        let places = self.places[..places].iter_mut().flat_map(|of| {
-            let starts = of.past.rates[0].as_flattened_mut().iter_mut();
-            starts.zip(of.rates.as_flattened_mut())
-        });
-        let inner = self.inner_past.iter_mut();
-        let inner = inner.flat_map(|of| &mut of.rates[0][0]);
-        let inner = inner.zip(self.inner.iter_mut().map(|own| &mut own.rate));
-        let productions = self.productions.iter_mut();
-        let productions = productions.map(|of| (&mut of.start, &mut of.rate));
-        let thermostats = self.thermostats.iter_mut();
-        let thermostats = thermostats.map(|of| (&mut of.start, &mut of.received));
-        let all = places.chain(inner).chain(productions).chain(thermostats);
-        all.map(|(start, now)| [start, now])
+    /// Calls a function for the same pairs in the same order.
+    pub(crate) fn each_rate(&mut self, places: usize, visit: &mut dyn FnMut([&mut f64; 2])) {
+        for of in &mut self.places[..places] {
+            for part in 0..2 {
+                for axis in 0..D {
+                    visit([&mut of.past.rates[0][part][axis], &mut of.rates[part][axis]]);
+                }
+            }
+        }
+        let inner = self.inner.as_chunks_mut::<2>().0;
+        for (past, own) in self.inner_past.iter_mut().zip(inner) {
+            let [starts] = &mut past.rates[0];
+            for at in 0..2 {
+                visit([&mut starts[at], &mut own[at].rate]);
+            }
+        }
+        for of in &mut self.productions {
+            visit([&mut of.start, &mut of.rate]);
+        }
+        for of in &mut self.thermostats {
+            visit([&mut of.start, &mut of.received]);
+        }
     }
 
     /// Whether a thermostat prescribes the temperature of a thermal slot.

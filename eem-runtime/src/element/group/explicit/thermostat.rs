@@ -43,8 +43,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         let measures = self.kinematics.measure(&r);
         let gradient = self.kinematics.gradient(&r, &measures);
         let motion = arms_of::<K, D>(nodes, &stage.places, Place::velocity);
-        let [x, at_last] = [theta, last].map(|theta| self.variables_at(&measures, stage, theta));
-        let [own, other] = [&x, &at_last].map(|x| self.model.rates(x).forces);
+        let x = self.variables_at(&measures, stage, theta);
+        let at_last = self.variables_at(&measures, stage, last);
+        let (own, other) = (
+            self.model.rates(&x).forces,
+            self.model.rates(&at_last).forces,
+        );
         let mut rate = thermostat.excess(theta) * thermostat.received;
         for a in 0..M::MEASURES {
             rate += (own[a] - other[a]) * along::<K, D>(&gradient[a], &motion);
@@ -56,8 +60,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         let (weight, thermostat) = (stage.weight, &mut stage.thermostats[slot]);
         thermostat.sum += weight * rate;
         if is_start {
-            let [psi, psi_at_last] = [&x, &at_last].map(|x| self.model.free_energy(x));
-            thermostat.warming = psi_at_last - psi;
+            thermostat.warming = self.model.free_energy(&at_last) - self.model.free_energy(&x);
         }
     }
 }

@@ -71,14 +71,16 @@ impl<const D: usize> Explicit<D> {
         for place in &self.stage.places[..self.components.masses] {
             let [q, p] = &place.past.start;
             motion += 0.5 * dot(p, p) * place.per_mass;
-            let terms = place.force.iter().zip(q);
-            potential = terms.fold(potential, |sum, (force, q)| sum + (force * q).abs());
+            for (force, q) in place.force.iter().zip(q) {
+                potential += (force * q).abs();
+            }
         }
-        let energies = state.energies.iter();
-        energies.fold([motion + potential, motion], |[counted, terms], energy| {
-            let own = energy.magnitude + energy.excess;
-            [counted + own, terms + energy.terms]
-        })
+        let [mut counted, mut terms] = [motion + potential, motion];
+        for energy in &state.energies {
+            counted += energy.magnitude + energy.excess;
+            terms += energy.terms;
+        }
+        [counted, terms]
     }
 
     /// The defect of the energy of a component, and the magnitude of its terms, J.
@@ -171,12 +173,12 @@ impl<const D: usize> Explicit<D> {
     /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.
     #[inline]
     pub(super) fn produced_heat(&self, index: usize) -> f64 {
-        let slots = &self.components.slots[self.components.all[index].slots.clone()];
-        let lost = self.scratch.progress[index].lost;
-        slots.iter().fold(lost, |sum, &slot| {
-            let slot = slot as usize;
-            sum + self.scratch.produced[slot] * self.stage.theta(slot)
-        })
+        let mut sum = self.scratch.progress[index].lost;
+        for at in self.slots_of(index) {
+            let slot = self.components.slots[at] as usize;
+            sum += self.scratch.produced[slot] * self.stage.theta(slot);
+        }
+        sum
     }
 
     /// Scales each element's entropy production by 1 + ε. Returns whether the second-order update is accurate to

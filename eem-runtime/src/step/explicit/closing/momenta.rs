@@ -89,10 +89,11 @@ impl<const D: usize> Explicit<D> {
         let arm = |place: &Place<D>| body.origin.arm(place.q());
         body.inertia = Some(if count == without_arm + 1 {
             // The other mass of a pair is on the same line through the centre.
-            let moment = masses.iter().fold(0.0, |sum, place| {
+            let mut moment = 0.0;
+            for place in masses {
                 let arm = arm(place);
-                sum + place.mass * dot(&arm, &arm)
-            });
+                moment += place.mass * dot(&arm, &arm);
+            }
             Inertia::of_line(&arm(&masses[0]), moment)
         } else {
             Inertia::of_body(self.moments(component, &body.origin))
@@ -209,11 +210,12 @@ impl<const D: usize> Explicit<D> {
     pub(in super::super) fn moment_at_start(&self, index: usize) -> f64 {
         let component = &self.components.all[index];
         let origin = Self::origin(&self.stage.places, component);
-        let masses = self.stage.places[component.masses.clone()].iter();
-        masses.fold(0.0, |sum, place| {
+        let mut sum = 0.0;
+        for place in &self.stage.places[component.masses.clone()] {
             let [q, p] = &place.past.start;
-            sum + farther(&origin.arm(q), q) * size(p)
-        })
+            sum += farther(&origin.arm(q), q) * size(p);
+        }
+        sum
     }
 
     pub(in super::super) fn angular_target(&self, index: usize) -> Bivector<f64, D> {

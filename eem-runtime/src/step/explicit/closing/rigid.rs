@@ -22,9 +22,8 @@ impl<const D: usize> Explicit<D> {
     ) -> Result<(), StepFailure> {
         let largest = demand.largest_turn();
         let is_loaded = !self.load_sums.is_empty();
-        let has_thermostat = self
-            .slots_of(index)
-            .any(|at| self.stage.is_held(self.components.slots[at] as usize));
+        let slots = &self.components.slots[self.slots_of(index)];
+        let has_thermostat = slots.iter().any(|&slot| self.stage.is_held(slot as usize));
         if is_loaded || has_thermostat || !self.takes_turn(index, view.step, largest, scales) {
             return Err(StepFailure::NotClosed {
                 defect: self.scratch.progress[index].defect,
@@ -46,7 +45,7 @@ impl<const D: usize> Explicit<D> {
         for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir as usize;
             // One by one: their difference would be rounded to ε of what is taken back.
-            let [new, old] = [&self.books, &self.old_books].map(|books| books.shares[share]);
+            let (new, old) = (self.books.shares[share], self.old_books.shares[share]);
             for change in [-new.value, old.value, -new.carry, old.carry] {
                 next.reservoir_entropies.add(reservoir, change);
             }

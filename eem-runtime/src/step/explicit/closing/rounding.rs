@@ -46,7 +46,7 @@ use super::super::vector::{difference, dot, size};
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
 use crate::element::group::{ComponentEnergy, points};
-use crate::element::state::{Energy, State};
+use crate::element::state::State;
 use core::mem::swap;
 use eem_material::number::scalar::Scalar;
 
@@ -106,25 +106,15 @@ impl<const D: usize> Explicit<D> {
         self.look_at_motion(index);
         self.swap_start(index);
         let mut inner = ComponentEnergy::none();
-        self.energies_in(start, index)
-            .for_each(|energy| inner.add(energy));
+        for energy in self.components.energies_in(start, index) {
+            inner.add(energy);
+        }
         self.scratch.energies[index] = inner;
         swap(&mut self.books, &mut self.old_books);
         let [debt, _] = self.defect_of(index);
         swap(&mut self.books, &mut self.old_books);
         (self.scratch.motions[index], self.scratch.energies[index]) = (motion, energy);
         debt
-    }
-
-    /// The energies of the elements of a component in a state.
-    fn energies_in<'a>(
-        &'a self,
-        state: &'a State,
-        index: usize,
-    ) -> impl Iterator<Item = &'a Energy> {
-        let elements = self.components.of_element.iter().zip(&state.energies);
-        let own = elements.filter(move |&(&component, _)| component as usize == index);
-        own.map(|(_, energy)| energy)
     }
 
     /// What rounding explains of the energy of a component of this magnitude, J.
@@ -144,13 +134,14 @@ impl<const D: usize> Explicit<D> {
 
     /// `Σ |F||q|`: times ε, the error of the energy by rounding of positions, J.
     fn granularity(&self, index: usize) -> f64 {
-        let masses = self.components.all[index].masses.clone();
-        masses.fold(0.0, |sum, at| {
-            let terms = self.scratch.forces[at]
-                .iter()
-                .zip(self.stage.places[at].q());
-            terms.fold(sum, |sum, (&force, &q)| sum + (force * q).abs())
-        })
+        let mut sum = 0.0;
+        for at in self.components.all[index].masses.clone() {
+            let q = self.stage.places[at].q();
+            for (force, q) in self.scratch.forces[at].iter().zip(q) {
+                sum += (force * q).abs();
+            }
+        }
+        sum
     }
 
     /// The terms that do not vanish with the energy, J.
@@ -161,12 +152,14 @@ impl<const D: usize> Explicit<D> {
         if let Some(loads) = self.load_sums.get(index) {
             sum += (view.step * loads.work).abs() + 0.5 / FROZEN * loads.noise;
         }
-        for energy in self.energies_in(view.state, index) {
+        for energy in self.components.energies_in(view.state, index) {
             sum += energy.excess;
         }
-        let nodes = self.components.nodes.iter().zip(&self.components.of_place);
-        let places = self.stage.places.iter().zip(nodes);
-        for (place, (&node, _)) in places.filter(|&(_, (_, &own))| own as usize == index) {
+        for (at, place) in self.stage.places.iter().enumerate() {
+            if self.components.of_place[at] as usize != index {
+                continue;
+            }
+            let node = self.components.nodes[at];
             let old = points::<D>(view.state.positions.values())[node as usize];
             let way = difference(place.q(), &old);
             let position = size(place.q());

@@ -110,17 +110,22 @@ impl<const D: usize> Explicit<D> {
 
     /// `Σ g²/η`, W.
     fn creeping_power(&self, index: usize) -> f64 {
-        let owned = self.scratch.creep.iter().zip(&self.components.dashpots);
-        let own = owned.filter(|&(_, dashpot)| dashpot.component as usize == index);
-        own.fold(0.0, |sum, (&[_, power], _)| sum + power)
+        let mut sum = 0.0;
+        for (creep, dashpot) in self.scratch.creep.iter().zip(&self.components.dashpots) {
+            if dashpot.component as usize == index {
+                sum += creep[1];
+            }
+        }
+        sum
     }
 
     /// `Σ 2hκ(Δθ)²/(θ_a + θ_b)` of the paths without a thermostat at an end, J.
     fn exchange(&self, component: &Component, h: f64) -> f64 {
         let mut sum = 0.0;
         for path in &self.components.paths[component.paths.clone()] {
-            let [a, b] = path.ends.map(|end| self.stage.theta(end as usize));
-            if !self.meets_thermostat(path.ends) {
+            let ends = path.slots();
+            let [a, b] = [self.stage.theta(ends[0]), self.stage.theta(ends[1])];
+            if !self.meets_thermostat(ends) {
                 let drop = a - b;
                 let heat = (h + h) * path.conductance * drop;
                 sum += heat * drop / (a + b);
@@ -129,8 +134,8 @@ impl<const D: usize> Explicit<D> {
         sum
     }
 
-    fn meets_thermostat(&self, ends: [u32; 2]) -> bool {
-        ends.into_iter().any(|end| self.stage.is_held(end as usize))
+    fn meets_thermostat(&self, [a, b]: [usize; 2]) -> bool {
+        self.stage.is_held(a) || self.stage.is_held(b)
     }
 
     /// The momentum of a mass relative to the rigid motion.
@@ -198,11 +203,11 @@ impl<const D: usize> Explicit<D> {
     fn exchange_heat(&mut self, index: usize, duration: f64, next: &mut State) {
         let slots = self.scratch.produced.len();
         for path in &self.components.paths[self.components.all[index].paths.clone()] {
-            if self.meets_thermostat(path.ends) {
+            let ends = path.slots();
+            if self.meets_thermostat(ends) {
                 continue;
             }
-            let ends = path.ends.map(|end| end as usize);
-            let [a, b] = ends.map(|end| self.stage.theta(end));
+            let [a, b] = [self.stage.theta(ends[0]), self.stage.theta(ends[1])];
             let entropy = (duration + duration) * path.conductance * (a - b) / (a + b);
             next.entropies.add(ends[0], entropy);
             let heat = duration * path.conductance * (a - b);
@@ -215,6 +220,11 @@ impl<const D: usize> Explicit<D> {
                 }
             }
         }
+    }
+
+    /// Whether an element produces entropy and keeps it.
+    fn takes(&self, slot: usize) -> bool {
+        self.produces[slot] && !self.stage.is_held(slot)
     }
 
     /// Last resort: converts energy to entropy, or back as far as it was produced in this step; returns false if no element
@@ -236,17 +246,17 @@ impl<const D: usize> Explicit<D> {
             }
             return true;
         }
-        let slots = self
-            .slots_of(index)
-            .map(|at| self.components.slots[at] as usize);
-        let takes = |slot: &usize| self.produces[*slot] && !self.stage.is_held(*slot);
-        let all = slots.filter(takes).fold(0.0, |all, slot| {
-            all + self.scratch.capacities[slot][0] * self.stage.theta(slot)
-        });
+        let mut all = 0.0;
+        for at in self.slots_of(index) {
+            let slot = self.components.slots[at] as usize;
+            if self.takes(slot) {
+                all += self.scratch.capacities[slot][0] * self.stage.theta(slot);
+            }
+        }
         if all > 0.0 {
             for at in self.slots_of(index) {
                 let slot = self.components.slots[at] as usize;
-                if self.produces[slot] && !self.stage.is_held(slot) {
+                if self.takes(slot) {
                     let entropy = self.scratch.capacities[slot][0] * (defect / all);
                     self.warm(index, slot, entropy, next);
                     next.meters.produce(slot, entropy);

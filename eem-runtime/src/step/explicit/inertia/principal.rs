@@ -1,11 +1,9 @@
-//! Principal axes of a body, by Jacobi's method of rotations.
+//! Principal axes of a body.
 
 use super::moments::{Moments, NO_INERTIA};
 use crate::algebra::bivector::{Bivector, planes};
+use crate::algebra::jacobi::diagonalize;
 use crate::algebra::vector;
-
-/// Sweeps over all pairs of axes; convergence is quadratic, so that a handful suffice.
-const MOST_SWEEPS: usize = 40;
 
 /// Principal axes and moments.
 #[derive(Clone, Copy, Debug)]
@@ -26,15 +24,7 @@ impl<const D: usize> Principal<D> {
         for (axis, row) in axes.iter_mut().enumerate() {
             row[axis] = 1.0;
         }
-        for _ in 0..MOST_SWEEPS {
-            let mut has_rotated = false;
-            for [i, j] in planes::<D>() {
-                has_rotated |= rotate(&mut matrix, &mut axes, [i, j]);
-            }
-            if !has_rotated {
-                break;
-            }
-        }
+        diagonalize(D, matrix.as_flattened_mut(), axes.as_flattened_mut());
         // Sums of squares, but rounding may leave −0 or less.
         let moments = vector(|axis| matrix[axis][axis].max(0.0));
         Self { axes, moments }
@@ -57,32 +47,4 @@ impl<const D: usize> Principal<D> {
         }
         omega
     }
-}
-
-/// Makes the entry of two axes zero by a rotation in their plane; false where it is rounding already.
-fn rotate<const D: usize>(
-    matrix: &mut [[f64; D]; D],
-    axes: &mut [[f64; D]; D],
-    [i, j]: [usize; 2],
-) -> bool {
-    let entry = matrix[i][j];
-    let [a, b] = [matrix[i][i], matrix[j][j]];
-    if entry.abs() <= f64::EPSILON * f64::EPSILON * (a.abs() + b.abs()) {
-        return false;
-    }
-    let ratio = (b - a) / (2.0 * entry);
-    let tangent = ratio.signum() / (ratio.abs() + (ratio * ratio + 1.0).sqrt());
-    let cosine = (tangent * tangent + 1.0).sqrt().recip();
-    let sine = tangent * cosine;
-    for row in matrix.iter_mut() {
-        let [x, y] = [row[i], row[j]];
-        (row[i], row[j]) = (cosine * x - sine * y, sine * x + cosine * y);
-    }
-    for rows in [&mut *matrix, axes] {
-        let [x, y] = [rows[i], rows[j]];
-        rows[i] = vector(|k| cosine * x[k] - sine * y[k]);
-        rows[j] = vector(|k| sine * x[k] + cosine * y[k]);
-    }
-    (matrix[i][j], matrix[j][i]) = (0.0, 0.0);
-    true
 }

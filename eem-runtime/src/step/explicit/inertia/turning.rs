@@ -16,7 +16,6 @@
 use super::moments::{NO_INERTIA, WEAK};
 use super::principal::Principal;
 use crate::algebra::bivector::{Bivector, planes};
-use crate::algebra::vector;
 use eem_material::number::scalar::Scalar;
 
 /// Rounds of corrections. With a single plane they converge quadratically; several planes are corrected in turn.
@@ -38,9 +37,11 @@ impl<const D: usize> Turned<D> {
         // 1 − cos, without cancellation.
         let versine = 2.0 * half * half;
         for column in 0..D {
-            let [x, y] = [from, to].map(|axis| self.axes[axis][column]);
-            let by = [sine * y - versine * x, -(sine * x + versine * y)];
-            for (axis, by) in [from, to].into_iter().zip(by) {
+            let [x, y] = [self.axes[from][column], self.axes[to][column]];
+            for (axis, by) in [
+                (from, sine * y - versine * x),
+                (to, -(sine * x + versine * y)),
+            ] {
                 self.axes[axis][column] += by;
                 self.changes[axis][column] += by;
             }
@@ -50,8 +51,11 @@ impl<const D: usize> Turned<D> {
     /// Changes the component of the target in a plane by −`off`, to first order; `None` if that takes a large angle.
     fn approach(&mut self, target: &Bivector<f64, D>, [a, c]: [usize; 2], off: f64) -> Option<()> {
         let (terms, square) = slopes(target, &self.axes, [a, c]);
-        for b in (0..D).filter(|&b| b != a && b != c) {
-            for (to, term) in [a, c].into_iter().zip(terms[b]) {
+        for (b, terms) in terms.iter().enumerate() {
+            if b == a || b == c {
+                continue;
+            }
+            for (to, term) in [(a, terms[0]), (c, terms[1])] {
                 let angle = off * term / square;
                 let is_small = angle.abs() < LARGEST_ANGLE;
                 if !is_small {
@@ -112,11 +116,13 @@ pub(in super::super) fn turning<const D: usize>(
             break;
         }
     }
-    has_turned.then(|| {
-        core::array::from_fn(|i| {
-            vector(|j| (0..D).map(|a| turned.changes[a][i] * axes[a][j]).sum())
-        })
-    })
+    let mut change = [[0.0; D]; D];
+    for (i, row) in change.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = (0..D).map(|a| turned.changes[a][i] * axes[a][j]).sum();
+        }
+    }
+    has_turned.then_some(change)
 }
 
 /// `[T_bc, T_ab]` for each b, and the sum of their squares.
@@ -126,7 +132,10 @@ fn slopes<const D: usize>(
     [a, c]: [usize; 2],
 ) -> ([[f64; 2]; D], f64) {
     let (mut terms, mut square) = ([[0.0; 2]; D], 0.0);
-    for b in (0..D).filter(|&b| b != a && b != c) {
+    for b in 0..D {
+        if b == a || b == c {
+            continue;
+        }
         terms[b] = [
             target.between(&axes[b], &axes[c]),
             target.between(&axes[a], &axes[b]),
@@ -140,6 +149,7 @@ fn slopes<const D: usize>(
 mod tests {
     use super::super::{Inertia, Moments};
     use super::*;
+    use crate::algebra::vector;
 
     /// Masses with one, two or three arms, a target that is a little off, and what is left of it after turning and a
     /// change of momenta.
