@@ -30,13 +30,12 @@ use crate::element::conduction::{Conduction, Conductor};
 use crate::element::ends::Ends;
 use crate::element::group::Loose;
 use crate::element::handle::{Element, Handle, Kind, Node, Reservoir};
-use crate::element::layout::Layout;
+use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::{Counts, Lineage};
 use crate::element::masses::Masses;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use eem_material::free_energy::FreeEnergy;
-use eem_material::number::compact::compact;
 use entry::{ElementEntry, NodeEntry};
 
 /// A scene in `D` dimensions: masses, anchors, springs, solids, reservoirs and loads.
@@ -117,23 +116,26 @@ impl<const D: usize> Scene<D> {
 
     /// The numbering of its unknowns and state variables, and its paths of heat.
     pub(crate) fn numbering(&self) -> (Layout, Conduction) {
-        let is_mass = self.nodes.iter().map(|node| node.mass.is_some());
-        let elements = self.elements.iter();
-        let shapes = elements.map(|entry| self.groups[entry.group].shape());
-        let mut layout = Layout::new(D, is_mass, shapes);
+        let mut layout = self.layout();
         let reservoirs = self.reservoir_temperatures();
         let conduction = Conduction::new(&self.conductors, &reservoirs, &layout);
         layout.couple(|slot| conduction.meets_slots(slot));
         (layout, conduction)
     }
 
+    /// The numbering without interface temperatures.
+    pub(crate) fn layout(&self) -> Layout {
+        let mut is_mass = self.nodes.iter().map(|node| node.mass.is_some());
+        let elements = self.elements.iter();
+        let mut shapes = elements.map(|entry| self.groups[entry.group].shape());
+        let is_mass: &mut dyn Iterator<Item = bool> = &mut is_mass;
+        let shapes: &mut dyn Iterator<Item = Shape> = &mut shapes;
+        Layout::new(D, is_mass, shapes)
+    }
+
     /// The nodes of its elements.
     pub(crate) fn ends(&self) -> Ends {
-        let mut ends = Ends::none();
-        for entry in &self.elements {
-            ends.push(entry.nodes.iter().map(|&node| compact(node)));
-        }
-        ends
+        entry::ends(&self.elements)
     }
 
     fn push_node(&mut self, mass: Option<f64>, position: [f64; D], velocity: [f64; D]) -> Node {
@@ -210,16 +212,24 @@ impl<const D: usize> Scene<D> {
 
     /// The mass matrix. Anchors keep their masses as nodes of solids.
     pub(crate) fn masses(&self) -> Masses {
-        let mut pairs = self.pairs.clone();
-        let mut is_of_solid = vec![false; self.nodes.len()];
-        let coupled = self.pairs.iter().flat_map(|&(nodes, _)| nodes);
-        coupled.for_each(|node| is_of_solid[node] = true);
+        let (mut pairs, are_coupled) = (self.pairs.clone(), self.are_coupled());
         for (index, node) in self.nodes.iter().enumerate() {
-            if node.mass.is_none() && is_of_solid[index] {
+            if node.mass.is_none() && are_coupled[index] {
                 pairs.push(([index; 2], node.held));
             }
         }
-        Masses::new(self.nodes.iter().map(|node| node.mass), pairs)
+        let mut masses = self.nodes.iter().map(|node| node.mass);
+        let masses: &mut dyn Iterator<Item = Option<f64>> = &mut masses;
+        Masses::new(masses, pairs)
+    }
+
+    /// Which nodes are coupled by masses of solids.
+    fn are_coupled(&self) -> Vec<bool> {
+        let mut are_coupled = vec![false; self.nodes.len()];
+        for ([a, b], _) in &self.pairs {
+            (are_coupled[*a], are_coupled[*b]) = (true, true);
+        }
+        are_coupled
     }
 
     /// The handle of a node.

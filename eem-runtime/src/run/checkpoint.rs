@@ -138,6 +138,17 @@ pub(crate) struct SavedEnergies {
     pub(crate) list: Vec<Energy>,
 }
 
+impl SavedEnergies {
+    /// All numbers, element after element.
+    fn numbers(&self) -> Vec<f64> {
+        let mut numbers = Vec::new();
+        for energy in &self.list {
+            numbers.extend(energy.numbers());
+        }
+        numbers
+    }
+}
+
 /// The history of step control.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(

@@ -4,12 +4,12 @@ pub(crate) mod error;
 mod heat;
 pub(crate) mod motion;
 
-#[cfg(not(test))]
-use core::any::Any;
 use std::collections::BTreeSet;
 
 use crate::element::conduction::Conduction;
 use crate::element::conjugates::{Conjugates, OneSet, PointRule};
+#[cfg(not(test))]
+use crate::element::group::springs::of_dimension;
 use crate::element::group::{Group, Placed, StepView};
 use crate::element::handle::Node;
 use crate::element::layout::Layout;
@@ -18,6 +18,7 @@ use crate::element::phase::Phase;
 use crate::element::state::State;
 use crate::run::simulation::start::initial_state;
 use crate::scene::Scene;
+use crate::scene::entry::ElementEntry;
 use crate::scene::error::SceneError;
 use crate::step::error::StepFailure;
 use crate::step::newton::NewtonSettings;
@@ -26,7 +27,7 @@ use crate::step::solver::Solver;
 use crate::step::solver::rest::{AtRest, LONG, Softest};
 use crate::step::systems::Systems;
 use error::EquilibriumError;
-use motion::{FreeMotion, LIKENESS, name};
+use motion::{FreeMotion, LIKENESS, Moved};
 
 /// How to find a loaded state at rest, see [`Scene::equilibrium`].
 ///
@@ -178,9 +179,7 @@ impl<const D: usize> Functions<D> {
     fn get() -> &'static Self {
         #[cfg(not(test))]
         if const { 0 < D && D < 4 } {
-            let known: [&'static dyn Any; 3] = [&LINE, &PLANE, &SPACE];
-            let own = known[D - 1].downcast_ref();
-            return own.unwrap_or_else(|| unreachable!("the table is that of the dimension"));
+            return of_dimension(D, [&LINE, &PLANE, &SPACE]);
         }
         const { &Self::HERE }
     }
@@ -245,7 +244,8 @@ impl<const D: usize> Scene<D> {
         if !errors.is_empty() {
             return Err(EquilibriumError::Scene { errors });
         }
-        let layout = self.layout_without_heat();
+        // Temperatures are no unknowns.
+        let layout = self.layout();
         let state = initial_state(self, &layout, None);
         let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
         let heat = if settings.balances_heat {
@@ -256,14 +256,6 @@ impl<const D: usize> Scene<D> {
         let (next, report) = self.find_rest(settings, &layout, &mut state)?;
         self.take_state(&layout, &next);
         Ok(EquilibriumReport { heat, ..report })
-    }
-
-    /// The numbering of unknowns and state variables; temperatures are no unknowns.
-    fn layout_without_heat(&self) -> Layout {
-        let is_mass = self.nodes.iter().map(|node| node.mass.is_some());
-        let elements = self.elements.iter();
-        let shapes = elements.map(|entry| self.groups[entry.group].shape());
-        Layout::new(D, is_mass, shapes)
     }
 
     fn find_rest(
@@ -278,11 +270,7 @@ impl<const D: usize> Scene<D> {
         let mut loads = StepLoads::new(masses.len() * D, layout, &self.loads, false);
         let evaluated = loads.evaluate_forces_at(&self.loads, &masses, self.start);
         evaluated.map_err(EquilibriumError::Start)?;
-        let prescribed = state.temperatures.iter().map(|&theta| {
-            let (middle, end) = (theta, theta);
-            Some(Prescribed { middle, end })
-        });
-        loads.prescribed = prescribed.collect();
+        loads.prescribed = held(&state.temperatures);
         // The rows of this scheme are `2 m/h Δq − 2 p⁰ + h F`; at rest only h F is left.
         let scheme = Scheme::Midpoint;
         let (ends, rockets) = (self.ends(), self.loads.rocket_lines());
@@ -318,20 +306,10 @@ impl<const D: usize> Scene<D> {
             stages: &[],
             masses: &masses,
         };
-        let how = (settings.newton, self.arms());
+        let how = (settings.newton, arms(&self.elements));
         let rest = AtRest::new(&mut solver, &mut groups, &view, how);
         let mut rest = rest.map_err(EquilibriumError::Start)?;
         self.follow(&mut rest, settings.load_steps, state)
-    }
-
-    /// The edges of all elements from their first node to the others, each once, as pairs of nodes.
-    fn arms(&self) -> Vec<[usize; 2]> {
-        let elements = self.elements.iter().map(|entry| &entry.nodes[..]);
-        let arms = elements.filter_map(<[usize]>::split_first);
-        let arms =
-            arms.flat_map(|(&first, others)| others.iter().map(move |&other| [first, other]));
-        let arms: BTreeSet<_> = arms.collect();
-        arms.into_iter().collect()
     }
 
     fn follow(
@@ -376,9 +354,20 @@ impl<const D: usize> Scene<D> {
         Ok((next, report))
     }
 
-    fn name(&self, rest: &AtRest<'_, D>, softest: &Softest<D>) -> FreeMotion {
-        let position = |node: usize| rest.position(node);
-        name(self, position, &softest.nodes, softest.stiffness)
+    fn name(&self, rest: &AtRest<'_, D>, softest: &Softest) -> FreeMotion {
+        let mut displacements = vec![0.0; self.nodes.len() * D];
+        for (&node, by) in softest.nodes.iter().zip(softest.motion.chunks_exact(D)) {
+            displacements[node * D..][..D].copy_from_slice(by);
+        }
+        let moved = Moved {
+            dimension: D,
+            positions: &rest.positions(),
+            displacements: &displacements,
+            elements: &self.elements,
+            is_mass: &|node| self.nodes[node].mass.is_some(),
+            node_at: &|node| self.node_at(node),
+        };
+        moved.name(softest.stiffness)
     }
 
     fn not_found(
@@ -414,4 +403,24 @@ impl<const D: usize> Scene<D> {
             entry.viscous_stretches = viscous.iter().copied().enumerate().collect();
         }
     }
+}
+
+/// Temperatures that stay as they are.
+fn held(temperatures: &[f64]) -> Vec<Option<Prescribed>> {
+    let held = |&theta: &f64| {
+        let (middle, end) = (theta, theta);
+        Some(Prescribed { middle, end })
+    };
+    temperatures.iter().map(held).collect()
+}
+
+/// The edges of all elements from their first node to the others, each once, as pairs of nodes.
+fn arms(elements: &[ElementEntry]) -> Vec<[usize; 2]> {
+    let mut arms = BTreeSet::new();
+    for entry in elements {
+        if let [first, others @ ..] = &entry.nodes[..] {
+            arms.extend(others.iter().map(|other| [*first, *other]));
+        }
+    }
+    Vec::from_iter(arms)
 }

@@ -8,6 +8,7 @@ use core::fmt;
 
 use nalgebra::SVector;
 
+use crate::algebra::vector;
 use crate::element::group::{ElementTotals, Elements};
 use crate::element::masses::Masses;
 use crate::element::state::State;
@@ -83,15 +84,15 @@ pub struct Ledger<const D: usize> {
 
 impl<const D: usize> Ledger<D> {
     /// The balance sheet of a state; the steps before it are unknown.
-    pub(crate) fn of<'a>(
+    pub(crate) fn of(
         state: &State,
         masses: &Masses,
-        groups: impl Iterator<Item = &'a dyn Elements<D>>,
+        groups: &mut dyn Iterator<Item = &dyn Elements<D>>,
         reservoirs: &[f64],
         gravity: &SVector<f64, D>,
     ) -> Self {
-        let kinetic_energy = kinetic_energy::<D>(state, masses);
-        let potential_energy = potential_energy(state, masses, gravity);
+        let kinetic_energy = kinetic_energy(D, state, masses);
+        let potential_energy = potential_energy(state, masses, gravity.as_slice());
         let mut totals = ElementTotals::new();
         for group in groups {
             group.add_totals(state, &mut totals);
@@ -102,18 +103,21 @@ impl<const D: usize> Ledger<D> {
             reservoir_heat.add(theta * received.value);
             reservoir_entropy.add_sum(received);
         }
-        let [lost_heat, work, heat] =
-            [state.dissipated, state.work, state.heat].map(|sum| sum.value);
+        let (lost_heat, work, heat) = (state.dissipated.value, state.work.value, state.heat.value);
         let internal_energy = totals.energy.value();
         let reservoir_heat = reservoir_heat.value();
-        let energy = [
+        let sum = |terms: &[f64]| Total::of(terms.iter().copied());
+        let terms = [
             kinetic_energy,
             potential_energy,
             internal_energy,
             reservoir_heat,
             lost_heat,
+            -work,
+            -heat,
         ];
-        let momenta = state.momenta.values().chunks_exact(D);
+        let [energies @ .., _, _] = &terms;
+        let momenta = state.momenta.values();
         let mut entropy = totals.entropy;
         entropy.add_total(reservoir_entropy);
         entropy.add_sum(state.thermostat_entropy);
@@ -123,19 +127,17 @@ impl<const D: usize> Ledger<D> {
             internal_energy,
             reservoir_heat,
             lost_heat,
-            energy: Total::of(energy),
+            energy: sum(energies),
             work,
             heat,
-            balance: Total::of(energy.into_iter().chain([-work, -heat])),
+            balance: sum(&terms),
             element_entropy: totals.entropy.value(),
             element_entropy_of_state: totals.entropy_of_state.value(),
             reservoir_entropy: reservoir_entropy.value(),
             thermostat_entropy: state.thermostat_entropy.value,
             entropy: entropy.value(),
-            linear_momentum: SVector::from_fn(|axis, _| {
-                Total::of(momenta.clone().map(|p| p[axis]))
-            }),
-            angular_momentum: angular_momentum::<D>(state, masses),
+            linear_momentum: vector(|axis| component(D, momenta, axis)).into(),
+            angular_momentum: angular_momentum(D, state, masses).into(),
             unresolved: 0,
         }
     }
@@ -149,65 +151,79 @@ impl<const D: usize> Ledger<D> {
             ("energy", self.energy, "J"),
             ("entropy", self.entropy, "J/K"),
         ];
-        let linear = self.linear_momentum.iter();
-        let linear = linear.map(|&component| ("linear momentum", component, "kg m/s"));
-        let angular = self.angular_momentum.iter();
-        let angular = angular.map(|&component| ("angular momentum", component, "kg m²/s"));
-        let mut all = energies.into_iter().chain(linear).chain(angular);
-        let (name, value, unit) = all.find(|(_, value, _)| !value.is_finite())?;
-        Some((name, value, unit))
+        let infinite = energies
+            .into_iter()
+            .find(|(_, value, _)| !value.is_finite());
+        let momentum = |name, components: &[f64], unit| {
+            let component = components.iter().find(|component| !component.is_finite());
+            component.map(|component| (name, *component, unit))
+        };
+        let (linear, angular) = (&self.linear_momentum, &self.angular_momentum);
+        infinite
+            .or_else(|| momentum("linear momentum", linear.as_slice(), "kg m/s"))
+            .or_else(|| momentum("angular momentum", angular.as_slice(), "kg m²/s"))
     }
 }
 
 /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
-fn kinetic_energy<const D: usize>(state: &State, masses: &Masses) -> f64 {
+fn kinetic_energy(dimension: usize, state: &State, masses: &Masses) -> f64 {
     let momenta = state.momenta.values();
     if masses.are_coupled() {
         let both = momenta.iter().zip(state.velocities.values());
         return Total::of(both.map(|(&p, &v)| 0.5 * p * v));
     }
-    let nodes = momenta.chunks_exact(D).zip(masses.iter());
-    let nodes = nodes.filter_map(|(p, mass)| Some((p, mass?)));
-    Total::of(nodes.flat_map(|(p, mass)| p.iter().map(move |&p| p * p / (mass + mass))))
+    let mut sum = Total::default();
+    for (p, mass) in momenta.chunks_exact(dimension).zip(masses.iter()) {
+        if let Some(mass) = mass {
+            for &p in p {
+                sum.add(p * p / (mass + mass));
+            }
+        }
+    }
+    sum.value()
 }
 
 /// `−Σ m g·q`, J.
-fn potential_energy<const D: usize>(
-    state: &State,
-    masses: &Masses,
-    gravity: &SVector<f64, D>,
-) -> f64 {
-    let nodes = state
-        .positions
-        .values()
-        .chunks_exact(D)
-        .zip(masses.weights());
-    Total::of(nodes.flat_map(|(q, mass)| q.iter().zip(gravity).map(move |(&q, &g)| -mass * g * q)))
+fn potential_energy(state: &State, masses: &Masses, gravity: &[f64]) -> f64 {
+    let mut sum = Total::default();
+    let positions = state.positions.values().chunks_exact(gravity.len());
+    for (q, mass) in positions.zip(masses.weights()) {
+        for (&q, &g) in q.iter().zip(gravity) {
+            sum.add(-mass * g * q);
+        }
+    }
+    sum.value()
 }
 
-fn angular_momentum<const D: usize>(state: &State, masses: &Masses) -> SVector<f64, 3> {
+/// The sum of the components of all nodes along an axis.
+fn component(dimension: usize, values: &[f64], axis: usize) -> f64 {
+    Total::of(values.iter().skip(axis).step_by(dimension).copied())
+}
+
+/// `Σ (q − o) × p`, kg m²/s, about the only anchor, or the origin.
+fn angular_momentum(dimension: usize, state: &State, masses: &Masses) -> [f64; 3] {
     let positions = state.positions.values();
-    let mut anchors = masses.iter().enumerate().filter(|(_, mass)| mass.is_none());
+    let mut anchors = masses.anchors();
     let anchor = match (anchors.next(), anchors.next()) {
-        (Some((node, _)), None) => Some(&positions[node * D..(node + 1) * D]),
+        (Some(node), None) => Some(&positions[node * dimension..][..dimension]),
         _ => None,
     };
-    let mut sums = [Total::default(), Total::default(), Total::default()];
-    let momenta = state.momenta.values().chunks_exact(D);
-    for (q, p) in positions.chunks_exact(D).zip(momenta) {
-        let arm = |axis: usize| match (axis < D, anchor) {
+    let mut sums = [Total::default(); 3];
+    let momenta = state.momenta.values().chunks_exact(dimension);
+    for (q, p) in positions.chunks_exact(dimension).zip(momenta) {
+        let arm = |axis: usize| match (axis < dimension, anchor) {
             (false, _) => 0.0,
             (true, None) => q[axis],
             (true, Some(o)) => q[axis] - o[axis],
         };
-        let momentum = |axis: usize| if axis < D { p[axis] } else { 0.0 };
+        let momentum = |axis: usize| if axis < dimension { p[axis] } else { 0.0 };
         for (axis, sum) in sums.iter_mut().enumerate() {
             let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
             sum.add(arm(i) * momentum(j));
             sum.add(-arm(j) * momentum(i));
         }
     }
-    SVector::from_fn(|axis, _| sums[axis].value())
+    vector(|axis| sums[axis].value())
 }
 
 impl<const D: usize> fmt::Display for Ledger<D> {

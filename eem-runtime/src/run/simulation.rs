@@ -59,7 +59,7 @@ use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use crate::scene::refused::RefusedScene;
-use crate::step::control::{LeastScales, Tolerance, norm};
+use crate::step::control::{LeastScales, Tolerance, length};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
@@ -209,7 +209,7 @@ impl<const D: usize> Simulation<D> {
         layout.forget_places();
         let moved = loads.moved_in_time();
         let around = (&masses, &conduction);
-        let gravity = norm(loads.gravity.iter().copied());
+        let gravity = length(loads.gravity.as_slice());
         let before = (&*state, gravity, &moved[..]);
         let least = LeastScales::new(stepper.all(), around, before);
         let mut run = Self {

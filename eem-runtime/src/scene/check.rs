@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use super::Scene;
+use crate::element::conduction::Conductor;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node};
 use crate::element::layout::Shape;
@@ -18,17 +19,18 @@ impl<const D: usize> Scene<D> {
     pub(crate) fn check(&self) -> Vec<SceneError> {
         let mut errors = self.errors.clone();
         // Nodes of an invalid solid are not checked: their errors would follow from its own.
-        let invalid = self.elements.iter();
-        let invalid = invalid.filter(|entry| entry.group == INVALID);
-        let invalid: BTreeSet<_> = invalid.flat_map(|entry| &entry.nodes).collect();
+        let mut is_invalid = vec![false; self.nodes.len()];
+        for entry in self.elements.iter().filter(|entry| entry.group == INVALID) {
+            entry.nodes.iter().for_each(|&node| is_invalid[node] = true);
+        }
+        let is_coupled = self.are_coupled();
         for (index, entry) in self.nodes.iter().enumerate() {
-            if !invalid.contains(&index) {
+            if !is_invalid[index] {
                 check_node(self.node_at(index), entry, &mut errors);
             }
         }
-        let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
-        for index in coupled {
-            if self.nodes[index].momentum.is_some() {
+        for (index, entry) in self.nodes.iter().enumerate() {
+            if is_coupled[index] && entry.momentum.is_some() {
                 errors.push(SceneError::NodeOfSolid {
                     node: self.node_at(index),
                     quantity: "a momentum",
@@ -67,9 +69,15 @@ impl<const D: usize> Scene<D> {
         }
         if errors.is_empty() {
             for (index, entry) in self.nodes.iter().enumerate() {
-                errors.extend(self.check_products(self.node_at(index), entry).err());
+                if let Some(mass) = entry.mass {
+                    let (node, momentum) = (self.node_at(index), entry.start_momentum(mass));
+                    let vectors = [momentum.as_slice(), self.loads.gravity.as_slice()];
+                    errors.extend(check_products((node, mass), vectors).err());
+                }
             }
-            errors.extend(self.check_heat_flows().err());
+            let reservoirs = self.reservoir_temperatures();
+            let flows = check_heat_flows(&self.elements, &self.conductors, &reservoirs);
+            errors.extend(flows.err());
             self.check_motions(&mut errors);
             self.check_thermostats(&mut errors);
         }
@@ -103,9 +111,10 @@ impl<const D: usize> Scene<D> {
             let mut motions = self.loads.motions.iter();
             self.nodes[node.index].mass.is_some() || motions.any(|&(moved, _)| moved == node)
         };
-        for PushLine { node, tail, head } in self.loads.rocket_lines() {
-            let [from, to] = [tail, head].map(|end| self.nodes[end.index].position);
-            if from == to && !moves(tail) && !moves(head) {
+        for rocket in &self.loads.rockets {
+            let PushLine { node, tail, head } = rocket.line;
+            let [from, to] = [&self.nodes[tail.index], &self.nodes[head.index]];
+            if from.position == to.position && !moves(tail) && !moves(head) {
                 errors.push(RocketError::NoLength { node, tail, head }.into());
             }
         }
@@ -145,8 +154,9 @@ impl<const D: usize> Scene<D> {
 fn check_node<const D: usize>(node: Node, entry: &NodeEntry<D>, errors: &mut Vec<SceneError>) {
     errors.extend(check_position(node, entry).err());
     if entry.momentum.is_none() {
-        let velocity = infinite(entry.velocity.as_slice());
-        errors.extend(velocity.map(|(axis, value)| SceneError::Velocity { node, axis, value }));
+        for (axis, value) in infinite(entry.velocity.as_slice()) {
+            errors.push(SceneError::Velocity { node, axis, value });
+        }
     }
     if let Some(mass) = entry.mass.filter(|&mass| !is_positive(mass)) {
         let value = mass;
@@ -206,78 +216,12 @@ impl From<StateError> for SceneError {
 }
 
 impl<const D: usize> Scene<D> {
-    /// An error unless momentum, kinetic energy and weight of a mass are finite.
-    fn check_products(&self, node: Node, entry: &NodeEntry<D>) -> Result<(), SceneError> {
-        let Some(mass) = entry.mass else {
-            return Ok(());
-        };
-        let momentum = entry.start_momentum(mass);
-        if let Some((axis, value)) = infinite(momentum.as_slice()).next() {
-            return Err(SceneError::Momentum { node, axis, value });
-        }
-        let components = momentum.iter();
-        let energy = components.fold(0.0, |sum, &p| sum + p * p / (mass + mass));
-        if !energy.is_finite() {
-            let components = momentum.iter();
-            let momentum = components.fold(0.0, |length, &p| Scalar::hypot(length, p));
-            return Err(SceneError::KineticEnergy {
-                node,
-                value: energy,
-                momentum,
-                mass,
-            });
-        }
-        let weight = self.loads.gravity.map(|component| mass * component);
-        match infinite(weight.as_slice()).next() {
-            None => Ok(()),
-            Some((axis, value)) => Err(SceneError::Weight { node, axis, value }),
-        }
-    }
-
-    /// An error unless the initial heat flow of each conductance, and the sum of the flows of each element, are finite.
-    fn check_heat_flows(&self) -> Result<(), SceneError> {
-        let temperature = |element: Element| self.elements[element.index()].temperature;
-        let mut received = vec![0.0; self.elements.len()];
-        let reservoirs = self.reservoir_temperatures();
-        for conductor in &self.conductors {
-            let (element, partner) = (conductor.element, conductor.partner);
-            let (there, other) = match partner {
-                HeatPartner::Element(other) => (temperature(other), Some(other)),
-                HeatPartner::Reservoir(reservoir) => (Some(reservoirs[reservoir.index]), None),
-            };
-            let (Some(here), Some(there)) = (temperature(element), there) else {
-                continue;
-            };
-            let flow = conductor.conductance * (there - here);
-            let mut largest = flow.abs();
-            for end in [Some(element), other].into_iter().flatten() {
-                received[end.index()] += flow.abs();
-                largest = Scalar::maximum(largest, received[end.index()]);
-            }
-            // The flow of entropy at the colder end, which is the larger one.
-            let entropy = flow / Scalar::minimum(here, there);
-            let flows = [
-                ("heat flow", flow, largest, "W"),
-                ("flow of entropy", entropy, entropy, "W/K"),
-            ];
-            let infinite = flows.iter().find(|(.., largest, _)| !largest.is_finite());
-            if let Some(&(quantity, value, _, unit)) = infinite {
-                return Err(SceneError::HeatFlow {
-                    element,
-                    partner,
-                    quantity,
-                    value,
-                    unit,
-                });
-            }
-        }
-        Ok(())
-    }
-
     /// Motions of anchors must begin where the anchors were created.
     fn check_motions(&self, errors: &mut Vec<SceneError>) {
-        let positions = self.nodes.iter().map(|node| &node.position);
-        let scale = extent(positions.flat_map(|position| position.iter()));
+        let mut scale = 0.0;
+        for node in &self.nodes {
+            scale = Scalar::maximum(scale, extent(node.position.as_slice()));
+        }
         for (anchor, motion) in &self.loads.motions {
             let created = self.nodes[anchor.index].position;
             let prescribed = motion.position(self.start, &created.into(), 0.0);
@@ -310,6 +254,78 @@ impl<const D: usize> Scene<D> {
             }
         }
     }
+}
+
+/// An error unless momentum, kinetic energy and weight of a mass are finite.
+fn check_products(
+    (node, mass): (Node, f64),
+    [momentum, gravity]: [&[f64]; 2],
+) -> Result<(), SceneError> {
+    if let Some((axis, value)) = infinite(momentum).next() {
+        return Err(SceneError::Momentum { node, axis, value });
+    }
+    let components = momentum.iter();
+    let energy = components.fold(0.0, |sum, &p| sum + p * p / (mass + mass));
+    if !energy.is_finite() {
+        let components = momentum.iter();
+        return Err(SceneError::KineticEnergy {
+            node,
+            value: energy,
+            momentum: components.fold(0.0, |length, &p| Scalar::hypot(length, p)),
+            mass,
+        });
+    }
+    for (axis, acceleration) in gravity.iter().enumerate() {
+        let value = mass * acceleration;
+        if !value.is_finite() {
+            return Err(SceneError::Weight { node, axis, value });
+        }
+    }
+    Ok(())
+}
+
+/// An error unless the initial heat flow of each conductance, and the sum of the flows of each element, are finite.
+fn check_heat_flows(
+    elements: &[ElementEntry],
+    conductors: &[Conductor],
+    reservoirs: &[f64],
+) -> Result<(), SceneError> {
+    let temperature = |element: Element| elements[element.index()].temperature;
+    let mut received = vec![0.0; elements.len()];
+    for conductor in conductors {
+        let (element, partner) = (conductor.element, conductor.partner);
+        let (there, other) = match partner {
+            HeatPartner::Element(other) => (temperature(other), Some(other)),
+            HeatPartner::Reservoir(reservoir) => (Some(reservoirs[reservoir.index]), None),
+        };
+        let (Some(here), Some(there)) = (temperature(element), there) else {
+            continue;
+        };
+        let flow = conductor.conductance * (there - here);
+        let mut largest = flow.abs();
+        let ends = [Some(element), other];
+        for end in ends.into_iter().flatten() {
+            received[end.index()] += flow.abs();
+            largest = Scalar::maximum(largest, received[end.index()]);
+        }
+        // The flow of entropy at the colder end, which is the larger one.
+        let entropy = flow / Scalar::minimum(here, there);
+        let flows = [
+            ("heat flow", flow, largest, "W"),
+            ("flow of entropy", entropy, entropy, "W/K"),
+        ];
+        let infinite = flows.iter().find(|(.., largest, _)| !largest.is_finite());
+        if let Some(&(quantity, value, _, unit)) = infinite {
+            return Err(SceneError::HeatFlow {
+                element,
+                partner,
+                quantity,
+                value,
+                unit,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Whether rounding explains a difference of values of this size. False for NaN.

@@ -2,6 +2,10 @@
 
 use nalgebra::SVector;
 
+use crate::algebra::vector;
+use crate::element::ends::Ends;
+use eem_material::number::compact::compact;
+
 /// A node: an anchor or a mass.
 #[derive(Clone, Debug)]
 pub(crate) struct NodeEntry<const D: usize> {
@@ -18,8 +22,10 @@ pub(crate) struct NodeEntry<const D: usize> {
 impl<const D: usize> NodeEntry<D> {
     /// The initial momentum of a node of this mass, kg m/s.
     pub(crate) fn start_momentum(&self, mass: f64) -> SVector<f64, D> {
-        let from_velocity = || self.velocity.map(|velocity| mass * velocity);
-        self.momentum.unwrap_or_else(from_velocity)
+        match self.momentum {
+            Some(momentum) => momentum,
+            None => vector(|axis| mass * self.velocity[axis]).into(),
+        }
     }
 }
 
@@ -42,4 +48,13 @@ pub(crate) struct ElementEntry {
     /// The group of the model, or [`INVALID`] if an error is recorded, and the index there.
     pub(crate) group: usize,
     pub(crate) place: usize,
+}
+
+/// The nodes of elements.
+pub(super) fn ends(elements: &[ElementEntry]) -> Ends {
+    let mut ends = Ends::none();
+    for entry in elements {
+        ends.push(entry.nodes.iter().map(|&node| compact(node)));
+    }
+    ends
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::SVector;
 
+use crate::algebra::vector;
 use crate::element::handle::{Element, Node};
 use crate::element::loads::PushLine;
 use eem_material::number::scalar::Scalar;
@@ -25,8 +26,8 @@ const INSIDE_ROUNDINGS: f64 = 4.0;
 ///
 /// Errors of motions are measured in this unit, not in that of their own coordinates: elements depend on differences of
 /// positions, which have the rounding of the largest ones.
-pub(crate) fn extent<'a>(coordinates: impl Iterator<Item = &'a f64>) -> f64 {
-    coordinates.fold(0.0, |most, coordinate| {
+pub(crate) fn extent(coordinates: &[f64]) -> f64 {
+    coordinates.iter().fold(0.0, |most, coordinate| {
         Scalar::maximum(most, coordinate.abs())
     })
 }
@@ -36,6 +37,19 @@ pub(crate) type OfTime<const D: usize> = Arc<dyn Fn(f64) -> SVector<f64, D> + Se
 
 /// A scalar (temperature in K, thrust in N) as a function of time in s.
 pub(crate) type ScalarOfTime = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
+
+/// A vector or a scalar as a function of time in s, which writes its components.
+pub(crate) type Written<'a> = &'a dyn Fn(f64, &mut [f64]);
+
+/// A vector as a function that writes its components.
+pub(crate) fn written<const D: usize>(of: &OfTime<D>) -> impl Fn(f64, &mut [f64]) {
+    |time, components| components.copy_from_slice(of(time).as_slice())
+}
+
+/// A scalar as a function that writes one component.
+pub(crate) fn written_scalar(of: &ScalarOfTime) -> impl Fn(f64, &mut [f64]) {
+    |time, components| components[0] = of(time)
+}
 
 /// The values of a load in the course of time; `F` is the type of a function of time in s.
 #[derive(Clone)]
@@ -75,9 +89,7 @@ impl<const D: usize> Course<OfTime<D>, SVector<f64, D>> {
         match self {
             Self::Function(of) => of(time),
             Self::Constant(position) => *position,
-            Self::Set(velocity) => {
-                SVector::from_fn(|axis, _| from[axis] + elapsed * velocity[axis])
-            }
+            Self::Set(velocity) => vector(|axis| from[axis] + elapsed * velocity[axis]).into(),
         }
     }
 }
@@ -104,6 +116,10 @@ pub(crate) type TemperatureCourse = Course<ScalarOfTime, f64>;
 pub(crate) struct Rocket {
     pub(crate) line: PushLine,
     pub(crate) thrust: Arc<dyn Fn(f64) -> f64 + Send + Sync>,
+}
+
+fn lines(rockets: &[Rocket]) -> Vec<PushLine> {
+    rockets.iter().map(|rocket| rocket.line).collect()
 }
 
 /// All loads of a scene, as given.
@@ -144,29 +160,26 @@ impl<const D: usize> Loads<D> {
         !has_force && !has_heat && self.motions.is_empty()
     }
 
-    /// A time in a step at which a force is evaluated: some roundings inside the step if there are times at which steps end. The
-    /// function may jump at such a time; one step sees it before, and the next one behind.
+    /// A time in a step at which a force is evaluated, see [`inside`].
     #[inline]
-    pub(crate) fn inside(&self, [start, step]: [f64; 2], time: f64) -> f64 {
-        if self.stops.is_empty() {
-            return time;
-        }
-        let inside = INSIDE_ROUNDINGS * f64::EPSILON * (start.abs() + step);
-        let (first, last) = (start + inside, (start + step) - inside);
-        Scalar::minimum(Scalar::maximum(time, first), last)
+    pub(crate) fn inside(&self, span: [f64; 2], time: f64) -> f64 {
+        inside(&self.stops, span, time)
     }
 
     /// The anchors that functions of time move, in ascending order.
     pub(crate) fn moved_in_time(&self) -> Vec<usize> {
-        let motions = self.motions.iter();
-        let moved = motions.filter(|(_, motion)| motion.function().is_some());
-        let moved: BTreeSet<_> = moved.map(|(node, _)| node.index).collect();
-        moved.into_iter().collect()
+        let mut moved = BTreeSet::new();
+        for (node, motion) in &self.motions {
+            if motion.function().is_some() {
+                moved.insert(node.index);
+            }
+        }
+        Vec::from_iter(moved)
     }
 
     /// The lines of all rockets.
     pub(crate) fn rocket_lines(&self) -> Vec<PushLine> {
-        self.rockets.iter().map(|rocket| rocket.line).collect()
+        lines(&self.rockets)
     }
 
     /// Whether forces are functions of time.
@@ -179,6 +192,18 @@ impl<const D: usize> Loads<D> {
     pub(crate) fn have_weight(&self) -> bool {
         self.gravity.iter().any(|&component| component != 0.0)
     }
+}
+
+/// A time in a step at which a force is evaluated: some roundings inside the step if there are times at which steps end. The
+/// function may jump at such a time; one step sees it before, and the next one behind.
+#[inline]
+pub(crate) fn inside(stops: &[f64], [start, step]: [f64; 2], time: f64) -> f64 {
+    if stops.is_empty() {
+        return time;
+    }
+    let inside = INSIDE_ROUNDINGS * f64::EPSILON * (start.abs() + step);
+    let (first, last) = (start + inside, (start + step) - inside);
+    Scalar::minimum(Scalar::maximum(time, first), last)
 }
 
 impl<const D: usize> core::fmt::Debug for Loads<D> {

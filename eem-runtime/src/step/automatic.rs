@@ -75,7 +75,7 @@ pub(crate) const CANDIDATES: [Scheme; 5] = [
 
 /// The implicit candidates to be tried instead of the present scheme, in this order. Where stability limits the explicit scheme,
 /// only the first one and those that are likely to be cheaper: longer steps may fail slowly.
-pub(crate) fn implicit(
+fn implicit(
     present: Scheme,
     tolerance: &Tolerance,
     unknowns: usize,
@@ -211,9 +211,9 @@ pub(crate) enum Verdict {
 
 impl SchemeSelection {
     /// All numbers except counts; valid ones are finite and not negative.
-    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
+    pub(crate) fn numbers(&self) -> Vec<f64> {
         let [explicit, implicit] = [self.explicit_trials, self.implicit_trials];
-        let all = [
+        let mut all = vec![
             self.recent_effort,
             self.recent_time,
             self.size,
@@ -225,8 +225,9 @@ impl SchemeSelection {
             implicit.due,
             f64::from(u8::from(self.is_on_trial)),
         ];
-        let waits = explicit.wait.into_iter().chain(implicit.wait);
-        all.into_iter().chain(waits)
+        all.extend(explicit.wait);
+        all.extend(implicit.wait);
+        all
     }
 
     /// All counts.
@@ -315,12 +316,15 @@ impl SchemeSelection {
         !self.is_on_trial && (clock.wait.is_none() || self.spent >= clock.due)
     }
 
-    /// The scheme whose turn it is to be tried instead of the present one.
+    /// The implicit scheme whose turn it is to be tried instead of the present one, among those that suit the scene.
     pub(crate) fn next_in_turn(
         &self,
         present: Scheme,
-        mut others: impl Iterator<Item = Scheme> + Clone,
+        (tolerance, unknowns): (&Tolerance, usize),
+        suits: &dyn Fn(Scheme) -> bool,
     ) -> Option<Scheme> {
+        let others = implicit(present, tolerance, unknowns);
+        let mut others = others.filter(|&scheme| suits(scheme));
         let (turn, count) = (self.failed_trials as usize, others.clone().count());
         let index = match present {
             // What limits the explicit scheme may only set in, so that the cheapest trial is repeated before a long one.

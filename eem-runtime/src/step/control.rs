@@ -10,7 +10,7 @@ mod worst;
 
 pub(crate) use controller::{AFTER_FAILURE, Accuracy, Controller, Estimate};
 pub(crate) use least::{LeastScales, Step};
-pub(crate) use norm::{ROUNDINGS, norm};
+pub(crate) use norm::{ROUNDINGS, length, norm};
 pub(crate) use rounding::LoadRounding;
 pub use statistics::StepStatistics;
 pub use tolerance::Tolerance;

@@ -17,7 +17,7 @@ impl<const D: usize> Line<D> {
         let square = arm.iter().fold(0.0, |sum, &r| sum + r * r);
         let length = square.sqrt();
         Self {
-            direction: arm.map(|r| r / length),
+            direction: vector(|axis| arm[axis] / length),
             length,
         }
     }
@@ -26,11 +26,13 @@ impl<const D: usize> Line<D> {
     pub(super) fn turning(&self, factor: f64) -> [[f64; D]; D] {
         let size = factor / self.length;
         let n = &self.direction;
-        core::array::from_fn(|row| {
-            vector(|column| {
+        let mut turning = [[0.0; D]; D];
+        for (row, entries) in turning.iter_mut().enumerate() {
+            *entries = vector(|column| {
                 let own = if row == column { 1.0 } else { 0.0 };
                 size * (own - n[row] * n[column])
-            })
-        })
+            });
+        }
+        turning
     }
 }

@@ -9,7 +9,7 @@ use crate::element::layout::Layout;
 use crate::element::loads::{Prescribed, Push, StepLoads, point};
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::scene::loads::{Course, Loads, VectorCourse};
+use crate::scene::loads::{Course, Loads};
 use crate::step::error::StepFailure;
 use eem_material::number::scalar::is_positive;
 
@@ -27,21 +27,25 @@ impl StepLoads {
         } else {
             layout.thermal
         };
-        let temperatures = loads.temperatures.iter();
-        let thermal = temperatures.map(|(element, _)| layout.elements[element.index()].thermal);
-        let moved = loads.motions.iter().map(|(node, _)| node.index);
-        let moved: BTreeSet<_> = moved.collect();
-        let lines = loads.rockets.iter().map(|rocket| rocket.line);
-        let thrust = 0.0;
+        let (mut thermal, mut moved, mut pushes) = (Vec::new(), BTreeSet::new(), Vec::new());
+        for (element, _) in &loads.temperatures {
+            thermal.push(layout.elements[element.index()].thermal);
+        }
+        for (node, _) in &loads.motions {
+            moved.insert(node.index);
+        }
+        for line in loads.rocket_lines() {
+            pushes.push(Push { line, thrust: 0.0 });
+        }
         Self {
-            moved: moved.into_iter().collect(),
+            moved: Vec::from_iter(moved),
             force: zeros(!loads.forces.is_empty()),
             total_force: zeros(!loads.forces.is_empty() || loads.have_weight()),
-            pushes: lines.map(|line| Push { line, thrust }).collect(),
+            pushes,
             motion: zeros(!loads.motions.is_empty()),
             speeds: zeros(!loads.motions.is_empty() && is_coupled),
             prescribed: vec![None; slots],
-            slots: thermal.collect(),
+            slots: thermal,
         }
     }
 
@@ -91,7 +95,7 @@ impl StepLoads {
         masses: &Masses,
         time: f64,
     ) -> Result<(), StepFailure> {
-        self.evaluate_own_forces(loads, time, |_| true)?;
+        self.evaluate_own_forces(loads, time, true)?;
         for (push, rocket) in self.pushes.iter_mut().zip(&loads.rockets) {
             push.thrust = (rocket.thrust)(time);
             if !push.thrust.is_finite() {
@@ -113,22 +117,23 @@ impl StepLoads {
         masses: &Masses,
         time: f64,
     ) -> Result<(), StepFailure> {
-        self.evaluate_own_forces(loads, time, |force| force.function().is_none())?;
+        self.evaluate_own_forces(loads, time, false)?;
         self.add_weights(loads, masses);
         Ok(())
     }
 
-    /// Sums the forces that count, at a time.
+    /// Sums the forces at a time, with those that are functions of it or without.
     fn evaluate_own_forces<const D: usize>(
         &mut self,
         loads: &Loads<D>,
         time: f64,
-        counts: impl Fn(&VectorCourse<D>) -> bool,
+        with_functions: bool,
     ) -> Result<(), StepFailure> {
         self.force.fill(0.0);
-        for (node, force) in loads.forces.iter().filter(|(_, force)| counts(force)) {
+        for (node, force) in &loads.forces {
             let value = match force {
-                Course::Function(of) => of(time),
+                Course::Function(of) if with_functions => of(time),
+                Course::Function(_) => continue,
                 Course::Constant(force) | Course::Set(force) => *force,
             };
             for axis in 0..D {

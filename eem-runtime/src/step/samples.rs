@@ -17,6 +17,7 @@
 //! that of the samples, too.
 
 use crate::algebra::vector;
+use crate::step::error::StepFailure;
 use crate::step::load_rule::LoadRule;
 use eem_material::number::scalar::Scalar;
 
@@ -56,8 +57,8 @@ const NEWTON_COTES: [f64; POINTS] = [
 /// The error of a step by the difference of two rules may be smaller than the true one by this factor.
 const DOUBT: f64 = 4.0;
 
-/// The mean of a function over a step by a rule: whole, and in halves if the step is made so.
-type Means<const N: usize> = [[f64; N]; 2];
+/// A function of time in s that writes its components, or an error.
+pub(crate) type Sampled<'a> = &'a dyn Fn(f64, &mut [f64]) -> Result<(), StepFailure>;
 
 /// Samples of a step at equal distances, including both ends.
 #[derive(Clone, Copy, Debug)]
@@ -94,25 +95,31 @@ impl Grid {
         self.start + share * self.size
     }
 
-    /// Looks at a function of time.
-    pub(crate) fn look<const N: usize, E>(
-        &self,
-        mut of: impl FnMut(f64) -> Result<[f64; N], E>,
-    ) -> Result<Look<N>, E> {
+    /// The largest magnitude of a time in the step, s.
+    fn largest_time(&self) -> f64 {
+        Scalar::maximum(self.start.abs(), self.time(self.intervals).abs())
+    }
+
+    /// Looks at a function of time, with memory for its value and for what is seen of each component.
+    pub(crate) fn look<'a>(
+        &'a self,
+        of: Sampled<'a>,
+        value: &'a mut [f64],
+        components: &'a mut [Component],
+    ) -> Result<Look<'a>, StepFailure> {
         let stride = self.intervals / PARTS;
-        let mut points = [[0.0; N]; POINTS];
-        for (point, index) in points.iter_mut().zip(0..) {
-            *point = of(self.time(index * stride))?;
-        }
-        let mut look = Look::new(self, &points);
-        for (point, weight) in points.iter().zip(NEWTON_COTES) {
-            look.add(0, weight, point);
+        for index in 0..=PARTS {
+            of(self.time(index * stride), value)?;
+            for (component, &value) in components.iter_mut().zip(&*value) {
+                component.points[index as usize] = value;
+            }
         }
         // Simpson's weights are 1, 4, 2, 4 … 2, 4, 1 thirds.
         let third = 1.0 / (3.0 * f64::from(self.intervals));
-        look.add(1, third, &points[0]);
-        #[expect(clippy::float_cmp, reason = "constant are the same numbers")]
-        let is_constant = points.iter().all(|point| *point == points[0]);
+        for component in &mut *components {
+            component.begin(third);
+        }
+        let are_constant = components.iter().all(Component::is_constant);
         for sample in 1..=self.intervals {
             let (part, within) = (sample / stride, sample % stride);
             let weight = match sample {
@@ -120,157 +127,157 @@ impl Grid {
                 odd if odd % 2 == 1 => 4.0 * third,
                 _ => 2.0 * third,
             };
-            if within == 0 {
-                let point = &points[part as usize];
-                look.add(1, weight, point);
-                look.see(point, None);
-                continue;
+            let is_between = within != 0;
+            if is_between {
+                of(self.time(sample), value)?;
             }
-            let value = of(self.time(sample))?;
-            look.add(1, weight, &value);
+            // Most samples are those of a load that acts later: then both polynomials are constant.
+            let is_curved = is_between && !are_constant;
             let place = f64::from(sample) / f64::from(stride);
-            if is_constant {
-                // Most samples of a load that acts later.
-                look.see(&value, Some([&points[0]; 2]));
-            } else {
-                let fine = polynomial(&points, place);
-                let coarse = core::array::from_fn::<_, COARSE, _>(|at| points[2 * at]);
-                let coarse = polynomial(&coarse, 0.5 * place);
-                look.see(&value, Some([&fine, &coarse]));
-            }
-        }
-        Ok(look)
-    }
-}
-
-impl Grid {
-    /// The means of a function by the rule of the step.
-    pub(crate) fn means<const N: usize, E>(
-        &self,
-        rule: LoadRule,
-        mut of: impl FnMut(f64) -> Result<[f64; N], E>,
-    ) -> Result<Means<N>, E> {
-        let mut mean = |first: f64, part: f64| {
-            let mut sum = [0.0; N];
-            for (time, weight) in rule.times.iter().zip(rule.weights) {
-                let share = first + part * time;
-                let value = of(self.start + share * self.size)?;
-                for (sum, value) in sum.iter_mut().zip(value) {
-                    *sum += part * weight * value;
+            let weights =
+                is_curved.then(|| [lagrange(POINTS, place), lagrange(COARSE, 0.5 * place)]);
+            for (component, &value) in components.iter_mut().zip(&*value) {
+                let value = if is_between {
+                    value
+                } else {
+                    component.points[part as usize]
+                };
+                component.by_samples += weight * value;
+                component.see(value, f64::from(self.intervals));
+                if let Some(weights) = &weights {
+                    component.miss(value, component.polynomials(weights));
+                } else if is_between {
+                    component.miss(value, [component.first; 2]);
                 }
             }
-            Ok(sum)
-        };
-        let whole = mean(0.0, 1.0)?;
-        if rule.order.is_none() {
-            return Ok([whole; 2]);
         }
-        let halves = [mean(0.0, 0.5)?, mean(0.5, 0.5)?];
-        let sum = vector(|at| halves[0][at] + halves[1][at]);
-        Ok([whole, sum])
+        Ok(Look {
+            grid: *self,
+            of,
+            value,
+            components,
+        })
     }
 }
 
 /// The number of points of P₄.
 const COARSE: usize = POINTS / 2 + 1;
 
-/// The polynomial through values at 0, 1, 2 … P − 1 at a place between them, by Lagrange's formula:
+/// The weights of the values at 0, 1, 2 … `count` − 1 in the polynomial through them at a place between them, by Lagrange's formula:
 ///
 /// ```text
-/// Σ_i f_i Π_{j≠i} (x − j)/(i − j)
+/// Π_{j≠i} (x − j)/(i − j)
 /// ```
-fn polynomial<const N: usize, const P: usize>(values: &[[f64; N]; P], place: f64) -> [f64; N] {
+fn lagrange(count: usize, place: f64) -> [f64; POINTS] {
     let index = |at: usize| f64::from(u8::try_from(at).unwrap_or(0));
     // The products of the factors before and behind each value.
-    let (mut before, mut behind) = ([1.0; P], [1.0; P]);
-    for at in 1..P {
-        let (from, back) = (index(at), P - 1 - at);
+    let (mut before, mut behind) = ([1.0; POINTS], [1.0; POINTS]);
+    for at in 1..count {
+        let (from, back) = (index(at), count - 1 - at);
         before[at] = before[at - 1] * (place - (from - 1.0)) / from;
         behind[back] = behind[back + 1] * (index(back + 1) - place) / from;
     }
-    let mut result = [0.0; N];
-    for ((value, before), behind) in values.iter().zip(before).zip(behind) {
-        let weight = before * behind;
-        for (sum, &value) in result.iter_mut().zip(value) {
-            *sum += weight * value;
+    vector(|at| before[at] * behind[at])
+}
+
+/// What samples of one component of a function show.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Component {
+    /// The values at the points of P₈.
+    points: [f64; POINTS],
+    /// The first and the last value so far.
+    first: f64,
+    last: f64,
+    /// The largest magnitude.
+    largest: f64,
+    /// The mean of the magnitudes of changes since the start.
+    deviation: f64,
+    /// The sum of the magnitudes of changes from sample to sample, and the largest change.
+    variation: f64,
+    change: f64,
+    /// Of P₈ and of P₄: the sum of the magnitudes of what it misses, and the largest one.
+    sums: [f64; 2],
+    missed: [f64; 2],
+    /// The means by P₈ and by Simpson's rule with all samples.
+    by_points: f64,
+    by_samples: f64,
+    /// The mean by the rule of the step, and that of the two halves if it is made so.
+    whole: f64,
+    kept: f64,
+    sum: f64,
+}
+
+impl Component {
+    /// Begins with the points, given Simpson's weight of the first one.
+    fn begin(&mut self, weight: f64) {
+        let (points, [first, ..]) = (self.points, self.points);
+        *self = Self {
+            points,
+            first,
+            last: first,
+            largest: first.abs(),
+            ..Self::default()
+        };
+        for (point, weight) in points.into_iter().zip(NEWTON_COTES) {
+            self.by_points += weight * point;
+        }
+        self.by_samples += weight * first;
+    }
+
+    #[expect(clippy::float_cmp, reason = "constant are the same numbers")]
+    fn is_constant(&self) -> bool {
+        self.points.iter().all(|point| *point == self.first)
+    }
+
+    /// P₈ and P₄ at a place with these weights.
+    fn polynomials(&self, [fine, coarse]: &[[f64; POINTS]; 2]) -> [f64; 2] {
+        let mut values = [0.0; 2];
+        for (point, weight) in self.points.iter().zip(fine) {
+            values[0] += weight * point;
+        }
+        for (point, weight) in self.points.iter().step_by(2).zip(coarse) {
+            values[1] += weight * point;
+        }
+        values
+    }
+
+    /// The next sample of so many.
+    fn see(&mut self, value: f64, samples: f64) {
+        let change = (value - self.last).abs();
+        self.variation += change;
+        self.deviation += (value - self.first).abs() / samples;
+        self.change = Scalar::maximum(self.change, change);
+        self.largest = Scalar::maximum(self.largest, value.abs());
+        self.last = value;
+    }
+
+    /// What polynomials with these values there miss of a sample.
+    fn miss(&mut self, value: f64, polynomials: [f64; 2]) {
+        for (degree, polynomial) in polynomials.into_iter().enumerate() {
+            let missed = (value - polynomial).abs();
+            self.sums[degree] += missed;
+            self.missed[degree] = Scalar::maximum(self.missed[degree], missed);
         }
     }
-    result
 }
 
 /// What samples of a function show, component by component.
-#[derive(Clone, Debug)]
-pub(crate) struct Look<const N: usize> {
-    /// The size of the step and the largest magnitude of a time in it, s.
-    size: f64,
-    time: f64,
-    /// The number of samples that are not points of a polynomial, and of all intervals.
-    between: f64,
-    intervals: f64,
-    /// The first and the last value so far.
-    pub(crate) first: [f64; N],
-    last: [f64; N],
-    /// The largest magnitude.
-    largest: [f64; N],
-    /// The mean of the magnitudes of changes since the start.
-    deviation: [f64; N],
-    /// Sums of the magnitudes of changes from sample to sample, and the largest change.
-    variation: [f64; N],
-    change: [f64; N],
-    /// Of P₈ and of P₄: the sum of the magnitudes of what it misses, and the largest one.
-    sums: [[f64; N]; 2],
-    missed: [[f64; N]; 2],
-    /// The means by P₈ and by Simpson's rule with all samples.
-    means: [[f64; N]; 2],
+pub(crate) struct Look<'a> {
+    grid: Grid,
+    of: Sampled<'a>,
+    value: &'a mut [f64],
+    components: &'a mut [Component],
 }
 
-impl<const N: usize> Look<N> {
-    fn new(grid: &Grid, points: &[[f64; N]; POINTS]) -> Self {
-        let zeros = [0.0; N];
-        Self {
-            size: grid.size,
-            time: Scalar::maximum(grid.start.abs(), grid.time(grid.intervals).abs()),
-            between: f64::from(grid.intervals - PARTS),
-            intervals: f64::from(grid.intervals),
-            first: points[0],
-            last: points[0],
-            largest: points[0].map(Scalar::abs),
-            deviation: zeros,
-            variation: zeros,
-            change: zeros,
-            sums: [zeros; 2],
-            missed: [zeros; 2],
-            means: [zeros; 2],
-        }
+impl Look<'_> {
+    /// The first value of a component.
+    pub(crate) fn first(&self, at: usize) -> f64 {
+        self.components[at].first
     }
 
-    /// Adds a weighted value to a mean.
-    fn add(&mut self, mean: usize, weight: f64, value: &[f64; N]) {
-        for (sum, &value) in self.means[mean].iter_mut().zip(value) {
-            *sum += weight * value;
-        }
-    }
-
-    /// The next sample, and the polynomials there unless it is a point of both.
-    fn see(&mut self, value: &[f64; N], polynomials: Option<[&[f64; N]; 2]>) {
-        for at in 0..N {
-            let change = (value[at] - self.last[at]).abs();
-            self.variation[at] += change;
-            self.deviation[at] += (value[at] - self.first[at]).abs() / self.intervals;
-            self.change[at] = Scalar::maximum(self.change[at], change);
-            self.largest[at] = Scalar::maximum(self.largest[at], value[at].abs());
-            for (degree, polynomial) in polynomials.into_iter().flatten().enumerate() {
-                let missed = (value[at] - polynomial[at]).abs();
-                self.sums[degree][at] += missed;
-                self.missed[degree][at] = Scalar::maximum(self.missed[degree][at], missed);
-            }
-        }
-        self.last = *value;
-    }
-
-    /// The sums of the magnitudes of changes from sample to sample.
-    pub(crate) fn variation(&self) -> [f64; N] {
-        self.variation
+    /// The sum of the magnitudes of the changes of a component from sample to sample.
+    pub(crate) fn variation(&self, at: usize) -> f64 {
+        self.components[at].variation
     }
 
     /// Whether P₈ misses more than a fraction of what P₄ misses.
@@ -287,41 +294,64 @@ impl<const N: usize> Look<N> {
     ///
     /// The last term is rounding: that of the values, and that of the times.
     pub(crate) fn misses_impulse(&self, impulse: f64) -> bool {
-        let per_sample = self.size / self.between;
-        (0..N).any(|at| {
-            let [fine, coarse] = [0, 1].map(|degree| per_sample * self.sums[degree][at]);
-            impulse + self.rounding(at) < fine && Self::is_rough([fine, coarse])
+        let per_sample = self.grid.size / f64::from(self.grid.intervals - PARTS);
+        self.components.iter().any(|of| {
+            let [fine, coarse] = [per_sample * of.sums[0], per_sample * of.sums[1]];
+            impulse + self.rounding(of) < fine && Self::is_rough([fine, coarse])
         })
     }
 
     /// The rounding of an integral over the step: of values, and of times.
-    fn rounding(&self, at: usize) -> f64 {
-        let of_values = self.size * self.largest[at];
-        let of_times = self.time * self.variation[at];
+    fn rounding(&self, of: &Component) -> f64 {
+        let of_values = self.grid.size * of.largest;
+        let of_times = self.grid.largest_time() * of.variation;
         ROUNDINGS * f64::EPSILON * (of_values + of_times)
     }
 
-    /// Whether the integral by the rule of the step, whose means these are, differs from that of the samples by more than this, in
+    /// Finds the means of the function by the rule of the step.
+    pub(crate) fn find_means(&mut self, rule: &LoadRule) -> Result<(), StepFailure> {
+        self.find_mean(rule, [0.0, 1.0], |of| [of.whole, of.kept] = [of.sum; 2])?;
+        if rule.order.is_some() {
+            self.find_mean(rule, [0.0, 0.5], |of| of.kept = of.sum)?;
+            self.find_mean(rule, [0.5, 0.5], |of| of.kept += of.sum)?;
+        }
+        Ok(())
+    }
+
+    /// Finds the integral over a part of the step, of the size `part` from `first`, in units of the step.
+    fn find_mean(
+        &mut self,
+        rule: &LoadRule,
+        [first, part]: [f64; 2],
+        take: fn(&mut Component),
+    ) -> Result<(), StepFailure> {
+        self.components.iter_mut().for_each(|of| of.sum = 0.0);
+        for (time, weight) in rule.times.iter().zip(rule.weights) {
+            let share = first + part * time;
+            (self.of)(self.grid.start + share * self.grid.size, self.value)?;
+            for (component, value) in self.components.iter_mut().zip(&*self.value) {
+                component.sum += part * weight * value;
+            }
+        }
+        self.components.iter_mut().for_each(take);
+        Ok(())
+    }
+
+    /// Whether the integral by the rule of the step, with the means last found, differs from that of the samples by more than this, in
     /// the unit of the function times s, and than its estimate says, in some component.
     ///
     /// ```text
     /// |∫f dt − h Σ b f| > impulse + share ∫|f − f(t)| dt + 4 e + |∫P₈ dt − ∫f dt| + 16 ε (h max|f| + |t| Σ|Δf|)
     /// ```
     ///
-    /// The estimate is `e = h |Σ b f (whole) − Σ b f (halves)|/(2ᵖ − 1)` for a step in two halves, zero otherwise.
-    pub(crate) fn differs(
-        &self,
-        [whole, kept]: Means<N>,
-        rule: LoadRule,
-        [impulse, share]: [f64; 2],
-    ) -> bool {
-        let quotient = rule.order.map_or(0.0, |order| DOUBT / (order.exp2() - 1.0));
-        (0..N).any(|at| {
-            let [coarse, fine] = self.means.map(|means| means[at]);
-            let estimate = quotient * (whole[at] - kept[at]).abs();
-            let doubt = estimate + (coarse - fine).abs() + share * self.deviation[at];
-            let allowed = impulse + self.size * doubt + self.rounding(at);
-            allowed < self.size * (fine - kept[at]).abs()
+    /// The estimate is `e = h |Σ b f (whole) − Σ b f (halves)|/(2ᵖ − 1)` with an order p, for a step in two halves, zero otherwise.
+    pub(crate) fn differs(&self, order: Option<f64>, [impulse, share]: [f64; 2]) -> bool {
+        let quotient = order.map_or(0.0, |order| DOUBT / (order.exp2() - 1.0));
+        self.components.iter().any(|of| {
+            let estimate = quotient * (of.whole - of.kept).abs();
+            let doubt = estimate + (of.by_points - of.by_samples).abs() + share * of.deviation;
+            let allowed = impulse + self.grid.size * doubt + self.rounding(of);
+            allowed < self.grid.size * (of.by_samples - of.kept).abs()
         })
     }
 
@@ -334,45 +364,61 @@ impl<const N: usize> Look<N> {
     /// The second part is by how much the function goes back and forth. The end of a step is always seen, so that a jump counts
     /// only together with the one back.
     pub(crate) fn misses_height(&self, height: f64) -> bool {
-        (0..N).any(|at| {
-            let [fine, coarse] = [0, 1].map(|degree| self.missed[degree][at]);
-            let forth = (self.last[at] - self.first[at]).abs();
-            let back = 0.5 * (self.variation[at] - forth);
-            let slope = self.change[at] * self.intervals / self.size;
-            let of_sizes = self.largest[at] + self.time * slope;
+        self.components.iter().any(|of| {
+            let forth = (of.last - of.first).abs();
+            let back = 0.5 * (of.variation - forth);
+            let slope = of.change * f64::from(self.grid.intervals) / self.grid.size;
+            let of_sizes = of.largest + self.grid.largest_time() * slope;
             let rounding = ROUNDINGS * f64::EPSILON * of_sizes;
-            height + rounding < Scalar::minimum(fine, back) && Self::is_rough([fine, coarse])
+            height + rounding < Scalar::minimum(of.missed[0], back) && Self::is_rough(of.missed)
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use core::convert::Infallible;
+    use core::cell::Cell;
 
-    use super::{Grid, Look};
+    use super::{Component, Grid, Look};
+    use crate::step::error::StepFailure;
 
-    /// A look at a function in a step from 0 to 1 s.
-    fn look(intervals: f64, of: impl Fn(f64) -> f64) -> Look<1> {
+    /// What is found by a look at a function in a step from 0 to 1 s.
+    fn look<T>(
+        intervals: f64,
+        of: impl Fn(f64) -> f64,
+        find: impl FnOnce(&Look<'_>) -> T,
+    ) -> Result<T, StepFailure> {
         let grid = Grid::new([0.0, 1.0], intervals.recip());
-        let Ok(look) = grid.look(|time| Ok::<_, Infallible>([of(time)]));
-        look
+        let of = |time: f64, value: &mut [f64]| {
+            value[0] = of(time);
+            Ok(())
+        };
+        let (mut value, mut components) = ([0.0], [Component::default()]);
+        Ok(find(&grid.look(&of, &mut value, &mut components)?))
+    }
+
+    /// Whether the step misses more than this impulse, and more than this height.
+    fn misses(intervals: f64, of: impl Fn(f64) -> f64, [impulse, height]: [f64; 2]) -> [bool; 2] {
+        let found = look(intervals, of, |look| {
+            [look.misses_impulse(impulse), look.misses_height(height)]
+        });
+        found.unwrap()
     }
 
     #[test]
     fn polynomials_up_to_the_eighth_degree_are_followed_to_rounding() {
         for degree in 0..=8 {
-            let look = look(100.0, |t| 3.0 + (2.0 * t - 0.7).powi(degree));
-            assert!(!look.misses_impulse(0.0), "{degree}");
-            assert!(!look.misses_height(0.0), "{degree}");
+            let power = |t: f64| 3.0 + (2.0 * t - 0.7).powi(degree);
+            assert_eq!(misses(100.0, power, [0.0; 2]), [false; 2], "{degree}");
         }
-        let fine = look(100.0, |t| (2.0 * t - 0.7).powi(9));
+        let power = |t: f64| (2.0 * t - 0.7).powi(9);
+        let missed = look(100.0, power, |look| look.components[0].missed[0]).unwrap();
         // `(2/8)⁹ max |Π (u − k)|`, of which the samples show nearly all.
         let product = |u: f64| (0..9).map(|k| u - f64::from(k)).product::<f64>().abs();
         let largest = (0..1000)
             .map(|at| product(f64::from(at) * 1e-3))
             .fold(0.0, f64::max);
-        let quotient = fine.missed[0][0] / (0.25_f64.powi(9) * largest);
+        let quotient = missed / (0.25_f64.powi(9) * largest);
         assert!((0.98..=1.0 + 1e-9).contains(&quotient), "{quotient}");
     }
 
@@ -380,10 +426,10 @@ mod tests {
     fn a_vibration_of_more_than_a_period_is_smooth() {
         for phase in 0..24 {
             let phase = f64::from(phase) * core::f64::consts::PI / 12.0;
-            let slow = look(64.0, |t| (7.0 * t + phase).sin());
-            assert!(!slow.misses_impulse(0.0) && !slow.misses_height(0.0));
-            let fast = look(64.0, |t| (25.0 * t + phase).sin());
-            assert!(fast.misses_impulse(0.1) && fast.misses_height(0.1));
+            let slow = |t: f64| (7.0 * t + phase).sin();
+            assert_eq!(misses(64.0, slow, [0.0; 2]), [false; 2]);
+            let fast = |t: f64| (25.0 * t + phase).sin();
+            assert_eq!(misses(64.0, fast, [0.1; 2]), [true; 2]);
         }
     }
 
@@ -392,11 +438,11 @@ mod tests {
         for place in 0..1000 {
             let middle = (f64::from(place) + 0.5) / 1000.0;
             let bump = |t: f64| (1.0 - ((t - middle) / 0.006).powi(2)).max(0.0);
-            let look = look(256.0, |t| 2.0 * t + bump(t));
             // Its area is 0.008, of which samples show at least half.
-            assert!(look.misses_impulse(0.004), "{middle}");
+            let [area, height] = misses(256.0, |t| 2.0 * t + bump(t), [0.004, 0.5]);
+            assert!(area, "{middle}");
             let is_whole = (0.01..0.99).contains(&middle);
-            assert!(!is_whole || look.misses_height(0.5), "{middle}");
+            assert!(!is_whole || height, "{middle}");
         }
     }
 
@@ -404,22 +450,31 @@ mod tests {
     fn the_impulse_of_a_jump_is_missed_but_not_its_height() {
         for place in 1..200 {
             let at = f64::from(place) / 200.0;
-            let look = look(256.0, |t| if t < at { 0.0 } else { 1.0 });
-            assert!(look.misses_impulse(1e-2) && !look.misses_height(0.0));
+            let jump = |t: f64| if t < at { 0.0 } else { 1.0 };
+            assert_eq!(misses(256.0, jump, [1e-2, 0.0]), [true, false]);
         }
     }
 
     #[test]
     fn the_first_time_of_a_function_that_fails_ends_the_look() {
         let grid = Grid::new([1.0, 2.0], 0.01);
-        let failed = grid.look(|time| if time < 2.0 { Ok([0.0]) } else { Err(time) });
-        assert_eq!(failed.err(), Some(2.0));
-        let mut latest = 0.0_f64;
-        let seen = grid.look(|time| {
-            latest = latest.max(time);
-            Ok::<_, ()>([time])
-        });
-        assert!(seen.is_ok());
-        assert_eq!(latest.to_bits(), 3.0_f64.to_bits());
+        let latest = Cell::new(0.0_f64);
+        let seen_until = |end: f64| {
+            let of = |time: f64, _: &mut [f64]| {
+                latest.set(latest.get().max(time));
+                let update = time;
+                if time < end {
+                    Ok(())
+                } else {
+                    Err(StepFailure::NotConverged { update })
+                }
+            };
+            let (mut value, mut components) = ([0.0], [Component::default()]);
+            grid.look(&of, &mut value, &mut components).map(|_| ())
+        };
+        let failed = seen_until(2.0);
+        assert_eq!(failed, Err(StepFailure::NotConverged { update: 2.0 }));
+        assert_eq!(seen_until(4.0), Ok(()));
+        assert_eq!(latest.get().to_bits(), 3.0_f64.to_bits());
     }
 }

@@ -4,9 +4,11 @@
 //! from steps that a checkpoint does not contain. Computing the rates again would not give their bits, because a step
 //! finds them in another way than the start of a run. So each such entry has a digest.
 
+use std::borrow::Cow;
+
 use super::Checkpoint;
 use super::error::{RestoreError, expect_count};
-use crate::element::state::Energy;
+use super::text::flat;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::is_positive;
@@ -29,7 +31,7 @@ enum Rule {
 /// A list of numbers of a checkpoint.
 struct Entry<'a> {
     name: &'static str,
-    numbers: Box<dyn Iterator<Item = f64> + 'a>,
+    numbers: Cow<'a, [f64]>,
     rule: Rule,
     /// The number of values, if every simulation of the same scene has the same number.
     count: Option<usize>,
@@ -38,10 +40,10 @@ struct Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
-    fn new(name: &'static str, rule: Rule, numbers: impl IntoIterator<Item = f64> + 'a) -> Self {
+    fn new(name: &'static str, rule: Rule, numbers: impl Into<Cow<'a, [f64]>>) -> Self {
         Self {
             name,
-            numbers: Box::new(numbers.into_iter()),
+            numbers: numbers.into(),
             rule,
             count: None,
             is_sealed: false,
@@ -49,22 +51,28 @@ impl<'a> Entry<'a> {
     }
 
     fn sum(name: &'static str, Sum { value, carry }: Sum) -> Self {
-        Self::new(name, Rule::Sum, [value, carry])
+        Self::new(name, Rule::Sum, vec![value, carry])
     }
 
     fn sums(name: &'static str, sums: &'a Compensated) -> Self {
-        let pairs = sums.sums().flat_map(|(value, carry)| [value, carry]);
+        let mut pairs = Vec::with_capacity(2 * sums.values().len());
+        for (value, carry) in sums.sums() {
+            pairs.extend([value, carry]);
+        }
         Self::new(name, Rule::Sum, pairs).counted(sums.values().len())
     }
 
     /// Counts as lists of their bytes, which numbers represent exactly.
-    fn counts(name: &'static str, counts: impl IntoIterator<Item = u64> + 'a) -> Self {
-        let bytes = counts.into_iter().flat_map(u64::to_le_bytes);
-        Self::new(name, Rule::None, bytes.map(f64::from))
+    fn counts(name: &'static str, counts: &[u64]) -> Self {
+        let mut bytes = Vec::new();
+        for count in counts {
+            bytes.extend(count.to_le_bytes().map(f64::from));
+        }
+        Self::new(name, Rule::None, bytes)
     }
 
     fn list(name: &'static str, list: &'a [f64]) -> Self {
-        Self::new(name, Rule::Finite, list.iter().copied()).counted(list.len())
+        Self::new(name, Rule::Finite, list).counted(list.len())
     }
 
     fn counted(mut self, count: usize) -> Self {
@@ -85,12 +93,10 @@ impl<'a> Entry<'a> {
 
     fn digest(self) -> Digest {
         Digest::of(|digest| {
-            let mut count = 0;
-            for number in self.numbers {
+            for &number in &*self.numbers {
                 digest.number(number);
-                count += 1;
             }
-            digest.count(count);
+            digest.count(self.numbers.len());
         })
     }
 
@@ -102,7 +108,7 @@ impl<'a> Entry<'a> {
         let is_not_negative = |number| number >= 0.0;
         let half = 0.5 * f64::EPSILON;
         let mut value = None;
-        for number in self.numbers {
+        for &number in &*self.numbers {
             let (is_met, required) = match self.rule {
                 Rule::None => (true, ""),
                 Rule::Sum | Rule::Finite => (number.is_finite(), "finite"),
@@ -142,8 +148,7 @@ impl Checkpoint {
     fn entries(&self) -> Vec<Entry<'_>> {
         use Rule::{Finite, FiniteNotNegative, NotNegative, Positive};
         let (state, [last, before]) = (&self.state, &self.past.forces);
-        let temperatures = state.temperatures.iter().copied();
-        let energies = self.energies.list.iter().flat_map(Energy::numbers);
+        let loads = &self.loads;
         let mut entries = vec![
             Entry::sums("coordinates", &state.positions),
             Entry::sums("momenta", &state.momenta),
@@ -159,63 +164,64 @@ impl Checkpoint {
             Entry::sums("heat of dashpots", &state.meters.dissipated).metered(),
             Entry::sums("entropy production", &state.meters.produced).metered(),
             Entry::sums("conducted heat", &state.meters.conducted).metered(),
-            Entry::new("temperatures", Positive, temperatures).counted(state.temperatures.len()),
-            Entry::new("step size", Positive, [self.step]),
-            Entry::new("set forces", Finite, self.loads.forces.iter().copied()).sealed(),
-            Entry::new(
-                "set velocities",
-                Finite,
-                self.loads.velocities.iter().copied(),
-            )
-            .sealed(),
-            Entry::new(
-                "set temperatures",
-                Positive,
-                self.loads.temperatures.iter().copied(),
-            )
-            .sealed(),
+            Entry::new("temperatures", Positive, &state.temperatures)
+                .counted(state.temperatures.len()),
+            Entry::new("step size", Positive, vec![self.step]),
+            Entry::new("set forces", Finite, &loads.forces).sealed(),
+            Entry::new("set velocities", Finite, &loads.velocities).sealed(),
+            Entry::new("set temperatures", Positive, &loads.temperatures).sealed(),
             Entry::list("last forces", last),
             Entry::list("earlier forces", before),
-            Entry::new("forces", Finite, last.iter().chain(before).copied()).sealed(),
-            Entry::new("errors of predicted forces", NotNegative, self.past.errors).sealed(),
+            Entry::new("forces", Finite, [&last[..], before].concat()).sealed(),
+            Entry::new(
+                "errors of predicted forces",
+                NotNegative,
+                &self.past.errors[..],
+            )
+            .sealed(),
             Entry::list("the start of the last step", &self.past.internal).sealed(),
-            Entry::new("energies of elements", Rule::None, energies)
+            Entry::new("energies of elements", Rule::None, self.energies.numbers())
                 .counted(self.energies.list.len())
                 .sealed(),
         ];
         if let Some(control) = &self.control {
-            let last = control.controller.last;
-            let last_step = last.into_iter().flatten();
+            let last = control.controller.last.as_ref();
+            let last_step = last.map_or(&[][..], |last| &last[..]);
+            let last_size = last.map_or(&[][..], |[_, size]| core::slice::from_ref(size));
             let momentum = control.largest_momentum;
             entries.extend([
-                Entry::new("the smallest step", FiniteNotNegative, [control.smallest]).sealed(),
-                Entry::new("the largest step", Positive, [control.largest]).sealed(),
-                Entry::new("the largest momentum", FiniteNotNegative, [momentum]).sealed(),
+                Entry::new(
+                    "the smallest step",
+                    FiniteNotNegative,
+                    vec![control.smallest],
+                )
+                .sealed(),
+                Entry::new("the largest step", Positive, vec![control.largest]).sealed(),
+                Entry::new("the largest momentum", FiniteNotNegative, vec![momentum]).sealed(),
                 Entry::new("the last step under control", FiniteNotNegative, last_step).sealed(),
-                Entry::new("step size", Positive, last.map(|[_, size]| size)),
-                Entry::counts("statistics of steps", control.statistics.counts()).sealed(),
+                Entry::new("step size", Positive, last_size),
+                Entry::counts("statistics of steps", &control.statistics.counts()).sealed(),
             ]);
         }
         if let Some(saved) = &self.choice {
             let numbers = saved.selection.numbers();
             entries.push(Entry::new("choice of a scheme", FiniteNotNegative, numbers).sealed());
-            entries.push(Entry::counts("choice of a scheme", saved.selection.counts()).sealed());
+            entries.push(Entry::counts("choice of a scheme", &saved.selection.counts()).sealed());
         }
         if let Some(explicit) = &self.explicit {
             let momentum = explicit.largest_momentum;
             let flags = [explicit.is_new, explicit.is_motion_first];
             let flags = flags.map(|flag| f64::from(u8::from(flag)));
             entries.extend(explicit.sums().map(|(name, sums)| {
-                let pairs = sums.iter().flat_map(|sum| [sum.value, sum.carry]);
-                let entry = Entry::new(name, Rule::Sum, pairs);
+                let entry = Entry::new(name, Rule::Sum, flat(sums));
                 entry.counted(sums.len()).sealed()
             }));
             let lists = explicit.lists();
             entries.extend(lists.map(|(name, numbers)| Entry::list(name, numbers).sealed()));
             entries.extend([
-                Entry::new("the largest momentum", NotNegative, [momentum]).sealed(),
-                Entry::new("the energy defect", Rule::None, [explicit.residue]).sealed(),
-                Entry::new("the start of a step", Rule::None, flags).sealed(),
+                Entry::new("the largest momentum", NotNegative, vec![momentum]).sealed(),
+                Entry::new("the energy defect", Rule::None, vec![explicit.residue]).sealed(),
+                Entry::new("the start of a step", Rule::None, flags.to_vec()).sealed(),
             ]);
         }
         entries

@@ -51,7 +51,7 @@ impl Outline {
     pub(crate) fn new(
         dimensions: usize,
         masses: &Masses,
-        shapes: impl Iterator<Item = Shape>,
+        shapes: &mut dyn Iterator<Item = Shape>,
         reservoirs: usize,
     ) -> Self {
         let element = |shape: Shape| ElementOutline {

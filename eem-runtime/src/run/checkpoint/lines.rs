@@ -220,9 +220,8 @@ fn meters(text: &mut Text<'_>, own: Option<&Meters>) -> Read<Meters> {
 
 fn energies(text: &mut Text<'_>, own: Option<&SavedEnergies>) -> Read<SavedEnergies> {
     let of = text.item("digest of the state", own.map(|own| own.of))?;
-    let flat = own.map(|own| own.list.iter().flat_map(Energy::numbers));
-    let flat: Option<Vec<f64>> = flat.map(Iterator::collect);
-    let numbers = text.numbers("energies", flat.as_deref())?;
+    let own = own.map(SavedEnergies::numbers);
+    let numbers = text.numbers("energies", own.as_deref())?;
     let (energies, []) = numbers.as_chunks() else {
         return Err(text.fault("energies"));
     };

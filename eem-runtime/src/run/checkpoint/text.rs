@@ -41,47 +41,63 @@ impl<'a> Text<'a> {
         self.written
     }
 
-    /// A line of items, of which `show` writes one and `read` reads one.
-    fn line<T>(
+    /// A line of so many items, of which `show` writes one, or of any number, of which `read` reads one.
+    fn line(
         &mut self,
         name: &'static str,
-        own: Option<&[T]>,
-        show: impl Fn(&T, &mut String),
-        read: impl Fn(&str) -> Option<T>,
-    ) -> Read<Vec<T>>
-    where
-        T: Clone,
-    {
+        count: Option<usize>,
+        show: &dyn Fn(usize, &mut String),
+        read: &mut dyn FnMut(&str) -> Option<()>,
+    ) -> Read<()> {
         self.number += 1;
-        if let Some(own) = own {
+        if let Some(count) = count {
             self.written.push_str(name);
             self.written.push(':');
-            for item in own {
+            for index in 0..count {
                 self.written.push(' ');
-                show(item, &mut self.written);
+                show(index, &mut self.written);
             }
             self.written.push('\n');
-            return Ok(own.to_vec());
+            return Ok(());
         }
-        let fault = Fault {
-            line: self.number,
-            expected: name,
-        };
+        let fault = self.fault(name);
         let line = self.lines.next().ok_or(fault)?;
         let items = line
             .strip_prefix(name)
             .and_then(|rest| rest.strip_prefix(':'));
-        let items = items.ok_or(fault)?.split_ascii_whitespace();
-        items.map(|item| read(item).ok_or(fault)).collect()
+        for item in items.ok_or(fault)?.split_ascii_whitespace() {
+            read(item).ok_or(fault)?;
+        }
+        Ok(())
+    }
+
+    /// A line of items, written as `show` does.
+    fn list<T: FromStr + Clone>(
+        &mut self,
+        name: &'static str,
+        own: Option<&[T]>,
+        show: fn(&T, &mut String),
+    ) -> Read<Vec<T>> {
+        let mut items = own.unwrap_or_default().to_vec();
+        let mut found = Vec::new();
+        let count = own.map(<[T]>::len);
+        self.line(
+            name,
+            count,
+            &|at, text| show(&items[at], text),
+            &mut |item| {
+                found.push(item.parse().ok()?);
+                Some(())
+            },
+        )?;
+        items.append(&mut found);
+        Ok(items)
     }
 
     /// A list of numbers.
     pub(super) fn numbers(&mut self, name: &'static str, own: Option<&[f64]>) -> Read<Vec<f64>> {
-        let show = |number: &f64, text: &mut String| {
-            // Writing to a string does not fail.
-            _ = write!(text, "{number:?}");
-        };
-        self.line(name, own, show, |item| item.parse().ok())
+        // Writing to a string does not fail.
+        self.list(name, own, |number, text| _ = write!(text, "{number:?}"))
     }
 
     /// N numbers.
@@ -120,8 +136,7 @@ impl<'a> Text<'a> {
         name: &'static str,
         own: Option<&[T]>,
     ) -> Read<Vec<T>> {
-        let show = |item: &T, text: &mut String| _ = write!(text, "{item}");
-        self.line(name, own, show, |item| item.parse().ok())
+        self.list(name, own, |item, text| _ = write!(text, "{item}"))
     }
 
     /// One such item.
@@ -168,9 +183,7 @@ impl<'a> Text<'a> {
 
     /// Pairs of a value and its compensation.
     pub(super) fn pairs(&mut self, name: &'static str, own: Option<&[Sum]>) -> Read<Vec<Sum>> {
-        let flat = own.map(|own| own.iter().flat_map(|sum| [sum.value, sum.carry]));
-        let flat: Option<Vec<f64>> = flat.map(Iterator::collect);
-        let numbers = self.numbers(name, flat.as_deref())?;
+        let numbers = self.numbers(name, own.map(flat).as_deref())?;
         let (pairs, []) = numbers.as_chunks::<2>() else {
             return Err(self.fault(name));
         };
@@ -183,4 +196,13 @@ impl<'a> Text<'a> {
         let line = self.number;
         Fault { line, expected }
     }
+}
+
+/// The values of sums, each with its compensation behind it.
+pub(super) fn flat(sums: &[Sum]) -> Vec<f64> {
+    let mut numbers = Vec::with_capacity(2 * sums.len());
+    for sum in sums {
+        numbers.extend([sum.value, sum.carry]);
+    }
+    numbers
 }

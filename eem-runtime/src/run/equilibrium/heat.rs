@@ -8,9 +8,11 @@
 //! paths of heat alone.
 
 use super::error::EquilibriumError;
+use crate::algebra::memory::MemoryLimit;
 use crate::algebra::pattern::Pattern;
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::{Conduction, Partner};
+use crate::element::handle::Element;
 use crate::element::layout::Layout;
 use crate::scene::Scene;
 
@@ -32,9 +34,20 @@ pub(super) fn balance<const D: usize>(
             is_fixed[slot] = true;
         }
     }
-    refuse_insulated(scene, (&conduction, layout), &is_fixed)?;
+    let element_at = |element: usize| scene.element_at(element);
+    refuse_insulated((&conduction, layout), &is_fixed, &element_at)?;
+    solve(&conduction, &is_fixed, scene.memory_limit, temperatures)
+}
+
+/// Finds the temperatures that are not fixed; the largest heat that an element still receives, W.
+fn solve(
+    conduction: &Conduction,
+    is_fixed: &[bool],
+    memory_limit: MemoryLimit,
+    temperatures: &mut [f64],
+) -> Result<f64, EquilibriumError> {
     let slots =
-        (0..temperatures.len()).filter(|&slot| !is_fixed[slot] && has_path(&conduction, slot));
+        (0..temperatures.len()).filter(|&slot| !is_fixed[slot] && has_path(conduction, slot));
     let slots: Vec<_> = slots.collect();
     let mut unknowns = vec![None; temperatures.len()];
     for (unknown, &slot) in slots.iter().enumerate() {
@@ -51,7 +64,7 @@ pub(super) fn balance<const D: usize>(
             }
         }
     });
-    let system = LinearSystem::<1>::new(&pattern, 1, scene.memory_limit);
+    let system = LinearSystem::<1>::new(&pattern, 1, memory_limit);
     let mut system = system.map_err(|error| EquilibriumError::Scene {
         errors: vec![error.into()],
     })?;
@@ -92,10 +105,10 @@ fn has_path(conduction: &Conduction, slot: usize) -> bool {
 }
 
 /// An error if an element has paths of heat, but none that leads, directly or through others, to a reservoir or a thermostat.
-fn refuse_insulated<const D: usize>(
-    scene: &Scene<D>,
+fn refuse_insulated(
     (conduction, layout): (&Conduction, &Layout),
     is_fixed: &[bool],
+    element_at: &dyn Fn(usize) -> Element,
 ) -> Result<(), EquilibriumError> {
     let mut is_linked = is_fixed.to_vec();
     for (slot, is_linked) in is_linked.iter_mut().enumerate() {
@@ -128,7 +141,7 @@ fn refuse_insulated<const D: usize>(
     match insulated {
         None => Ok(()),
         Some(element) => Err(EquilibriumError::Insulated {
-            element: scene.element_at(element),
+            element: element_at(element),
         }),
     }
 }

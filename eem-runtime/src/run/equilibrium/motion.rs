@@ -3,9 +3,8 @@
 use core::fmt;
 
 use crate::algebra::jacobi::shortest_solution;
-use crate::algebra::vector;
 use crate::element::handle::Node;
-use crate::scene::Scene;
+use crate::scene::entry::ElementEntry;
 
 /// Two motions are the same if they differ by at most this fraction of the largest displacement; the search for a free
 /// motion is more accurate.
@@ -85,143 +84,158 @@ impl fmt::Display for FreeMotion {
     }
 }
 
-/// The free motion with these displacements of moving nodes, where nodes are at `position`.
-pub(super) fn name<const D: usize>(
-    scene: &Scene<D>,
-    position: impl Fn(usize) -> [f64; D],
-    displacements: &[(usize, [f64; D])],
-    stiffness: f64,
-) -> FreeMotion {
-    let mut moved = vec![[0.0; D]; scene.nodes.len()];
-    for &(node, by) in displacements {
-        moved[node] = by;
-    }
-    let size = |by: &[f64; D]| by.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let most = (0..moved.len()).max_by(|&a, &b| size(&moved[a]).total_cmp(&size(&moved[b])));
-    let body = most.map_or_else(Vec::new, |node| body_of(scene, node));
-    let places: Vec<_> = body
-        .iter()
-        .map(|&node| (position(node), moved[node]))
-        .collect();
-    let mut nodes: Vec<_> = body
-        .into_iter()
-        .filter(|&node| size(&moved[node]) > LIKENESS)
-        .collect();
-    nodes.sort_by(|&a, &b| size(&moved[b]).total_cmp(&size(&moved[a])));
-    let nodes = nodes
-        .into_iter()
-        .map(|node| (scene.node_at(node), moved[node].to_vec()));
-    FreeMotion {
-        kind: kind_of(&places),
-        nodes: nodes.collect(),
-        stiffness,
-    }
+/// A scene in a free motion.
+pub(super) struct Moved<'a> {
+    pub(super) dimension: usize,
+    /// Positions and displacements of all nodes, coordinate after coordinate, m.
+    pub(super) positions: &'a [f64],
+    pub(super) displacements: &'a [f64],
+    pub(super) elements: &'a [ElementEntry],
+    pub(super) is_mass: &'a dyn Fn(usize) -> bool,
+    pub(super) node_at: &'a dyn Fn(usize) -> Node,
 }
 
-/// A node and all nodes that elements connect with it.
-fn body_of<const D: usize>(scene: &Scene<D>, node: usize) -> Vec<usize> {
-    let mut elements = vec![Vec::new(); scene.nodes.len()];
-    for (index, entry) in scene.elements.iter().enumerate() {
-        entry
-            .nodes
-            .iter()
-            .for_each(|&node| elements[node].push(index));
+impl Moved<'_> {
+    /// The coordinates of a node.
+    fn of<'b>(&self, all: &'b [f64], node: usize) -> &'b [f64] {
+        &all[node * self.dimension..][..self.dimension]
     }
-    let mut is_known = vec![false; scene.nodes.len()];
-    let mut body = vec![node];
-    is_known[node] = true;
-    let mut next = 0;
-    while let Some(&node) = body.get(next) {
-        next += 1;
-        // Bodies at the same anchor are not connected by it.
-        if scene.nodes[node].mass.is_none() {
-            continue;
+
+    /// The largest component of the displacement of a node.
+    fn size(&self, node: usize) -> f64 {
+        let by = self.of(self.displacements, node);
+        by.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+    }
+
+    /// The description of the motion with this stiffness.
+    pub(super) fn name(&self, stiffness: f64) -> FreeMotion {
+        let nodes = 0..self.displacements.len() / self.dimension;
+        let most = nodes.max_by(|&a, &b| self.size(a).total_cmp(&self.size(b)));
+        let mut nodes = most.map_or_else(Vec::new, |node| self.body_of(node));
+        let kind = self.kind_of(&nodes);
+        nodes.retain(|&node| self.size(node) > LIKENESS);
+        nodes.sort_by(|&a, &b| self.size(b).total_cmp(&self.size(a)));
+        let named = |&node: &usize| {
+            let by = self.of(self.displacements, node);
+            ((self.node_at)(node), by.to_vec())
+        };
+        FreeMotion {
+            kind,
+            nodes: nodes.iter().map(named).collect(),
+            stiffness,
         }
-        for &other in elements[node]
-            .iter()
-            .flat_map(|&at| &scene.elements[at].nodes)
-        {
-            if !is_known[other] {
-                is_known[other] = true;
-                body.push(other);
+    }
+
+    /// A node and all nodes that elements connect with it.
+    fn body_of(&self, node: usize) -> Vec<usize> {
+        let nodes = self.positions.len() / self.dimension;
+        let mut elements = vec![Vec::new(); nodes];
+        for entry in self.elements {
+            for &node in &entry.nodes {
+                elements[node].push(entry);
             }
         }
-    }
-    body
-}
-
-/// A position and the displacement there.
-type Moved<const D: usize> = ([f64; D], [f64; D]);
-
-/// The mean position and the mean displacement.
-fn mean<const D: usize>(places: &[Moved<D>]) -> Moved<D> {
-    let mut sums = ([0.0; D], [0.0; D]);
-    let mut count = 0.0;
-    for (r, by) in places {
-        for axis in 0..D {
-            sums.0[axis] += r[axis];
-            sums.1[axis] += by[axis];
-        }
-        count += 1.0;
-    }
-    let (centre, shift) = sums;
-    (centre.map(|sum| sum / count), shift.map(|sum| sum / count))
-}
-
-/// The kind of the rigid motion `t + W (r − c)` that fits these displacements best, by least squares, with the centre c of the
-/// positions r; a deformation if the fit is not close.
-fn kind_of<const D: usize>(places: &[Moved<D>]) -> MotionKind {
-    let (centre, shift) = mean(places);
-    let planes: Vec<_> = (0..D).flat_map(|a| (0..a).map(move |b| [a, b])).collect();
-    // The displacement of a place by a unit rotation in a plane.
-    let turned = |r: &[f64; D], [a, b]: [usize; 2]| -> [f64; D] {
-        vector(|axis| match axis {
-            axis if axis == a => r[b] - centre[b],
-            axis if axis == b => centre[a] - r[a],
-            _ => 0.0,
-        })
-    };
-    let dot = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let mut gram = vec![0.0; planes.len() * planes.len()];
-    let mut right = vec![0.0; planes.len()];
-    for (r, by) in places {
-        let turns: Vec<_> = planes.iter().map(|&plane| turned(r, plane)).collect();
-        let by = vector(|axis| by[axis] - shift[axis]);
-        for (i, one) in turns.iter().enumerate() {
-            right[i] += dot(one, &by);
-            for (j, other) in turns.iter().enumerate() {
-                gram[i * planes.len() + j] += dot(one, other);
+        let mut is_known = vec![false; nodes];
+        let mut body = vec![node];
+        is_known[node] = true;
+        let mut next = 0;
+        while let Some(&node) = body.get(next) {
+            next += 1;
+            // Bodies at the same anchor are not connected by it.
+            if !(self.is_mass)(node) {
+                continue;
+            }
+            for entry in &elements[node] {
+                for &other in &entry.nodes {
+                    if !is_known[other] {
+                        is_known[other] = true;
+                        body.push(other);
+                    }
+                }
             }
         }
+        body
     }
-    // The cut-off `least` leaves out the rotation of a line about itself.
-    let largest = gram.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let turn = shortest_solution(&gram, &right, f64::EPSILON.sqrt() * largest);
-    let (mut rotation, mut misfit) = (0.0_f64, 0.0_f64);
-    for (r, by) in places {
-        let mut turned_by = [0.0; D];
-        for (&plane, turn) in planes.iter().zip(turn.iter()) {
-            for (sum, x) in turned_by.iter_mut().zip(turned(r, plane)) {
-                *sum += turn * x;
+
+    /// The mean of coordinates over some nodes.
+    fn mean(&self, all: &[f64], nodes: &[usize]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.dimension];
+        let mut count = 0.0;
+        for &node in nodes {
+            for (sum, x) in sums.iter_mut().zip(self.of(all, node)) {
+                *sum += x;
+            }
+            count += 1.0;
+        }
+        for sum in &mut sums {
+            *sum /= count;
+        }
+        sums
+    }
+
+    /// The kind of the rigid motion `t + W (r − c)` that fits the displacements of some nodes best, by least squares, with the centre c
+    /// of their positions r; a deformation if the fit is not close.
+    fn kind_of(&self, nodes: &[usize]) -> MotionKind {
+        let centre = self.mean(self.positions, nodes);
+        let shift = self.mean(self.displacements, nodes);
+        let mut planes = Vec::new();
+        for a in 0..self.dimension {
+            planes.extend((0..a).map(|b| [a, b]));
+        }
+        // The displacement of a node by a unit rotation in a plane.
+        let turned = |node: usize, [a, b]: [usize; 2]| {
+            let r = self.of(self.positions, node);
+            let mut by = vec![0.0; self.dimension];
+            by[a] = r[b] - centre[b];
+            by[b] = centre[a] - r[a];
+            by
+        };
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let count = planes.len();
+        let (mut gram, mut right) = (vec![0.0; count * count], vec![0.0; count]);
+        for &node in nodes {
+            let turns: Vec<_> = planes.iter().map(|&plane| turned(node, plane)).collect();
+            let mut by = self.of(self.displacements, node).to_vec();
+            for (by, shift) in by.iter_mut().zip(&shift) {
+                *by -= shift;
+            }
+            for (i, one) in turns.iter().enumerate() {
+                right[i] += dot(one, &by);
+                for (j, other) in turns.iter().enumerate() {
+                    gram[i * count + j] += dot(one, other);
+                }
             }
         }
-        for axis in 0..D {
-            rotation = rotation.max(turned_by[axis].abs());
-            misfit = misfit.max((by[axis] - shift[axis] - turned_by[axis]).abs());
+        // The cut-off `least` leaves out the rotation of a line about itself.
+        let largest = gram.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let turn = shortest_solution(&gram, &right, f64::EPSILON.sqrt() * largest);
+        let (mut rotation, mut misfit) = (0.0_f64, 0.0_f64);
+        for &node in nodes {
+            let mut turned_by = vec![0.0; self.dimension];
+            for (&plane, turn) in planes.iter().zip(turn.iter()) {
+                for (sum, x) in turned_by.iter_mut().zip(turned(node, plane)) {
+                    *sum += turn * x;
+                }
+            }
+            let by = self.of(self.displacements, node);
+            for (axis, turned_by) in turned_by.into_iter().enumerate() {
+                rotation = rotation.max(turned_by.abs());
+                misfit = misfit.max((by[axis] - shift[axis] - turned_by).abs());
+            }
         }
-    }
-    if misfit > LIKENESS {
-        return MotionKind::Deformation;
-    }
-    if rotation <= LIKENESS {
-        return MotionKind::Translation;
-    }
-    // In space the axis of W has the components W_21, −W_20, W_10, and a screw moves along it.
-    if let ([w10, w20, w21], [x, y, z]) = (&turn[..], &shift[..]) {
-        let along: f64 = w21 * x - w20 * y + w10 * z;
-        if along.abs() > LIKENESS * turn.iter().map(|w| w * w).sum::<f64>().sqrt() {
-            return MotionKind::Screw;
+        if misfit > LIKENESS {
+            return MotionKind::Deformation;
         }
+        if rotation <= LIKENESS {
+            return MotionKind::Translation;
+        }
+        // In space the axis of W has the components W_21, −W_20, W_10, and a screw moves along it.
+        if let ([w10, w20, w21], [x, y, z]) = (&turn[..], &shift[..]) {
+            let along: f64 = w21 * x - w20 * y + w10 * z;
+            if along.abs() > LIKENESS * turn.iter().map(|w| w * w).sum::<f64>().sqrt() {
+                return MotionKind::Screw;
+            }
+        }
+        MotionKind::Rotation
     }
-    MotionKind::Rotation
 }

@@ -1,13 +1,12 @@
 //! Validation of a saved state: whether this scene can have it at its time.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use super::Simulation;
 use crate::element::conduction::Partner;
 use crate::element::state::State;
 use crate::run::checkpoint::{Numbers, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::loads::{Course, MOTION_ROUNDINGS, extent};
+use eem_material::number::compensated::Sum;
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Scalar;
 
@@ -78,8 +77,8 @@ impl<const D: usize> Simulation<D> {
             group.audit(state)?;
         }
         let reservoirs = &self.conduction.reservoirs;
-        let (groups, gravity) = (self.stepper.all(), &self.loads.gravity);
-        let ledger = Ledger::of(state, &self.masses, groups, reservoirs, gravity);
+        let (mut groups, gravity) = (self.stepper.all(), &self.loads.gravity);
+        let ledger = Ledger::of(state, &self.masses, &mut groups, reservoirs, gravity);
         match ledger.infinite_entry() {
             None => Ok(()),
             Some((quantity, value, unit)) => Err(RestoreError::Total {
@@ -92,68 +91,57 @@ impl<const D: usize> Simulation<D> {
 
     /// Where masses couple nodes, `p = M v` must hold, and only moved anchors may have a velocity.
     fn audit_velocities(&self, state: &State) -> Result<(), RestoreError> {
-        let velocities: Vec<_> = state.velocities.sums().collect();
-        let motions = self.loads.motions.iter();
-        let moved: BTreeSet<_> = motions.map(|(node, _)| node.index).collect();
-        let still = |node: &usize| !velocities.is_empty() && !moved.contains(node);
-        for node in self.masses.anchors().filter(still) {
-            for axis in 0..D {
-                if let Some(value) = not_zero(velocities[node * D + axis]) {
-                    return Err(RestoreError::AnchorVelocity { node, axis, value });
+        if !state.velocities.values().is_empty() {
+            let mut moves = vec![false; self.masses.len()];
+            for (node, _) in &self.loads.motions {
+                moves[node.index] = true;
+            }
+            for node in self.masses.anchors().filter(|&node| !moves[node]) {
+                for axis in 0..D {
+                    if let Some(value) = not_zero(state.velocities.sum(node * D + axis)) {
+                        return Err(RestoreError::AnchorVelocity { node, axis, value });
+                    }
                 }
             }
         }
         let mut expected = state.clone();
         expected.follow_velocities(D, &self.masses);
-        let mut pairs = expected.momenta.values().iter().zip(state.momenta.values());
-        #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
-        let different = |(expected, value): &(&f64, &f64)| expected != value;
-        match pairs.find(different) {
-            None => Ok(()),
-            Some((_, value)) => Err(RestoreError::Value {
-                quantity: "momenta",
-                value: *value,
-                required: "those of the velocities, p = M v",
-            }),
-        }
+        expect_momenta(state.momenta.values(), expected.momenta.values())
     }
 
     /// Anchors must be where they were created or where their motion puts them, and have no momentum but that of solids.
     fn audit_anchors(&self, state: &State, step: f64) -> Result<(), RestoreError> {
-        let scale = extent(state.positions.values().iter());
+        let scale = extent(state.positions.values());
         let (time, created) = (state.time.value, self.state.positions.values());
         let begin = Scalar::maximum(time - step, self.start);
-        let positions: Vec<_> = state.positions.sums().collect();
-        let momenta: Vec<_> = state.momenta.sums().collect();
-        let motions = self.loads.motions.iter();
-        let motions: BTreeMap<_, _> = motions.map(|(node, by)| (node.index, by)).collect();
-        let masses = self.masses.iter().enumerate();
-        for (node, _) in masses.filter(|(_, mass)| mass.is_none()) {
-            let motion = motions.get(&node);
+        let mut motions = vec![None; self.masses.len()];
+        for (node, motion) in &self.loads.motions {
+            motions[node.index] = Some(motion);
+        }
+        for node in self.masses.anchors() {
             let home = self.homes.get(&node);
             for axis in 0..D {
                 let at = node * D + axis;
-                let momentum = not_zero(momenta[at]).filter(|_| !self.masses.are_coupled());
-                if let Some(value) = momentum {
+                let momentum = not_zero(state.momenta.sum(at));
+                if let Some(value) = momentum.filter(|_| !self.masses.are_coupled()) {
                     return Err(RestoreError::AnchorMomentum { node, axis, value });
                 }
+                let Sum { value, carry } = state.positions.sum(at);
                 let created = home.map_or(created[at], |home| home[axis]);
-                let (value, carry) = positions[at];
-                if matches!(motion, Some(Course::Set(_))) {
+                let (is_right, expected) = match motions[node] {
                     // The position depends on what controllers have set before.
-                    continue;
-                }
-                let motion = motion.and_then(|motion| match motion {
-                    Course::Function(of) => Some(of),
-                    Course::Constant(_) | Course::Set(_) => None,
-                });
-                #[expect(clippy::float_cmp, reason = "nothing has moved it")]
-                let is_at_home = value == created && carry == 0.0;
-                let is_right = motion.map_or(is_at_home, |by| {
-                    follows(&|time| by(time)[axis], value, [time, begin], scale)
-                });
+                    Some(Course::Set(_)) => continue,
+                    Some(Course::Function(by)) => {
+                        let by = |time: f64| by(time)[axis];
+                        (follows(&by, value, [time, begin], scale), by(time))
+                    }
+                    Some(Course::Constant(_)) | None => {
+                        #[expect(clippy::float_cmp, reason = "nothing has moved it")]
+                        let is_at_home = value == created && carry == 0.0;
+                        (is_at_home, created)
+                    }
+                };
                 if !is_right {
-                    let expected = motion.map_or(created, |by| by(time)[axis]);
                     return Err(RestoreError::Anchor {
                         node,
                         axis,
@@ -191,8 +179,22 @@ impl<const D: usize> Simulation<D> {
     }
 }
 
+/// An error unless momenta are those of the velocities.
+fn expect_momenta(momenta: &[f64], expected: &[f64]) -> Result<(), RestoreError> {
+    #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
+    let different = momenta.iter().zip(expected).find(|(a, b)| a != b);
+    match different {
+        None => Ok(()),
+        Some((value, _)) => Err(RestoreError::Value {
+            quantity: "momenta",
+            value: *value,
+            required: "those of the velocities, p = M v",
+        }),
+    }
+}
+
 /// A sum, unless it and its compensation are zero.
-fn not_zero((value, carry): (f64, f64)) -> Option<f64> {
+fn not_zero(Sum { value, carry }: Sum) -> Option<f64> {
     let is_zero = value == 0.0 && carry == 0.0;
     (!is_zero).then_some(value + carry)
 }

@@ -6,7 +6,7 @@ use super::stepper::Stepper;
 use super::{Simulation, StepResult, Tried};
 use crate::element::state::Energy;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
-use crate::step::automatic::{CANDIDATES, Verdict, implicit};
+use crate::step::automatic::{CANDIDATES, Verdict};
 use crate::step::control::Controller;
 use crate::step::error::StepFailure;
 use crate::step::explicit::{REAL_LIMIT, SavedExplicit};
@@ -169,9 +169,9 @@ impl<const D: usize> Simulation<D> {
             return None;
         }
         let (tolerance, unknowns) = (&control.memory.tolerance, self.layout.unknowns);
-        let others = implicit(self.in_use, tolerance, unknowns);
-        let others = others.filter(|&scheme| self.is_candidate(scheme, control));
-        let scheme = self.automatic.selection.next_in_turn(self.in_use, others)?;
+        let suits = |scheme: Scheme| self.is_candidate(scheme, control);
+        let selection = &self.automatic.selection;
+        let scheme = selection.next_in_turn(self.in_use, (tolerance, unknowns), &suits)?;
         let (schemes, relative) = ([self.in_use, scheme], tolerance.relative);
         let selection = &mut self.automatic.selection;
         let size = selection.implicit_trial(schemes, unknowns, relative)?;

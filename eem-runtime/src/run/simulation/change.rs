@@ -9,7 +9,7 @@ use super::compiled::Functions;
 use super::stepper::{Parts, Stepper};
 use crate::algebra::memory::TooLarge;
 use crate::element::ends::Ends;
-use crate::element::layout::Layout;
+use crate::element::layout::{Layout, Shape};
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
 use crate::step::automatic::SchemeSelection;
@@ -120,9 +120,11 @@ impl<const D: usize> Simulation<D> {
 
     /// The numbering of the unknowns and state variables, as the scene had it.
     pub(super) fn numbering(&self) -> Layout {
-        let is_mass = self.masses.iter().map(|mass| mass.is_some());
-        let shapes = self.places.iter();
-        let shapes = shapes.map(|&[group, _]| self.shapes[group as usize]);
+        let mut is_mass = self.masses.iter().map(|mass| mass.is_some());
+        let places = self.places.iter();
+        let mut shapes = places.map(|&[group, _]| self.shapes[group as usize]);
+        let is_mass: &mut dyn Iterator<Item = bool> = &mut is_mass;
+        let shapes: &mut dyn Iterator<Item = Shape> = &mut shapes;
         let mut layout = Layout::new(D, is_mass, shapes);
         layout.couple(|slot| self.conduction.meets_slots(slot));
         layout

@@ -11,7 +11,7 @@ use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
-use crate::step::control::{AFTER_FAILURE, Controller, StepStatistics, Tolerance, norm};
+use crate::step::control::{AFTER_FAILURE, Controller, StepStatistics, Tolerance, length};
 use crate::step::error::{StepError, StepFailure, StepLimit};
 use crate::step::explicit::Demand;
 use crate::step::scheme::Scheme;
@@ -305,7 +305,7 @@ impl<const D: usize> Simulation<D> {
     pub(super) fn accept(&self, control: &mut Control) {
         let memory = &mut control.memory;
         memory.statistics.accepted += 1;
-        let momentum = norm(self.state.momenta.values().iter().copied());
+        let momentum = length(self.state.momenta.values());
         memory.largest_momentum = Scalar::maximum(memory.largest_momentum, momentum);
     }
 

@@ -252,24 +252,9 @@ impl<const D: usize> Simulation<D> {
         {
             return Err(RestoreError::Loads);
         }
-        let scene = &self.scene;
-        let node = |index: usize| scene.node(index);
-        loads
-            .forces
-            .retain(|(_, force)| !matches!(force, Course::Set(_)));
-        loads
-            .motions
-            .retain(|(_, motion)| !matches!(motion, Course::Set(_)));
-        for (&index, force) in saved.forced.iter().zip(forces) {
-            loads
-                .forces
-                .push((node(index), Course::Set((*force).into())));
-        }
-        for (&index, velocity) in saved.moved.iter().zip(velocities) {
-            loads
-                .motions
-                .push((node(index), Course::Set((*velocity).into())));
-        }
+        let node = |index: usize| self.scene.node(index);
+        replace_set(&mut loads.forces, &node, (&saved.forced, forces));
+        replace_set(&mut loads.motions, &node, (&saved.moved, velocities));
         let mut temperatures = saved.temperatures.iter();
         for (_, own) in &mut loads.temperatures {
             if let (Course::Set(own), Some(saved)) = (own, temperatures.next()) {
@@ -281,6 +266,18 @@ impl<const D: usize> Simulation<D> {
         }
         self.reload(old.forced != saved.forced || old.moved != saved.moved)?;
         Ok(())
+    }
+}
+
+/// Replaces the courses that controllers have set by others, given the indices of their nodes.
+fn replace_set<const D: usize>(
+    all: &mut Vec<(Node, VectorCourse<D>)>,
+    node: &dyn Fn(usize) -> Node,
+    (nodes, values): (&[usize], &[[f64; D]]),
+) {
+    all.retain(|(_, course)| !matches!(course, Course::Set(_)));
+    for (&index, value) in nodes.iter().zip(values) {
+        all.push((node(index), Course::Set((*value).into())));
     }
 }
 

@@ -15,7 +15,7 @@ use core::f64::consts::TAU;
 use super::Simulation;
 use crate::algebra::vector;
 use crate::element::group::points;
-use crate::step::control::{Scales, norm};
+use crate::step::control::{Scales, length, norm};
 use eem_material::number::scalar::Scalar;
 
 /// The least way of one end of an element from the other that may be a flight, in units of their distance: that to a mirror image in a
@@ -31,33 +31,26 @@ impl<const D: usize> Simulation<D> {
     /// Whether the last step, made in two halves by a scheme of this order, flies with an element that vibrates faster than a half lasts.
     pub(super) fn flies(&self, size: f64, scales: &Scales<'_>, order: f64) -> bool {
         // After a step the next state is the one before it.
-        let states = [scales.before(), &self.next, &self.state];
-        let states = states.map(|state| points::<D>(state.positions.values()));
-        let share = (order.exp2() - 1.0).recip();
+        let start = points::<D>(scales.before().positions.values());
+        let middle = points::<D>(self.next.positions.values());
+        let end = points::<D>(self.state.positions.values());
+        let (share, least) = ((order.exp2() - 1.0).recip(), scales.position());
         let flies = |[a, b]: [usize; 2]| {
-            let arms = states.map(|at| vector(|axis| at[b][axis] - at[a][axis]));
-            let [start, middle, end]: [[f64; D]; 3] = arms;
-            let way = |from: [f64; D], to: [f64; D]| norm((0..D).map(|axis| to[axis] - from[axis]));
-            let (first, second) = (way(start, middle), way(middle, end));
-            let most = Scalar::maximum(first, second);
-            let least = Scalar::maximum(LEAST_WAY * way([0.0; D], start), scales.position());
-            let stands = Scalar::minimum(first, second) < share * most;
-            least < most && (stands || passes(start, middle) || passes(middle, end))
+            let arm = |at: &[[f64; D]]| vector::<f64, D>(|axis| at[b][axis] - at[a][axis]);
+            is_flight([&arm(start), &arm(middle), &arm(end)], share, least)
         };
         let mut elements = self.places.iter();
         let may_fly = elements.any(|&[group, place]| {
             let elements = self.stepper.elements(group as usize);
             arms(elements.nodes(place as usize)).any(flies)
         });
+        let mobility = |node: usize| self.masses.get(node).map_or(0.0, f64::recip);
         may_fly
             && self.stepper.all().any(|group| {
                 let mut is_found = false;
                 group.stiffness(scales.before(), &mut |point| {
                     is_found |= arms(point.nodes).any(|arm| {
-                        let mobilities =
-                            arm.map(|node| self.masses.get(node).map_or(0.0, f64::recip));
-                        let [a, b] = mobilities;
-                        let rate = (point.elastic * (a + b)).sqrt();
+                        let rate = (point.elastic * (mobility(arm[0]) + mobility(arm[1]))).sqrt();
                         0.5 * size * rate > TAU && flies(arm)
                     });
                 });
@@ -66,18 +59,32 @@ impl<const D: usize> Simulation<D> {
     }
 }
 
+/// Whether an arm flies, given it at the start, in the middle and at the end of a step: it makes less than a share of its way in one half
+/// or passes its other end, and more than this way, m.
+fn is_flight([start, middle, end]: [&[f64]; 3], share: f64, least: f64) -> bool {
+    let way = |from: &[f64], to: &[f64]| norm(to.iter().zip(from).map(|(to, from)| to - from));
+    let (first, second) = (way(start, middle), way(middle, end));
+    let most = Scalar::maximum(first, second);
+    let least = Scalar::maximum(LEAST_WAY * length(start), least);
+    let stands = Scalar::minimum(first, second) < share * most;
+    least < most && (stands || passes(start, middle) || passes(middle, end))
+}
+
 /// Whether the straight way of an arm passes its other end nearer than [`NEAREST`] of its lengths before and after.
-fn passes<const D: usize>(from: [f64; D], to: [f64; D]) -> bool {
-    let dot = |a: [f64; D], b: [f64; D]| (0..D).map(|axis| a[axis] * b[axis]).sum::<f64>();
-    let way = vector(|axis| to[axis] - from[axis]);
-    let share = -dot(from, way) / dot(way, way);
-    let nearest = vector(|axis| from[axis] + share * way[axis]);
-    let least = Scalar::minimum(dot(from, from), dot(to, to));
-    0.0 < share && share < 1.0 && dot(nearest, nearest) < NEAREST * NEAREST * least
+fn passes(from: &[f64], to: &[f64]) -> bool {
+    let sum = |of: &dyn Fn(f64, f64) -> f64| {
+        let ends = from.iter().zip(to);
+        ends.map(|(&from, &to)| of(from, to)).sum::<f64>()
+    };
+    let way = sum(&|from, to| (to - from) * (to - from));
+    let share = -sum(&|from, to| from * (to - from)) / way;
+    let nearest = sum(&|from, to| (from + share * (to - from)) * (from + share * (to - from)));
+    let least = Scalar::minimum(sum(&|from, _| from * from), sum(&|_, to| to * to));
+    0.0 < share && share < 1.0 && nearest < NEAREST * NEAREST * least
 }
 
 /// The first node of an element with each of the others.
 fn arms(nodes: &[u32]) -> impl Iterator<Item = [usize; 2]> {
-    let pairs = nodes.iter().skip(1).map(|&other| [nodes[0], other]);
-    pairs.map(|pair| pair.map(|node| node as usize))
+    let others = nodes.iter().skip(1);
+    others.map(|&other| [nodes[0] as usize, other as usize])
 }

@@ -16,7 +16,6 @@
 use super::guard::or_restore;
 use super::memory::{Control, Halves};
 use super::{Simulation, StepResult, Tried};
-use crate::element::group::points;
 use crate::element::state::State;
 use crate::step::control::{Kinds, LoadRounding, Scales};
 use crate::step::error::StepError;
@@ -26,8 +25,10 @@ impl<const D: usize> Simulation<D> {
     /// Work arrays for a whole step and for its two halves.
     pub(super) fn new_halves(&self) -> Halves {
         let (past, _) = self.stepper.past(&self.state);
-        let temperatures = self.loads.temperatures.iter();
-        let slots = temperatures.map(|(element, _)| self.thermal_slot(*element).ok());
+        let mut slots = Vec::new();
+        for (element, _) in &self.loads.temperatures {
+            slots.push(self.thermal_slot(*element).ok());
+        }
         let counts = [self.masses.len(), self.layout.thermal];
         Halves {
             before: State::clone(&self.state),
@@ -37,7 +38,7 @@ impl<const D: usize> Simulation<D> {
                 are_strains: self.viscous_strains(),
                 are_given: self.prescribed_momenta(),
             },
-            rounding: LoadRounding::new(&self.loads, slots.collect(), counts),
+            rounding: LoadRounding::new(&self.loads, slots, counts),
         }
     }
 
@@ -54,22 +55,22 @@ impl<const D: usize> Simulation<D> {
         let ends = [&halves.before, &*self.state];
         let accurate = (accuracy, size);
         let least = (memory.largest_momentum, &self.least);
-        let scales = Scales::new::<D>(&memory.tolerance, accurate, ends, least);
+        let scales = Scales::new(D, &memory.tolerance, accurate, ends, least);
         if self.flies(size, &scales, accuracy.order()) {
             self.return_to(halves);
             return Ok(Tried::Rejected(f64::INFINITY));
         }
         let states = [&halves.whole, &*self.state];
-        report.error = scales.error::<D>(states, &halves.kinds, None);
+        report.error = scales.error(states, &halves.kinds, None);
         if accuracy.holds_back(report.error) {
             let span = [halves.before.time.value, size];
             halves.rounding.find(&self.loads, &self.least, span);
-            let beyond = scales.error::<D>(states, &halves.kinds, Some(&halves.rounding));
+            let beyond = scales.error(states, &halves.kinds, Some(&halves.rounding));
             let accurate = (memory.tolerance.relative, accuracy);
             // After a step the next state is the one before it.
-            let rests = [&*self.next, &*self.state]
-                .iter()
-                .all(|state| self.rests_between([&halves.before, state]));
+            let ends = [&*self.next, &*self.state];
+            let mut ends = ends.into_iter();
+            let rests = ends.all(|state| self.least.all_rest(D, [&halves.before, state]));
             report.error = if rests {
                 beyond
             } else {
@@ -81,19 +82,6 @@ impl<const D: usize> Simulation<D> {
         }
         self.return_to(halves);
         Ok(Tried::Rejected(report.error))
-    }
-
-    /// Whether the motion between two states is rounding.
-    #[cold]
-    fn rests_between(&self, states: [&State; 2]) -> bool {
-        let [positions, momenta] = [
-            states.map(|state| points::<D>(state.positions.values())),
-            states.map(|state| points::<D>(state.momenta.values())),
-        ];
-        (0..self.masses.len()).all(|node| {
-            let positions = positions.map(|points| &points[node]);
-            (self.least).rests(node, positions, momenta.map(|points| &points[node]))
-        })
     }
 
     /// A whole step, stored in `halves`, and one in two halves. If one fails, the state is that before both.

@@ -14,7 +14,7 @@ use crate::element::loads::point;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
-use crate::step::control::norm;
+use crate::step::control::length;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
@@ -351,14 +351,14 @@ impl<const D: usize> Simulation<D> {
     #[doc(hidden)]
     #[must_use]
     pub fn size_of_positions(&self) -> f64 {
-        norm(self.state.positions.values().iter().copied())
+        length(self.state.positions.values())
     }
 
     /// `|p|₂` of the masses, the largest so far if steps are controlled, kg m/s.
     #[doc(hidden)]
     #[must_use]
     pub fn largest_momentum(&self) -> f64 {
-        let own = norm(self.state.momenta.values().iter().copied());
+        let own = length(self.state.momenta.values());
         let control = self.control.as_ref();
         let before = control.map_or(0.0, |control| control.memory.largest_momentum);
         Scalar::maximum(own, before)
@@ -400,7 +400,7 @@ impl<const D: usize> Simulation<D> {
         let sheet = Ledger::of(
             &self.state,
             &self.masses,
-            self.stepper.all(),
+            &mut self.stepper.all(),
             &self.conduction.reservoirs,
             &self.loads.gravity,
         );

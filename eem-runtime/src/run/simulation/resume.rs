@@ -34,11 +34,11 @@ impl<const D: usize> Simulation<D> {
     pub(super) fn checkpoint_here(&self) -> Checkpoint {
         let (past, explicit) = self.stepper.past(&self.state);
         let shapes = self.places.iter();
-        let shapes = shapes.map(|&[group, _]| self.shapes[group as usize]);
+        let mut shapes = shapes.map(|&[group, _]| self.shapes[group as usize]);
         let reservoirs = self.conduction.reservoirs.len();
         Checkpoint {
             scheme: self.scheme,
-            outline: Outline::new(D, &self.masses, shapes, reservoirs),
+            outline: Outline::new(D, &self.masses, &mut shapes, reservoirs),
             numbers: self.numbers(),
             step: self.step,
             newton: self.newton_settings(),

@@ -10,8 +10,9 @@ use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
+use crate::scene::entry::ElementEntry;
 use crate::scene::error::SceneError;
-use crate::scene::loads::{Course, Loads, OfTime};
+use crate::scene::loads::{Course, Loads, Written, written};
 use crate::scene::solid_error::SolidError;
 use crate::step::control::Tolerance;
 use eem_material::number::compensated::{Compensated, Sum};
@@ -53,16 +54,17 @@ pub(crate) fn initial_state<const D: usize>(
         let mass = node.mass.unwrap_or(0.0);
         let still = SVector::from([0.0; D]);
         let moves = step.is_some();
-        positions.extend(node.position.iter());
+        positions.extend_from_slice(node.position.as_slice());
         let momentum = if moves {
             node.start_momentum(mass)
         } else {
             still
         };
-        momenta.extend(momentum.iter());
+        momenta.extend_from_slice(momentum.as_slice());
         if is_coupled {
-            let velocity = node.mass.filter(|_| moves).map_or(still, |_| node.velocity);
-            velocities.extend(velocity.iter());
+            let has_speed = moves && node.mass.is_some();
+            let velocity = if has_speed { &node.velocity } else { &still };
+            velocities.extend_from_slice(velocity.as_slice());
         }
     }
     if let Some(step) = step.filter(|_| is_coupled) {
@@ -72,11 +74,32 @@ pub(crate) fn initial_state<const D: usize>(
     if !errors.is_empty() {
         return Err(errors);
     }
+    let nodes = [
+        Compensated::new(positions),
+        Compensated::new(momenta),
+        Compensated::new(velocities),
+    ];
+    let reservoirs = scene.reservoirs.len();
+    Ok(state(
+        scene.start,
+        nodes,
+        (&scene.elements, layout),
+        reservoirs,
+    ))
+}
+
+/// The initial state with these positions, momenta and velocities of nodes.
+fn state(
+    time: f64,
+    [positions, momenta, velocities]: [Compensated; 3],
+    (elements, layout): (&[ElementEntry], &Layout),
+    reservoirs: usize,
+) -> State {
     let zeros = |count| vec![0.0; count];
     let zero = Sum::new(0.0);
     let mut viscous = zeros(layout.viscous);
     let mut temperatures = zeros(layout.thermal);
-    for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
+    for (entry, slots) in elements.iter().zip(&layout.elements) {
         for &(dashpot, stretch) in &entry.viscous_stretches {
             viscous[slots.viscous + dashpot] = stretch;
         }
@@ -84,22 +107,22 @@ pub(crate) fn initial_state<const D: usize>(
             temperatures[slot] = temperature;
         }
     }
-    Ok(State {
-        time: Sum::new(scene.start),
-        positions: Compensated::new(positions),
-        momenta: Compensated::new(momenta),
-        velocities: Compensated::new(velocities),
+    State {
+        time: Sum::new(time),
+        positions,
+        momenta,
+        velocities,
         viscous: Compensated::new(viscous),
         entropies: Compensated::new(zeros(layout.thermal)),
         temperatures,
-        energies: vec![Energy::zero(); scene.elements.len()],
-        reservoir_entropies: Compensated::new(zeros(scene.reservoirs.len())),
+        energies: vec![Energy::zero(); elements.len()],
+        reservoir_entropies: Compensated::new(zeros(reservoirs)),
         work: zero,
         heat: zero,
         thermostat_entropy: zero,
         dissipated: zero,
         meters: Meters::default(),
-    })
+    }
 }
 
 /// Writes the initial velocities of all motions; the errors of those that have none.
@@ -113,24 +136,30 @@ pub(super) fn find_speeds<const D: usize>(
         let Course::Function(motion) = motion else {
             continue;
         };
-        for (axis, speed) in first_speed(motion, span).into_iter().enumerate() {
+        let speeds = &mut velocities[node.index * D..][..D];
+        find_speed(&written(motion), span, speeds);
+        for (axis, speed) in speeds.iter().enumerate() {
             if !speed.is_finite() {
                 errors.push(SolidError::AnchorSpeed { node: *node, axis }.into());
             }
-            velocities[node.index * D + axis] = speed;
         }
     }
     errors
 }
 
-/// The initial velocity of a motion, from its positions within the first step, m/s; not a number if it has none.
-fn first_speed<const D: usize>(motion: &OfTime<D>, [start, step]: [f64; 2]) -> [f64; D] {
+/// Finds the initial velocity of a motion from its positions within the first step, m/s; not a number if it has none.
+fn find_speed(motion: Written<'_>, [start, step]: [f64; 2], speeds: &mut [f64]) {
+    let place_at = |time: f64| {
+        let mut place = vec![0.0; speeds.len()];
+        motion(time, &mut place);
+        place
+    };
     let spans = shares().map(|share| share * step);
-    let (first, places) = (motion(start), spans.map(|span| motion(start + span)));
-    vector(|axis| {
-        let values = places.map(|place| place[axis]);
-        derivative(first[axis], (spans, values))
-    })
+    let (first, places) = (place_at(start), spans.map(|span| place_at(start + span)));
+    for (axis, speed) in speeds.iter_mut().enumerate() {
+        let values = vector(|at| places[at][axis]);
+        *speed = derivative(first[axis], (spans, values));
+    }
 }
 
 /// Finds the entropies of the initial state; all its errors if it is impossible.
@@ -145,8 +174,8 @@ pub(super) fn find_entropies<const D: usize>(
     }
     if errors.is_empty() {
         let (reservoirs, gravity) = (&parts.conduction.reservoirs, &parts.loads.gravity);
-        let groups = elements.iter().map(|group| &**group);
-        let ledger = Ledger::of(state, parts.masses, groups, reservoirs, gravity);
+        let mut groups = elements.iter().map(|group| &**group);
+        let ledger = Ledger::of(state, parts.masses, &mut groups, reservoirs, gravity);
         let infinite = ledger.infinite_entry();
         errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
             quantity,

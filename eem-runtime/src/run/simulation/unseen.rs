@@ -3,11 +3,12 @@
 use super::Simulation;
 use super::memory::Control;
 use crate::element::conjugates::end_weight;
-use crate::scene::loads::{OfTime, ScalarOfTime};
-use crate::step::control::{Controller, Scales, Tolerance};
+use crate::scene::loads::{Loads, ScalarOfTime, Written, inside, written, written_scalar};
+use crate::step::control::{Controller, LeastScales, Scales};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::load_rule::LoadRule;
-use crate::step::samples::{Grid, Look, MOST};
+use crate::step::samples::{Component, Grid, MOST};
+use crate::step::scheme::Scheme;
 use crate::step::timed::TimedLoad;
 use eem_material::number::scalar::{Scalar, is_positive};
 
@@ -25,41 +26,7 @@ const FEW: f64 = 0.5;
 /// Roundings between a time and one at which steps end, in ε: as between the last full step and the end of a run.
 const STOP_ROUNDINGS: f64 = 4.0;
 
-/// A load as a function of time.
-enum Timed<'a, const D: usize> {
-    Vector(TimedLoad, &'a OfTime<D>),
-    Scalar(TimedLoad, &'a ScalarOfTime),
-}
-
 impl<const D: usize> Simulation<D> {
-    /// All loads that are functions of time.
-    fn timed_loads(&self) -> impl Iterator<Item = Timed<'_, D>> {
-        let loads = &self.loads;
-        let forces = loads.forces.iter().filter_map(|(node, course)| {
-            let of = course.function()?;
-            Some(Timed::Vector(TimedLoad::Force(*node), of))
-        });
-        let thrusts = loads.rockets.iter().map(|rocket| {
-            let load = TimedLoad::Thrust(rocket.line.node);
-            Timed::Scalar(load, &rocket.thrust)
-        });
-        let motions = loads.motions.iter().filter_map(|(anchor, course)| {
-            let of = course.function()?;
-            Some(Timed::Vector(TimedLoad::Motion(*anchor), of))
-        });
-        let temperatures = loads.temperatures.iter().filter_map(|(element, course)| {
-            let of = course.function()?;
-            Some(Timed::Scalar(TimedLoad::Temperature(*element), of))
-        });
-        let ovens = loads.ovens.iter();
-        let ovens = ovens.map(|(index, of)| Timed::Scalar(TimedLoad::Oven(*index), of));
-        forces
-            .chain(thrusts)
-            .chain(motions)
-            .chain(temperatures)
-            .chain(ovens)
-    }
-
     /// The first load that a step of this size would pass over, in a run to the end that `control` knows.
     ///
     /// Functions of time are called in the step only, at times that depend on its start, its size and that end.
@@ -81,119 +48,26 @@ impl<const D: usize> Simulation<D> {
         }
         // The fewest samples if the run has no end.
         let longest = if longest.is_finite() { longest } else { size };
-        let grid = Grid::new([self.time(), size], longest);
         // The scales of the error of a step that changes nothing.
         let (memory, accurate) = (&control.memory, (control.accuracy, size));
         let least = (memory.largest_momentum, &self.least);
-        let scales = Scales::new::<D>(&memory.tolerance, accurate, [&self.state; 2], least);
-        // A shorter step is cheaper than so many samples.
-        let are_too_many = size > f64::from(MOST) * longest;
-        for timed in self.timed_loads() {
-            let (Timed::Vector(load, _) | Timed::Scalar(load, _)) = timed;
-            if is_short && !matches!(load, TimedLoad::Oven(_)) {
-                continue;
-            }
-            let passes = are_too_many || {
-                let passes = self.passes_over(&timed, (control, &scales), &grid);
-                passes.map_err(|failure| self.failed(size, failure))?
-            };
-            if passes {
-                return Ok(Some(load));
-            }
-        }
-        Ok(None)
-    }
-
-    /// Whether a step passes over a load.
-    fn passes_over(
-        &self,
-        timed: &Timed<'_, D>,
-        (control, scales): (&Control, &Scales<'_>),
-        grid: &Grid,
-    ) -> Result<bool, StepFailure> {
-        let tolerance = &control.memory.tolerance;
-        let inside = |time| self.loads.inside(grid.span(), time);
-        match timed {
-            Timed::Vector(load, of) => {
-                let of = |time| {
-                    let time = inside(time);
-                    let value: [f64; D] = of(time).into();
-                    match value.iter().position(|value| !value.is_finite()) {
-                        Some(axis) => Err(StepFailure::of_load(*load, axis, value[axis], time)),
-                        None => Ok(value),
-                    }
-                };
-                if let TimedLoad::Motion(anchor) = load {
-                    let look = grid.look(of)?;
-                    if look.misses_height(scales.height()) {
-                        return Ok(true);
-                    }
-                    // Times the stiffness, the displacement is a force on a mass.
-                    let allowed = scales.displacement::<D>(anchor.index);
-                    let order = control.accuracy.order_of_halves();
-                    let rule = LoadRule::of_motions(self.in_use, order);
-                    return passes_over_integral(&look, rule, (allowed, tolerance), (grid, of));
-                }
-                self.passes_over_force(load, (control, scales), (grid, &of))
-            }
-            Timed::Scalar(load, of) => {
-                let is_force = matches!(load, TimedLoad::Thrust(_));
-                let of = |time| {
-                    let time = inside(time);
-                    let value = of(time);
-                    if is_force && value.is_finite() || is_positive(value) {
-                        Ok([value])
-                    } else {
-                        Err(StepFailure::of_load(*load, 0, value, time))
-                    }
-                };
-                if is_force {
-                    return self.passes_over_force(load, (control, scales), (grid, &of));
-                }
-                let look = grid.look(of)?;
-                let height = tolerance.relative * look.first[0] + tolerance.temperature;
-                if look.misses_height(height) {
-                    return Ok(true);
-                }
-                let TimedLoad::Oven(index) = *load else {
-                    return Ok(false);
-                };
-                // Every scheme takes the temperature of an oven from the middle of a step, whatever its order. An element that
-                // exchanges heat with it differs by no more than the mean does, and by what it lags behind.
-                let order = control.accuracy.order_of_halves();
-                let rule = LoadRule::middle(order);
-                let means = grid.means(rule, of)?;
-                let rule = LoadRule {
-                    order: None,
-                    ..rule
-                };
-                let [_, size] = grid.span();
-                let (part, [change]) = (if order.is_some() { 0.5 } else { 1.0 }, look.variation());
-                let lag = lag(part * size * self.least.exchange(index), part * change);
-                Ok(height < lag || look.differs(means, rule, [size * height, 0.0]))
-            }
-        }
-    }
-
-    /// Whether a step passes over a force or a thrust: the impulse that it may miss is the tolerance of the momentum.
-    fn passes_over_force<const N: usize>(
-        &self,
-        load: &TimedLoad,
-        (control, scales): (&Control, &Scales<'_>),
-        (grid, of): (&Grid, &impl Fn(f64) -> Result<[f64; N], StepFailure>),
-    ) -> Result<bool, StepFailure> {
-        let look = grid.look(of)?;
-        let (TimedLoad::Force(node) | TimedLoad::Thrust(node)) = load else {
-            return Ok(false);
+        let mut lookout = Lookout {
+            grid: Grid::new([self.time(), size], longest),
+            scales: Scales::new(D, &memory.tolerance, accurate, [&self.state; 2], least),
+            control,
+            least: &self.least,
+            scheme: self.in_use,
+            stops: &self.loads.stops,
+            // A shorter step is cheaper than so many samples.
+            are_too_many: size > f64::from(MOST) * longest,
+            memory: (&mut [0.0; D], &mut [Component::default(); D]),
         };
-        let impulse = scales.momentum::<D>(node.index);
-        let rule = LoadRule::of_forces(self.in_use, control.accuracy.order_of_halves());
-        passes_over_integral(
-            &look,
-            rule,
-            (impulse, &control.memory.tolerance),
-            (grid, of),
-        )
+        let passed = if is_short {
+            lookout.first_oven(&self.loads.ovens)
+        } else {
+            lookout.first(&self.loads)
+        };
+        passed.map_err(|failure| self.failed(size, failure))
     }
 
     /// The end of the next step that is not later than `end`, s: `end` or an earlier time at which steps end. At the beginning of
@@ -244,16 +118,136 @@ fn lag(x: f64, change: f64) -> f64 {
     end_weight(x) * change
 }
 
-/// Whether samples or the rule of a step miss more of the integral of a function of time than allowed.
-fn passes_over_integral<const N: usize>(
-    look: &Look<N>,
-    rule: LoadRule,
-    (allowed, tolerance): (f64, &Tolerance),
-    (grid, of): (&Grid, impl Fn(f64) -> Result<[f64; N], StepFailure>),
-) -> Result<bool, StepFailure> {
-    if look.misses_impulse(allowed) {
-        return Ok(true);
+/// What decides whether a step passes over a load.
+struct Lookout<'a> {
+    grid: Grid,
+    control: &'a Control,
+    scales: Scales<'a>,
+    least: &'a LeastScales,
+    scheme: Scheme,
+    /// Times at which steps end, s.
+    stops: &'a [f64],
+    /// Whether there are more samples than are looked at, so that every load counts as passed over.
+    are_too_many: bool,
+    /// For the value of a load, and for what is seen of each component.
+    memory: (&'a mut [f64], &'a mut [Component]),
+}
+
+impl Lookout<'_> {
+    /// The first load that the step passes over.
+    fn first<const D: usize>(
+        &mut self,
+        loads: &Loads<D>,
+    ) -> Result<Option<TimedLoad>, StepFailure> {
+        for (node, course) in &loads.forces {
+            let load = TimedLoad::Force(*node);
+            if let Some(of) = course.function()
+                && self.passes_over(load, &written(of))?
+            {
+                return Ok(Some(load));
+            }
+        }
+        for rocket in &loads.rockets {
+            let load = TimedLoad::Thrust(rocket.line.node);
+            if self.passes_over(load, &written_scalar(&rocket.thrust))? {
+                return Ok(Some(load));
+            }
+        }
+        for (anchor, course) in &loads.motions {
+            let load = TimedLoad::Motion(*anchor);
+            if let Some(of) = course.function()
+                && self.passes_over(load, &written(of))?
+            {
+                return Ok(Some(load));
+            }
+        }
+        for (element, course) in &loads.temperatures {
+            let load = TimedLoad::Temperature(*element);
+            if let Some(of) = course.function()
+                && self.passes_over(load, &written_scalar(of))?
+            {
+                return Ok(Some(load));
+            }
+        }
+        self.first_oven(&loads.ovens)
     }
-    let means = grid.means(rule, of)?;
-    Ok(look.differs(means, rule, [allowed, tolerance.relative]))
+
+    /// The first of these ovens that the step passes over.
+    fn first_oven(
+        &mut self,
+        ovens: &[(usize, ScalarOfTime)],
+    ) -> Result<Option<TimedLoad>, StepFailure> {
+        for (index, of) in ovens {
+            let load = TimedLoad::Oven(*index);
+            if self.passes_over(load, &written_scalar(of))? {
+                return Ok(Some(load));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether the step passes over a load. The impulse of a force that it may miss is the tolerance of the momentum.
+    fn passes_over(&mut self, load: TimedLoad, of: Written<'_>) -> Result<bool, StepFailure> {
+        if self.are_too_many {
+            return Ok(true);
+        }
+        let (grid, stops) = (&self.grid, self.stops);
+        let is_valid: fn(f64) -> bool = match load {
+            TimedLoad::Force(_) | TimedLoad::Thrust(_) | TimedLoad::Motion(_) => f64::is_finite,
+            TimedLoad::Temperature(_) | TimedLoad::Oven(_) => is_positive,
+        };
+        let of = |time: f64, value: &mut [f64]| {
+            let time = inside(stops, grid.span(), time);
+            of(time, value);
+            match value.iter().position(|&value| !is_valid(value)) {
+                Some(axis) => Err(StepFailure::of_load(load, axis, value[axis], time)),
+                None => Ok(()),
+            }
+        };
+        let components = match load {
+            TimedLoad::Force(_) | TimedLoad::Motion(_) => self.memory.0.len(),
+            TimedLoad::Thrust(_) | TimedLoad::Temperature(_) | TimedLoad::Oven(_) => 1,
+        };
+        let (value, seen) = (&mut *self.memory.0, &mut *self.memory.1);
+        let mut look = grid.look(&of, &mut value[..components], &mut seen[..components])?;
+        let tolerance = &self.control.memory.tolerance;
+        let height = match load {
+            TimedLoad::Force(_) | TimedLoad::Thrust(_) => f64::INFINITY,
+            TimedLoad::Motion(_) => self.scales.height(),
+            TimedLoad::Temperature(_) | TimedLoad::Oven(_) => {
+                tolerance.relative * look.first(0) + tolerance.temperature
+            }
+        };
+        if look.misses_height(height) {
+            return Ok(true);
+        }
+        let order = self.control.accuracy.order_of_halves();
+        let (rule, allowed) = match load {
+            TimedLoad::Force(node) | TimedLoad::Thrust(node) => (
+                LoadRule::of_forces(self.scheme, order),
+                self.scales.momentum(node.index),
+            ),
+            // Times the stiffness, the displacement is a force on a mass.
+            TimedLoad::Motion(anchor) => (
+                LoadRule::of_motions(self.scheme, order),
+                self.scales.displacement(anchor.index),
+            ),
+            TimedLoad::Temperature(_) => return Ok(false),
+            TimedLoad::Oven(index) => {
+                // Every scheme takes the temperature of an oven from the middle of a step, whatever its order. An element that
+                // exchanges heat with it differs by no more than the mean does, and by what it lags behind.
+                look.find_means(&LoadRule::middle(order))?;
+                let [_, size] = grid.span();
+                let part = if order.is_some() { 0.5 } else { 1.0 };
+                let change = part * look.variation(0);
+                let lag = lag(part * size * self.least.exchange(index), change);
+                return Ok(height < lag || look.differs(None, [size * height, 0.0]));
+            }
+        };
+        if look.misses_impulse(allowed) {
+            return Ok(true);
+        }
+        look.find_means(&rule)?;
+        Ok(look.differs(rule.order, [allowed, tolerance.relative]))
+    }
 }

@@ -24,11 +24,11 @@ impl<const D: usize> Simulation<D> {
                 let ends = [&halves.before, &*self.state];
                 let least = (control.memory.largest_momentum, &self.least);
                 let accuracy = control.accuracy;
-                let scales = Scales::new::<D>(tolerance, (accuracy, size), ends, least);
+                let scales = Scales::new(D, tolerance, (accuracy, size), ends, least);
                 let states = [&halves.whole, &*self.state];
                 let span = [halves.before.time.value, size];
                 halves.rounding.find(&self.loads, &self.least, span);
-                let worst = scales.worst::<D>(states, &halves.kinds, &halves.rounding);
+                let worst = scales.worst(states, &halves.kinds, &halves.rounding);
                 self.return_to(halves);
                 worst?
             }

@@ -1,6 +1,7 @@
 //! The contribution of the nodes to the certificate of a step: kinetic energy, work and momenta.
 
 use crate::algebra::bivector::Bivector;
+use crate::step::scaled::scaled;
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::Scalar;
 
@@ -122,8 +123,8 @@ impl<const D: usize> Motion<D> {
         self.energy.add(gain);
         self.kinetic += size;
         if D > 0 && !matches!(self.kept, Kept::None) {
-            let load = force.map(|force| force.map(|force| step * force));
-            self.see_momenta(node, &load.unwrap_or([0.0; D]));
+            let load = force.map_or([0.0; D], |force| scaled(step, force));
+            self.see_momenta(node, &load);
         }
         if let Some(force) = force {
             for (&force, &displacement) in force.iter().zip(node.displacement) {

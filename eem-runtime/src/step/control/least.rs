@@ -3,13 +3,12 @@
 use core::f64::consts::TAU;
 use std::collections::BTreeMap;
 
-use crate::algebra::vector;
 use crate::element::conduction::{Conduction, Partner};
-use crate::element::group::{Elements, points};
+use crate::element::group::Elements;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::step::control::controller::Accuracy;
-use crate::step::control::norm::{ROUNDINGS, norm};
+use crate::step::control::norm::{ROUNDINGS, length, norm};
 use eem_material::number::scalar::Scalar;
 
 /// A momentum that grows counts for at most this multiple of itself.
@@ -88,7 +87,7 @@ impl LeastScales {
         (masses, conduction): (&Masses, &Conduction),
         (state, gravity, moved): (&State, f64, &[usize]),
     ) -> Self {
-        let size = norm(state.positions.values().iter().copied());
+        let size = length(state.positions.values());
         let size = if size > 0.0 { size } else { 1.0 };
         // Stiffness, damping, shortest length and terms of forces at each node.
         let mut around = vec![([0.0; 3], f64::MAX); masses.len()];
@@ -216,21 +215,40 @@ impl LeastScales {
         Scalar::maximum(beyond, accuracy.settled())
     }
 
-    /// Whether a mass moves by no more than the rounding of the forces on it moves it in a period `2π/ω`, given its positions and momenta
-    /// at two times: a momentum by the rounding of their impulse, a distance by that over m ω.
+    /// Whether no mass moves between two states by more than the rounding of the forces on it, given the dimension of space.
+    pub(crate) fn all_rest<'a>(&self, dimension: usize, [old, new]: [&'a State; 2]) -> bool {
+        let positions = [old.positions.values(), new.positions.values()];
+        let momenta = [old.momenta.values(), new.momenta.values()];
+        (0..self.nodes.len()).all(|node| {
+            let first = node * dimension;
+            let of_node = |all: &'a [f64]| &all[first..first + dimension];
+            self.is_at_rest(node, positions.map(of_node), momenta.map(of_node))
+        })
+    }
+
+    /// Whether a mass of these positions and momenta at two times rests, see [`is_at_rest`](Self::is_at_rest).
     pub(crate) fn rests<const D: usize>(
         &self,
         node: usize,
-        positions: [&[f64; D]; 2],
-        momenta: [&[f64; D]; 2],
+        [old, new]: [&[f64; D]; 2],
+        [before, after]: [&[f64; D]; 2],
+    ) -> bool {
+        self.is_at_rest(node, [old, new], [before, after])
+    }
+
+    /// Whether a mass moves by no more than the rounding of the forces on it moves it in a period `2π/ω`, given its positions and momenta
+    /// at two times: a momentum by the rounding of their impulse, a distance by that over m ω.
+    fn is_at_rest(
+        &self,
+        node: usize,
+        [old, new]: [&[f64]; 2],
+        [before, after]: [&[f64]; 2],
     ) -> bool {
         let AtNode { period, mass, .. } = self.nodes[node];
-        let length = |vector: [f64; D]| norm(vector.iter().copied());
-        let [old, new] = positions;
-        let distance = Scalar::maximum(length(*old), length(*new));
+        let distance = Scalar::maximum(length(old), length(new));
         let rounding = self.rounding(node, period, distance);
-        let way = length(vector(|axis| new[axis] - old[axis]));
-        let momentum = Scalar::maximum(length(*momenta[0]), length(*momenta[1]));
+        let way = norm(new.iter().zip(old).map(|(new, old)| new - old));
+        let momentum = Scalar::maximum(length(before), length(after));
         let is_held = period < f64::MAX;
         mass <= 0.0 || (is_held && Scalar::maximum(momentum, mass * way * TAU / period) <= rounding)
     }
@@ -281,10 +299,15 @@ impl LeastScales {
 
     /// |λ|₂ of all springs with dashpots in series, m: the size of their viscous stretches, wherever the springs are.
     pub(crate) fn stretches<const D: usize>(&self, positions: &[f64]) -> f64 {
-        let points = points::<D>(positions);
-        norm(self.viscous.iter().flat_map(|ends| {
-            let [a, b] = ends.map(|end| points[end as usize]);
-            (0..D).map(move |axis| b[axis] - a[axis])
+        self.stretches_in(D, positions)
+    }
+
+    /// The same, given the dimension of space.
+    pub(super) fn stretches_in(&self, dimension: usize, positions: &[f64]) -> f64 {
+        norm((0..self.viscous.len() * dimension).map(|component| {
+            let ([a, b], axis) = (self.viscous[component / dimension], component % dimension);
+            let [a, b] = [a as usize * dimension, b as usize * dimension];
+            positions[b + axis] - positions[a + axis]
         }))
     }
 

@@ -1,8 +1,10 @@
 //! The rounding of loads that are functions of time.
 
-use crate::scene::loads::Loads;
+use core::mem;
+
+use crate::scene::loads::{Loads, Written, inside, written, written_scalar};
 use crate::step::control::least::LeastScales;
-use crate::step::control::norm::{ROUNDINGS, norm};
+use crate::step::control::norm::{ROUNDINGS, length, norm};
 use eem_material::number::scalar::Scalar;
 
 /// Roundings of the time in the estimate of an error, in ε: half of one at each stage, with weights whose magnitudes add up to 4.2 in
@@ -80,28 +82,32 @@ impl LoadRounding {
         ] {
             all.fill(0.0);
         }
+        let mut memory = [[0.0; D]; 2];
+        let mut of_vector = |of| terms(&loads.stops, span, &written(of), memory.as_flattened_mut());
+        let of_scalar = |of| terms(&loads.stops, span, &written_scalar(of), &mut [0.0; 2]);
+        let impulses = &mut self.impulses;
+        let mut push = |node: usize, [size, rate]: [f64; 2]| {
+            let duration = least.time_of_impulse(node, h);
+            impulses[node] += duration * (rounding * size + time * rate);
+        };
         for (node, force) in &loads.forces {
-            let [size, rate] = match force.function() {
-                Some(of) => terms(loads, span, |time| of(time).into()),
+            let terms = match force.function() {
+                Some(of) => of_vector(of),
                 None => [
-                    norm(force.position(start, &[0.0; D], 1.0).iter().copied()),
+                    length(force.position(start, &[0.0; D], 1.0).as_slice()),
                     0.0,
                 ],
             };
-            let duration = least.time_of_impulse(node.index, h);
-            self.impulses[node.index] += duration * (rounding * size + time * rate);
+            push(node.index, terms);
         }
         for rocket in &loads.rockets {
-            let [size, rate] = terms(loads, span, |time| [(rocket.thrust)(time)]);
-            let node = rocket.line.node.index;
-            let duration = least.time_of_impulse(node, h);
-            self.impulses[node] += duration * (rounding * size + time * rate);
+            push(rocket.line.node.index, of_scalar(&rocket.thrust));
         }
         for (anchor, motion) in &loads.motions {
             let Some(of) = motion.function() else {
                 continue;
             };
-            let [_, speed] = terms(loads, span, |time| of(time).into());
+            let [_, speed] = of_vector(of);
             let height = time * speed;
             self.positions[anchor.index] += height;
             for (mass, stiffness) in least.pulled_by(anchor.index) {
@@ -111,7 +117,7 @@ impl LoadRounding {
         }
         for ((_, course), slot) in loads.temperatures.iter().zip(&self.slots) {
             if let (Some(of), Some(slot)) = (course.function(), *slot) {
-                let [_, rate] = terms(loads, span, |time| [of(time)]);
+                let [_, rate] = of_scalar(of);
                 self.temperatures[slot] += time * rate;
             }
         }
@@ -139,24 +145,21 @@ impl LoadRounding {
 }
 
 /// The largest magnitude of a function in a step, and the largest one of its rate of change, 1/s, by differences. Zero unless they
-/// are finite.
-fn terms<const N: usize, const D: usize>(
-    loads: &Loads<D>,
-    [start, h]: [f64; 2],
-    of: impl Fn(f64) -> [f64; N],
-) -> [f64; 2] {
+/// are finite. There is memory for two of its values.
+fn terms(stops: &[f64], [start, h]: [f64; 2], of: Written<'_>, memory: &mut [f64]) -> [f64; 2] {
     let parts = f64::from(PARTS);
-    let mut largest = [0.0; 2];
-    let mut last = None;
+    let (mut value, mut last) = memory.split_at_mut(memory.len() / 2);
+    let [mut size, mut rate] = [0.0; 2];
     for part in 0..=PARTS {
         let time = start + f64::from(part) / parts * h;
-        let value = of(loads.inside([start, h], time));
-        let size = norm(value.iter().copied());
-        largest[0] = Scalar::maximum(largest[0], size);
-        if let Some(last) = last.replace(value) {
-            let change = norm(value.iter().zip(last).map(|(value, last)| value - last));
-            largest[1] = Scalar::maximum(largest[1], change * (parts / h));
+        of(inside(stops, [start, h], time), value);
+        size = Scalar::maximum(size, length(value));
+        if part > 0 {
+            let change = norm(value.iter().zip(&*last).map(|(value, last)| value - last));
+            rate = Scalar::maximum(rate, change * (parts / h));
         }
+        mem::swap(&mut value, &mut last);
     }
-    largest.map(|size| if size.is_finite() { size } else { 0.0 })
+    let finite = |size: f64| if size.is_finite() { size } else { 0.0 };
+    [finite(size), finite(rate)]
 }

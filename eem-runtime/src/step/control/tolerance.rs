@@ -1,11 +1,10 @@
 //! Tolerances of step control, and errors in units of them.
 
-use crate::element::group::points;
 use crate::element::state::State;
 use crate::scene::error::SceneError;
 use crate::step::control::controller::Accuracy;
 use crate::step::control::least::{LeastScales, Step};
-use crate::step::control::norm::{ROUNDINGS, norm};
+use crate::step::control::norm::{ROUNDINGS, length};
 use crate::step::control::rounding::LoadRounding;
 use crate::step::control::worst::{Unknown, Worst};
 use eem_material::number::scalar::{Scalar, is_positive};
@@ -193,13 +192,15 @@ pub(crate) struct Scales<'a> {
     share: f64,
     /// The relative and the absolute tolerance of temperatures.
     temperature: [f64; 2],
-    /// Both states.
+    /// Both states, and the dimension of space.
     states: [&'a State; 2],
+    dimension: usize,
 }
 
 impl<'a> Scales<'a> {
-    /// For a step of this size between two states, given the largest momentum so far, kg m/s.
-    pub(crate) fn new<const D: usize>(
+    /// For a step of this size between two states in space of a dimension, given the largest momentum so far, kg m/s.
+    pub(crate) fn new(
+        dimension: usize,
         tolerance: &Tolerance,
         (accuracy, step): (Accuracy, f64),
         [old, new]: [&'a State; 2],
@@ -210,10 +211,11 @@ impl<'a> Scales<'a> {
         let relative = Scalar::maximum(relative, ROUNDINGS * f64::EPSILON);
         let share = relative / tolerance.relative;
         let of = |size: f64, absolute: f64| relative * size + share * absolute;
-        let size = |of: &dyn Fn(&State) -> f64| Scalar::maximum(of(old), of(new));
-        let positions = size(&|state| norm(state.positions.values().iter().copied()));
-        let stretches = size(&|state| least.stretches::<D>(state.positions.values()));
-        let [start, end] = [old, new].map(|state| norm(state.momenta.values().iter().copied()));
+        let [first, last] = [old.positions.values(), new.positions.values()];
+        let positions = Scalar::maximum(length(first), length(last));
+        let stretch = |positions| least.stretches_in(dimension, positions);
+        let stretches = Scalar::maximum(stretch(first), stretch(last));
+        let [start, end] = [length(old.momenta.values()), length(new.momenta.values())];
         let before = Scalar::maximum(start, largest_momentum);
         let momenta = Scalar::maximum(end, before);
         let grows = before < end;
@@ -241,12 +243,13 @@ impl<'a> Scales<'a> {
             share: accuracy.share_of_difference(relative),
             temperature: [relative, share * tolerance.temperature],
             states: [old, new],
+            dimension,
         }
     }
 
     /// What the tolerance allows a momentum of this node, kg m/s: at least its rounding.
-    pub(crate) fn momentum<const D: usize>(&self, node: usize) -> f64 {
-        Scalar::maximum(self.allowed_momentum(node), self.rounding::<D>(node))
+    pub(crate) fn momentum(&self, node: usize) -> f64 {
+        Scalar::maximum(self.allowed_momentum(node), self.rounding(node))
     }
 
     fn allowed_momentum(&self, node: usize) -> f64 {
@@ -256,22 +259,21 @@ impl<'a> Scales<'a> {
     }
 
     /// The rounding of the impulse on a node by that of positions, N s.
-    fn rounding<const D: usize>(&self, node: usize) -> f64 {
-        let distances = self.states.map(|state| {
-            let point = points::<D>(state.positions.values())[node];
-            norm(point.iter().copied())
-        });
-        let [start, end] = distances;
-        let distance = Scalar::maximum(start, end);
+    fn rounding(&self, node: usize) -> f64 {
+        let distance = |state: &State| {
+            length(&state.positions.values()[node * self.dimension..][..self.dimension])
+        };
+        let [start, end] = self.states;
+        let distance = Scalar::maximum(distance(start), distance(end));
         self.least.rounding(node, self.step.size, distance)
     }
 
     /// What the tolerance allows the integral of the displacement of a moved anchor, m s: multiplied by the stiffness, it is an
     /// impulse on the mass at the other end.
-    pub(crate) fn displacement<const D: usize>(&self, anchor: usize) -> f64 {
+    pub(crate) fn displacement(&self, anchor: usize) -> f64 {
         let pulled = self.least.pulled_by(anchor);
         pulled.fold(f64::MAX, |least, (mass, stiffness)| {
-            Scalar::minimum(least, self.momentum::<D>(mass) / stiffness)
+            Scalar::minimum(least, self.momentum(mass) / stiffness)
         })
     }
 
@@ -292,18 +294,18 @@ impl<'a> Scales<'a> {
 
     /// The largest error, in units of the tolerance, found from the states after a whole step and two halves. With the rounding of
     /// loads, what rounding explains is none.
-    pub(crate) fn error<const D: usize>(
+    pub(crate) fn error(
         &self,
         states: [&State; 2],
         kinds: &Kinds,
         rounding: Option<&LoadRounding>,
     ) -> f64 {
         let mut largest = 0.0;
-        self.each_difference::<D>(
+        self.each_difference(
             states,
             kinds,
             rounding,
-            |_, difference, [scale, rounding]| {
+            &mut |_, difference, [scale, rounding]| {
                 let error = Scalar::maximum(self.share * difference - rounding, 0.0);
                 // No difference is no error, even at scale zero.
                 let is_equal = error == 0.0;
@@ -316,7 +318,7 @@ impl<'a> Scales<'a> {
 
     /// The unknown with the largest error, with the error and what the tolerance and rounding allow.
     #[cold]
-    pub(crate) fn worst<const D: usize>(
+    pub(crate) fn worst(
         &self,
         states: [&State; 2],
         kinds: &Kinds,
@@ -324,11 +326,11 @@ impl<'a> Scales<'a> {
     ) -> Option<(Unknown, [f64; 2])> {
         let mut worst = Worst::none();
         let rounding = Some(rounding);
-        self.each_difference::<D>(
+        self.each_difference(
             states,
             kinds,
             rounding,
-            |unknown, difference, [scale, rounding]| {
+            &mut |unknown, difference, [scale, rounding]| {
                 let allowed = Scalar::maximum(scale, rounding) + rounding;
                 worst.see(unknown, [self.share * difference, allowed]);
             },
@@ -337,13 +339,12 @@ impl<'a> Scales<'a> {
     }
 
     /// Calls `see` with each difference, its scale and, if that of loads is known, its rounding.
-    #[inline]
-    fn each_difference<const D: usize>(
+    fn each_difference(
         &self,
         [a, b]: [&State; 2],
         kinds: &Kinds,
         loads: Option<&LoadRounding>,
-        mut see: impl FnMut(Unknown, f64, [f64; 2]),
+        see: &mut dyn FnMut(Unknown, f64, [f64; 2]),
     ) {
         let mut each = |values: [&[f64]; 2],
                         unknown: fn(usize) -> Unknown,
@@ -353,13 +354,12 @@ impl<'a> Scales<'a> {
             }
         };
         let rounding = |of: &dyn Fn(&LoadRounding) -> f64| loads.map_or(0.0, of);
-        let impulse =
-            |node: usize| rounding(&|loads| self.rounding::<D>(node) + loads.impulse(node));
+        let impulse = |node: usize| rounding(&|loads| self.rounding(node) + loads.impulse(node));
         each(
             [a.positions.values(), b.positions.values()],
             Unknown::Position,
             &|index, _| {
-                let node = index / D;
+                let node = index / self.dimension;
                 let moved = rounding(&|loads| {
                     let mobility = self.least.mobility(node, self.step.size);
                     mobility * impulse(node) + loads.position(node)
@@ -374,11 +374,14 @@ impl<'a> Scales<'a> {
                 if kinds.are_given.get(index) == Some(&true) {
                     [f64::MAX, 0.0]
                 } else {
-                    [self.allowed_momentum(index / D), impulse(index / D)]
+                    [
+                        self.allowed_momentum(index / self.dimension),
+                        impulse(index / self.dimension),
+                    ]
                 }
             }),
         );
-        let positions = norm(b.positions.values().iter().copied());
+        let positions = length(b.positions.values());
         each(
             [a.viscous.values(), b.viscous.values()],
             Unknown::Viscous,

@@ -5,6 +5,7 @@ use crate::algebra::vector;
 use crate::element::group::{StepView, Trial, points};
 use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Speeds;
+use crate::step::scaled::scaled;
 
 /// A moving node in Newton's method, during one step.
 #[derive(Clone, Copy, Debug)]
@@ -38,10 +39,10 @@ impl<const D: usize> Balance<D> {
         let at = self.place.node();
         let velocities = points::<D>(view.state.velocities.values());
         if let Some(velocity) = velocities.get(at) {
-            return velocity.map(|velocity| time * view.step * velocity);
+            return scaled(time * view.step, velocity);
         }
         let mobility = time * view.step * self.place.per_mass;
-        points::<D>(view.state.momenta.values())[at].map(|momentum| mobility * momentum)
+        scaled(mobility, &points(view.state.momenta.values())[at])
     }
 
     /// Sets inertia, flight and push for a step, its set of unknowns and F⁰.
@@ -51,7 +52,7 @@ impl<const D: usize> Balance<D> {
         self.inertia = self.place.mass * (set.inertia * view.per_step);
         if view.phase.moves() {
             self.flight = self.flight_in(view, time);
-            self.push = force.map(|force| -view.step * force);
+            self.push = scaled(-view.step, &force);
         } else {
             (self.flight, self.push) = ([0.0; D], [0.0; D]);
         }
@@ -83,10 +84,10 @@ impl<const D: usize> Balance<D> {
     ) -> Speeds<D> {
         match points::<D>(view.state.velocities.values()).get(self.place.node()) {
             None => Speeds::OfMass(self.place.per_mass),
-            Some(&old) => Speeds::Given {
-                old,
-                change: self.change(trial).map(|change| twice_per_step * change),
-            },
+            Some(&old) => {
+                let change = scaled(twice_per_step, &self.change(trial));
+                Speeds::Given { old, change }
+            }
         }
     }
 
@@ -95,10 +96,10 @@ impl<const D: usize> Balance<D> {
     /// It is accurate relative to Δp even where Δp is small compared with p, and relative to Δq where `Δp ≈ −2p⁰`.
     #[inline]
     pub(super) fn impulse(&self, displacement: [&[f64; D]; 2]) -> [[f64; D]; 2] {
+        let [moved, _] = displacement;
         [
-            self.beyond_flight(displacement)
-                .map(|change| self.inertia * change),
-            displacement[0].map(|moved| self.inertia * moved.abs()),
+            scaled(self.inertia, &self.beyond_flight(displacement)),
+            vector(|axis| self.inertia * moved[axis].abs()),
         ]
     }
 

@@ -14,6 +14,7 @@ use crate::element::group::{Group, Old, StepView, points};
 use crate::element::loads::StepLoads;
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::error::StepFailure;
+use crate::step::scaled::scaled;
 use crate::step::scheme::Scheme;
 use crate::step::solver::past::SavedPast;
 
@@ -40,7 +41,7 @@ impl<const D: usize> Solver<D> {
         start: Start,
     ) -> Result<(), StepFailure> {
         for (node, force) in self.old_force.iter_mut().enumerate() {
-            *force = view.loads.total_force(node).map(|load: f64| -load);
+            *force = scaled(-1.0, &view.loads.total_force(node));
         }
         self.lengths.fill(f64::MAX);
         let mut old = Old {

@@ -13,6 +13,7 @@ use crate::element::state::State;
 use crate::element::tally::{Care, Reevaluation, Tally};
 use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
+use crate::step::scaled::scaled;
 use crate::step::scheme::Closing;
 
 impl<const D: usize> Solver<D> {
@@ -180,7 +181,7 @@ impl<const D: usize> Solver<D> {
     ) {
         let mut impulses = self.past.impulses();
         for (node, impulse) in impulses.iter_mut().enumerate() {
-            *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
+            *impulse = scaled(-view.step, &old_force(&self.old_force, node));
         }
         for group in groups.iter_mut() {
             let magnitudes = &mut self.magnitudes;

@@ -61,6 +61,13 @@ struct DrivenPair {
     mass: f64,
 }
 
+impl<const D: usize> CoupledPair<D> {
+    fn indices(&self) -> [usize; 2] {
+        let [a, b] = self.nodes;
+        [a as usize, b as usize]
+    }
+}
+
 impl<const D: usize> Coupling<D> {
     /// The coupling of a scene with this number of sets of unknowns.
     pub(super) fn new(
@@ -68,24 +75,26 @@ impl<const D: usize> Coupling<D> {
         moved: &[usize],
         (sites, sets): (&Sites<'_, D>, usize),
     ) -> Self {
-        let first = |node: usize| sites.layout.nodes[node];
+        let unknowns = &sites.layout.nodes;
         let mut pairs = Vec::with_capacity(sets * masses.pairs().len());
         for set in 0..sets {
             let sites = sites.of_sets([set, set]);
-            pairs.extend(masses.pairs().iter().filter_map(|pair| {
-                let [a, b] = pair.nodes().map(first);
-                let rows = [a?, b?];
-                let place = |[row, column]: [usize; 2]| {
+            for pair in masses.pairs() {
+                let [a, b] = pair.nodes();
+                let (Some(a), Some(b)) = (unknowns[a], unknowns[b]) else {
+                    continue;
+                };
+                let place = |row: usize, column: usize| {
                     vector(|axis| compact(sites.place(Some(row + axis), Some(column + axis))))
                 };
-                Some(CoupledPair {
-                    nodes: rows.map(|row| compact(row / D)),
+                pairs.push(CoupledPair {
+                    nodes: [compact(a / D), compact(b / D)],
                     mass: pair.mass,
-                    places: [place(rows), place([rows[1], rows[0]])],
-                })
-            }));
+                    places: [place(a, b), place(b, a)],
+                });
+            }
         }
-        let driven: Vec<_> = driven::<D>(masses, moved, &first).collect();
+        let driven = driven(D, masses, moved, unknowns);
         let moving = if pairs.is_empty() && driven.is_empty() {
             0
         } else {
@@ -168,7 +177,7 @@ impl<const D: usize> Coupling<D> {
         right: &mut [[f64; 1]],
     ) {
         for pair in self.of_set(set) {
-            let [a, b] = pair.nodes.map(|node| node as usize);
+            let [a, b] = pair.indices();
             let inertia = pair.mass * inertia_per_mass;
             for &place in pair.places.as_flattened() {
                 values[place as usize] += inertia;
@@ -196,23 +205,20 @@ impl<const D: usize> Coupling<D> {
         (nodes, trial): (&[Balance<D>], &Trial<D>),
         inertia_per_mass: f64,
     ) {
-        self.multiply(nodes, inertia_per_mass, |node| {
-            [node.change(trial), node.displacement(trial).map(f64::abs)]
+        self.multiply(nodes, inertia_per_mass, &|node| {
+            let moved = node.displacement(trial);
+            [node.change(trial), vector(|axis| moved[axis].abs())]
         });
         for drive in &self.drives {
             add_all(&mut self.impulses[drive.node as usize], &drive.of_sets[set]);
         }
     }
 
-    /// Finds `Δp` of all nodes from the changes of their velocities in a step, m/s, if masses couple them.
-    pub(super) fn find_impulses_of_step(
-        &mut self,
-        nodes: &[Balance<D>],
-        change: impl Fn(&Balance<D>) -> [f64; D],
-    ) {
-        self.multiply(nodes, 1.0, |node| {
-            let change = change(node);
-            [change, change.map(f64::abs)]
+    /// Finds `Δp` of all nodes from the changes of their velocities in a step, m/s, by node, if masses couple them.
+    pub(super) fn find_impulses_of_step(&mut self, nodes: &[Balance<D>], changes: &[[f64; D]]) {
+        self.multiply(nodes, 1.0, &|node| {
+            let change = &changes[node.place.node()];
+            [*change, vector(|axis| change[axis].abs())]
         });
         for drive in &self.drives {
             add_all(&mut self.impulses[drive.node as usize], &drive.of_step);
@@ -220,23 +226,26 @@ impl<const D: usize> Coupling<D> {
     }
 
     /// Sets the impulses to a factor times the mass matrix times a vector of nodes, with the magnitudes of the terms;
-    /// `vector` returns its entries and their magnitudes. Does nothing unless masses couple nodes.
+    /// `entries` returns those of a node and their magnitudes. Does nothing unless masses couple nodes.
     fn multiply(
         &mut self,
         nodes: &[Balance<D>],
         factor: f64,
-        vector: impl Fn(&Balance<D>) -> [[f64; D]; 2],
+        entries: &dyn Fn(&Balance<D>) -> [[f64; D]; 2],
     ) {
         for (node, impulse) in nodes.iter().zip(&mut self.impulses) {
             let inertia = node.place.mass * factor;
-            *impulse = vector(node).map(|of| of.map(|entry| inertia * entry));
+            *impulse = entries(node);
+            for entry in impulse.as_flattened_mut() {
+                *entry *= inertia;
+            }
         }
         let count = self.pairs.len() / self.sets;
         for pair in &self.pairs[..count] {
-            let [a, b] = pair.nodes.map(|node| node as usize);
+            let [a, b] = pair.indices();
             let inertia = pair.mass * factor;
             for [own, other] in [[a, b], [b, a]] {
-                let [entries, sizes] = vector(&nodes[other]);
+                let [entries, sizes] = entries(&nodes[other]);
                 let [sums, terms] = &mut self.impulses[own];
                 for axis in 0..D {
                     sums[axis] += inertia * entries[axis];
@@ -267,24 +276,29 @@ impl<const D: usize> Coupling<D> {
     }
 }
 
-/// The pairs of a moving node and a moved anchor. `moved` is sorted; `first` gives the first unknown of a node.
-fn driven<const D: usize>(
+/// The pairs of a moving node and a moved anchor, given the moved anchors in ascending order and the first unknown of each node.
+fn driven(
+    dimension: usize,
     masses: &Masses,
     moved: &[usize],
-    first: &impl Fn(usize) -> Option<usize>,
-) -> impl Iterator<Item = DrivenPair> {
-    let held = masses.held().iter().flat_map(|pair| {
+    unknowns: &[Option<usize>],
+) -> Vec<DrivenPair> {
+    let mut driven = Vec::new();
+    for pair in masses.held() {
         let [a, b] = pair.nodes();
-        [([a, b], pair.mass), ([b, a], pair.mass)]
-    });
-    held.filter(|([_, moves], _)| moved.binary_search(moves).is_ok())
-        .filter_map(|([node, moved], mass)| {
-            Some(DrivenPair {
-                node: compact(first(node)? / D),
-                moved: compact(moved),
-                mass,
-            })
-        })
+        for [node, moves] in [[a, b], [b, a]] {
+            if let Some(first) = unknowns[node]
+                && moved.binary_search(&moves).is_ok()
+            {
+                driven.push(DrivenPair {
+                    node: compact(first / dimension),
+                    moved: compact(moves),
+                    mass: pair.mass,
+                });
+            }
+        }
+    }
+    driven
 }
 
 impl<const D: usize> Drive<D> {

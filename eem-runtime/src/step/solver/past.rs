@@ -4,6 +4,7 @@
 use crate::algebra::vector;
 use crate::element::group::Before;
 use crate::element::impulse::{Impulses, PLACES};
+use crate::step::scaled::scaled;
 
 /// The factor by which the error of a predictor decays in each step. Any value that averages over several steps will do.
 const MEMORY: f64 = 0.875;
@@ -44,7 +45,8 @@ impl<const D: usize> Predictor<'_, D> {
     /// The predicted force on a node, N.
     #[inline]
     pub(super) fn of(&self, node: usize) -> [f64; D] {
-        let [last, before, _] = self.turn.map(|step| &self.forces[node][step]);
+        let ([last, before, _], forces) = (self.turn, &self.forces[node]);
+        let (last, before) = (&forces[last], &forces[before]);
         let [by_last, by_before] = self.weights;
         vector(|axis| by_last * last[axis] + by_before * before[axis])
     }
@@ -97,7 +99,7 @@ impl<const D: usize> Past<D> {
             variables => variables + 1,
         };
         Self {
-            internal: [(); 2].map(|()| vec![0.0; size]),
+            internal: [vec![0.0; size], vec![0.0; size]],
             viscous,
             forces: vec![[[0.0; D]; PLACES]; nodes],
             turn: 0,
@@ -113,15 +115,12 @@ impl<const D: usize> Past<D> {
         let [nothing, constant, linear] = self.errors;
         let is_linear = linear < constant && linear < nothing;
         let is_constant = constant < nothing;
-        let weights = vector(|k| {
-            let [nothing, constant, linear] = PREDICTORS.map(|weights| weights[k]);
-            let other = if is_constant { constant } else { nothing };
-            if is_linear { linear } else { other }
-        });
+        let [nothing, constant, linear] = PREDICTORS;
+        let other = if is_constant { constant } else { nothing };
         Predictor {
             forces: &self.forces,
             turn: TURNS[self.turn],
-            weights,
+            weights: if is_linear { linear } else { other },
         }
     }
 
@@ -138,7 +137,7 @@ impl<const D: usize> Past<D> {
         Remembering {
             forces: &mut self.forces,
             turn: TURNS[self.turn],
-            errors: self.errors.map(|error| MEMORY * error),
+            errors: scaled(MEMORY, &self.errors),
             found: &mut self.errors_after,
         }
     }
@@ -188,13 +187,14 @@ impl<const D: usize> Past<D> {
 
     /// The history for a checkpoint.
     pub(super) fn save(&self) -> SavedPast {
-        let [last, before, _] = TURNS[self.turn];
-        let of = |step: usize| self.forces.iter().flat_map(|forces| forces[step]).collect();
-        SavedPast {
-            forces: [of(last), of(before)],
+        let zeros = vec![0.0; self.forces.len() * D];
+        let mut saved = SavedPast {
+            forces: [zeros.clone(), zeros],
             errors: self.errors,
             internal: self.internal[0].clone(),
-        }
+        };
+        self.save_to(&mut saved);
+        saved
     }
 
     /// Saves the history into an earlier one of the same scene, without allocation.

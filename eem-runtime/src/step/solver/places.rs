@@ -64,7 +64,7 @@ impl<const D: usize> MovingNode<D> {
     /// Its diagonal entries in the tangent.
     #[inline]
     pub(super) fn diagonal(&self) -> [usize; D] {
-        self.diagonal.map(|place| place as usize)
+        vector(|axis| self.diagonal[axis] as usize)
     }
 
     /// Its diagonal entry in the secant matrix, if there is one.
@@ -91,11 +91,13 @@ pub(super) struct Interface {
 /// The moving nodes, which are those with a mass, for a set of unknowns.
 pub(super) fn moving<const D: usize>(masses: &Masses, sites: &Sites<'_, D>) -> Vec<MovingNode<D>> {
     let [set, _] = sites.sets;
-    let nodes = masses.iter().zip(&sites.layout.nodes).enumerate();
-    let moving = nodes.filter_map(|(node, (mass, first))| Some((node, mass?, (*first)?)));
-    let moving = moving.map(|(node, mass, first)| {
+    let mut moving = Vec::with_capacity(masses.len());
+    for (node, (mass, first)) in masses.iter().zip(&sites.layout.nodes).enumerate() {
+        let (Some(mass), Some(first)) = (mass, *first) else {
+            continue;
+        };
         let own = Some(first / D);
-        MovingNode {
+        moving.push(MovingNode {
             node: compact(node),
             trial: compact(set * masses.len() + node),
             set: compact(set),
@@ -107,20 +109,23 @@ pub(super) fn moving<const D: usize>(masses: &Masses, sites: &Sites<'_, D>) -> V
             secant_diagonal: compact(sites.secant_place(own, own)),
             mass,
             per_mass: mass.recip(),
-        }
-    });
-    moving.collect()
+        });
+    }
+    moving
 }
 
 /// The coupled interface temperatures.
 pub(super) fn interfaces<const D: usize>(sites: &Sites<'_, D>) -> Vec<Interface> {
     let first = sites.sets[0] * sites.layout.thermal;
-    let coupled = sites.layout.coupled.iter().enumerate();
-    let interface = coupled.filter(|(_, unknown)| unknown.is_some());
-    let interface = interface.map(|(slot, unknown)| Interface {
-        slot,
-        in_trial: first + slot,
-        row: sites.row(*unknown),
-    });
-    interface.collect()
+    let mut interfaces = Vec::new();
+    for (slot, unknown) in sites.layout.coupled.iter().enumerate() {
+        if unknown.is_some() {
+            interfaces.push(Interface {
+                slot,
+                in_trial: first + slot,
+                row: sites.row(*unknown),
+            });
+        }
+    }
+    interfaces
 }

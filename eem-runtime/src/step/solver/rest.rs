@@ -29,7 +29,6 @@ mod system;
 
 use super::Solver;
 use super::begin::Start;
-use crate::algebra::vector;
 use crate::element::group::{Group, StepView};
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
@@ -80,9 +79,12 @@ pub(crate) struct RestEffort {
     pub(crate) friction_steps: usize,
 }
 
-/// The motion with the least stiffness, per moving node; its largest component is 1.
-pub(crate) struct Softest<const D: usize> {
-    pub(crate) nodes: Vec<(usize, [f64; D])>,
+/// The motion with the least stiffness.
+pub(crate) struct Softest {
+    /// The moving nodes.
+    pub(crate) nodes: Vec<usize>,
+    /// Their displacements, node after node; the largest component is 1.
+    pub(crate) motion: Vec<f64>,
     /// N/m.
     pub(crate) stiffness: f64,
     /// `xᵀ K x / xᵀ D x`, and what rounding may contribute to it.
@@ -90,8 +92,8 @@ pub(crate) struct Softest<const D: usize> {
     pub(crate) rounding: f64,
 }
 
-/// The displacements of all nodes and their compensations of rounding, m.
-pub(super) type Place<const D: usize> = (Vec<[f64; D]>, Vec<[f64; D]>);
+/// The displacements of all nodes and their compensations of rounding, coordinate after coordinate, m.
+pub(super) type Place = [Vec<f64>; 2];
 
 impl<'a, const D: usize> AtRest<'a, D> {
     /// Starts at the state of a view whose step is [`LONG`], given the end nodes of the arms of elements.
@@ -153,12 +155,10 @@ impl<'a, const D: usize> AtRest<'a, D> {
 
     /// Writes the state that was found.
     pub(crate) fn close(&mut self, next: &mut State) -> Result<(), StepFailure> {
-        let (moved, carries) = self.place();
-        for (node, (moved, carries)) in moved.iter().zip(&carries).enumerate() {
-            for axis in 0..D {
-                let (at, old) = (node * D + axis, &self.view.state.positions);
-                next.positions.advance(at, old, moved[axis] + carries[axis]);
-            }
+        let [moved, carries] = self.place();
+        for (at, (moved, carry)) in moved.iter().zip(&carries).enumerate() {
+            let old = &self.view.state.positions;
+            next.positions.advance(at, old, moved + carry);
         }
         let mut tally = Tally::new(Care::Quick);
         for group in &mut *self.groups {
@@ -265,18 +265,25 @@ impl<'a, const D: usize> AtRest<'a, D> {
     }
 
     /// Starts at a place, or at the initial state, with the initial internal variables.
-    fn start(&mut self, place: Option<&Place<D>>) -> Result<(), StepFailure> {
+    fn start(&mut self, place: Option<&Place>) -> Result<(), StepFailure> {
         self.solver.begin(self.groups, self.view, Start::Rest)?;
-        if let Some((moved, carries)) = place {
-            self.solver.trial.displacements.copy_from_slice(moved);
-            self.solver.trial.carries.copy_from_slice(carries);
+        if let Some([moved, carries]) = place {
+            let trial = &mut self.solver.trial;
+            trial
+                .displacements
+                .as_flattened_mut()
+                .copy_from_slice(moved);
+            trial.carries.as_flattened_mut().copy_from_slice(carries);
         }
         self.renew()
     }
 
-    fn place(&self) -> Place<D> {
+    fn place(&self) -> Place {
         let trial = &self.solver.trial;
-        (trial.displacements.clone(), trial.carries.clone())
+        [
+            trial.displacements.as_flattened().to_vec(),
+            trial.carries.as_flattened().to_vec(),
+        ]
     }
 
     /// The largest force out of balance, N, and its node if any moves.
@@ -292,10 +299,13 @@ impl<'a, const D: usize> AtRest<'a, D> {
         (largest.0 / LONG, largest.1)
     }
 
-    /// The place of a node, m.
-    pub(crate) fn position(&self, node: usize) -> [f64; D] {
-        let [old, _] = self.view.state.positions.point::<D>(node);
-        let moved = &self.solver.trial.displacements[node];
-        vector(|axis| old[axis] + moved[axis])
+    /// The places of all nodes, m.
+    pub(crate) fn positions(&self) -> Vec<f64> {
+        let mut positions = self.view.state.positions.values().to_vec();
+        let moved = self.solver.trial.displacements.as_flattened();
+        for (position, moved) in positions.iter_mut().zip(moved) {
+            *position += moved;
+        }
+        positions
     }
 }

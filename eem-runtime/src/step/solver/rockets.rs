@@ -13,6 +13,7 @@ use crate::element::impulse::Impulses;
 use crate::element::loads::{Push, PushLine, StepLoads};
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::line::Line;
+use crate::step::scaled::scaled;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Scalar, is_positive};
 
@@ -47,29 +48,30 @@ impl<const D: usize> Rockets<D> {
     ) -> Self {
         let sets = rule.map_or(1, Tableau::sets);
         let unknown = |node: usize, axis: usize| sites.layout.nodes[node].map(|first| first + axis);
-        let rockets = loads.pushes.iter().map(|push| {
+        let mut all = Vec::with_capacity(loads.pushes.len());
+        for push in &loads.pushes {
             let PushLine { node, tail, head } = push.line;
-            let place = |sites: &Sites<'_, D>, end: usize| {
-                core::array::from_fn(|row| {
-                    vector(|column| {
-                        compact(sites.place(unknown(node.index, row), unknown(end, column)))
-                    })
-                })
-            };
             // Indices of sets beyond the last are never used.
-            let of_sets = |sets_of: [usize; 2]| sites.of_sets(sets_of.map(|set| set.min(sets - 1)));
-            Rocket {
+            let mut rocket = Rocket {
                 line: push.line,
-                rows: vector(|set| compact(of_sets([set; 2]).row(unknown(node.index, 0)))),
-                places: core::array::from_fn(|row| {
-                    core::array::from_fn(|column| {
-                        let sites = of_sets([row, column]);
-                        [tail.index, head.index].map(|end| place(&sites, end))
-                    })
-                }),
+                rows: [0; MOST_SETS],
+                places: [[[[[0; D]; D]; 2]; MOST_SETS]; MOST_SETS],
+            };
+            for (rows, columns) in (0..sets * sets).map(|pair| (pair / sets, pair % sets)) {
+                let sites = sites.of_sets([rows, columns]);
+                if rows == columns {
+                    rocket.rows[rows] = compact(sites.row(unknown(node.index, 0)));
+                }
+                for (places, end) in rocket.places[rows][columns].iter_mut().zip([tail, head]) {
+                    for (row, places) in places.iter_mut().enumerate() {
+                        let row = unknown(node.index, row);
+                        *places =
+                            vector(|column| compact(sites.place(row, unknown(end.index, column))));
+                    }
+                }
             }
-        });
-        let all: Vec<_> = rockets.collect();
+            all.push(rocket);
+        }
         let stages = rule.map_or(1, Tableau::stages);
         let coordinates = if all.is_empty() { 0 } else { nodes * D };
         Self {
@@ -148,7 +150,7 @@ impl<const D: usize> Rockets<D> {
                     rocket.add_to(
                         [set, stage],
                         system,
-                        (&line.direction.map(|n| impulse * n), &turning),
+                        (&scaled(impulse, &line.direction), &turning),
                     );
                 }
             }
@@ -219,9 +221,9 @@ impl<const D: usize> Rocket<D> {
         for axis in 0..D {
             right[self.rows[rows] as usize + axis][0] += impulse[axis];
             for column in 0..D {
-                let [tail, head] = [0, 1].map(|end: usize| places[end][axis][column] as usize);
-                values[tail] += turning[axis][column];
-                values[head] -= turning[axis][column];
+                let [tail, head] = [places[0][axis][column], places[1][axis][column]];
+                values[tail as usize] += turning[axis][column];
+                values[head as usize] -= turning[axis][column];
             }
         }
     }

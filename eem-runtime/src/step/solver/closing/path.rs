@@ -15,6 +15,7 @@ use crate::element::tally::Tally;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
+use crate::step::scaled::scaled;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::{follow_coupled_masses, move_node};
 use crate::step::solver::stages::Stages;
@@ -81,25 +82,12 @@ impl<const D: usize> Solver<D> {
             let (place, node) = (&moving.place, moving.place.node());
             let state = view.state;
             // The compensation of rounding of the momentum moves the node, too.
-            let [flight, mut rest] = match stages.changes.get(node) {
-                None => {
-                    let mobility = view.step * place.per_mass;
-                    state
-                        .momenta
-                        .point::<D>(node)
-                        .map(|of| of.map(|momentum| mobility * momentum))
-                }
-                Some(_) => state
-                    .velocities
-                    .point::<D>(node)
-                    .map(|of| of.map(|velocity| view.step * velocity)),
+            let (mobility, [rate, carry]) = match stages.changes.get(node) {
+                None => (view.step * place.per_mass, state.momenta.point::<D>(node)),
+                Some(_) => (view.step, state.velocities.point::<D>(node)),
             };
-            for (set, &weight) in displacements.iter().enumerate() {
-                let change = self.nodes_of_set(set)[index].change(&self.trial);
-                for axis in 0..D {
-                    rest[axis] += weight * change[axis];
-                }
-            }
+            let (flight, mut rest) = (scaled(mobility, rate), scaled(mobility, carry));
+            self.add_gained(index, displacements, &mut rest);
             let coupled = self.coupling.found(index).zip(stages.changes.get(node));
             let (impulse, speeds) = if let Some((&[impulse, _], &change)) = coupled {
                 let [&old, _] = state.velocities.point::<D>(node);
@@ -108,7 +96,7 @@ impl<const D: usize> Solver<D> {
                 (impulse, Speeds::Given { old, change })
             } else {
                 let gained = self.gained(index, impulses);
-                let impulse = gained.map(|gained| place.mass * view.per_step * gained);
+                let impulse = scaled(place.mass * view.per_step, &gained);
                 (impulse, Speeds::OfMass(place.per_mass))
             };
             let displacement = vector(|axis| flight[axis] + rest[axis]);
@@ -136,13 +124,18 @@ impl<const D: usize> Solver<D> {
     /// `Σ_j weights_j w_j` of the moving node with this index, m.
     fn gained(&self, index: usize, weights: &[f64]) -> [f64; D] {
         let mut gained = [0.0; D];
+        self.add_gained(index, weights, &mut gained);
+        gained
+    }
+
+    /// Adds it to a vector.
+    fn add_gained(&self, index: usize, weights: &[f64], gained: &mut [f64; D]) {
         for (set, &weight) in weights.iter().enumerate() {
             let change = self.nodes_of_set(set)[index].change(&self.trial);
             for axis in 0..D {
                 gained[axis] += weight * change[axis];
             }
         }
-        gained
     }
 
     /// `Σ_j |weights_j w_j|/h` of the moving node with this index, m/s.
@@ -164,13 +157,11 @@ impl<const D: usize> Solver<D> {
             return;
         }
         for index in 0..self.moving() {
-            let change = self.gained(index, weights);
             let node = self.nodes[index].place.node();
-            stages.changes[node] = change.map(|change| view.per_step * change);
+            stages.changes[node] = scaled(view.per_step, &self.gained(index, weights));
         }
         let nodes = &self.nodes[..self.moving()];
-        self.coupling
-            .find_impulses_of_step(nodes, |node| stages.changes[node.place.node()]);
+        self.coupling.find_impulses_of_step(nodes, &stages.changes);
     }
 
     /// Adds work and impulse of loads and weight on a node in the step.
@@ -195,14 +186,14 @@ impl<const D: usize> Solver<D> {
         );
         for axis in 0..D {
             let of_axis = |stage: usize| load(stage)[axis];
-            next.work.add(self.work(stages, node, axis, of_axis));
+            next.work.add(self.work(stages, node, axis, &of_axis));
             motion.work((total[axis] - force[axis]) * moved.displacement[axis]);
         }
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
             let share = view.step * weight;
             let total = view.stages[stage].total_force::<D>(node);
             let total = self.rockets.add_to(total, [stage, node]);
-            let impulse = total.map(|force| share * force);
+            let impulse = scaled(share, &total);
             let displacement = &self.trial.displacements_of_set(stage)[node];
             motion.push([moved.position, displacement], &impulse);
         }

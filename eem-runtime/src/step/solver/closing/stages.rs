@@ -8,6 +8,7 @@ use crate::element::tableau::Ending;
 use crate::element::tally::Tally;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
+use crate::step::scaled::scaled;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::move_node;
 use crate::step::solver::stages::Stages;
@@ -65,8 +66,7 @@ impl<const D: usize> Solver<D> {
             }
             let mut impulses = Impulses::new(&mut stages.impulses, stage);
             for (node, impulse) in impulses.iter_mut().enumerate() {
-                let load = view.stages[stage].total_force::<D>(node);
-                *impulse = load.map(|load| view.step * load);
+                *impulse = scaled(view.step, &view.stages[stage].total_force(node));
             }
             for group in groups.iter_mut() {
                 let along = Along::Stage(stage);
@@ -174,7 +174,7 @@ impl<const D: usize> Solver<D> {
             move_node(node, [displacement, &none, &impulse], view.state, next)?;
             for axis in 0..D {
                 let load = |stage: usize| view.stages[stage].force::<D>(node)[axis];
-                next.work.add(self.work(stages, node, axis, load));
+                next.work.add(self.work(stages, node, axis, &load));
             }
             let moved = NodeStep {
                 speeds: Speeds::OfMass(mass.per_mass),
@@ -199,7 +199,7 @@ impl<const D: usize> Solver<D> {
         stages: &Stages<D>,
         node: usize,
         axis: usize,
-        force: impl Fn(usize) -> f64,
+        force: &dyn Fn(usize) -> f64,
     ) -> f64 {
         let rule = stages.rule;
         let mut work = 0.0;

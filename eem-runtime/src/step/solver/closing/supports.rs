@@ -11,6 +11,7 @@ use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Path};
 use crate::step::certificate::{Motion, NodeStep, Speeds};
+use crate::step::scaled::scaled;
 use crate::step::solver::Solver;
 use crate::step::solver::coupling::changes_at_stages;
 use crate::step::solver::stages::Stages;
@@ -33,7 +34,7 @@ impl<const D: usize> Solver<D> {
                 next.positions.advance(node * D + axis, old, displacement);
                 // The support bears the forces of the elements.
                 let support = |stage: usize| -stages.impulses[node][stage][axis] * view.per_step;
-                next.work.add(self.work(stages, node, axis, support));
+                next.work.add(self.work(stages, node, axis, &support));
             }
             if let Some(path) = stages.rule.path
                 && view.masses.are_coupled()
@@ -126,7 +127,7 @@ impl<const D: usize> Solver<D> {
         if let Ok(index) = masses.binary_search_by_key(&node, |mass| mass.place.node()) {
             for (set, beyond) in beyond.iter_mut().enumerate().take(self.sets.len()) {
                 let change = self.nodes_of_set(set)[index].change(&self.trial);
-                *beyond = change.map(|change| view.per_step * change);
+                *beyond = scaled(view.per_step, &change);
             }
         }
         differentiated(stages.rule.motion, &beyond)

@@ -9,12 +9,30 @@ use eem_material::number::compact::compact;
 /// motions of positive stiffness fall to 3/4 or less in each iteration.
 const INVERSE_ITERATIONS: usize = 60;
 
-impl<const D: usize> Softest<D> {
+impl Softest {
     /// The part of these forces of all moving nodes along the motion, as a share of them.
     pub(crate) fn share_of(&self, forces: &[f64]) -> f64 {
-        let motion: Vec<_> = self.nodes.iter().flat_map(|&(_, x)| x).collect();
-        dot(forces, &motion).abs() / (norm(forces) * norm(&motion))
+        dot(forces, &self.motion).abs() / (norm(forces) * norm(&self.motion))
     }
+}
+
+/// A vector of moving nodes, times D.
+fn weighted(dimension: usize, x: &[f64], sizes: &[f64]) -> Vec<f64> {
+    let x = x.iter().enumerate();
+    x.map(|(row, x)| x * sizes[row / dimension]).collect()
+}
+
+/// A vector in units of its largest entry.
+fn scaled(x: &[f64]) -> Vec<f64> {
+    let largest = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    x.iter().map(|x| x / largest).collect()
+}
+
+/// Quasi-random numbers, a vector with a component along every motion.
+fn mixed(rows: usize) -> Vec<f64> {
+    (1..=compact(rows))
+        .map(|row| (f64::from(row) * 0.618_033_988_749_895).fract() + 0.1)
+        .collect()
 }
 
 impl<const D: usize> AtRest<'_, D> {
@@ -27,7 +45,7 @@ impl<const D: usize> AtRest<'_, D> {
     }
 
     /// The motion against which there is least stiffness, by inverse iteration.
-    pub(crate) fn softest(&mut self) -> Option<Softest<D>> {
+    pub(crate) fn softest(&mut self) -> Option<Softest> {
         let rounding = self.rounding();
         let mut shift = rounding;
         while !self.judge(shift) {
@@ -36,30 +54,24 @@ impl<const D: usize> AtRest<'_, D> {
                 return None;
             }
         }
-        // Quasi-random numbers, to start with a component along every motion.
-        let rows = self.first.len();
-        let mut x: Vec<_> = (1..=compact(rows))
-            .map(|row| (f64::from(row) * 0.618_033_988_749_895).fract() + 0.1)
-            .collect();
-        let sizes: Vec<_> = self.sizes.iter().flat_map(|&size| [size; D]).collect();
-        let weighted =
-            |x: &[f64]| -> Vec<f64> { x.iter().zip(&sizes).map(|(x, d)| x * d).collect() };
+        let sizes = self.sizes.clone();
+        let mut x = mixed(self.first.len());
         let mut relative = 0.0;
         for _ in 0..INVERSE_ITERATIONS {
             self.assemble_alone(shift).ok()?;
-            let right = weighted(&x);
+            let right = weighted(D, &x, &sizes);
             self.set_right(&right);
             self.solver.tangent.solve().ok()?;
             let found = self.solution();
             // (K + shift D) y = D x gives 1/(λ + shift) = xᵀ D y / xᵀ D x.
             relative = dot(&right, &x) / dot(&right, &found) - shift;
-            let largest = found.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-            x = found.iter().map(|x| x / largest).collect();
+            x = scaled(&found);
         }
-        let stiffness = relative * (dot(&weighted(&x), &x) / LONG) / dot(&x, &x);
-        let nodes = self.solver.nodes.iter().zip(x.as_chunks::<D>().0);
+        let stiffness = relative * (dot(&weighted(D, &x, &sizes), &x) / LONG) / dot(&x, &x);
+        let nodes = self.solver.nodes.iter();
         Some(Softest {
-            nodes: nodes.map(|(node, &x)| (node.place.node(), x)).collect(),
+            nodes: nodes.map(|node| node.place.node()).collect(),
+            motion: x,
             stiffness,
             relative,
             rounding,

@@ -1,11 +1,11 @@
 //! The system of an iteration for a state at rest, and its updates.
 
-use core::array;
 use eem_material::number::scalar::Scalar;
 
+use super::super::balance::Balance;
 use super::{AtRest, LONG, Place};
-use crate::algebra::vector;
 use crate::element::tally::Care;
+use crate::scene::loads::extent;
 use crate::step::error::StepFailure;
 
 /// An update is shortened if the force along it is, at its end, backwards and above this fraction of that at its start.
@@ -25,16 +25,16 @@ pub(super) const ROUNDINGS: f64 = 64.0;
 const SETTLING: usize = 6;
 
 /// Where an update begins.
-pub(super) struct Begin<const D: usize> {
-    pub(super) place: Place<D>,
+pub(super) struct Begin {
+    pub(super) place: Place,
     /// R, N, and D per moving node, N/m.
     forces: Vec<f64>,
     sizes: Vec<f64>,
 }
 
 /// An update, as far as it was applied.
-pub(super) struct Update<const D: usize> {
-    pub(super) begin: Begin<D>,
+pub(super) struct Update {
+    pub(super) begin: Begin,
     /// The largest change, in lengths of elements.
     pub(super) size: f64,
     pub(super) is_definite: bool,
@@ -47,7 +47,7 @@ pub(super) struct Update<const D: usize> {
     pub(super) left: f64,
 }
 
-impl<const D: usize> Update<D> {
+impl Update {
     /// Whether the force along it at its end points backwards and exceeds [`OVERSHOOT`].
     pub(super) fn goes_too_far(&self) -> bool {
         self.left < -OVERSHOOT
@@ -62,6 +62,45 @@ pub(super) fn norm(vector: &[f64]) -> f64 {
 
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+fn difference(one: &[f64], other: &[f64]) -> Vec<f64> {
+    one.iter().zip(other).map(|(a, b)| a - b).collect()
+}
+
+/// Replaces the sizes of nodes without stiffness, or only with that of viscous forces, η/h.
+fn fill_sizes(sizes: &mut [f64]) {
+    let least = LONG.sqrt();
+    let largest = sizes.iter().fold(0.0_f64, |most, &size| most.max(size));
+    let unit = if largest > least { largest } else { LONG };
+    for size in sizes.iter_mut().filter(|size| **size <= least) {
+        *size = unit;
+    }
+}
+
+/// The entries of moving nodes in a vector of the system.
+fn entries<const D: usize>(nodes: &[Balance<D>], vector: &[[f64; 1]]) -> Vec<f64> {
+    let mut entries = Vec::with_capacity(nodes.len() * D);
+    for node in nodes {
+        entries.extend_from_slice(node.place.rows(vector));
+    }
+    entries
+}
+
+/// The largest change of an arm by displacements, m, in units of its length before, given all coordinates now.
+fn largest_turn(dimension: usize, arms: &[[usize; 2]], places: &[f64], moved: &[f64]) -> f64 {
+    let mut largest = 0.0_f64;
+    for &[from, to] in arms {
+        let (mut change, mut before) = (0.0, 0.0);
+        for axis in 0..dimension {
+            let [from, to] = [from * dimension + axis, to * dimension + axis];
+            let by = moved[to] - moved[from];
+            change = Scalar::hypot(by, change);
+            before = Scalar::hypot((places[to] - places[from]) - by, before);
+        }
+        largest = largest.max(change / before);
+    }
+    largest
 }
 
 impl<const D: usize> AtRest<'_, D> {
@@ -82,18 +121,13 @@ impl<const D: usize> AtRest<'_, D> {
             for (force, first) in node.place.rows_mut(right).iter_mut().zip(first) {
                 *force -= left * first;
             }
-            let diagonal = node.place.diagonal().into_iter();
-            let size = diagonal.fold(0.0_f64, |size, place| size.max(values[place].abs()));
+            let mut size = 0.0_f64;
+            for place in node.place.diagonal() {
+                size = size.max(values[place].abs());
+            }
             self.sizes.push(size);
         }
-        // Nodes without stiffness, or only with that of viscous forces, η/h.
-        let least = LONG.sqrt();
-        let sizes = self.sizes.iter();
-        let largest = sizes.fold(0.0_f64, |most, &size| most.max(size));
-        let unit = if largest > least { largest } else { LONG };
-        for size in self.sizes.iter_mut().filter(|size| **size <= least) {
-            *size = unit;
-        }
+        fill_sizes(&mut self.sizes);
         if self.is_by_mass {
             self.weigh();
         }
@@ -102,14 +136,12 @@ impl<const D: usize> AtRest<'_, D> {
 
     /// Makes D proportional to the masses, and nowhere smaller.
     fn weigh(&mut self) {
-        let nodes = self.solver.nodes.iter().map(|node| node.place.node());
-        let masses: Vec<f64> = nodes
-            .filter_map(|node| self.view.masses.get(node))
-            .collect();
-        let sizes = self.sizes.iter().zip(&masses);
-        let most = sizes.fold(0.0, |most, (size, mass)| Scalar::maximum(most, size / mass));
-        for (size, mass) in self.sizes.iter_mut().zip(masses) {
-            *size = most * mass;
+        let (nodes, mut most) = (&self.solver.nodes, 0.0);
+        for (size, node) in self.sizes.iter().zip(nodes) {
+            most = Scalar::maximum(most, size / node.place.mass);
+        }
+        for (size, node) in self.sizes.iter_mut().zip(nodes) {
+            *size = most * node.place.mass;
         }
     }
 
@@ -125,10 +157,7 @@ impl<const D: usize> AtRest<'_, D> {
 
     /// The largest coordinate, m.
     pub(super) fn extent(&self) -> f64 {
-        let positions = self.view.state.positions.values();
-        let moved = self.solver.trial.displacements.as_flattened();
-        let all = positions.iter().zip(moved);
-        all.fold(0.0, |most, (q, moved)| most.max((q + moved).abs()))
+        extent(&self.positions())
     }
 
     /// Whether the rounding of forces and of their arguments explains R: by node, with the terms of the forces of its
@@ -137,33 +166,30 @@ impl<const D: usize> AtRest<'_, D> {
         (self.solver).find_motion(self.groups, self.view, Care::Thorough);
         let left = 1.0 - self.share;
         let right = self.solver.tangent.right();
-        let mut nodes = self.solver.nodes.iter().enumerate();
-        nodes.all(|(at, node)| {
+        for (at, node) in self.solver.nodes.iter().enumerate() {
             let (place, first) = (&node.place, self.first.get(at * D..).unwrap_or_default());
             let loads = self.view.loads.total_force::<D>(place.node());
             let magnitude = self.solver.magnitudes[place.node()];
-            (place.rows(right).iter().enumerate()).all(|(axis, force)| {
+            for (axis, force) in place.rows(right).iter().enumerate() {
                 let first = first.get(axis).map_or(0.0, |first| left * first.abs());
                 let terms = magnitude + LONG * loads[axis].abs() + first;
-                force.abs() <= ROUNDINGS * f64::EPSILON * terms
-            })
-        })
+                let is_rounding = force.abs() <= ROUNDINGS * f64::EPSILON * terms;
+                if !is_rounding {
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     /// R, N.
     pub(crate) fn forces(&self) -> Vec<f64> {
-        let nodes = self.solver.nodes.iter();
-        nodes
-            .flat_map(|node| *node.place.rows(self.solver.tangent.right()))
-            .collect()
+        entries(&self.solver.nodes, self.solver.tangent.right())
     }
 
     /// The last update, m.
     pub(super) fn solution(&self) -> Vec<f64> {
-        let nodes = self.solver.nodes.iter();
-        nodes
-            .flat_map(|node| *node.place.rows(self.solver.tangent.solution()))
-            .collect()
+        entries(&self.solver.nodes, self.solver.tangent.solution())
     }
 
     /// Replaces R.
@@ -185,7 +211,7 @@ impl<const D: usize> AtRest<'_, D> {
     /// An update with friction, or by Newton's method without. It is applied as far as elements are admissible and,
     /// without friction, forces along it do not turn round. After an error nothing is applied; if the tangent is
     /// singular, the system has to be built again.
-    pub(super) fn update(&mut self, friction: f64) -> Result<Update<D>, StepFailure> {
+    pub(super) fn update(&mut self, friction: f64) -> Result<Update, StepFailure> {
         let begin = Begin {
             place: self.place(),
             forces: self.forces(),
@@ -245,13 +271,12 @@ impl<const D: usize> AtRest<'_, D> {
 
     /// Goes on with the iterations of a step against friction whose first one goes too far, `R(q) = μ D (q − q_n)`, until the
     /// force along the step does not turn round. Returns whether that was found.
-    pub(super) fn settle(&mut self, friction: f64, update: &mut Update<D>) -> bool {
+    pub(super) fn settle(&mut self, friction: f64, update: &mut Update) -> bool {
         let begin = &update.begin;
         for _ in 0..SETTLING {
             let (mut right, way) = (self.forces(), self.way_from(&begin.place));
-            let sizes = begin.sizes.iter().flat_map(|&size| [size; D]);
-            for (force, (way, size)) in right.iter_mut().zip(way.iter().zip(sizes)) {
-                *force -= friction * size * way;
+            for (row, (force, way)) in right.iter_mut().zip(&way).enumerate() {
+                *force -= friction * begin.sizes[row / D] * way;
             }
             self.set_right(&right);
             self.sizes.clone_from(&begin.sizes);
@@ -277,29 +302,23 @@ impl<const D: usize> AtRest<'_, D> {
     }
 
     /// The displacements of moving nodes from a place, m.
-    fn way_from(&self, (from, _): &Place<D>) -> Vec<f64> {
-        let now = &self.solver.trial.displacements;
-        let nodes = self.solver.nodes.iter().map(|node| node.place.node());
-        let ways =
-            nodes.map(|node| array::from_fn::<_, D, _>(|axis| now[node][axis] - from[node][axis]));
-        ways.flatten().collect()
+    fn way_from(&self, from: &Place) -> Vec<f64> {
+        let all = self.moved_from(from);
+        let mut moved = Vec::with_capacity(self.first.len());
+        for node in &self.solver.nodes {
+            moved.extend_from_slice(&all[node.place.node() * D..][..D]);
+        }
+        moved
+    }
+
+    /// The displacements of all nodes from a place, m.
+    fn moved_from(&self, [from, _]: &Place) -> Vec<f64> {
+        difference(self.solver.trial.displacements.as_flattened(), from)
     }
 
     /// The largest motion of an arm since it was at a place, in lengths of the arm there.
-    pub(super) fn turn(&self, (from, _): &Place<D>) -> f64 {
-        let now = &self.solver.trial.displacements;
-        let moved: Vec<[f64; D]> = now
-            .iter()
-            .zip(from)
-            .map(|(now, from)| vector(|axis| now[axis] - from[axis]))
-            .collect();
-        let turns = self.arms.iter().map(|ends| {
-            let [from, to] = ends.map(|end| self.position(end));
-            let by: [f64; D] = vector(|axis| moved[ends[1]][axis] - moved[ends[0]][axis]);
-            let before: [f64; D] = vector(|axis| (to[axis] - from[axis]) - by[axis]);
-            norm(&by) / norm(&before)
-        });
-        turns.fold(0.0, f64::max)
+    pub(super) fn turn(&self, from: &Place) -> f64 {
+        largest_turn(D, &self.arms, &self.positions(), &self.moved_from(from))
     }
 
     /// Reduces the part of the last update that is applied, and starts the next system.
