@@ -118,7 +118,7 @@ impl<const D: usize> Scene<D> {
     pub(crate) fn numbering(&self) -> (Layout, Conduction) {
         let mut layout = self.layout();
         let reservoirs = self.reservoir_temperatures();
-        let conduction = Conduction::new(&self.conductors, &reservoirs, &layout);
+        let conduction = Conduction::new(&self.conductors, reservoirs, &layout);
         layout.couple(|slot| conduction.meets_slots(slot));
         (layout, conduction)
     }

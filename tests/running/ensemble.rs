@@ -230,6 +230,82 @@ fn settings_of_newton_reach_the_members() {
     assert_eq!(*found[0].as_ref().unwrap(), settings);
 }
 
+// What one member leaves to the next.
+
+/// Pendulums of one spring or two, alone, in contact, with weight or pushed; three members of a kind follow each other.
+fn of_several_kinds(member: &u32) -> (Scene<2>, Node) {
+    let (kind, own) = (member / 3 % 5, 1.0 + 0.01 * f64::from(*member));
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(own, [3.0 * own, 0.0], [0.0, own]);
+    let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
+    scene.set_temperature(spring, 350.0 * own);
+    scene.set_viscous_stretch(spring, 0, 0.1 * own);
+    let air = scene.reservoir(300.0 * own);
+    scene.conduct(spring, air, 10.0 * own);
+    if kind != 0 {
+        let end = scene.mass(2.0 * own, [5.0, own], [0.0, 0.0]);
+        let other = scene.spring(ThermoViscoElastic::PENDULUM, [bob, end]);
+        scene.set_temperature(other, 300.0 * own);
+        match kind {
+            1 => {}
+            2 => drop(scene.conduct(spring, other, own)),
+            3 => scene.set_gravity([0.0, -9.8 * own]),
+            _ => scene.force(end, |time: f64| [time, 1.0]),
+        }
+    }
+    (scene, bob)
+}
+
+/// Settings with which steps fail.
+const HASTY: NewtonSettings = NewtonSettings {
+    max_iterations: 1,
+    tolerance: 1e-15,
+};
+
+/// Steps in different ways, of which some fail; returns what each step says, and all that the next one depends on.
+fn life(run: &mut Simulation<2>, bob: Node, member: u32) -> Result<String, MemberFailure> {
+    let mut said = String::new();
+    let mut say = |text: String| said += &text;
+    if member % 4 == 1 {
+        run.meter_heat();
+    }
+    if member % 7 == 2 {
+        say(format!("{:?}", run.control_steps(Tolerance::new(1e-3))));
+    }
+    (0..5).for_each(|_| say(format!("{:?}", run.step())));
+    if member % 5 == 4 {
+        say(format!("{:?}", run.set_force(bob, [0.5, 0.0])));
+    }
+    // A step fails in the middle of the life, or at its end.
+    let usual = run.newton_settings();
+    for fails in [member % 2 == 1, false, member % 2 == 0] {
+        run.set_newton_settings(if fails { HASTY } else { usual })?;
+        say(format!("{:?}", run.step()));
+    }
+    say(format!("{:?} {:?}", run.checkpoint(), run.ledger()));
+    Ok(said)
+}
+
+#[test]
+fn a_member_leaves_no_trace_in_the_next() {
+    let members: Vec<u32> = (0..30).collect();
+    for scheme in Scheme::ALL.into_iter().chain([Scheme::Auto]) {
+        let alone = |member: &u32| {
+            let (scene, bob) = of_several_kinds(member);
+            let mut run = Simulation::new(scene, scheme, 0.05).unwrap();
+            life(&mut run, bob, *member).unwrap()
+        };
+        let ensemble = Ensemble::new(scheme, 0.05).threads(1);
+        let found = ensemble.run(&members, of_several_kinds, |run, bob, member| {
+            life(run, bob, *member)
+        });
+        for (member, found) in members.iter().zip(found) {
+            assert_eq!(found.unwrap(), alone(member), "{scheme:?}, {member}");
+        }
+    }
+}
+
 // Watching and stopping.
 
 #[test]

@@ -184,6 +184,11 @@ impl<const W: usize> LinearSystem<W> {
         })
     }
 
+    /// Whether its elimination keeps nothing between solutions, as that of few unknowns does.
+    pub(crate) fn is_fixed(&self) -> bool {
+        matches!(self.storage, Storage::Fixed { .. })
+    }
+
     /// The index of a row of B; the scratch row without an unknown.
     pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
         unknown.unwrap_or(self.unknowns)

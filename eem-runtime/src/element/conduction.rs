@@ -6,7 +6,7 @@ use eem_material::number::compact::compact;
 use eem_material::number::compensated::Compensated;
 
 /// The far end of a path of heat.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Partner {
     /// The element with this thermal slot.
     Slot(usize),
@@ -49,40 +49,63 @@ pub(crate) struct Conduction {
 
 impl Conduction {
     /// The paths of a scene.
-    pub(crate) fn new(conductors: &[Conductor], reservoirs: &[f64], layout: &Layout) -> Self {
+    pub(crate) fn new(conductors: &[Conductor], reservoirs: Vec<f64>, layout: &Layout) -> Self {
         let slots = if conductors.is_empty() {
             0
         } else {
             layout.thermal
         };
-        let mut by_slot = vec![Vec::new(); slots];
         let slot = |index: usize| layout.elements[index].thermal;
-        let mut places = Vec::with_capacity(conductors.len());
+        // Each path as its two ends see it: their slot, and their partner.
+        let ends = |conductor: &Conductor| {
+            let near = slot(conductor.element.index());
+            match conductor.partner {
+                HeatPartner::Reservoir(far) => {
+                    [near.map(|near| (near, Partner::Reservoir(far.index))), None]
+                }
+                HeatPartner::Element(far) => {
+                    let both = near.zip(slot(far.index()));
+                    [
+                        both.map(|(near, far)| (near, Partner::Slot(far))),
+                        both.map(|(near, far)| (far, Partner::Slot(near))),
+                    ]
+                }
+            }
+        };
+        let mut ranges = vec![[0; 2]; slots];
+        for (slot, _) in conductors.iter().flat_map(ends).flatten() {
+            ranges[slot][1] += 1;
+        }
+        let mut count = 0;
+        for range in &mut ranges {
+            let own = range[1];
+            *range = [count; 2];
+            count += own;
+        }
+        let nothing = Link {
+            partner: Partner::Reservoir(0),
+            conductance: 0.0,
+        };
+        let mut links = vec![nothing; count as usize];
+        let mut paths = Vec::with_capacity(conductors.len());
         for conductor in conductors {
             let conductance = conductor.conductance;
-            let near = slot(conductor.element.index());
-            let (partner, back) = match conductor.partner {
-                HeatPartner::Reservoir(far) => (Some(Partner::Reservoir(far.index)), None),
-                HeatPartner::Element(far) => {
-                    let far = slot(far.index());
-                    (far.map(Partner::Slot), far.zip(near.map(Partner::Slot)))
-                }
-            };
-            let far = back.map_or(usize::MAX, |(far, _)| far);
-            let first = near.map_or(0, |near| near.min(far));
-            places.push((first, by_slot[first].len(), near != Some(first)));
-            if let (Some(near), Some(partner)) = (near, partner) {
-                by_slot[near].push(Link {
-                    partner,
-                    conductance,
-                });
-            }
-            if let Some((far, partner)) = back {
-                by_slot[far].push(Link {
-                    partner,
-                    conductance,
-                });
-            }
+            let ends = ends(conductor).map(|end| {
+                end.map(|(slot, partner)| {
+                    let [_, end] = &mut ranges[slot];
+                    let link = *end;
+                    links[link as usize] = Link {
+                        partner,
+                        conductance,
+                    };
+                    *end += 1;
+                    (slot, link)
+                })
+            });
+            paths.push(match ends {
+                [Some((near, _)), Some((far, link))] if far < near => (link, true),
+                [near, _] => (near.map_or(0, |(_, link)| link), false),
+            });
         }
         let mut owners = vec![0; slots];
         for (element, element_slots) in layout.elements.iter().enumerate() {
@@ -90,9 +113,17 @@ impl Conduction {
                 *owner = compact(element);
             }
         }
-        let settling = by_slot.iter().map(|links: &Vec<Link>| {
+        let mut conduction = Self {
+            links,
+            ranges,
+            paths,
+            owners,
+            settling: Vec::new(),
+            reservoirs,
+        };
+        let settling = (0..slots).map(|slot| {
             let mut sum = 0.0;
-            for link in links {
+            for link in conduction.links(slot) {
                 sum += match link.partner {
                     Partner::Slot(_) => link.conductance,
                     Partner::Reservoir(_) => 0.5 * link.conductance,
@@ -100,28 +131,16 @@ impl Conduction {
             }
             sum
         });
-        let settling = settling.collect();
-        let mut links = Vec::new();
-        let mut ranges = Vec::with_capacity(by_slot.len());
-        for list in by_slot {
-            let start = compact(links.len());
-            links.extend(list);
-            ranges.push([start, compact(links.len())]);
-        }
-        let ranges: Vec<[u32; 2]> = ranges;
-        let paths = places.into_iter();
-        let paths = paths.map(|(slot, place, is_second)| {
-            let [start, _] = ranges[slot];
-            (start + compact(place), is_second)
-        });
-        Self {
-            links,
-            paths: paths.collect(),
-            owners,
-            settling,
-            ranges,
-            reservoirs: reservoirs.to_vec(),
-        }
+        conduction.settling = settling.collect();
+        conduction
+    }
+
+    /// Whether another scene has the same paths, whatever their conductances.
+    pub(crate) fn joins_like(&self, other: &Self) -> bool {
+        let partners = self.links.iter().map(|link| link.partner);
+        self.ranges == other.ranges
+            && self.reservoirs.len() == other.reservoirs.len()
+            && partners.eq(other.links.iter().map(|link| link.partner))
     }
 
     /// Number of links.

@@ -1,5 +1,7 @@
 //! The mass matrix: masses of the nodes, none for anchors, and masses of solids, which couple nodes.
 
+use std::borrow::Cow;
+
 use eem_material::number::compact::compact;
 
 /// The mass matrix, a number for every pair of nodes, kg.
@@ -114,10 +116,10 @@ impl Masses {
     }
 
     /// The mass on which gravity acts at each node, the sum of a row, kg; at anchors that of solids.
-    pub(crate) fn weights(&self) -> Vec<f64> {
-        let mut weights = self.own.clone();
+    pub(crate) fn weights(&self) -> Cow<'_, [f64]> {
+        let mut weights = Cow::Borrowed(&self.own[..]);
         for ([row, _], mass) in self.coupled() {
-            weights[row] += mass;
+            weights.to_mut()[row] += mass;
         }
         weights
     }

@@ -8,6 +8,7 @@ use core::fmt;
 use core::ops::ControlFlow;
 
 use crate::run::simulation::Simulation;
+use crate::run::simulation::spare::Spare;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
@@ -20,7 +21,8 @@ use progress::{Progress, Watch};
 /// Many independent runs: parameter sweeps, random initial states.
 ///
 /// Each member is one scene, built from one input. With the feature `parallel` members run on all cores, otherwise
-/// one after the other. The results have the same bits for any number of threads.
+/// one after the other. The results have the same bits for any number of threads. A member with a few masses, without other loads
+/// than gravity, is set up in the memory of the one before it on its thread, if their scenes differ in numbers only.
 ///
 /// Stones thrown at different speeds, one of them by mistake:
 ///
@@ -147,16 +149,18 @@ impl Ensemble<'_> {
         I: Sync,
         T: Send,
     {
-        let member = |input: &I| {
+        let member = |spare: &mut Option<Spare<D>>, input: &I| {
             let (scene, handles) = build(input);
-            let simulation = Simulation::new(scene, self.scheme, self.step);
-            let mut simulation = simulation.map_err(SceneError::from)?;
-            simulation.set_newton_settings(self.newton)?;
-            observe(&mut simulation, handles, input)
+            let run = Simulation::with_spare(scene, self.scheme, self.step, spare.take());
+            let mut run = run.map_err(SceneError::from)?;
+            run.set_newton_settings(self.newton)?;
+            let result = observe(&mut run, handles, input);
+            *spare = run.into_spare();
+            result
         };
         let progress = Progress::new(self.watch, inputs.len());
-        threads::map(self.threads, inputs, |index, input| {
-            let result = progress.follow(1, || member(input));
+        threads::map(self.threads, inputs, |spare, index, input| {
+            let result = progress.follow(1, || member(spare, input));
             let result = result.unwrap_or(Err(MemberFailure::Stopped));
             let member = index;
             result.map_err(|failure| MemberError { member, failure })

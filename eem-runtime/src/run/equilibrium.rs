@@ -266,7 +266,7 @@ impl<const D: usize> Scene<D> {
     ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let refuse = |errors: Vec<SceneError>| EquilibriumError::Scene { errors };
         let masses = self.masses();
-        let conduction = Conduction::new(&[], &[], layout);
+        let conduction = Conduction::new(&[], Vec::new(), layout);
         let mut loads = StepLoads::new(masses.len() * D, layout, &self.loads, false);
         let evaluated = loads.evaluate_forces_at(&self.loads, &masses, self.start);
         evaluated.map_err(EquilibriumError::Start)?;

@@ -185,9 +185,9 @@ fn kinetic_energy(dimension: usize, state: &State, masses: &Masses) -> f64 {
 
 /// `−Σ m g·q`, J.
 fn potential_energy(state: &State, masses: &Masses, gravity: &[f64]) -> f64 {
-    let mut sum = Total::default();
+    let (mut sum, weights) = (Total::default(), masses.weights());
     let positions = state.positions.values().chunks_exact(gravity.len());
-    for (q, mass) in positions.zip(masses.weights()) {
+    for (q, &mass) in positions.zip(&*weights) {
         for (&q, &g) in q.iter().zip(gravity) {
             sum.add(-mass * g * q);
         }

@@ -35,6 +35,7 @@ mod halves;
 pub(crate) mod linearize;
 mod memory;
 mod ovens;
+pub(crate) mod spare;
 pub(crate) mod start;
 mod stepper;
 mod unseen;
@@ -67,9 +68,9 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use crate::step::timed::TimedLoad;
 use check::{Needs, check_all, check_tolerance};
-use eem_material::number::compact::compact;
 use memory::{Automatic, Control, Unresolved};
-use start::{Begin, find_entropies, initial_state};
+use spare::{Basis, Spare};
+use start::{Begin, find_entropies};
 use stepper::{Parts, Stepper};
 
 /// A run: a scene, a scheme and the present state.
@@ -154,7 +155,13 @@ impl<const D: usize> fmt::Debug for Simulation<D> {
 }
 
 impl<const D: usize> Simulation<D> {
-    fn begin(mut scene: Scene<D>, scheme: Scheme, begin: Begin) -> Result<Self, RefusedScene<D>> {
+    /// A simulation of a scene, which uses what an earlier one has left if that fits.
+    fn begin(
+        mut scene: Scene<D>,
+        scheme: Scheme,
+        begin: Begin,
+        spare: Option<Spare<D>>,
+    ) -> Result<Self, RefusedScene<D>> {
         let needs = Needs::of(&scene);
         let in_use = needs.first(scheme);
         let mut errors = check_all(&scene, (in_use, needs), begin.step());
@@ -164,7 +171,7 @@ impl<const D: usize> Simulation<D> {
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
-        let run = Self::take(&mut scene, (scheme, in_use, needs), begin);
+        let run = Self::take(&mut scene, (scheme, in_use, needs), begin, spare);
         run.map_err(|errors| RefusedScene::new(scene, errors))
     }
 
@@ -173,14 +180,12 @@ impl<const D: usize> Simulation<D> {
         scene: &mut Scene<D>,
         (scheme, in_use, needs): (Scheme, Scheme, Needs),
         begin: Begin,
+        spare: Option<Spare<D>>,
     ) -> Result<Self, Vec<SceneError>> {
         let step = begin.step();
         let ((mut layout, conduction), ends) = (scene.numbering(), scene.ends());
-        let mut state = Box::new(initial_state(scene, &layout, Some(step))?);
-        let elements = scene.elements.iter();
-        let places = elements.map(|entry| [entry.group, entry.place].map(compact));
-        let places = places.collect();
-        let shapes = scene.groups.iter().map(|group| group.shape()).collect();
+        let basis = Basis::new(scene, in_use, (&layout, &conduction), step, spare)?;
+        let mut state = basis.state;
         let masses = scene.masses();
         state.follow_velocities(D, &masses);
         let parts = Parts {
@@ -191,12 +196,12 @@ impl<const D: usize> Simulation<D> {
             conduction: &conduction,
             loads: &scene.loads,
         };
-        let systems = parts.systems(scene.memory_limit);
-        let systems = systems.map_err(|error| vec![error.into()])?;
+        let memory = parts.memory(basis.newton, scene.memory_limit);
+        let memory = memory.map_err(|error| vec![error.into()])?;
         let groups = mem::take(&mut scene.groups);
         let (nodes, pairs) = (&mut scene.nodes, &mut scene.pairs);
         let entries = &mut scene.elements;
-        let stepper = Stepper::new(groups, systems, parts, &mut state, |state, elements| {
+        let stepper = Stepper::new(groups, memory, parts, &mut state, |state, elements| {
             let found = find_entropies(elements, state, parts);
             // The entries of the scene are large, and now contained in masses, state and groups.
             found.map(|()| drop((mem::take(nodes), mem::take(pairs), mem::take(entries))))
@@ -219,17 +224,17 @@ impl<const D: usize> Simulation<D> {
             automatic: Automatic::new(needs, scene.memory_limit),
             step,
             masses,
-            places,
-            shapes,
+            places: basis.places,
+            shapes: basis.shapes,
             layout,
             conduction,
             has_loads: !loads.are_none(),
             loads,
             least,
             stepper,
-            effort: Effort::new(),
+            effort: basis.effort,
             control: None,
-            next: state.clone(),
+            next: spare::copy(&state, basis.next),
             state,
             has_stepped: false,
             start: scene.start,

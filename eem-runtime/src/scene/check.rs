@@ -38,7 +38,8 @@ impl<const D: usize> Scene<D> {
                 });
             }
         }
-        for (index, temperature) in self.reservoir_temperatures().into_iter().enumerate() {
+        let reservoirs = self.reservoir_temperatures();
+        for (index, &temperature) in reservoirs.iter().enumerate() {
             if !is_positive(temperature) {
                 errors.push(SceneError::ReservoirTemperature {
                     reservoir: self.reservoir_at(index),
@@ -290,6 +291,9 @@ fn check_heat_flows(
     conductors: &[Conductor],
     reservoirs: &[f64],
 ) -> Result<(), SceneError> {
+    if conductors.is_empty() {
+        return Ok(());
+    }
     let temperature = |element: Element| elements[element.index()].temperature;
     let mut received = vec![0.0; elements.len()];
     for conductor in conductors {

@@ -155,7 +155,12 @@ impl<const D: usize> Loads<D> {
     }
 
     pub(crate) fn are_none(&self) -> bool {
-        let has_force = self.have_weight() || !self.forces.is_empty() || !self.rockets.is_empty();
+        !self.have_weight() && self.are_at_most_weight()
+    }
+
+    /// Whether there are no loads but gravity.
+    pub(crate) fn are_at_most_weight(&self) -> bool {
+        let has_force = !self.forces.is_empty() || !self.rockets.is_empty();
         let has_heat = !self.temperatures.is_empty() || !self.ovens.is_empty();
         !has_force && !has_heat && self.motions.is_empty()
     }

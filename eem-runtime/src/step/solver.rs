@@ -152,6 +152,23 @@ impl<const D: usize> Solver<D> {
         }
     }
 
+    /// Whether its eliminations keep nothing between steps, so that it can be [renewed](Self::renew).
+    pub(crate) fn is_renewable(&self) -> bool {
+        let stages = self.stages.as_ref();
+        let secant = stages.and_then(|stages| stages.secant.as_ref());
+        self.tangent.is_fixed() && secant.is_none_or(LinearSystem::is_fixed)
+    }
+
+    /// Makes it that of another scene with these masses, which differs in numbers only: the same nodes move, masses do not couple
+    /// them, and the only load, in both scenes or in none, is gravity.
+    pub(crate) fn renew(&mut self, masses: &Masses) {
+        for node in &mut self.nodes {
+            node.place = node.place.with_mass(masses);
+        }
+        self.past.clear();
+        self.evaluations = 0;
+    }
+
     /// Number of sets of unknowns.
     pub(crate) const fn sets(&self) -> usize {
         self.sets.len()

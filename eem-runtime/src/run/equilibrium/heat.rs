@@ -26,7 +26,7 @@ pub(super) fn balance<const D: usize>(
     layout: &Layout,
     temperatures: &mut [f64],
 ) -> Result<f64, EquilibriumError> {
-    let conduction = Conduction::new(&scene.conductors, &scene.reservoir_temperatures(), layout);
+    let conduction = Conduction::new(&scene.conductors, scene.reservoir_temperatures(), layout);
     let slot_of = |element: usize| layout.elements[element].thermal;
     let mut is_fixed = vec![false; temperatures.len()];
     for (element, _) in &scene.loads.temperatures {

@@ -98,11 +98,11 @@ impl<const D: usize> Simulation<D> {
             conduction: &self.conduction,
             loads: &self.loads,
         };
-        let systems = parts.systems(automatic.memory_limit)?;
+        let memory = parts.memory(None, automatic.memory_limit)?;
         automatic.evaluations += self.stepper.evaluations();
         let elements = self.stepper.take_elements();
         let state = &mut self.state;
-        let Ok(stepper) = Stepper::new(elements, systems, parts, state, |state, elements| {
+        let Ok(stepper) = Stepper::new(elements, memory, parts, state, |state, elements| {
             // As after a restart: each scheme evaluates energies in its own way.
             for group in elements {
                 group.find_energies(state);

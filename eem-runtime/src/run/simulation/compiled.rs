@@ -6,7 +6,9 @@
 //! used.
 
 use super::event::Event;
+use super::spare::Spare;
 use super::start::Begin;
+use super::stepper::Stepper;
 use super::{Simulation, StepResult};
 use crate::algebra::memory::TooLarge;
 #[cfg(not(test))]
@@ -56,7 +58,50 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(scene: Scene<D>, scheme: Scheme, step: f64) -> Result<Self, RefusedScene<D>> {
-        (Functions::get().new)(scene, scheme, Begin::WithStep(step))
+        Self::with_spare(scene, scheme, step, None)
+    }
+
+    /// The same, with what an earlier run has left.
+    pub(crate) fn with_spare(
+        scene: Scene<D>,
+        scheme: Scheme,
+        step: f64,
+        spare: Option<Spare<D>>,
+    ) -> Result<Self, RefusedScene<D>> {
+        (Functions::get().new)(scene, scheme, Begin::WithStep(step), spare)
+    }
+
+    /// What the next run can begin with, if its scene is small and has neither solids nor loads but gravity.
+    pub(crate) fn into_spare(self) -> Option<Spare<D>> {
+        let Self {
+            in_use: scheme,
+            masses,
+            conduction,
+            loads,
+            places,
+            shapes,
+            stepper: Stepper::Newton(newton),
+            effort,
+            state,
+            next,
+            ..
+        } = self
+        else {
+            return None;
+        };
+        let is_small = newton.solver.is_renewable() && !masses.are_coupled();
+        (is_small && loads.are_at_most_weight()).then(|| Spare {
+            scheme,
+            has_weight: loads.have_weight(),
+            masses,
+            conduction,
+            places,
+            shapes,
+            newton,
+            effort,
+            state,
+            next,
+        })
     }
 
     /// Checks a scene and prepares it for steps that a tolerance [controls](Self::control_steps). The first step follows from
@@ -92,7 +137,7 @@ impl<const D: usize> Simulation<D> {
         scheme: Scheme,
         tolerance: Tolerance,
     ) -> Result<Self, RefusedScene<D>> {
-        (Functions::get().new)(scene, scheme, Begin::WithTolerance(tolerance))
+        (Functions::get().new)(scene, scheme, Begin::WithTolerance(tolerance), None)
     }
 
     /// Makes one step of the present size, or of the size that [step control](Self::control_steps) chooses.
@@ -153,7 +198,7 @@ type NewResult<const D: usize> = Result<Simulation<D>, RefusedScene<D>>;
 
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize> {
-    new: fn(Scene<D>, Scheme, Begin) -> NewResult<D>,
+    new: fn(Scene<D>, Scheme, Begin, Option<Spare<D>>) -> NewResult<D>,
     advance: fn(&mut Simulation<D>, Aim) -> StepResult,
     pub(super) end_at_event: EndAtEvent<D>,
     pub(super) undo: fn(&mut Simulation<D>),

@@ -10,7 +10,7 @@ use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
-use crate::scene::entry::ElementEntry;
+use crate::scene::entry::NodeEntry;
 use crate::scene::error::SceneError;
 use crate::scene::loads::{Course, Loads, Written, written};
 use crate::scene::solid_error::SolidError;
@@ -44,84 +44,105 @@ pub(crate) fn initial_state<const D: usize>(
     layout: &Layout,
     step: Option<f64>,
 ) -> Result<State, Vec<SceneError>> {
-    let mut errors = Vec::new();
     let coordinates = scene.nodes.len() * D;
-    let mut positions = Vec::with_capacity(coordinates);
-    let mut momenta = Vec::with_capacity(coordinates);
-    let mut velocities = Vec::new();
     let is_coupled = !scene.pairs.is_empty();
-    for node in &scene.nodes {
-        let mass = node.mass.unwrap_or(0.0);
-        let still = SVector::from([0.0; D]);
-        let moves = step.is_some();
-        positions.extend_from_slice(node.position.as_slice());
-        let momentum = if moves {
-            node.start_momentum(mass)
-        } else {
-            still
-        };
-        momenta.extend_from_slice(momentum.as_slice());
-        if is_coupled {
-            let has_speed = moves && node.mass.is_some();
-            let velocity = if has_speed { &node.velocity } else { &still };
-            velocities.extend_from_slice(velocity.as_slice());
-        }
-    }
-    if let Some(step) = step.filter(|_| is_coupled) {
-        let span = [scene.start, step];
-        errors.extend(find_speeds(&scene.loads, span, &mut velocities));
-    }
-    if !errors.is_empty() {
-        return Err(errors);
-    }
-    let nodes = [
-        Compensated::new(positions),
-        Compensated::new(momenta),
-        Compensated::new(velocities),
-    ];
-    let reservoirs = scene.reservoirs.len();
-    Ok(state(
-        scene.start,
-        nodes,
-        (&scene.elements, layout),
-        reservoirs,
-    ))
-}
-
-/// The initial state with these positions, momenta and velocities of nodes.
-fn state(
-    time: f64,
-    [positions, momenta, velocities]: [Compensated; 3],
-    (elements, layout): (&[ElementEntry], &Layout),
-    reservoirs: usize,
-) -> State {
-    let zeros = |count| vec![0.0; count];
+    let zeros = |count| Compensated::new(vec![0.0; count]);
     let zero = Sum::new(0.0);
-    let mut viscous = zeros(layout.viscous);
-    let mut temperatures = zeros(layout.thermal);
-    for (entry, slots) in elements.iter().zip(&layout.elements) {
-        for &(dashpot, stretch) in &entry.viscous_stretches {
-            viscous[slots.viscous + dashpot] = stretch;
-        }
-        if let (Some(slot), Some(temperature)) = (slots.thermal, entry.temperature) {
-            temperatures[slot] = temperature;
-        }
-    }
-    State {
-        time: Sum::new(time),
-        positions,
-        momenta,
-        velocities,
-        viscous: Compensated::new(viscous),
-        entropies: Compensated::new(zeros(layout.thermal)),
-        temperatures,
-        energies: vec![Energy::zero(); elements.len()],
-        reservoir_entropies: Compensated::new(zeros(reservoirs)),
+    let mut state = State {
+        time: zero,
+        positions: zeros(coordinates),
+        momenta: zeros(coordinates),
+        velocities: zeros(if is_coupled { coordinates } else { 0 }),
+        viscous: zeros(layout.viscous),
+        entropies: zeros(layout.thermal),
+        temperatures: vec![0.0; layout.thermal],
+        energies: vec![Energy::zero(); scene.elements.len()],
+        reservoir_entropies: zeros(scene.reservoirs.len()),
         work: zero,
         heat: zero,
         thermostat_entropy: zero,
         dissipated: zero,
         meters: Meters::default(),
+    };
+    write_initial_state(scene, layout, step, &mut state)?;
+    Ok(state)
+}
+
+/// Writes the initial state over another one with as many entries.
+pub(super) fn write_initial_state<const D: usize>(
+    scene: &Scene<D>,
+    layout: &Layout,
+    step: Option<f64>,
+    state: &mut State,
+) -> Result<(), Vec<SceneError>> {
+    let State {
+        time,
+        positions,
+        momenta,
+        velocities,
+        viscous,
+        entropies,
+        temperatures,
+        energies,
+        reservoir_entropies,
+        work,
+        heat,
+        thermostat_entropy,
+        dissipated,
+        meters,
+    } = state;
+    let (moves, still) = (step.is_some(), SVector::from([0.0; D]));
+    positions.write(|all| write_points(all, scene, |node| node.position));
+    momenta.write(|all| {
+        write_points(all, scene, |node| {
+            let momentum = node.start_momentum(node.mass.unwrap_or(0.0));
+            if moves { momentum } else { still }
+        });
+    });
+    let mut errors = Vec::new();
+    if !scene.pairs.is_empty() {
+        velocities.write(|all| {
+            write_points(all, scene, |node| match node.mass.filter(|_| moves) {
+                Some(_) => node.velocity,
+                None => still,
+            });
+            if let Some(step) = step {
+                errors = find_speeds(&scene.loads, [scene.start, step], all);
+            }
+        });
+    }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    viscous.write(|all| all.fill(0.0));
+    temperatures.fill(0.0);
+    for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
+        for &(dashpot, stretch) in &entry.viscous_stretches {
+            viscous.set(slots.viscous + dashpot, stretch);
+        }
+        if let (Some(slot), Some(temperature)) = (slots.thermal, entry.temperature) {
+            temperatures[slot] = temperature;
+        }
+    }
+    entropies.write(|all| all.fill(0.0));
+    energies.fill(Energy::zero());
+    reservoir_entropies.write(|all| all.fill(0.0));
+    *time = Sum::new(scene.start);
+    for sum in [work, heat, thermostat_entropy, dissipated] {
+        *sum = Sum::new(0.0);
+    }
+    *meters = Meters::default();
+    Ok(())
+}
+
+/// Writes a vector for each node of a scene.
+fn write_points<const D: usize>(
+    all: &mut [f64],
+    scene: &Scene<D>,
+    of: impl Fn(&NodeEntry<D>) -> SVector<f64, D>,
+) {
+    for (own, node) in all.as_chunks_mut::<D>().0.iter_mut().zip(&scene.nodes) {
+        *own = of(node).into();
     }
 }
 

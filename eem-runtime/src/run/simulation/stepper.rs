@@ -41,6 +41,15 @@ pub(super) struct Newton<const D: usize> {
     pub(super) intermediate: Option<State>,
 }
 
+/// What a solver is made of.
+#[expect(clippy::large_enum_variant, reason = "it is used at once")]
+pub(super) enum Memory<const D: usize> {
+    /// Linear systems that have not been used.
+    New(Systems<D>),
+    /// Those of a scene that differs in numbers only: see [`Solver::renew`].
+    Used(Box<Newton<D>>),
+}
+
 /// The parts of a scene from which a stepper is made, besides its groups.
 #[derive(Clone, Copy)]
 pub(super) struct Parts<'a, const D: usize> {
@@ -53,11 +62,19 @@ pub(super) struct Parts<'a, const D: usize> {
 }
 
 impl<const D: usize> Parts<'_, D> {
-    /// The linear systems of the scheme.
-    pub(super) fn systems(&self, limit: MemoryLimit) -> Result<Systems<D>, TooLarge> {
+    /// Memory for a solver: used one, if there is some, or the linear systems of the scheme.
+    pub(super) fn memory(
+        &self,
+        used: Option<Box<Newton<D>>>,
+        limit: MemoryLimit,
+    ) -> Result<Memory<D>, TooLarge> {
+        if let Some(newton) = used {
+            return Ok(Memory::Used(newton));
+        }
         let elements = (self.elements, self.layout);
         let rockets = self.loads.rocket_lines();
-        Systems::new(self.scheme, elements, self.conduction, &rockets, limit)
+        let systems = Systems::new(self.scheme, elements, self.conduction, &rockets, limit)?;
+        Ok(Memory::New(systems))
     }
 }
 
@@ -66,7 +83,7 @@ impl<const D: usize> Stepper<D> {
     /// fails, the elements are returned.
     pub(super) fn new<E>(
         elements: Models<D>,
-        systems: Systems<D>,
+        memory: Memory<D>,
         parts: Parts<'_, D>,
         state: &mut State,
         begin: impl FnOnce(&mut State, &mut [&mut dyn Elements<D>]) -> Result<(), E>,
@@ -101,8 +118,7 @@ impl<const D: usize> Stepper<D> {
             let groups = groups.into_iter();
             return Err((error, groups.map(Group::into_loose).collect()));
         }
-        let newton = Newton::new(groups, systems, parts, state);
-        Ok(Self::Newton(Box::new(newton)))
+        Ok(Self::Newton(Newton::new(groups, memory, parts, state)))
     }
 
     /// Takes the elements out of the stepper, which cannot step afterwards.
@@ -193,27 +209,37 @@ impl<const D: usize> Stepper<D> {
 
 impl<const D: usize> Newton<D> {
     fn new(
-        mut groups: Vec<Box<dyn Group<D>>>,
-        systems: Systems<D>,
+        groups: Vec<Box<dyn Group<D>>>,
+        memory: Memory<D>,
         parts: Parts<'_, D>,
         state: &State,
-    ) -> Self {
+    ) -> Box<Self> {
         let (masses, layout, conduction) = (parts.masses, parts.layout, parts.conduction);
         let (coordinates, is_coupled) = (masses.len() * D, masses.are_coupled());
-        let memory = || StepLoads::new(coordinates, layout, parts.loads, is_coupled);
-        let stages = parts.scheme.tableau().map_or(0, Tableau::stages);
-        let loads = memory();
-        let solver = Solver::new(parts.scheme, systems, masses, layout, conduction, &loads);
-        for group in &mut groups {
-            group.connect(&solver.sites(layout, conduction));
+        let no_loads = || StepLoads::new(coordinates, layout, parts.loads, is_coupled);
+        let count = parts.scheme.tableau().map_or(0, Tableau::stages);
+        let (loads, stages) = (no_loads(), (0..count).map(|_| no_loads()).collect());
+        let intermediate = parts.scheme.is_split().then(|| state.clone());
+        let mut newton = match memory {
+            Memory::New(systems) => Box::new(Self {
+                groups,
+                solver: Solver::new(parts.scheme, systems, masses, layout, conduction, &loads),
+                loads,
+                stages,
+                intermediate,
+            }),
+            Memory::Used(mut newton) => {
+                newton.solver.renew(masses);
+                newton.groups = groups;
+                (newton.loads, newton.stages) = (loads, stages);
+                newton.intermediate = intermediate;
+                newton
+            }
+        };
+        for group in &mut newton.groups {
+            group.connect(&newton.solver.sites(layout, conduction));
         }
-        Self {
-            groups,
-            solver,
-            loads,
-            stages: (0..stages).map(|_| memory()).collect(),
-            intermediate: parts.scheme.is_split().then(|| state.clone()),
-        }
+        newton
     }
 
     /// Evaluates the loads of the step from `time` by `step`, from the old state.

@@ -134,9 +134,9 @@ impl LeastScales {
             );
         }
         // Anchors have momenta next to solids.
-        let nodes = masses.iter().zip(masses.weights()).zip(around);
-        let nodes: Box<[_]> = nodes
-            .map(|((own, held), ([stiffness, damping, force], length))| {
+        let weights = masses.weights();
+        let nodes: Box<[_]> = (masses.iter().zip(&*weights).zip(around))
+            .map(|((own, &held), ([stiffness, damping, force], length))| {
                 let mass = own.unwrap_or(held);
                 let is_mass = own.unwrap_or(0.0) > 0.0;
                 let fastest = Scalar::maximum((stiffness / mass).sqrt(), damping / mass);

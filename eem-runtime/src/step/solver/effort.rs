@@ -35,6 +35,15 @@ impl Effort {
         }
     }
 
+    /// The same as [`new`](Self::new), in the memory of a run.
+    pub(crate) fn renewed(mut self) -> Self {
+        self.history.clear();
+        Self {
+            history: self.history,
+            ..Self::new()
+        }
+    }
+
     /// Records an iteration.
     #[inline]
     pub(crate) fn note(&mut self, residual: f64, update: f64) {

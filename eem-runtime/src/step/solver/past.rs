@@ -109,6 +109,16 @@ impl<const D: usize> Past<D> {
         }
     }
 
+    /// Forgets all steps.
+    pub(super) fn clear(&mut self) {
+        self.forces.fill([[0.0; D]; PLACES]);
+        for variables in &mut self.internal {
+            variables.fill(0.0);
+        }
+        self.turn = 0;
+        (self.errors, self.errors_before) = ([0.0; 3], [0.0; 3]);
+    }
+
     /// The predictor with the smallest error so far.
     #[inline]
     pub(super) fn predictor(&self) -> Predictor<'_, D> {

@@ -31,6 +31,17 @@ impl<const D: usize> MovingNode<D> {
         self.node as usize
     }
 
+    /// The same in a scene with other masses.
+    pub(super) fn with_mass(self, masses: &Masses) -> Self {
+        let mass = masses.get(self.node()).unwrap_or(self.mass);
+        let per_mass = mass.recip();
+        Self {
+            mass,
+            per_mass,
+            ..self
+        }
+    }
+
     /// Its index in the trial, which has all nodes of every set of unknowns.
     #[inline]
     pub(super) fn in_trial(&self) -> usize {

@@ -53,7 +53,7 @@ impl<const D: usize> Simulation<D> {
         pairs.sort_unstable();
         Outline {
             layout: self.numbering(),
-            sums: self.masses.weights(),
+            sums: self.masses.weights().into_owned(),
             pairs,
             lost_heat: self.state.dissipated.value,
         }
