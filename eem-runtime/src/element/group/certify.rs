@@ -154,8 +154,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     pub(super) fn amplitude<C: Family>(
         &self,
         [sizes0, sizes1]: &[M::Variables; 2],
-        care: Care,
-        of_sums: f64,
+        of_sums: Option<f64>,
     ) -> [f64; 2] {
         let (mut sum, mut at_end) = (0.0, 0.0);
         for row in 0..M::MEASURES + self.dashpots() {
@@ -173,13 +172,11 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             let force = damping.map_or(force, |damping| force - damping.force[row]);
             at_end += force.abs() * size;
         }
-        if matches!(care, Care::Quick) {
-            if !Q::IS_SPRING {
-                sum += self.work_of_arguments(sizes1);
-            }
-            return [sum, at_end];
+        match of_sums {
+            Some(of_sums) => sum += self.work_of_arguments(sizes1) + of_sums,
+            None if Q::IS_SPRING => {}
+            None => sum += self.work_of_arguments(sizes1),
         }
-        sum += self.work_of_arguments(sizes1) + of_sums;
         [sum, at_end]
     }
 

@@ -85,11 +85,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
                     point.sizes(&r1, &point.x),
                 ];
                 let largest = point.largest_pull::<C>(&r1);
-                let of_sums = match tally.care {
-                    Care::Quick => 0.0,
-                    Care::Thorough => largest * way_of_nodes(self.site.nodes.as_ref(), trial),
-                };
-                let [forces, at_end] = point.amplitude::<C>(&sizes, tally.care, of_sums);
+                let nodes = self.site.nodes.as_ref();
+                let is_thorough = matches!(tally.care, Care::Thorough);
+                let of_sums = is_thorough.then(|| largest * way_of_nodes(nodes, trial));
+                let [forces, at_end] = point.amplitude::<C>(&sizes, of_sums);
                 tally.force(forces);
                 tally.exchange(view.step * largest);
                 let energy = &mut next.energies[point.element.index()];
