@@ -5,6 +5,11 @@ const MOST_SWEEPS: usize = 40;
 
 /// Leaves the eigenvalues of a symmetric row-major `n × n` matrix on its diagonal, and multiplies `axes`, as many rows of
 /// `n` numbers, by the rotations: rows of the unit matrix become eigenvectors.
+#[inline(always)]
+#[expect(
+    clippy::inline_always,
+    reason = "`n` is a constant of the explicit scheme, which calls this in every step"
+)]
 pub(crate) fn diagonalize(n: usize, matrix: &mut [f64], axes: &mut [f64]) {
     for _ in 0..MOST_SWEEPS {
         let mut has_rotated = false;
@@ -20,6 +25,8 @@ pub(crate) fn diagonalize(n: usize, matrix: &mut [f64], axes: &mut [f64]) {
 }
 
 /// Makes the entry of two axes zero by a rotation in their plane; false where it is rounding already.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "as above")]
 fn rotate(n: usize, matrix: &mut [f64], axes: &mut [f64], [i, j]: [usize; 2]) -> bool {
     let entry = matrix[i * n + j];
     let [a, b] = [matrix[i * n + i], matrix[j * n + j]];
