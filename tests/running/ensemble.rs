@@ -233,8 +233,8 @@ fn settings_of_newton_reach_the_members() {
 // What one member leaves to the next.
 
 /// Pendulums of one spring or two, alone, in contact, with weight or pushed; three members of a kind follow each other.
-fn of_several_kinds(member: &u32) -> (Scene<2>, Node) {
-    let (kind, own) = (member / 3 % 5, 1.0 + 0.01 * f64::from(*member));
+fn of_several_kinds(member: u32) -> (Scene<2>, Node) {
+    let (kind, own) = (member / 3 % 5, 1.0 + 0.01 * f64::from(member));
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(own, [3.0 * own, 0.0], [0.0, own]);
@@ -279,7 +279,7 @@ fn life(run: &mut Simulation<2>, bob: Node, member: u32) -> Result<String, Membe
     }
     // A step fails in the middle of the life, or at its end.
     let usual = run.newton_settings();
-    for fails in [member % 2 == 1, false, member % 2 == 0] {
+    for fails in [!member.is_multiple_of(2), false, member.is_multiple_of(2)] {
         run.set_newton_settings(if fails { HASTY } else { usual })?;
         say(format!("{:?}", run.step()));
     }
@@ -292,14 +292,16 @@ fn a_member_leaves_no_trace_in_the_next() {
     let members: Vec<u32> = (0..30).collect();
     for scheme in Scheme::ALL.into_iter().chain([Scheme::Auto]) {
         let alone = |member: &u32| {
-            let (scene, bob) = of_several_kinds(member);
+            let (scene, bob) = of_several_kinds(*member);
             let mut run = Simulation::new(scene, scheme, 0.05).unwrap();
             life(&mut run, bob, *member).unwrap()
         };
         let ensemble = Ensemble::new(scheme, 0.05).threads(1);
-        let found = ensemble.run(&members, of_several_kinds, |run, bob, member| {
-            life(run, bob, *member)
-        });
+        let found = ensemble.run(
+            &members,
+            |&member| of_several_kinds(member),
+            |run, bob, member| life(run, bob, *member),
+        );
         for (member, found) in members.iter().zip(found) {
             assert_eq!(found.unwrap(), alone(member), "{scheme:?}, {member}");
         }
