@@ -17,13 +17,14 @@ mod assemble;
 mod equations;
 mod geometry;
 mod models;
+mod of_material;
 mod point;
 mod projection;
 mod site;
 mod stage_group;
 mod values;
 
-pub(crate) use models::OfMaterial;
+pub(crate) use of_material::OfMaterial;
 pub(crate) use projection::{PointPath, Projections};
 pub(crate) use stage_group::StageGroup;
 pub(crate) use values::{StageValues, Values};
