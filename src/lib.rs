@@ -18,9 +18,11 @@
 // What the derive generates begins with `::eem`; here that is this crate.
 extern crate self as eem;
 
+#[cfg(feature = "derive")]
 pub use eem_derive::FreeEnergy;
 pub use eem_runtime::*;
 pub use eem_study::*;
+#[cfg(feature = "derive")]
 pub mod materials;
 /// Parameter sweeps in many processes; see also [`sweeps`].
 #[cfg(feature = "sweep")]

@@ -5,6 +5,7 @@ use eem::{
     Bulk, Element, Equilibrium, EquilibriumError, EquilibriumReport, HeatPartner, HeatPath, Node,
     RefusedScene, Reservoir, Scene, SceneError, Scheme, Simulation, StudyReport,
 };
+use eem_gradients::Gradients;
 use eem_solids::{Refused, Solids};
 use eem_springs::Springs;
 use pyo3::PyResult;
@@ -331,6 +332,7 @@ where
 impl<const D: usize> AnyScene for Built<D>
 where
     Scene<D>: Springs + Solids<D>,
+    Simulation<D>: Gradients<D>,
 {
     fn parts(&self) -> &Parts {
         &self.parts

@@ -6,7 +6,8 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 
 use eem::typed::LawError;
-use eem::{Ensemble, MemberFailure, RunEnd, Scene, Scheme, Tolerance};
+use eem::{Ensemble, MemberFailure, RunEnd, Scene, Scheme, Simulation, Tolerance};
+use eem_gradients::Gradients;
 use eem_solids::Solids;
 use eem_springs::Springs;
 use numpy::{PyArray1, PyArrayMethods};
@@ -54,6 +55,7 @@ impl Plan<'_> {
     fn run<const D: usize>(&self) -> Vec<Result<Rows, MemberFailure>>
     where
         Scene<D>: Springs + Solids<D>,
+        Simulation<D>: Gradients<D>,
     {
         let ensemble = Ensemble::new(self.scheme, self.step).threads(self.threads);
         let ensemble = ensemble.watch(|_, _| {

@@ -1,7 +1,8 @@
 //! Gradients of runs: objectives as Python gives them, and derivatives as arrays.
 
 use eem::typed::Law;
-use eem::{Element, Gradient, GradientError, Node, Objective, Quantity, Reservoir, Simulation};
+use eem::{Element, Gradient, GradientError, Node, Objective, Quantity, Reservoir};
+use eem_gradients::Gradients;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -209,7 +210,7 @@ impl Subject {
 }
 
 /// The objective of terms; at least one.
-fn objective<const D: usize>(terms: &[Term]) -> Objective<D> {
+pub(crate) fn objective<const D: usize>(terms: &[Term]) -> Objective<D> {
     let one = |term: &Term| {
         let quantity = term.subject.quantity();
         let objective = match &term.when {
@@ -242,12 +243,12 @@ pub(crate) struct Found {
 
 /// Finds the gradient of a run.
 pub(crate) fn gradient<const D: usize>(
-    run: &mut Simulation<D>,
+    run: &mut impl Gradients<D>,
     terms: &[Term],
     parts: &Parts,
     laws: &[Law],
 ) -> Result<Found, GradientError> {
-    let gradient = run.gradient(&objective(terms))?;
+    let gradient = run.find_gradient(&objective(terms))?;
     let (mut positions, mut velocities, mut masses) = (Vec::new(), Vec::new(), Vec::new());
     for &node in &parts.nodes {
         positions.extend_from_slice(gradient.by_position(node)?.as_slice());
@@ -312,16 +313,6 @@ pub(crate) fn gradient<const D: usize>(
         timed: gradient.by_step_size().err().map(|error| error.to_string()),
         series: series(&gradient, parts),
     })
-}
-
-/// Finds it again, and checks it by tangents.
-pub(crate) fn check<const D: usize>(
-    run: &mut Simulation<D>,
-    terms: &[Term],
-) -> Result<(), GradientError> {
-    let objective = objective(terms);
-    let gradient = run.gradient(&objective)?;
-    run.check_gradient(&gradient, &objective)
 }
 
 /// All derivatives by functions of time.

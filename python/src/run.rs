@@ -10,9 +10,10 @@ use eem::{
 
 use eem::nalgebra::Matrix3;
 use eem::typed::Law;
+use eem_gradients::Gradients;
 
 use crate::built::Parts;
-use crate::gradient::{self, Found, Term, gradient};
+use crate::gradient::{Found, Term, gradient, objective};
 use crate::record::entries;
 use crate::sensitivities::{Asked, Given};
 use crate::watch::Watch;
@@ -79,7 +80,10 @@ pub(crate) trait AnyRun: Send {
     fn sensitivities(&mut self, asked: &Asked) -> Result<Sensitivities, GradientError>;
 }
 
-impl<const D: usize> AnyRun for Simulation<D> {
+impl<const D: usize> AnyRun for Simulation<D>
+where
+    Self: Gradients<D>,
+{
     fn time(&self) -> f64 {
         self.time()
     }
@@ -242,14 +246,14 @@ impl<const D: usize> AnyRun for Simulation<D> {
     }
 
     fn check_gradient(&mut self, terms: &[Term]) -> Result<(), GradientError> {
-        gradient::check(self, terms)
+        self.confirm_gradient(&objective(terms))
     }
 
     fn sensitivities(&mut self, asked: &Asked) -> Result<Sensitivities, GradientError> {
         let inputs: Vec<_> = asked.inputs.iter().map(Given::input).collect();
         let quantities = asked.quantities.iter();
-        let quantities = quantities.map(|(name, subject)| (name.as_str(), subject.quantity()));
-        self.sensitivities(&inputs, quantities)
+        let quantities = quantities.map(|(name, subject)| (name.clone(), subject.quantity()));
+        self.find_sensitivities(&inputs, quantities.collect())
     }
 }
 
