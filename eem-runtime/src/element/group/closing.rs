@@ -37,10 +37,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
 
     /// The nodal forces of the last responses in the form `A r_m`, N.
     #[inline]
-    pub(super) fn pull(&self, ends: [&Arms<K, D>; 2], mean: &Arms<K, D>) -> K::PerNode<[f64; D]> {
+    pub(super) fn pull<C: Family>(
+        &self,
+        ends: [&Arms<K, D>; 2],
+        mean: &Arms<K, D>,
+    ) -> K::PerNode<[f64; D]> {
         let mut sum: Option<Weights<K, D>> = None;
         for point in self.points.as_ref() {
-            let own = point.secant(ends);
+            let own = point.secant::<C>(ends);
             let Some(sum) = &mut sum else {
                 sum = Some(own);
                 continue;
@@ -147,16 +151,16 @@ pub(super) fn pull_of_arms<K: Kinematics<D>, const D: usize>(
 impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// The matrix A of the force `A r_m` at the last response.
     #[inline]
-    fn secant(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
+    fn secant<C: Family>(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
         let measures1 = measures_in::<K::Measures>(&self.x);
-        let (arms, measures0) = match self.scheme.placement() {
+        let (arms, measures0) = match C::placement(self.scheme) {
             Placement::Middle => ([mean::<K, D>(r0, r1); 2], measures1),
             Placement::Ends | Placement::End | Placement::Start => {
                 ([*r0, *r1], self.old_measures())
             }
         };
         let ends = Ends::new(&self.kinematics, arms, [measures0, measures1]);
-        self.kinematics.secant(&ends, &self.pulls::<Any>())
+        self.kinematics.secant(&ends, &self.pulls::<C>())
     }
 
     /// The nodal forces of the last response along the gradient between two configurations, N.

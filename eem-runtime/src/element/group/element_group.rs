@@ -169,6 +169,46 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         largest
     }
 
+    fn add_impulse_as<C: Family>(
+        &self,
+        view: &StepView<'_>,
+        trial: &Trial<D>,
+        along: Along,
+        impulses: &mut Impulses<'_, D>,
+        magnitudes: &mut [f64],
+    ) {
+        let at = match along {
+            Along::Secant => None,
+            Along::Scheme => Some(C::placement(self.scheme)),
+            Along::Gradient => Some(Placement::End),
+            Along::Stage(_) => return,
+        };
+        for member in &self.members {
+            let (nodes, r0) = (&member.site.nodes, &member.r0);
+            let r1 = member.new_arms(trial);
+            if !magnitudes.is_empty() {
+                let change = change_in::<K, D>(nodes, trial);
+                member.add_magnitude(view.step, [&r1, &change], magnitudes);
+            }
+            let (h, force) = if let Some(at) = at {
+                let share = view.step * C::implicit(self.scheme);
+                (share, member.force(at, [r0, &r1]))
+            } else {
+                let mut mean = change_in::<K, D>(nodes, trial);
+                let old = r0.as_ref().as_flattened();
+                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
+                    *mean = old + 0.5 * *mean;
+                }
+                (view.step, member.pull::<C>([r0, &r1], &mean))
+            };
+            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
+                    *impulse -= h * force;
+                }
+            }
+        }
+    }
+
     fn close_as<C: Family>(
         &mut self,
         view: &StepView<'_>,
@@ -265,34 +305,12 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
         impulses: &mut Impulses<'_, D>,
         magnitudes: &mut [f64],
     ) {
-        let at = match along {
-            Along::Secant => None,
-            Along::Scheme => Some(self.scheme.placement()),
-            Along::Gradient => Some(Placement::End),
-            Along::Stage(_) => return,
-        };
-        for member in &self.members {
-            let (nodes, r0) = (&member.site.nodes, &member.r0);
-            let r1 = member.new_arms(trial);
-            if !magnitudes.is_empty() {
-                let change = change_in::<K, D>(nodes, trial);
-                member.add_magnitude(view.step, [&r1, &change], magnitudes);
+        match self.scheme {
+            OneSet::Exact(_) => {
+                self.add_impulse_as::<Exact>(view, trial, along, impulses, magnitudes);
             }
-            let (h, force) = if let Some(at) = at {
-                let share = view.step * self.scheme.implicit();
-                (share, member.force(at, [r0, &r1]))
-            } else {
-                let mut mean = change_in::<K, D>(nodes, trial);
-                let old = r0.as_ref().as_flattened();
-                for (mean, &old) in mean.as_mut().as_flattened_mut().iter_mut().zip(old) {
-                    *mean = old + 0.5 * *mean;
-                }
-                (view.step, member.pull([r0, &r1], &mean))
-            };
-            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
-                    *impulse -= h * force;
-                }
+            OneSet::Damped | OneSet::Point(_) => {
+                self.add_impulse_as::<Any>(view, trial, along, impulses, magnitudes);
             }
         }
     }
