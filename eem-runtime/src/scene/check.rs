@@ -76,7 +76,6 @@ impl<const D: usize> Scene<D> {
                     errors.extend(check_products((node, mass), vectors).err());
                 }
             }
-            let reservoirs = self.reservoir_temperatures();
             let flows = check_heat_flows(&self.elements, &self.conductors, &reservoirs);
             errors.extend(flows.err());
             self.check_motions(&mut errors);

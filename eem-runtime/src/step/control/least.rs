@@ -226,19 +226,9 @@ impl LeastScales {
         })
     }
 
-    /// Whether a mass of these positions and momenta at two times rests, see [`is_at_rest`](Self::is_at_rest).
-    pub(crate) fn rests<const D: usize>(
-        &self,
-        node: usize,
-        [old, new]: [&[f64; D]; 2],
-        [before, after]: [&[f64; D]; 2],
-    ) -> bool {
-        self.is_at_rest(node, [old, new], [before, after])
-    }
-
     /// Whether a mass moves by no more than the rounding of the forces on it moves it in a period `2π/ω`, given its positions and momenta
     /// at two times: a momentum by the rounding of their impulse, a distance by that over m ω.
-    fn is_at_rest(
+    pub(crate) fn is_at_rest(
         &self,
         node: usize,
         [old, new]: [&[f64]; 2],
@@ -297,13 +287,9 @@ impl LeastScales {
         }
     }
 
-    /// |λ|₂ of all springs with dashpots in series, m: the size of their viscous stretches, wherever the springs are.
-    pub(crate) fn stretches<const D: usize>(&self, positions: &[f64]) -> f64 {
-        self.stretches_in(D, positions)
-    }
-
-    /// The same, given the dimension of space.
-    pub(super) fn stretches_in(&self, dimension: usize, positions: &[f64]) -> f64 {
+    /// |λ|₂ of all springs with dashpots in series, m, given the dimension of space: the size of their viscous stretches, wherever the
+    /// springs are.
+    pub(crate) fn stretches(&self, dimension: usize, positions: &[f64]) -> f64 {
         norm((0..self.viscous.len() * dimension).map(|component| {
             let ([a, b], axis) = (self.viscous[component / dimension], component % dimension);
             let [a, b] = [a as usize * dimension, b as usize * dimension];

@@ -213,7 +213,7 @@ impl<'a> Scales<'a> {
         let of = |size: f64, absolute: f64| relative * size + share * absolute;
         let [first, last] = [old.positions.values(), new.positions.values()];
         let positions = Scalar::maximum(length(first), length(last));
-        let stretch = |positions| least.stretches_in(dimension, positions);
+        let stretch = |positions| least.stretches(dimension, positions);
         let stretches = Scalar::maximum(stretch(first), stretch(last));
         let [start, end] = [length(old.momenta.values()), length(new.momenta.values())];
         let before = Scalar::maximum(start, largest_momentum);

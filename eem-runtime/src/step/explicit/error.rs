@@ -6,7 +6,7 @@ use super::vector::{difference, dot, length};
 use super::{Explicit, ExplicitView};
 use crate::element::group::Place;
 use crate::element::state::State;
-use crate::step::control::{Accuracy, ROUNDINGS, Step, Tolerance, Unknown, Worst, norm};
+use crate::step::control::{self, Accuracy, ROUNDINGS, Step, Tolerance, Unknown, Worst, norm};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
@@ -139,9 +139,9 @@ impl<const D: usize> Explicit<D> {
         let masses = &self.stage.places[..self.components.masses];
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             let [position, momentum] = &place.past.start;
-            let positions = [position, place.q()];
-            let momenta = [momentum, place.p()];
-            if !view.least.rests(node as usize, positions, momenta) {
+            let positions = [&position[..], place.q()];
+            let momenta = [&momentum[..], place.p()];
+            if !view.least.is_at_rest(node as usize, positions, momenta) {
                 return view.least.hidden(beyond, view.step, accurate);
             }
         }
@@ -158,7 +158,7 @@ impl<const D: usize> Explicit<D> {
         let distance = farthest(view, scales);
         let impulse = view.least.most_rounding(view.step, distance);
         let momentum = tolerance.relative * scales.momentum + tolerance.momentum;
-        let stretches = view.least.stretches::<D>(view.state.positions.values());
+        let stretches = view.least.stretches(D, view.state.positions.values());
         let stretch = tolerance.relative * stretches + tolerance.position;
         let count = self.components.masses * D + self.stage.temperatures;
         #[expect(clippy::cast_precision_loss, reason = "a count of far less than 2⁵³")]
@@ -252,7 +252,7 @@ impl<const D: usize> Explicit<D> {
         let positions = farthest(view, scales);
         let positions = Scalar::maximum(positions, view.least.position(relative));
         let position = relative * positions + tolerance.position;
-        let stretches = view.least.stretches::<D>(view.state.positions.values());
+        let stretches = view.least.stretches(D, view.state.positions.values());
         let stretch = relative * stretches + tolerance.position;
         for at in self.components.all[index].masses.clone() {
             let place = &self.stage.places[at];
@@ -352,7 +352,7 @@ impl<const D: usize> Explicit<D> {
         let first = self.stage.temperatures;
         let mut stretch = [0.0; 2];
         if first > 0 {
-            let stretches = least.stretches::<D>(view.state.positions.values());
+            let stretches = least.stretches(D, view.state.positions.values());
             stretch[0] = per_scale(stretches, tolerance.position);
             if ROUNDED {
                 stretch = rounded(stretch[0], rounding_of_stretch(far));
@@ -386,7 +386,10 @@ impl<const D: usize> Explicit<D> {
         place: &Place<D>,
         node: usize,
     ) -> f64 {
-        let distance = Scalar::maximum(norm_of(&place.past.start[0]), norm_of(place.q()));
+        let distance = Scalar::maximum(
+            control::length(&place.past.start[0]),
+            control::length(place.q()),
+        );
         view.least.rounding(node, view.step, distance) + self.rounding.impulse(node)
     }
 }
@@ -400,11 +403,10 @@ const HIDDEN: f64 = 1e-4;
 
 /// The largest |q| of the step, that of all nodes included, m.
 fn farthest<const D: usize>(view: &ExplicitView<'_, D>, scales: Scales) -> f64 {
-    Scalar::maximum(scales.position, norm_of(view.state.positions.values()))
-}
-
-fn norm_of(x: &[f64]) -> f64 {
-    norm(x.iter().copied())
+    Scalar::maximum(
+        scales.position,
+        control::length(view.state.positions.values()),
+    )
 }
 
 /// The rounding of a viscous stretch whose ends are this far from the origin, m.
