@@ -9,7 +9,7 @@
 
 use core::any::Any;
 
-use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates};
+use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates, Together, TogetherOf};
 use crate::inversion::{Inverse, InversionError, temperature_near};
 
 /// The most parameters of a material behind a table.
@@ -23,7 +23,7 @@ pub type ByParameters = [f64; MOST_PARAMETERS];
 pub struct Facts {
     pub model: &'static &'static str,
     pub kind: u64,
-    pub parameter_names: &'static [&'static str],
+    pub parameter_count: usize,
     pub parameter_units: &'static [&'static str],
     pub has_parameter_derivatives: bool,
 }
@@ -34,6 +34,8 @@ pub trait Formulas<X, H, V, C, R, T, O>: Inverse<X> + Send + Sync {
     fn facts(&self) -> Facts;
     fn as_any(&self) -> &dyn Any;
     fn duplicate(&self) -> Box<dyn Formulas<X, H, V, C, R, T, O>>;
+    fn parameter_names(&self) -> &'static [&'static str];
+    fn together(&self) -> Option<&(dyn Together<X, V, C, R, T> + 'static)>;
     fn parameter(&self, index: usize) -> f64;
     fn free_energy(&self, x: &X) -> f64;
     fn energy_magnitude(&self, x: &X) -> f64;
@@ -131,7 +133,7 @@ impl<M: Material, O: Array<f64>>
         Facts {
             model: self.model(),
             kind: self.kind(),
-            parameter_names: self.parameter_names(),
+            parameter_count: self.parameter_count(),
             parameter_units: self.parameter_units(),
             has_parameter_derivatives: self.has_parameter_derivatives(),
         }
@@ -143,6 +145,14 @@ impl<M: Material, O: Array<f64>>
 
     fn duplicate(&self) -> Box<TableOf<M, O>> {
         Box::new(FreeEnergy::duplicate(self))
+    }
+
+    fn parameter_names(&self) -> &'static [&'static str] {
+        FreeEnergy::parameter_names(self)
+    }
+
+    fn together(&self) -> Option<&TogetherOf<M>> {
+        FreeEnergy::together(self)
     }
 
     fn parameter(&self, index: usize) -> f64 {

@@ -5,8 +5,9 @@ use core::any::Any;
 pub use crate::array::{Array, Entry};
 use crate::inversion::Inverse;
 use crate::number::scalar::Scalar;
+pub use crate::together::{ExactForm, MOST_TOGETHER, Steps, Together, TogetherOf};
 use crate::values::absent;
-pub use crate::values::{Caloric, Each, OfEach, Rates};
+pub use crate::values::{Caloric, Rates};
 
 /// A Helmholtz free energy `ψ(x)` with everything that the schemes need.
 ///
@@ -71,8 +72,8 @@ pub trait FreeEnergy<S: Scalar> {
     /// }
     /// ```
     const HAS_PARAMETER_DERIVATIVES: bool = false;
-    /// Functions that evaluate several elements in one call, if that takes less time than one by one.
-    const ROWS: Option<Rows<S, Self>> = None;
+    /// Whether [`together`](Self::together) may return functions.
+    const MAY_BE_TOGETHER: bool = false;
     /// The name of the struct.
     const MODEL: &'static str;
     /// The names of the parameters that the model uses.
@@ -125,6 +126,11 @@ pub trait FreeEnergy<S: Scalar> {
         Self: Sized + 'static,
     {
         self
+    }
+
+    /// Functions that evaluate several elements of this material in one call, if that takes less time than one by one.
+    fn together(&self) -> Option<&TogetherOf<Self, S>> {
+        None
     }
 
     /// The number of [`PARAMETERS`](Self::PARAMETERS), unless it is known only at run time.
@@ -435,51 +441,6 @@ pub type Form<S, M> = (
     <M as FreeEnergy<S>>::Response,
     <M as FreeEnergy<S>>::Tangent,
 );
-
-/// [`OfEach`] for a function of the model, the values kept of the old state, the new variables, and temperatures of corners.
-pub type OfEachStep<S, M, Old, Memory, T> = for<'a> fn(
-    &Each<
-        '_,
-        (
-            &'a M,
-            &'a Old,
-            &'a <M as FreeEnergy<S>>::Variables,
-            &'a Memory,
-        ),
-    >,
-    &mut [T],
-);
-
-/// The functions that are evaluated most often, for several elements with models of one type and
-/// [kind](FreeEnergy::kind). The results have the bits of the functions for one element.
-#[derive(Debug)]
-pub struct Rows<S: Scalar, M: FreeEnergy<S> + ?Sized> {
-    /// The smallest number of elements for which one call is worthwhile.
-    pub least: usize,
-    /// The largest.
-    pub most: usize,
-    /// [`FreeEnergy::temperature_form`] and its companions.
-    pub temperature_form: FormRows<S, M, M::TemperatureFormOld, ()>,
-    /// [`FreeEnergy::entropy_form`] and its companions.
-    pub entropy_form: FormRows<S, M, M::EntropyFormOld, M::Corners>,
-    /// [`FreeEnergy::mixed_states`].
-    pub mixed_states: OfEachStep<S, M, M::EntropyFormOld, M::Corners, [M::Corners; 2]>,
-    /// [`FreeEnergy::viscosity`]; a model without temperature ignores the argument.
-    pub viscosity: OfEach<M, S, (M::Viscosities, M::Viscosities)>,
-    /// [`FreeEnergy::caloric_at`], at the temperature of the variables.
-    pub caloric_at: OfEach<M, M::Variables, (Caloric<S>, S)>,
-}
-
-/// A form with its tangent, the response alone, and the values of the old state that both reuse.
-#[derive(Debug)]
-pub struct FormRows<S: Scalar, M: FreeEnergy<S> + ?Sized, Old, Memory> {
-    /// The values of the old state, from the old variables.
-    pub old: OfEach<M, M::Variables, Old>,
-    /// The response and its tangent.
-    pub form: OfEachStep<S, M, Old, Memory, Form<S, M>>,
-    /// The response without the tangent.
-    pub response: OfEachStep<S, M, Old, Memory, M::Response>,
-}
 
 /// A free energy that a scene can use. Implemented for every type that qualifies.
 ///

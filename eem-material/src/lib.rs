@@ -18,6 +18,7 @@ pub mod number;
 pub mod point_energy;
 #[doc(hidden)]
 pub mod tabled;
+mod together;
 mod values;
 
 pub use component_energy::ComponentEnergy;

@@ -3,7 +3,7 @@
 use core::any::Any;
 
 use crate::formulas::{ByParameters, Formulas, MOST_PARAMETERS, TableOf};
-use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates};
+use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates, TogetherOf};
 use crate::inversion::Inverse;
 
 /// A material of a spring behind its table.
@@ -39,7 +39,6 @@ impl<const N: usize, const K: usize, const C: usize, const R: usize, const O: us
             && M::Corners::LEN == C
             && M::Response::LEN == R
             && M::Parameters::LEN <= MOST_PARAMETERS
-            && M::ROWS.is_none()
     }
 
     /// A material that [is one of these](Self::is_for).
@@ -66,6 +65,7 @@ impl<const N: usize, const K: usize, const C: usize, const R: usize, const O: us
     const MEASURES: usize = 1;
     const DASHPOTS: usize = K;
     const THERMAL: bool = R > N;
+    const MAY_BE_TOGETHER: bool = true;
     const MODEL: &'static str = "material";
     /// Empty: the names are known at run time, see `parameter_names`.
     const PARAMETERS: &'static [&'static str] = &[];
@@ -100,12 +100,17 @@ impl<const N: usize, const K: usize, const C: usize, const R: usize, const O: us
         self.formulas.facts().kind
     }
 
+    #[inline]
+    fn together(&self) -> Option<&TogetherOf<Self>> {
+        self.formulas.together()
+    }
+
     fn parameter_count(&self) -> usize {
-        self.parameter_names().len()
+        self.formulas.facts().parameter_count
     }
 
     fn parameter_names(&self) -> &'static [&'static str] {
-        self.formulas.facts().parameter_names
+        self.formulas.parameter_names()
     }
 
     fn parameter_units(&self) -> &'static [&'static str] {

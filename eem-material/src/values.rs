@@ -25,12 +25,6 @@ pub struct Rates<V> {
     pub slopes: V,
 }
 
-/// The arguments of a function for an element, by the index of the element.
-pub type Each<'e, T> = dyn Fn(usize) -> T + 'e;
-
-/// Evaluates a function of the model and one argument for several elements: as many as there are results in the slice.
-pub type OfEach<M, A, T> = for<'a> fn(&Each<'_, (&'a M, &'a A)>, &mut [T]);
-
 /// NaN, for derivatives that have not been generated.
 pub(crate) fn absent<S: Scalar, A: Array<S>>() -> A {
     A::filled(S::from_f64(f64::NAN))

@@ -17,7 +17,8 @@ use crate::shape::Shape;
 use crate::tape::Tape;
 pub(crate) use by_parameters::{ByParameters, MOST_PARAMETERS};
 use room::Room;
-pub(crate) use staged::{Form, KEPT, Staged};
+pub use staged::KEPT;
+pub(crate) use staged::{Form, Staged};
 use staged::{kept, of_state};
 
 /// The functions of [`FreeEnergy`](eem_material::FreeEnergy).
@@ -76,6 +77,7 @@ impl Functions {
         let of_state = |program: &Program| of_state(program, &parameters);
         let sometimes = |program: &Option<Program>| program.as_ref().map(of_state).transpose();
         let is_thermal = programs.caloric.is_some();
+        let most = all.kept();
         let at_temperature = |program: &Program| {
             Staged::new(program, &parameters, variables - 1, |kept| {
                 kept.len() <= KEPT
@@ -89,14 +91,14 @@ impl Functions {
             if let Some(mixed) = &programs.mixed_states {
                 count += kept(mixed, &parameters).len();
             }
-            let fits = |_: &[Value]| count <= KEPT;
+            let fits = |_: &[Value]| count <= most;
             let mixed = programs.mixed_states.as_ref();
             let mixed = mixed.map(|mixed| Staged::new(mixed, &parameters, variables, fits));
             let form = Form::new(form, &parameters, [variables, responses], fits)?;
             (form, mixed.transpose()?)
         };
         let temperature_form = programs.temperature_form.as_ref().map(|form| {
-            let fits = |kept: &[Value]| kept.len() <= KEPT;
+            let fits = |kept: &[Value]| kept.len() <= most;
             Form::new(form, &parameters, [variables, responses], fits)
         });
         Ok(Self {

@@ -272,16 +272,15 @@ impl Law {
     ///
     /// ```
     /// use eem::FreeEnergy;
-    /// use eem::typed::{Law, LawError, Source, Spring1, ThermalSpring1, compile};
+    /// use eem::typed::{Law, LawError, Source, Spring0, ThermalSpring1, compile};
     ///
     /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
     /// let law = Law::new(compile(&source)?, &[("k", 1e300)])?;
-    /// let spring: Spring1 = law.model()?;
-    /// assert_eq!(spring.gradient(&[2.0, 0.0]), [1e300, 0.0]);
+    /// let spring: Spring0 = law.model()?;
+    /// assert_eq!(spring.gradient(&[2.0]), [1e300]);
     ///
     /// let spring: Result<ThermalSpring1, LawError> = law.model();
-    /// let text = "the law has 1 stretch; the type of the material has 1 stretch, at most 1 dashpot in series, at most 1 beside, \
-    ///             1 temperature";
+    /// let text = "the law has 1 stretch; the type of the material has 1 stretch, 1 dashpot in series, 1 temperature";
     /// assert_eq!(spring.unwrap_err().to_string(), text);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -293,10 +292,11 @@ impl Law {
         const D: usize,
         const C: usize,
         const R: usize,
+        const O: usize,
     >(
         &self,
-    ) -> Result<Typed<H, N, K, V, D, C, R>, LawError> {
-        let [law, material] = [self.shape(), Typed::<H, N, K, V, D, C, R>::SHAPE];
+    ) -> Result<Typed<H, N, K, V, D, C, R, O>, LawError> {
+        let [law, material] = [self.shape(), Typed::<H, N, K, V, D, C, R, O>::SHAPE];
         if !material.takes(&law) {
             return Err(LawError::Shape {
                 law: law.to_string(),

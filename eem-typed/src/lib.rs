@@ -11,13 +11,13 @@
 //!
 //! ```
 //! use eem::prelude::*;
-//! use eem::typed::{Law, Source, Spring1, compile};
+//! use eem::typed::{Law, Source, Spring0, compile};
 //!
 //! let source = Source::new("|lambda: Stretch| 0.5 * k * ln(lambda / l).powi(2)")
 //!     .parameter("k", Some("J"))
 //!     .parameter("l", Some("m"));
 //! let law = Law::new(compile(&source)?, &[("k", 30.0), ("l", 1.5)])?;
-//! let spring: Spring1 = law.model()?;
+//! let spring: Spring0 = law.model()?;
 //!
 //! let mut scene = Scene::<1>::new();
 //! let ends = [scene.anchor([0.0]), scene.mass(1.0, [3.0], [0.0])];
@@ -27,9 +27,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Operations are interpreted one by one, so a step of the pendulum with one dashpot costs 1.9 times that of the derived
-//! material (`EemTemperature`), or 2.1 times (`EemEntropy`). Six springs of one law or more are evaluated up to 32 at a
-//! time: a step of a lattice of 10⁴ springs costs 1.4 to 1.6 times that of derived ones. A law takes some 11 ms to compile
+//! Operations are interpreted one by one, so a step of the pendulum with one dashpot takes 1.9 times the instructions of the
+//! derived material (`EemTemperature`), or 2.3 times (`EemEntropy`). Six springs of one law or more that follow one another are
+//! evaluated up to 32 at a time: a step of a lattice of 10⁴ springs takes 1.4 to 1.9 times the instructions of derived ones. A law takes some 11 ms to compile
 //! and make: do that once, and clone the spring.
 //!
 //! # Where to change what
@@ -39,7 +39,7 @@
 //! | add an operation or an elementary function | `tape/instruction.rs`, `tape/fold.rs`, `tape/lower.rs`: the compiler lists them |
 //! | change which operations are joined, or how registers are allocated | `tape/lower.rs`, `tape/allocate.rs` |
 //! | change what is kept of the old state | `functions/staged.rs` |
-//! | evaluate several springs at a time | `run_rows` in `tape.rs`, `typed/rows.rs`; the caller is `element/group/by_rows.rs` in `eem-runtime` |
+//! | evaluate several springs at a time | `run_rows` in `tape.rs`, `typed/together.rs`; the caller is `element/group/together.rs` in `eem-runtime` |
 //! | change derivatives with respect to parameters | `functions/by_parameters.rs`, their names in `names.rs`; programs are made at the first derivative |
 //! | add a shape | the types of springs, and `solid!`, in `shapes.rs`; what a type says of its law: `shape.rs` |
 //! | change what is at the places of dashpots that a law lacks | `functions/room.rs` |
@@ -57,6 +57,8 @@ pub use eem_language::text::{
     Argument, Compiled, Fault, Faults, Formula, Level, Part, Source, compile,
 };
 pub use error::LawError;
+#[doc(hidden)]
+pub use functions::KEPT;
 pub use law::Law;
 pub use shape::{Flow, MOST_DASHPOTS, Measures, Strains, Stretch};
 pub use shapes::*;

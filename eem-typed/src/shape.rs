@@ -4,6 +4,8 @@ use core::fmt;
 
 use eem_language::text::{Compiled, Joint};
 
+use crate::functions::KEPT;
+
 /// Of what a law is a function besides its dashpots and its temperature: [`Stretch`], [`Strains`] or [`Flow`].
 pub trait Measures: fmt::Debug + Copy + Send + Sync + 'static + sealed::Sealed {
     /// Strains, variables, dashpots and responses at a point of a solid; zeros of a spring.
@@ -79,18 +81,33 @@ impl Shape {
         }
     }
 
-    /// The shape of the type of its materials: springs have room for one dashpot, or for [`MOST_DASHPOTS`].
+    /// The shape of the type of its materials: springs for which the runtime is not compiled already have room for
+    /// [`MOST_DASHPOTS`] in series and one in parallel.
     pub(crate) fn with_room(self) -> Self {
-        if self.strains > 0 {
+        if self.strains > 0 || self.is_exact_spring() {
             return self;
         }
         Self {
-            dashpots: match self.dashpots {
-                0 | 1 => 1,
-                dashpots => dashpots.max(MOST_DASHPOTS),
-            },
+            dashpots: self.dashpots.max(MOST_DASHPOTS),
             drag: 1,
             ..self
+        }
+    }
+
+    /// Whether the type of its springs has exactly their numbers.
+    const fn is_exact_spring(&self) -> bool {
+        let is_without_drag = self.strains == 0 && self.drag == 0;
+        is_without_drag && (self.dashpots == 0 || self.dashpots == 1 && self.thermal)
+    }
+
+    /// The most values of the old state that a form of its type keeps. If it needs more, the old variables are kept instead,
+    /// and all is computed from them in every iteration.
+    pub(crate) const fn kept(&self) -> usize {
+        match (self.is_exact_spring(), self.variables()) {
+            (true, 1) => 4,
+            (true, 2) => 16,
+            (true, _) => 24,
+            (false, _) => KEPT,
         }
     }
 
@@ -132,15 +149,12 @@ impl Shape {
 impl Shape {
     /// What laws a type of this shape is for.
     pub(crate) fn of_type(&self) -> String {
-        if self.strains > 0 {
+        if self.strains > 0 || self.is_exact_spring() {
             return self.to_string();
         }
         let temperature = if self.thermal { ", 1 temperature" } else { "" };
-        let dashpots = match self.dashpots {
-            1 => "at most 1 dashpot".to_owned(),
-            most => format!("2 to {most} dashpots"),
-        };
-        format!("1 stretch, {dashpots} in series, at most 1 beside{temperature}")
+        let most = self.dashpots;
+        format!("1 stretch, at most {most} dashpots in series, at most 1 beside{temperature}")
     }
 }
 

@@ -3,21 +3,25 @@
 use eem_runtime::{Element, Node, Scene};
 
 use crate::error::LawError;
+use crate::functions::KEPT;
 use crate::law::Law;
 use crate::shape::{MOST_DASHPOTS, Stretch};
 use crate::typed::Typed;
 
-/// A spring without temperature, with at most one dashpot in series and one in parallel.
-pub type Spring1 = Typed<Stretch, 2, 1, 1, 1, 0, 2>;
+/// A spring without temperature and dashpots.
+pub type Spring0 = Typed<Stretch, 1, 0, 0, 0, 0, 1, 4>;
 
-/// A spring with a temperature, with at most one dashpot in series and one in parallel.
-pub type ThermalSpring1 = Typed<Stretch, 3, 1, 1, 1, 4, 4>;
+/// A spring with a temperature and without dashpots.
+pub type ThermalSpring0 = Typed<Stretch, 2, 0, 0, 0, 2, 3, 16>;
 
-/// A spring without temperature, with two to eight dashpots in series and at most one in parallel.
-pub type Spring8 = Typed<Stretch, 9, 8, 8, 1, 0, 9>;
+/// A spring with a temperature and one dashpot, in series.
+pub type ThermalSpring1 = Typed<Stretch, 3, 1, 1, 0, 4, 4, 24>;
 
-/// A spring with a temperature, with two to eight dashpots in series and at most one in parallel.
-pub type ThermalSpring8 = Typed<Stretch, 10, 8, 8, 1, 18, 11>;
+/// Any other spring without temperature: with at most eight dashpots in series and one in parallel.
+pub type Spring8 = Typed<Stretch, 9, 8, 8, 1, 0, 9, KEPT>;
+
+/// Any other spring with a temperature: with at most eight dashpots in series and one in parallel.
+pub type ThermalSpring8 = Typed<Stretch, 10, 8, 8, 1, 18, 11, KEPT>;
 
 impl Law {
     /// Whether [`add_spring`](Self::add_spring) has a shape for it.
@@ -49,8 +53,8 @@ impl Law {
 
     /// Puts a spring of this law between two nodes of a scene, whatever its shape is.
     ///
-    /// The solver is compiled for four types, as for four derived materials, for every dimension that a program calls this
-    /// for.
+    /// The solver is compiled for [`Spring8`] and [`ThermalSpring8`], as for two derived materials, for every dimension that a
+    /// program calls this for; what steps the other three is compiled with the library.
     ///
     /// # Errors
     ///
@@ -85,11 +89,12 @@ impl Law {
     ) -> Result<Element, LawError> {
         self.check_spring()?;
         let shape = self.shape();
-        Ok(match (shape.dashpots, shape.thermal) {
-            (0 | 1, false) => scene.spring::<Spring1>(self.model()?, nodes),
-            (0 | 1, true) => scene.spring::<ThermalSpring1>(self.model()?, nodes),
-            (_, false) => scene.spring::<Spring8>(self.model()?, nodes),
-            (_, true) => scene.spring::<ThermalSpring8>(self.model()?, nodes),
+        Ok(match (shape.dashpots, shape.drag, shape.thermal) {
+            (0, 0, false) => scene.spring::<Spring0>(self.model()?, nodes),
+            (0, 0, true) => scene.spring::<ThermalSpring0>(self.model()?, nodes),
+            (1, 0, true) => scene.spring::<ThermalSpring1>(self.model()?, nodes),
+            (_, _, false) => scene.spring::<Spring8>(self.model()?, nodes),
+            (_, _, true) => scene.spring::<ThermalSpring8>(self.model()?, nodes),
         })
     }
 }
@@ -138,7 +143,7 @@ macro_rules! solid {
     (@of $measures:ty, $n:expr, $k:expr, $v:expr, $t:expr) => {
         $crate::Typed<
             $measures,
-            { $n }, { $k }, { $v }, 0, { 2 * ($n - 1) * $t }, { $n + $t }
+            { $n }, { $k }, { $v }, 0, { 2 * ($n - 1) * $t }, { $n + $t }, { $crate::KEPT }
         >
     };
     (

@@ -9,6 +9,8 @@ mod fold;
 mod instruction;
 mod lower;
 
+use core::cell::RefCell;
+
 use crate::error::LawError;
 use allocate::{Allocated, allocate};
 pub(crate) use fold::fold;
@@ -29,6 +31,17 @@ const BLOCKS: usize = 8;
 /// The most elements of a row, and the fewest for which a row pays: it takes as long as some five elements one by one.
 pub(crate) const ROW: usize = BLOCK * BLOCKS;
 pub(crate) const WORTH_A_ROW: usize = 6;
+
+/// A file of zeros.
+const fn empty<const P: usize, const B: usize, const Q: usize>() -> File<B, Q, P> {
+    [[[0.0; B]; Q]; P]
+}
+
+thread_local! {
+    /// Files for rows, kept because filling them with zeros took a fifth of a step.
+    static SMALL_ROWS: RefCell<Box<File<BLOCK, BLOCKS, SMALL>>> = RefCell::new(Box::new(empty()));
+    static MEDIUM_ROWS: RefCell<Box<File<BLOCK, BLOCKS, MEDIUM>>> = RefCell::new(Box::new(empty()));
+}
 
 /// Instructions for some values of a program.
 ///
@@ -82,13 +95,13 @@ impl Tape {
         let read = |_| inputs;
         let one = &mut [results];
         if self.registers <= SMALL {
-            self.run_in::<SMALL, 1, 1, _, I, O>(read, one, each_of);
+            self.run_in(&mut empty::<SMALL, 1, 1>(), read, one, each_of);
         } else if self.registers <= MEDIUM {
-            self.run_in::<MEDIUM, 1, 1, _, I, O>(read, one, each_of);
+            self.run_in(&mut empty::<MEDIUM, 1, 1>(), read, one, each_of);
         } else if self.registers <= LARGE {
-            self.run_in::<LARGE, 1, 1, _, I, O>(read, one, each_of);
+            self.run_in(&mut empty::<LARGE, 1, 1>(), read, one, each_of);
         } else {
-            self.run_in::<LARGEST, 1, 1, _, I, O>(read, one, each_of);
+            self.run_in(&mut empty::<LARGEST, 1, 1>(), read, one, each_of);
         }
     }
 
@@ -104,9 +117,9 @@ impl Tape {
         for (row, results) in results.chunks_mut(ROW).enumerate() {
             let inputs = |element: usize| inputs(row * ROW + element);
             if results.len() >= WORTH_A_ROW && self.registers <= SMALL {
-                self.run_in::<SMALL, BLOCK, BLOCKS, _, I, O>(inputs, results, &parts);
+                SMALL_ROWS.with_borrow_mut(|file| self.run_in(file, inputs, results, &parts));
             } else if results.len() >= WORTH_A_ROW && self.registers <= MEDIUM {
-                self.run_in::<MEDIUM, BLOCK, BLOCKS, _, I, O>(inputs, results, &parts);
+                MEDIUM_ROWS.with_borrow_mut(|file| self.run_in(file, inputs, results, &parts));
             } else {
                 for (element, result) in results.iter_mut().enumerate() {
                     self.run(inputs(element), parts(result));
@@ -115,7 +128,7 @@ impl Tape {
         }
     }
 
-    /// The same with `P` registers, each of `Q` blocks of `B` numbers, one per element.
+    /// The same in a file of `P` registers, each of `Q` blocks of `B` numbers, one per element, with any numbers in it.
     fn run_in<
         'a,
         const P: usize,
@@ -126,6 +139,7 @@ impl Tape {
         const O: usize,
     >(
         &self,
+        file: &mut File<B, Q, P>,
         inputs: impl Fn(usize) -> [&'a [f64]; I],
         results: &mut [R],
         parts: impl Fn(&mut R) -> [&mut [f64]; O],
@@ -133,13 +147,12 @@ impl Tape {
         f64: 'a,
     {
         const { assert!(P.is_power_of_two()) };
-        let mut file = [[[0.0; B]; Q]; P];
         if B * Q == 1 {
             self.load_one(file.as_flattened_mut().as_flattened_mut(), inputs(0));
         } else {
-            self.load_row(&mut file, results.len() - 1, inputs);
+            self.load_row(file, results.len() - 1, inputs);
         }
-        self.execute(&mut file);
+        self.execute(file);
         for (element, result) in results.iter_mut().enumerate() {
             let mut outputs = self.outputs.iter();
             for part in parts(result) {

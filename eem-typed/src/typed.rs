@@ -1,14 +1,14 @@
 //! A law as a material: the free energy of a spring or a solid, evaluated by tapes.
 
-mod rows;
 mod strains;
+mod together;
 
 use core::cell::OnceCell;
 use core::marker::PhantomData;
 use core::slice;
 use std::sync::Arc;
 
-use eem_material::free_energy::{Array, Caloric, FreeEnergy, Rates, Rows};
+use eem_material::free_energy::{Array, Caloric, FreeEnergy, Rates, TogetherOf};
 
 use crate::functions::{ByParameters, Functions, KEPT, MOST_PARAMETERS};
 use crate::names::NAMELESS;
@@ -21,25 +21,25 @@ use crate::tape::Tape;
 /// |---|---|
 /// | H | its measures: [`Stretch`](crate::Stretch), [`Strains`](crate::Strains), [`Flow`](crate::Flow) |
 /// | N | number of variables: measures, dashpots, temperature |
-/// | K | dashpots in series, of a spring the most that it may have; those that it lacks are unused entries of arrays |
+/// | K | dashpots in series; where a spring may have several, the most: those that it lacks are unused entries of arrays |
 /// | V | viscosities: K, and those of a viscous strain |
 /// | D | dashpots in parallel with the spring, 0 or 1 |
 /// | C | corners: 2 (N − 1) with a temperature, else 0 |
 /// | R | responses: N + 1 with a temperature, else N |
+/// | O | values of the old state that a form keeps: 4, 16, 24 for the springs with exact numbers, else 32 |
 ///
 /// Use the names of the shapes of springs, such as [`ThermalSpring1`](crate::ThermalSpring1), and [`solid!`](crate::solid). A
 /// copy shares the tapes.
 ///
 /// ```
 /// use eem::FreeEnergy;
-/// use eem::typed::{Law, Source, Spring1, compile};
+/// use eem::typed::{Law, Source, Spring0, compile};
 ///
 /// let source = Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").parameter("k", None);
 /// let law = Law::new(compile(&source)?, &[("k", 40.0)])?;
-/// let spring: Spring1 = law.model()?;
-/// // The length, and the stretch of a dashpot that this law does not have.
-/// assert_eq!(spring.free_energy(&[1.5, 0.0]), 5.0);
-/// assert_eq!(spring.gradient(&[1.5, 0.0]), [20.0, 0.0]);
+/// let spring: Spring0 = law.model()?;
+/// assert_eq!(spring.free_energy(&[1.5]), 5.0);
+/// assert_eq!(spring.gradient(&[1.5]), [20.0]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -51,6 +51,7 @@ pub struct Typed<
     const D: usize,
     const C: usize,
     const R: usize,
+    const O: usize,
 > {
     functions: Arc<Functions>,
     measures: PhantomData<H>,
@@ -64,7 +65,8 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> Typed<H, N, K, V, D, C, R>
+    const O: usize,
+> Typed<H, N, K, V, D, C, R, O>
 {
     /// The variables of a law of this type.
     pub(crate) const SHAPE: Shape = {
@@ -92,7 +94,8 @@ impl<
             assert!(N == Self::SHAPE.variables(), "N = M + K + T");
             assert!(C == 2 * (N - 1) * (R - N), "C = 2 (N − 1) T");
             assert!(D <= 1, "one dashpot stands beside a spring");
-            assert!(2 * N <= KEPT, "the old state can be kept");
+            assert!(O == Self::SHAPE.kept(), "what a form keeps");
+            assert!(2 * N <= O, "the old state can be kept");
             let (here, there) = (Self::SHAPE.at_point(), H::AT_POINT);
             assert!(
                 here[0] == there[0] && here[1] == there[1],
@@ -162,13 +165,14 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> FreeEnergy<f64> for Typed<H, N, K, V, D, C, R>
+    const O: usize,
+> FreeEnergy<f64> for Typed<H, N, K, V, D, C, R, O>
 {
     const MEASURES: usize = N - K - (R - N);
     const DASHPOTS: usize = K;
     const THERMAL: bool = R > N;
     const PER_VOLUME: bool = H::AT_POINT[0] > 0;
-    const ROWS: Option<Rows<f64, Self>> = Some(Self::rows());
+    const MAY_BE_TOGETHER: bool = H::AT_POINT[0] == 0;
     const MODEL: &'static str = NAMELESS;
     const HAS_PARAMETER_DERIVATIVES: bool = true;
     /// Empty: the names are known at run time, see `parameter_names`.
@@ -182,8 +186,8 @@ impl<
     type Corners = [f64; C];
     type Response = [f64; R];
     type Tangent = [[f64; N]; R];
-    type EntropyFormOld = [f64; KEPT];
-    type TemperatureFormOld = [f64; KEPT];
+    type EntropyFormOld = [f64; O];
+    type TemperatureFormOld = [f64; O];
 
     fn duplicate(&self) -> Self {
         self.clone()
@@ -195,6 +199,14 @@ impl<
 
     fn kind(&self) -> u64 {
         self.functions.kind
+    }
+
+    fn together(&self) -> Option<&TogetherOf<Self>> {
+        if Self::MAY_BE_TOGETHER {
+            Some(&*self.functions)
+        } else {
+            None
+        }
     }
 
     fn parameter_count(&self) -> usize {
@@ -329,8 +341,8 @@ impl<
         (eta, slope)
     }
 
-    fn entropy_form_old(&self, x0: &[f64; N]) -> [f64; KEPT] {
-        let mut kept = [0.0; KEPT];
+    fn entropy_form_old(&self, x0: &[f64; N]) -> [f64; O] {
+        let mut kept = [0.0; O];
         let form = &self.functions.entropy_form.staged;
         form.keep(x0, &mut kept);
         if let Some(mixed) = &self.functions.mixed_states {
@@ -341,7 +353,7 @@ impl<
 
     fn entropy_form(
         &self,
-        old: &[f64; KEPT],
+        old: &[f64; O],
         x1: &[f64; N],
         corners: &[f64; C],
     ) -> ([f64; R], [[f64; N]; R]) {
@@ -353,12 +365,7 @@ impl<
         (response, tangent)
     }
 
-    fn entropy_form_response(
-        &self,
-        old: &[f64; KEPT],
-        x1: &[f64; N],
-        corners: &[f64; C],
-    ) -> [f64; R] {
+    fn entropy_form_response(&self, old: &[f64; O], x1: &[f64; N], corners: &[f64; C]) -> [f64; R] {
         let mut response = [0.0; R];
         let form = &self.functions.entropy_form;
         let old = &old[..form.staged.old.results()];
@@ -369,7 +376,7 @@ impl<
     fn mixed_states(
         &self,
         _: &[f64; N],
-        old: &[f64; KEPT],
+        old: &[f64; O],
         x1: &[f64; N],
         corners: &[f64; C],
     ) -> [[f64; C]; 2] {
@@ -384,16 +391,16 @@ impl<
         found
     }
 
-    fn temperature_form_old(&self, x0: &[f64; N]) -> [f64; KEPT] {
+    fn temperature_form_old(&self, x0: &[f64; N]) -> [f64; O] {
         let Some(form) = &self.functions.temperature_form else {
             return self.entropy_form_old(x0);
         };
-        let mut kept = [0.0; KEPT];
+        let mut kept = [0.0; O];
         form.staged.keep(x0, &mut kept);
         kept
     }
 
-    fn temperature_form(&self, old: &[f64; KEPT], x1: &[f64; N]) -> ([f64; R], [[f64; N]; R]) {
+    fn temperature_form(&self, old: &[f64; O], x1: &[f64; N]) -> ([f64; R], [[f64; N]; R]) {
         let Some(form) = &self.functions.temperature_form else {
             return self.entropy_form(old, x1, &[0.0; C]);
         };
@@ -404,7 +411,7 @@ impl<
         (response, tangent)
     }
 
-    fn temperature_form_response(&self, old: &[f64; KEPT], x1: &[f64; N]) -> [f64; R] {
+    fn temperature_form_response(&self, old: &[f64; O], x1: &[f64; N]) -> [f64; R] {
         let Some(form) = &self.functions.temperature_form else {
             return self.entropy_form_response(old, x1, &[0.0; C]);
         };

@@ -3,7 +3,7 @@
 mod solids;
 
 use eem::prelude::*;
-use eem::typed::{Law, Source, Spring1, ThermalSpring1, ThermalSpring8};
+use eem::typed::{Law, Source, Spring0, Spring8, ThermalSpring0, ThermalSpring1, ThermalSpring8};
 
 use eem_testkit::length::at_length;
 
@@ -86,7 +86,7 @@ fn with_viscosity(model: &OneDashpot, viscosity: &str) -> ThermalSpring1 {
     fields.named("MaxwellDamper").unwrap().model().unwrap()
 }
 
-fn logarithmic_stiffness(model: &LogarithmicStiffness) -> ThermalSpring1 {
+fn logarithmic_stiffness(model: &LogarithmicStiffness) -> ThermalSpring0 {
     let source = Source::new(
         "|lambda: Stretch, theta: Temperature| {
             let strain = ln(lambda / natural_length);
@@ -276,7 +276,7 @@ fn a_spring_with_room_for_more_dashpots_has_the_bits_of_the_derived_one() {
     assert_same_bits([&single(model), &single(typed)], schemes(), steps);
 }
 
-/// The same of dashpots in parallel, one of them in a spring without temperature; the type has room for one in series.
+/// The same of dashpots in parallel, one of them in a spring without temperature.
 #[test]
 fn springs_with_a_dashpot_beside_have_the_bits_of_derived_ones() {
     // Some schemes have no dashpots in parallel.
@@ -300,7 +300,7 @@ fn springs_with_a_dashpot_beside_have_the_bits_of_derived_ones() {
         source,
         [k, branch, beta, capacity, theta_ref, slow, fast]
     );
-    let typed: ThermalSpring1 = law.named("Both").unwrap().model().unwrap();
+    let typed: ThermalSpring8 = law.named("Both").unwrap().model().unwrap();
     let derived = single(BOTH);
     assert_same_bits([&derived, &single(typed)], schemes_of(&derived), steps);
 
@@ -318,11 +318,10 @@ fn springs_with_a_dashpot_beside_have_the_bits_of_derived_ones() {
         Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").viscosity("lambda", "eta");
     let law = law!(model, source, [k, eta]).named("Isothermal").unwrap();
     let derived = swinging(&|scene, ends| scene.spring(model.clone(), ends));
-    let typed = swinging(&|scene, ends| scene.spring::<Spring1>(law.model().unwrap(), ends));
+    let typed = swinging(&|scene, ends| scene.spring::<Spring8>(law.model().unwrap(), ends));
     assert_same_bits([&derived, &typed], schemes_of(&derived), steps);
 }
 
-/// Its type has room for a dashpot in series, whose viscosity is not asked for.
 #[test]
 fn a_spring_without_a_dashpot_in_series_is_restored() {
     let warm = "|lambda: Stretch, theta: Temperature| {
@@ -346,9 +345,9 @@ fn a_spring_without_a_dashpot_in_series_is_restored() {
             assert!(states[0] == states[1], "{scheme}");
         }
     };
-    let warm: ThermalSpring1 = material(warm).model().unwrap();
+    let warm: ThermalSpring0 = material(warm).model().unwrap();
     restored(&single(warm).0);
-    let cold: Spring1 = material(cold).model().unwrap();
+    let cold: Spring0 = material(cold).model().unwrap();
     let mut scene = Scene::new();
     let ends = [
         scene.anchor([0.0, 0.0]),

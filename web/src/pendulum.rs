@@ -1,6 +1,6 @@
 //! A pendulum on a spring, stepped with one scheme, and samples of its motion and of both laws.
 
-use eem::typed::{Law, LawError, Spring1, ThermalSpring1};
+use eem::typed::Law;
 use eem::{Element, Node, Scene, Scheme, Simulation, StepError};
 use serde::{Deserialize, Serialize};
 
@@ -87,7 +87,8 @@ impl Pendulum {
             scene.mass(setting.mass, [setting.length, 0.0], [0.0, setting.speed]),
         ];
         scene.set_gravity([0.0, -setting.gravity]);
-        let spring = add_spring(&mut scene, law, ends)?;
+        let spring = law.add_spring(&mut scene, ends);
+        let spring = spring.map_err(|error| error.to_string())?;
         let arguments = law.compiled().arguments();
         let is_thermal = arguments.iter().any(|one| one.role == "Temperature");
         if is_thermal {
@@ -153,22 +154,4 @@ impl Pendulum {
     pub fn balance(&self) -> Balance {
         self.balance
     }
-}
-
-/// Puts a spring of a law between two nodes. The solver is compiled twice, with a temperature and without.
-fn add_spring(scene: &mut Scene<2>, law: &Law, ends: [Node; 2]) -> Result<Element, String> {
-    let warm: Result<ThermalSpring1, _> = law.model();
-    match warm {
-        Ok(spring) => return Ok(scene.spring(spring, ends)),
-        Err(LawError::Shape { .. }) => {}
-        Err(error) => return Err(error.to_string()),
-    }
-    let spring: Spring1 = law.model().map_err(|error| match error {
-        LawError::Shape { .. } => {
-            "this page has springs with at most one dashpot in series; the library has eight"
-                .to_owned()
-        }
-        error => error.to_string(),
-    })?;
-    Ok(scene.spring(spring, ends))
 }

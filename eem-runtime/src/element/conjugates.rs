@@ -15,13 +15,14 @@ mod temperature;
 
 use crate::element::tableau::Tableau;
 
+pub(crate) use corners::find_corners_together;
+pub(crate) use exact::check_stable;
 #[cfg(feature = "gradients")]
 pub(crate) use exact::exchanged;
-pub(crate) use exact::{check_stable, prepare_rows, rows};
 pub(crate) use family::{Any, Exact, ExactForm, Family, OneSet, Placement, PointRule};
 pub(crate) use fitting::{end_weight, end_weight_over};
 pub(crate) use infeasible::Infeasible;
-pub(crate) use start::{Form, KeptOf, Start};
+pub(crate) use start::{Form, Start};
 pub(crate) use temperature::{recovered_at, temperature_at};
 
 /// How the conjugates of a scheme are found.

@@ -13,12 +13,10 @@
 //! close      impulses, what is booked, and the new state            (closing, recovery, certify)
 //! ```
 
-mod ahead;
 mod arms;
 mod audit;
 mod begin;
 mod build;
-mod by_rows;
 mod certify;
 mod closing;
 mod condensed;
@@ -58,6 +56,7 @@ mod stages;
 mod stiffness;
 #[cfg(feature = "gradients")]
 mod terms;
+mod together;
 mod view;
 mod ways;
 

@@ -7,9 +7,8 @@ use eem_symbolic::{Operation, Program, Value};
 use crate::error::LawError;
 use crate::tape::{Tape, Wanted, fold};
 
-/// The most values of the old state that a spring keeps. If a function needs more, the old variables are kept instead, and
-/// all is computed from them in every iteration.
-pub(crate) const KEPT: usize = 32;
+/// The most values of the old state that any function keeps.
+pub const KEPT: usize = 32;
 
 /// A function of old and new inputs, in two parts.
 #[derive(Debug)]

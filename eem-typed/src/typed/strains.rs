@@ -20,7 +20,7 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> StrainEnergy<M> for Typed<Strains<M>, N, K, V, D, C, R>
+> StrainEnergy<M> for Typed<Strains<M>, N, K, V, D, C, R, KEPT>
 {
     const STRAINS: [Strain; M] = [Strain::Trace; M];
 
@@ -52,7 +52,7 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> StrainEnergy<M> for Typed<Flow<M, N1, K1, R1>, N, K, V, D, C, R>
+> StrainEnergy<M> for Typed<Flow<M, N1, K1, R1>, N, K, V, D, C, R, KEPT>
 {
     const STRAINS: [Strain; M] = [Strain::Trace; M];
 
@@ -84,7 +84,7 @@ impl<
     const D: usize,
     const C: usize,
     const R: usize,
-> JointEnergy for Typed<Flow<M, N1, K1, R1>, N, K, V, D, C, R>
+> JointEnergy for Typed<Flow<M, N1, K1, R1>, N, K, V, D, C, R, KEPT>
 {
     // Only their number, and whether the trace is among them, are right: which they are, `joints` says.
     const JOINT: &'static [Joint] = match (Self::SHAPE.joints, Self::SHAPE.flows) {

@@ -1,8 +1,10 @@
 //! Materials of texts, and those behind tables, against derived ones: every function has the same bits.
 
-use eem::typed::{Law, Source, Spring1, Spring8, ThermalSpring1, ThermalSpring8, compile, solid};
+use eem::typed::{
+    Law, Source, Spring0, Spring8, ThermalSpring0, ThermalSpring1, ThermalSpring8, compile, solid,
+};
 use eem::{Array, FreeEnergy, Material};
-use eem_material::free_energy::{Form, FormRows};
+use eem_material::free_energy::{ExactForm, MOST_TOGETHER, Steps};
 use eem_material::tabled::Tabled;
 
 use crate::zoo::families;
@@ -252,88 +254,82 @@ fn of_step<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
     all
 }
 
-/// The same of a form, whose values are `forms`; returns what it keeps.
-fn assert_same_form_in_rows<M: FreeEnergy<f64>, Old: Copy, P>(
-    (model, memory, old): (&M, &P, Old),
-    states: &[M::Variables; 2],
-    rows: &FormRows<f64, M, Old, P>,
-    forms: &[Form<f64, M>; 2],
-    count: usize,
-) -> Vec<Old> {
-    let all = |_| true;
-    let mut kept = vec![old; count];
-    let each = |element| (model, &states[1 - element % 2]);
-    (rows.old)(&each, &mut kept);
-    let each = |element: usize| (model, &kept[element], &states[element % 2], memory);
-    let mut of_rows = vec![forms[0]; count];
-    (rows.form)(&each, &mut of_rows);
-    let mut responses = vec![forms[0].0; count];
-    (rows.response)(&each, &mut responses);
-    for (element, (response, tangent)) in of_rows.iter().enumerate() {
-        let form = &forms[element % 2];
-        assert_eq!(
-            rows_of(all, response, tangent),
-            rows_of(all, &form.0, &form.1)
-        );
-        assert_eq!(flat(all, &[responses[element]]), flat(all, &[form.0]));
-    }
-    kept
-}
-
 /// Elements that are evaluated together, at both states in turn, have the bits of one.
-fn assert_same_in_rows<M: FreeEnergy<f64>>(model: &M, at: &At) {
-    let Some(rows) = M::ROWS else {
+fn assert_same_together<M: FreeEnergy<f64>>(model: &M, at: &At) {
+    let Some(together) = model.together() else {
         return;
     };
     let (used, all) = (Used::of(model), |_| true);
     let states = [&at.x0, &at.x1].map(|x| array::<M::Variables>(used.in_state(), x));
     let corners: M::Corners = array(used.in_corners(), &at.corners);
     let last = M::Variables::LEN - 1;
-    for count in [1, rows.most / 4, rows.most, 2 * rows.most + 1] {
-        let old = states.map(|x0| model.temperature_form_old(&x0));
-        let forms = [0, 1].map(|new| model.temperature_form(&old[1 - new], &states[new]));
-        assert_same_form_in_rows(
-            (model, &(), old[0]),
-            &states,
-            &rows.temperature_form,
-            &forms,
-            count,
-        );
-        let old = states.map(|x0| model.entropy_form_old(&x0));
-        let forms = [0, 1].map(|new| model.entropy_form(&old[1 - new], &states[new], &corners));
-        let with_corners = (model, &corners, old[0]);
-        let kept =
-            assert_same_form_in_rows(with_corners, &states, &rows.entropy_form, &forms, count);
-        let here = |element: usize| element % 2;
-        if M::THERMAL {
-            let mixed = [0, 1].map(|new| {
-                model.mixed_states(&states[1 - new], &old[1 - new], &states[new], &corners)
-            });
-            let mut found = vec![mixed[1]; count];
-            let each = |element: usize| (model, &kept[element], &states[here(element)], &corners);
-            (rows.mixed_states)(&each, &mut found);
-            for (element, found) in found.iter().enumerate() {
-                assert_eq!(flat(all, found), flat(all, &mixed[here(element)]));
+    for count in [1, together.least(), MOST_TOGETHER - 1, MOST_TOGETHER] {
+        let x0: Vec<_> = (0..count).map(|element| states[1 - element % 2]).collect();
+        let x1: Vec<_> = (0..count).map(|element| states[element % 2]).collect();
+        let corners_of_each = vec![corners; count];
+        for form in [ExactForm::Temperature, ExactForm::Entropy] {
+            let length = match form {
+                ExactForm::Temperature => M::TemperatureFormOld::LEN,
+                ExactForm::Entropy => M::EntropyFormOld::LEN,
+            };
+            let mut kept = vec![vec![0.0; length]; count];
+            let mut places: Vec<_> = kept.iter_mut().map(|kept| &mut kept[..]).collect();
+            together.keep(form, &x0, &mut places);
+            let kept: Vec<_> = kept.iter().map(|kept| &kept[..]).collect();
+            let steps = Steps {
+                kept: &kept,
+                x1: &x1,
+                corners: &corners_of_each,
+            };
+            let none = (
+                M::Response::filled(0.0),
+                M::Tangent::filled(M::Variables::filled(0.0)),
+            );
+            let mut forms = vec![none; count];
+            together.form(form, steps, &mut forms);
+            let mut responses = vec![none.0; count];
+            together.response(form, steps, &mut responses);
+            let mut mixed = vec![[corners; 2]; count];
+            if form == ExactForm::Entropy {
+                together.mixed_states(steps, &mut mixed);
+            }
+            for element in 0..count {
+                let (x0, x1) = (&x0[element], &x1[element]);
+                let one = if form == ExactForm::Temperature {
+                    model.temperature_form(&model.temperature_form_old(x0), x1)
+                } else {
+                    let old = model.entropy_form_old(x0);
+                    if M::THERMAL {
+                        let one = model.mixed_states(x0, &old, x1, &corners);
+                        assert_eq!(flat(all, &mixed[element]), flat(all, &one));
+                    }
+                    model.entropy_form(&old, x1, &corners)
+                };
+                let (response, tangent) = &forms[element];
+                assert_eq!(
+                    rows_of(all, response, tangent),
+                    rows_of(all, &one.0, &one.1)
+                );
+                assert_eq!(flat(all, &[responses[element]]), flat(all, &[one.0]));
             }
         }
-        let viscosities = states.map(|x| model.viscosity(x[last]));
-        let mut of_rows = vec![viscosities[0]; count];
-        let each = |element| (model, &states[here(element)][last]);
-        (rows.viscosity)(&each, &mut of_rows);
-        for (element, (eta, slope)) in of_rows.iter().enumerate() {
-            let one = &viscosities[here(element)];
+        let theta: Vec<_> = x1.iter().map(|x| x[last]).collect();
+        let one = model.viscosity(theta[0]);
+        let mut viscosities = vec![one; count];
+        together.viscosity(&theta, &mut viscosities);
+        for (&theta, (eta, slope)) in theta.iter().zip(&viscosities) {
+            let one = model.viscosity(theta);
             assert_eq!(flat(all, &[*eta, *slope]), flat(all, &[one.0, one.1]));
         }
         if M::THERMAL {
-            let caloric = states.map(|x| model.caloric_at(x)(x[last]));
-            let mut of_rows = vec![caloric[1]; count];
-            let each = |element| (model, &states[here(element)]);
-            (rows.caloric_at)(&each, &mut of_rows);
+            let caloric_of = |x: &M::Variables| model.caloric_at(*x)(x[last]);
+            let mut found = vec![caloric_of(&x0[0]); count];
+            together.caloric_at(&x1, &mut found);
             let numbers = |(c, psi): &(eem::Caloric<f64>, f64)| {
                 bits([c.entropy, c.heat_capacity, c.magnitude, *psi])
             };
-            for (element, found) in of_rows.iter().enumerate() {
-                assert_eq!(numbers(found), numbers(&caloric[here(element)]));
+            for (x, found) in x1.iter().zip(&found) {
+                assert_eq!(numbers(found), numbers(&caloric_of(x)));
             }
         }
     }
@@ -346,7 +342,7 @@ macro_rules! shapes {
             $(
                 let model: Result<$shape, _> = law.model();
                 if let Ok(model) = model {
-                    assert_same_in_rows(&model, at);
+                    assert_same_together(&model, at);
                     return everything(&model, at);
                 }
             )*
@@ -356,8 +352,9 @@ macro_rules! shapes {
 }
 
 shapes! {
-    Spring1,
+    Spring0,
     Spring8,
+    ThermalSpring0,
     ThermalSpring1,
     ThermalSpring8,
     solid!(strains: 2),

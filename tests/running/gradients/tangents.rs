@@ -220,7 +220,7 @@ fn springs_of_texts_have_tangents_by_their_parameters() {
     for scheme in FORMS {
         let mut scene = Scene::<1>::new();
         let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
-        let model: eem::typed::Spring1 = law.model().unwrap();
+        let model: eem::typed::Spring0 = law.model().unwrap();
         let spring = scene.spring(model, ends);
         let mut run = Simulation::new(scene, scheme, 0.01).unwrap();
         run.keep_history(History::default());
@@ -309,7 +309,7 @@ fn a_text_with_many_parameters_has_no_tangents_by_them() {
     let source = (names.iter()).fold(source, |source, name| source.parameter(name, None));
     let values: Vec<(&str, f64)> = names.iter().map(|name| (name.as_str(), 0.1)).collect();
     let law = eem::typed::Law::new(eem::typed::compile(&source).unwrap(), &values).unwrap();
-    let model: eem::typed::Spring1 = law.model().unwrap();
+    let model: eem::typed::Spring0 = law.model().unwrap();
     let mut scene = Scene::<1>::new();
     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
     let spring = scene.spring(model, ends);

@@ -4,66 +4,55 @@
 
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::free_energy::{Array, FreeEnergy, MOST_TOGETHER, Material, Steps, TogetherOf};
 
 /// The largest first correction of ln θ with which Newton's method continues, and the factor by which corrections have to
 /// shrink; otherwise a safeguarded search finds the temperatures one by one.
 const LARGEST_FIRST: f64 = 0.0625;
 const SHRINKING: f64 = 0.25;
 
-/// The elements whose mixed states are sought together, with materials that have rows.
-const TOGETHER: usize = 32;
-
-/// A model, the variables of both ends, and what the form keeps of the old state.
-pub(super) type Step<'a, M> = (
-    &'a M,
-    [&'a <M as FreeEnergy<f64>>::Variables; 2],
-    &'a <M as FreeEnergy<f64>>::EntropyFormOld,
-);
+/// A model, and the variables of both ends of its step.
+type Ends<'a, M> = (&'a M, [&'a <M as FreeEnergy<f64>>::Variables; 2]);
 
 /// Finds the temperatures of all mixed states of an element, from those of the last trial.
 #[inline]
 pub(super) fn find_corners<M: FreeEnergy<f64>>(
-    step: Step<'_, M>,
+    (model, [x0, x1]): Ends<'_, M>,
+    old: &M::EntropyFormOld,
     corners: &mut M::Corners,
 ) -> Result<(), Infeasible> {
-    let (model, [x0, x1], old) = step;
     let mut search = Search::<M>::new(corners);
     while !search.settled {
         let mixed = model.mixed_states(x0, old, x1, corners);
-        search.correct(step, &mixed, corners)?;
+        search.correct((model, [x0, x1]), &mixed, corners)?;
     }
     Ok(())
 }
 
 /// The same of several elements, whose mixed states are evaluated in one call, with the same bits.
-pub(super) fn find_corners_of_each<'a, M: Material>(
-    each: impl Fn(usize) -> Step<'a, M>,
+pub(crate) fn find_corners_together<'a, M: Material>(
+    together: &TogetherOf<M>,
+    each: impl Fn(usize) -> Ends<'a, M>,
+    (kept, x1): (&[&[f64]], &[M::Variables]),
     corners: &mut [M::Corners],
 ) -> Result<(), Infeasible> {
-    let Some(rows) = M::ROWS else {
-        let mut all = corners.iter_mut().enumerate();
-        return all.try_for_each(|(element, corners)| find_corners(each(element), corners));
-    };
-    for (part, corners) in corners.chunks_mut(TOGETHER).enumerate() {
-        let each = |index: usize| each(part * TOGETHER + index);
-        let count = corners.len();
-        let mut searches: [_; TOGETHER] =
-            core::array::from_fn(|index| Search::<M>::new(&corners[index % count]));
-        let searches = &mut searches[..count];
-        let mut mixed = [[corners[0]; 2]; TOGETHER];
-        let mixed = &mut mixed[..count];
-        while !searches.iter().all(|search| search.settled) {
-            let step = |index: usize| {
-                let (model, [_, x1], old) = each(index);
-                (model, old, x1, &corners[index])
-            };
-            (rows.mixed_states)(&step, mixed);
-            let found = searches.iter_mut().zip(&*mixed).zip(&mut *corners);
-            for (index, ((search, mixed), corners)) in found.enumerate() {
-                if !search.settled {
-                    search.correct(each(index), mixed, corners)?;
-                }
+    let count = corners.len();
+    let mut searches: [_; MOST_TOGETHER] =
+        core::array::from_fn(|index| Search::<M>::new(&corners[index % count]));
+    let searches = &mut searches[..count];
+    let mut mixed = [[corners[0]; 2]; MOST_TOGETHER];
+    let mixed = &mut mixed[..count];
+    while !searches.iter().all(|search| search.settled) {
+        let steps = Steps {
+            kept,
+            x1,
+            corners: &*corners,
+        };
+        together.mixed_states(steps, mixed);
+        let found = searches.iter_mut().zip(&*mixed).zip(&mut *corners);
+        for (index, ((search, mixed), corners)) in found.enumerate() {
+            if !search.settled {
+                search.correct(each(index), mixed, corners)?;
             }
         }
     }
@@ -93,7 +82,7 @@ impl<M: FreeEnergy<f64>> Search<M> {
     #[inline]
     fn correct(
         &mut self,
-        (model, ends, _): Step<'_, M>,
+        (model, ends): Ends<'_, M>,
         [excess, capacities]: &[M::Corners; 2],
         corners: &mut M::Corners,
     ) -> Result<(), Infeasible> {

@@ -1,5 +1,7 @@
 //! The schemes with one set of forces in a step, and what is known of them where code is compiled.
 
+pub(crate) use eem_material::free_energy::ExactForm;
+
 /// Where along a step the measures and their gradient are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Placement {
@@ -12,13 +14,6 @@ pub(crate) enum Placement {
     /// Means of the old and new measures; force along the gradient of the old configuration, and
     /// then along that of the new one.
     Start,
-}
-
-/// The forms of the discrete derivatives, see the module [exact](super::exact).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ExactForm {
-    Entropy,
-    Temperature,
 }
 
 /// The rules at one point of a step, see the module [point](super::point).
@@ -75,7 +70,7 @@ impl PointRule {
 /// A scheme with one set of forces in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum OneSet {
-    /// Discrete derivatives.
+    /// Discrete derivatives, see the module [exact](super::exact).
     Exact(ExactForm),
     /// Those in temperature form, damped towards the end of the step.
     Damped,
@@ -89,6 +84,15 @@ impl OneSet {
         match self {
             Self::Exact(_) | Self::Damped => Placement::Ends,
             Self::Point(rule) => rule.placement(),
+        }
+    }
+
+    /// Its form, if its step keeps the laws exactly.
+    pub(crate) fn form(self) -> Option<ExactForm> {
+        match self {
+            Self::Exact(form) => Some(form),
+            Self::Damped => Some(ExactForm::Temperature),
+            Self::Point(_) => None,
         }
     }
 

@@ -25,7 +25,7 @@ pub(crate) enum Kept<E, T> {
 }
 
 /// The same for a model.
-pub(crate) type KeptOf<M> =
+pub(super) type KeptOf<M> =
     Kept<<M as FreeEnergy<f64>>::EntropyFormOld, <M as FreeEnergy<f64>>::TemperatureFormOld>;
 
 impl<M: FreeEnergy<f64>> Start<M> {
@@ -63,6 +63,28 @@ impl<M: FreeEnergy<f64>> Start<M> {
         }
     }
 
+    /// Room for what a form keeps.
+    pub(crate) fn room_for(&mut self, form: ExactForm) -> &mut [f64] {
+        self.old = match form {
+            ExactForm::Entropy => Kept::Entropy(M::EntropyFormOld::filled(0.0)),
+            ExactForm::Temperature => Kept::Temperature(M::TemperatureFormOld::filled(0.0)),
+        };
+        match &mut self.old {
+            Kept::Entropy(old) => old.as_mut(),
+            Kept::Temperature(old) => old.as_mut(),
+            Kept::State(_) => not_of_this_family(),
+        }
+    }
+
+    /// What the form keeps.
+    pub(crate) fn kept(&self) -> &[f64] {
+        match &self.old {
+            Kept::Entropy(old) => old.as_ref(),
+            Kept::Temperature(old) => old.as_ref(),
+            Kept::State(_) => not_of_this_family(),
+        }
+    }
+
     /// Finds what the form needs besides the variables: temperatures of mixed states, only in entropy form.
     #[inline]
     pub(crate) fn prepare(
@@ -72,7 +94,7 @@ impl<M: FreeEnergy<f64>> Start<M> {
         corners: &mut M::Corners,
     ) -> Result<(), Infeasible> {
         match &self.old {
-            Kept::Entropy(old) if M::THERMAL => find_corners((model, [&self.x0, x], old), corners),
+            Kept::Entropy(old) if M::THERMAL => find_corners((model, [&self.x0, x]), old, corners),
             _ => Ok(()),
         }
     }

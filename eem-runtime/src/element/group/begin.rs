@@ -5,7 +5,7 @@ use super::member::Member;
 use super::placed::PlacedPoint;
 use super::point::{Point, grown, variables};
 use super::pose::Pose;
-use crate::element::conjugates::{Family, KeptOf};
+use crate::element::conjugates::Family;
 use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
 use crate::element::kinematics::{Kinematics, MeasureSet, Numbers};
@@ -28,19 +28,18 @@ pub(super) fn shorten<K: Kinematics<D>, const D: usize>(
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
-    /// Takes the old state; the data that the scheme keeps of it may be known.
+    /// Takes the old state, except what the scheme [keeps](Self::keep) of it.
     #[inline]
     pub(super) fn begin<C: Family>(
         &mut self,
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
-        known: Option<&KeptOf<M>>,
     ) -> Result<(), StateError> {
         let r0 = self.arms_in(view.state);
         self.r0 = r0;
         for point in self.points.as_mut() {
             let measures = point.kinematics.measure(&r0);
-            point.begin::<C>(view, old.before.as_ref(), &measures, known);
+            point.begin::<C>(view, old.before.as_ref(), &measures);
             let length = point.kinematics.length(&measures);
             shorten::<K, D>(&self.site.nodes, length, old.lengths);
         }
@@ -48,6 +47,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
             self.take_old_share(view, old.force)?;
         }
         Ok(())
+    }
+
+    /// Stores what the scheme keeps of the old state.
+    #[inline]
+    pub(super) fn keep(&mut self, view: &StepView<'_>) {
+        for point in self.points.as_mut() {
+            point.keep_old(view);
+        }
     }
 
     /// Finds the part of rates and nodal forces that the scheme takes from the old state.
@@ -79,8 +86,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
 }
 
 impl<M: Material, Q: MeasureSet> Point<M, Q> {
-    /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted. What the scheme keeps
-    /// of the old state may be known.
+    /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted.
     #[expect(
         clippy::inline_always,
         reason = "a call costs 1 % of a step of two springs"
@@ -91,7 +97,6 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         view: &StepView<'_>,
         before: Option<&Before<'_>>,
         measures: &Numbers<Q>,
-        known: Option<&KeptOf<M>>,
     ) {
         let slots = self.slots();
         let x0 = variables(&self.model, measures.as_ref(), slots, view.state);
@@ -105,15 +110,6 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             self.is_prescribed = prescribed.is_some();
             self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
         }
-        if let Some(old) = known.filter(|_| !self.is_prescribed) {
-            self.start.old = *old;
-        } else {
-            let entropy = slots
-                .thermal
-                .map(|slot| view.state.entropies.values()[slot]);
-            let entropy = entropy.unwrap_or(0.0);
-            (self.start).keep(self.scheme, &self.model, entropy, self.is_prescribed);
-        }
         if C::is_exact(self.scheme)
             && let Some(before) = before
         {
@@ -124,6 +120,14 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         }
         self.begin_damping::<C>(view);
         self.hold::<C>();
+    }
+
+    /// Stores what the scheme keeps of the old state.
+    #[inline]
+    fn keep_old(&mut self, view: &StepView<'_>) {
+        let slot = self.slots().thermal;
+        let entropy = slot.map_or(0.0, |slot| view.state.entropies.values()[slot]);
+        (self.start).keep(self.scheme, &self.model, entropy, self.is_prescribed);
     }
 
     /// Predicts the internal variables by their changes in the last step: viscous stretches linearly, the temperature by a
@@ -153,7 +157,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let share = 1.0 - self.scheme.implicit();
         let x0 = self.start.x0;
         let theta = x0[Self::VARIABLES - 1];
-        self.find_viscosities(theta, None)?;
+        self.find_viscosities(theta)?;
         let mut gradient = self.model.gradient(&x0);
         let mut rates = M::Variables::filled(0.0);
         let mut heat = self.add_old_drag(speeds, &mut gradient, &mut rates)?;

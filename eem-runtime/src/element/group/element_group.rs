@@ -1,6 +1,5 @@
 //! The elements of one model, with one set of forces in a step.
 
-use super::ahead::Ahead;
 use super::arms::change_in;
 use super::interface::{Elements, Group, Loose};
 use super::loose::{LooseElements, MakeExplicit};
@@ -11,6 +10,7 @@ use super::point::Point;
 use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
 use super::share::Share;
 use super::site::{Contact, Site};
+use super::together::Ahead;
 use super::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 #[cfg(feature = "gradients")]
@@ -37,7 +37,7 @@ pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, const D: usize> {
     /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, D>>,
     /// Workspace for elements that are evaluated together.
-    pub(super) ahead: Ahead<M>,
+    pub(super) ahead: Option<Box<Ahead<M>>>,
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
@@ -47,6 +47,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         for parts in loose.elements {
             members.push(Member::new(scheme, parts, placed));
         }
+        let ahead = if const { M::MAY_BE_TOGETHER } {
+            Ahead::new(&members)
+        } else {
+            None
+        };
         Self {
             scheme,
             members,
@@ -54,7 +59,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
             make_explicit: loose.make_explicit,
             by_factors: false,
             shares: Vec::new(),
-            ahead: Ahead::new(),
+            ahead,
         }
     }
 
@@ -81,53 +86,33 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         let points = K::PerPoint::<PlacedPoint<M, K, D>>::LEN;
         (&self.members[place / points], place % points)
     }
-
-    /// Whether several elements are evaluated in one call.
-    #[inline]
-    fn is_by_rows(&self) -> bool {
-        M::ROWS.is_some_and(|rows| self.members.len() >= rows.least)
-    }
-
-    /// Takes the old state in all elements.
-    #[inline]
-    pub(super) fn begin_one_by_one<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        old: &mut Old<'_, D>,
-    ) -> Result<(), StateError> {
-        for member in &mut self.members {
-            member.begin::<C>(view, old, None)?;
-        }
-        Ok(())
-    }
-
-    /// Closes the step in all elements.
-    #[inline]
-    pub(super) fn close_one_by_one<C: Family>(
-        &mut self,
-        view: &StepView<'_>,
-        trial: &Trial<D>,
-        next: &mut State,
-        tally: &mut Tally,
-    ) -> Result<(), StateError> {
-        for member in &mut self.members {
-            member.close::<C>(&self.contacts, (view, trial), next, tally, None)?;
-        }
-        Ok(())
-    }
 }
 
 /// The functions of a step, for a family of schemes.
 impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+    /// Whether the loops are those for elements that are evaluated together. Of the family of any scheme there are no others if the material
+    /// may be evaluated so: they are compiled once, and only a little slower. A branch that a constant rules out is not compiled.
+    #[inline]
+    fn is_together<C: Family>(&self) -> bool {
+        M::MAY_BE_TOGETHER && (!C::IS_EXACT || self.ahead.is_some())
+    }
+
     fn begin_as<C: Family>(
         &mut self,
         view: &StepView<'_>,
         old: &mut Old<'_, D>,
     ) -> Result<(), StateError> {
-        if const { M::ROWS.is_some() } && self.is_by_rows() {
-            return self.begin_by_rows::<C>(view, old);
+        let is_together = self.is_together::<C>();
+        for member in &mut self.members {
+            member.begin::<C>(view, old)?;
+            if !is_together {
+                member.keep(view);
+            }
         }
-        self.begin_one_by_one::<C>(view, old)
+        if const { M::MAY_BE_TOGETHER } && is_together {
+            return self.keep_together(view);
+        }
+        Ok(())
     }
 
     fn evaluate_as<C: Family>(
@@ -136,18 +121,17 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         trial: &Trial<D>,
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        // A branch that a constant rules out is not compiled.
-        let is_by_rows = self.is_by_rows();
+        if const { M::MAY_BE_TOGETHER } && self.is_together::<C>() {
+            return match system {
+                Some(system) => self.linearize_together::<C>(view, trial, system),
+                None => self.respond_together::<C>(view, trial),
+            };
+        }
         let Some(system) = system else {
-            if const { M::ROWS.is_some() } && is_by_rows {
-                return self.respond_by_rows::<C>(view, trial);
-            }
             return self.respond_one_by_one::<C>(view, trial);
         };
         if const { K::PerPoint::<()>::LEN > 1 } {
             self.linearize_in_rounds::<C>(view, trial, system)
-        } else if const { M::ROWS.is_some() } && is_by_rows {
-            self.linearize_by_rows::<C>(view, trial, system)
         } else {
             self.linearize_one_by_one::<C>(view, trial, system)
         }
@@ -216,10 +200,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        if const { M::ROWS.is_some() } && self.is_by_rows() {
-            return self.close_by_rows::<C>(view, trial, next, tally);
+        if const { M::MAY_BE_TOGETHER } && self.is_together::<C>() {
+            return self.close_together::<C>(view, trial, next, tally);
         }
-        self.close_one_by_one::<C>(view, trial, next, tally)
+        for member in &mut self.members {
+            member.close::<C>(&self.contacts, (view, trial), next, tally, None)?;
+        }
+        Ok(())
     }
 }
 

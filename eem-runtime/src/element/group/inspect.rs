@@ -233,7 +233,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     fn initialize(&mut self, x: &M::Variables, state: &mut State) -> Result<Energy, StateError> {
         let slot = self.slots().thermal;
         let theta = slot.map_or(0.0, |slot| state.temperatures[slot]);
-        self.find_viscosities(theta, None)?;
+        self.find_viscosities(theta)?;
         self.find_drag_viscosity(theta)?;
         let caloric = self.model.caloric(x);
         let energy = self.energy_at(x, caloric)?;

@@ -93,7 +93,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn tangent_in(&mut self, per_step: f64) -> Result<Form<f64, M>, StateError> {
         let mut form = self.form::<Exact>(false);
-        self.accept::<Exact>(per_step, &form, None)?;
+        self.accept::<Exact>(per_step, &form, false)?;
         self.response = form.0;
         self.add_drag::<Exact>(per_step, &mut form);
         Ok(form)

@@ -3,7 +3,7 @@
 use core::ops::{Deref, DerefMut};
 
 use super::arms::{add_scaled, along};
-use super::point::{Known, Point, variables};
+use super::point::{Point, variables};
 use super::pose::{Pose, placed_measures};
 use super::respond::TrialArms;
 use crate::element::conjugates::{Family, Form, OneSet};
@@ -112,11 +112,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         &mut self,
         r1: &Arms<K, D>,
         is_start: bool,
-        corners: Option<M::Corners>,
+        is_known: bool,
     ) -> Result<Measures<K, D>, StateError> {
         let [measures1, measures] = self.placed::<C>(r1);
         self.check_measures(&measures, r1)?;
-        self.point.locate_trial::<C>(&measures, is_start, corners)?;
+        self.point
+            .locate_trial::<C>(&measures, is_start, is_known)?;
         Ok(measures1)
     }
 
@@ -132,25 +133,28 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         Pose::new(&self.kinematics, C::placement(self.point.scheme), ends)
     }
 
-    /// Finds the response at a trial, without its tangent, at the end of a step. The response may be known.
-    #[inline]
+    /// Finds the response at a trial, without its tangent, at the end of a step, unless the one stored is known to be right.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
     pub(super) fn respond_alone<C: Family>(
         &mut self,
         view: &StepView<'_>,
         trial: &Trial<D>,
         arms: &TrialArms<K, D>,
-        known: Known<M::Response, M>,
+        is_known: bool,
     ) -> Result<(), StateError> {
         let per_step = view.per_step;
-        let corners = known.map(|(corners, ..)| corners);
-        let measures = self.locate_trial::<C>(&arms.placed, trial.is_start, corners)?;
+        let measures = self.locate_trial::<C>(&arms.placed, trial.is_start, is_known)?;
         if self.drags() > 0 {
             let pose = self.pose::<C>(arms, &measures);
             self.extend::<C>(&pose, &arms.motion);
         }
         if trial.is_start {
             let form = self.form::<C>(trial.is_start);
-            self.accept::<C>(per_step, &form, None)?;
+            self.accept::<C>(per_step, &form, false)?;
             self.point.response = form.0;
             return Ok(());
         }
@@ -158,19 +162,16 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             let mut form = self.form::<C>(trial.is_start);
             let pose = self.pose::<C>(arms, &measures);
             self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
-            self.accept::<C>(per_step, &form, None)?;
+            self.accept::<C>(per_step, &form, false)?;
             self.point.response = form.0;
             return Ok(());
         }
-        self.point.response = known.map_or_else(
-            || {
-                self.start
-                    .response::<C>(self.scheme, &self.model, &self.x, &self.corners)
-            },
-            |(_, response, _)| response,
-        );
+        if !is_known {
+            let (start, model) = (&self.start, &self.model);
+            self.point.response = start.response::<C>(self.scheme, model, &self.x, &self.corners);
+        }
         let response = self.point.response;
-        self.accept_response::<C>(per_step, &response, known.map(|known| known.2))
+        self.accept_response::<C>(per_step, &response, is_known)
     }
 
     /// For a scheme in temperature: calls [`Point::change_entropy_at_rates`] with the increments of the trial.

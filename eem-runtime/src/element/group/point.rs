@@ -74,9 +74,6 @@ pub(super) type Viscosities<M> = (
     <M as FreeEnergy<f64>>::Viscosities,
 );
 
-/// Values of a trial that may have been evaluated ahead: temperatures of mixed states, response or form, and viscosities.
-pub(super) type Known<T, M> = Option<(<M as FreeEnergy<f64>>::Corners, T, Viscosities<M>)>;
-
 /// The damping of a point with this model.
 pub(super) type DampingOf<M> =
     Damping<<M as FreeEnergy<f64>>::Variables, <M as FreeEnergy<f64>>::Hessian>;
@@ -288,17 +285,19 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         })
     }
 
-    /// Finds the viscosities at a temperature, unless they are known; an error unless all are positive.
+    /// Finds the viscosities at a temperature; an error unless all are positive.
     #[inline]
-    pub(super) fn find_viscosities(
-        &mut self,
-        theta: f64,
-        known: Option<Viscosities<M>>,
-    ) -> Result<(), StateError> {
+    pub(super) fn find_viscosities(&mut self, theta: f64) -> Result<(), StateError> {
         if self.dashpots() == 0 {
             return Ok(());
         }
-        self.viscosities = known.unwrap_or_else(|| self.model.viscosity(theta));
+        self.viscosities = self.model.viscosity(theta);
+        self.check_viscosities(theta)
+    }
+
+    /// An error unless the viscosities, found at a temperature, are positive.
+    #[inline]
+    pub(super) fn check_viscosities(&self, theta: f64) -> Result<(), StateError> {
         let viscosities = self.viscosities.0.as_ref();
         match viscosities.iter().position(|&eta| !is_positive(eta)) {
             None => Ok(()),

@@ -40,13 +40,13 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             // The guess from the trial is good: usually one evaluation is enough.
             let entropy = state.entropies.values()[slot];
             let energy_at = self.model.caloric_at(x);
-            let found = if let Some(&known) = known {
-                let mut known = Some(known);
-                let energy_at = |theta| known.take().unwrap_or_else(|| energy_at(theta));
-                recovered_at(energy_at, entropy, near)
-            } else {
-                recovered_at(energy_at, entropy, near)
+            let mut known = known;
+            let energy_at = |theta| {
+                known
+                    .take()
+                    .map_or_else(|| energy_at(theta), |known| *known)
             };
+            let found = recovered_at(energy_at, entropy, near);
             let found = found.map_err(|infeasible| infeasible.of(self.element))?;
             check_temperature(self.element, found.temperature)?;
             state.temperatures[slot] = found.temperature;

@@ -1,6 +1,6 @@
 //! The response of the elements at a trial state, and its checks.
 
-use super::point::{Point, Viscosities, temperature_in};
+use super::point::{Point, temperature_in};
 use crate::element::conjugates::{Family, Form, check_stable};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
@@ -19,7 +19,7 @@ pub(super) struct TrialArms<K: Kinematics<D>, const D: usize> {
 
 impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Takes the measures of a trial, and finds its temperature if that is not an unknown, and other values that the form of
-    /// the scheme needs, unless they are known.
+    /// the scheme needs, unless those stored are known to be right.
     #[expect(
         clippy::inline_always,
         reason = "a call costs 1 % of a step of a spring"
@@ -29,7 +29,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         &mut self,
         measures: &Numbers<Q>,
         is_start: bool,
-        corners: Option<M::Corners>,
+        is_known: bool,
     ) -> Result<(), StateError> {
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
@@ -47,9 +47,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         if !C::is_exact(self.scheme) {
             return Ok(());
         }
-        if let Some(corners) = corners {
-            self.corners = corners;
-        } else if !is_start {
+        if !is_start && !is_known {
             (self.start)
                 .prepare(&self.model, &self.x, &mut self.corners)
                 .map_err(|infeasible| infeasible.of(self.element))?;
@@ -70,19 +68,19 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         start.form::<C>(self.scheme, model, x, &self.corners)
     }
 
-    /// Finds the viscosities for a response, unless they are known; an error if the trial is unstable or a value is not
+    /// Finds the viscosities for a response, unless those stored are known to be right; an error if the trial is unstable or a value is not
     /// finite.
     #[inline]
     pub(super) fn accept<C: Family>(
         &mut self,
         per_step: f64,
         form: &Form<f64, M>,
-        known: Option<Viscosities<M>>,
+        is_known: bool,
     ) -> Result<(), StateError> {
         if C::is_exact(self.scheme) {
             check_stable::<M>(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
         }
-        self.accept_response::<C>(per_step, &form.0, known)
+        self.accept_response::<C>(per_step, &form.0, is_known)
     }
 
     #[expect(
@@ -94,13 +92,17 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         &mut self,
         per_step: f64,
         response: &M::Response,
-        known: Option<Viscosities<M>>,
+        is_known: bool,
     ) -> Result<(), StateError> {
         check_response::<M>(self.element, response)?;
         self.check_conducting::<C>(response)?;
         self.find_drag::<C>(per_step, response)?;
         self.find_damping::<C>()?;
-        self.find_viscosities(temperature_in::<M>(response), known)
+        let theta = temperature_in::<M>(response);
+        if is_known {
+            return self.check_viscosities(theta);
+        }
+        self.find_viscosities(theta)
     }
 
     /// For a scheme in temperature: calls [`PointRule::change_entropy_at_rates`](crate::element::conjugates::PointRule::change_entropy_at_rates), given the increments of the measures;

@@ -359,7 +359,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
                     value: theta,
                 });
             }
-            in_state.find_viscosities(theta, None)?;
+            in_state.find_viscosities(theta)?;
             self.viscosities[stage] = in_state.viscosities;
         }
         Ok(())

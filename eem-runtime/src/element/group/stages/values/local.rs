@@ -202,7 +202,7 @@ impl<M: Material> StageValues<M> {
                 value: *value,
             });
         }
-        in_state.find_viscosities(theta, None)?;
+        in_state.find_viscosities(theta)?;
         let dissipation_by = at_stage.creep(in_state.dashpots(), &in_state.viscosities);
         let Some(slot) = in_state.slots().thermal else {
             return Ok(());
