@@ -9,3 +9,12 @@ pub fn is_long() -> bool {
 pub fn at_length<T>(long: T, short: T) -> T {
     if is_long() { long } else { short }
 }
+
+/// All cases with `EEM_LONG`, else one for each index in turn: who goes through many models meets every case with some of them.
+pub fn in_turn<T>(cases: &[T], index: usize) -> &[T] {
+    if is_long() {
+        cases
+    } else {
+        std::slice::from_ref(&cases[index % cases.len()])
+    }
+}

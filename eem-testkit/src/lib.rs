@@ -28,5 +28,6 @@ pub mod precise;
 pub mod random;
 #[cfg(feature = "scenes")]
 pub mod scenes;
+pub mod secant;
 #[cfg(feature = "scenes")]
 pub mod table;

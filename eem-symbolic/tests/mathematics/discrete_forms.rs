@@ -1,12 +1,10 @@
 //! The algorithmic forms are the partitioned discrete derivatives, and their tangents are exact.
 
-use crate::support::corners::Evaluated;
+use crate::oracle::SymmetricKernels;
+use crate::support::corners::{Evaluated, RANDOM, evaluated};
 use crate::support::precise::{error, to_f64};
-use crate::support::solids;
-use eem_symbolic::{
-    Arithmetic, Bounded, F64, Function, Number, Operation, ProgramKernel, RunningError,
-};
-use eem_testkit::length::at_length;
+use eem_symbolic::{Arithmetic, Bounded, F64, Function, Operation, RunningError};
+use eem_testkit::length::in_turn;
 use eem_testkit::precise::BigFloat;
 
 /// Increments of every variable relative to its size; the last one is negative for a change.
@@ -18,9 +16,6 @@ const PRECISE: f64 = 1e-60;
 /// A central difference in high precision: offset 1e-30, squared.
 const DIFFERENCE: f64 = 1e-50;
 
-/// How many random laws.
-const RANDOM: u64 = 3;
-
 /// x¹ for a relative increment, each variable by another amount.
 fn moved(state: &[f64], increment: f64) -> Vec<f64> {
     let factors = [1.0, -0.6, 0.8, 0.3].iter().cycle();
@@ -29,19 +24,6 @@ fn moved(state: &[f64], increment: f64) -> Vec<f64> {
         .zip(factors)
         .map(|(x, factor)| x * (1.0 + factor * increment))
         .collect()
-}
-
-fn laws() -> Vec<Evaluated> {
-    crate::support::all_laws()
-        .into_iter()
-        .map(Evaluated::new)
-        .collect()
-}
-
-/// With random solids of three measures.
-fn laws_and_random() -> Vec<Evaluated> {
-    let random = (0..RANDOM).map(solids::random).map(Evaluated::new);
-    laws().into_iter().chain(random).collect()
 }
 
 /// Relative to the largest magnitude of the two.
@@ -57,8 +39,8 @@ fn relative(law: &Evaluated, a: &BigFloat, b: &BigFloat) -> f64 {
 
 #[test]
 fn responses_are_partitioned_quotients() {
-    for law in laws_and_random() {
-        for increment in [1e-9, 1e-2, -0.1] {
+    for (index, law) in evaluated(RANDOM).iter().enumerate() {
+        for &increment in in_turn(&[1e-9, 1e-2, -0.1], index) {
             let x0 = law.precise.all(&law.law.state);
             let x1 = law.precise.all(&moved(&law.law.state, increment));
             let entropy = (law.entropy_form(&x0, &x1), law.entropy_quotients(&x0, &x1));
@@ -71,7 +53,7 @@ fn responses_are_partitioned_quotients() {
             }
             for (computed, defined) in forms {
                 for (i, expected) in defined.iter().enumerate() {
-                    let error = relative(&law, &computed[i], expected);
+                    let error = relative(law, &computed[i], expected);
                     assert!(
                         error < PRECISE,
                         "{} {increment} [{i}]: {error:e}",
@@ -85,7 +67,7 @@ fn responses_are_partitioned_quotients() {
 
 #[test]
 fn energy_is_the_sum_of_forces_times_increments() {
-    for law in laws_and_random() {
+    for law in evaluated(RANDOM) {
         let p = &law.precise;
         let x0 = p.all(&law.law.state);
         let x1 = p.all(&moved(&law.law.state, 0.1));
@@ -117,13 +99,13 @@ fn energy_is_the_sum_of_forces_times_increments() {
 /// Tangent entry (i, j) against the central difference of response i in `x_j¹`.
 #[test]
 fn tangents_are_total_derivatives() {
-    for law in laws_and_random() {
-        for &increment in at_length(&[0.0, 0.1, 1e-5][..], &[0.0, 0.1]) {
+    for (index, law) in evaluated(RANDOM).iter().enumerate() {
+        for &increment in in_turn(&[0.0, 0.1, 1e-5], index) {
             let x0 = law.precise.all(&law.law.state);
             let x1 = law.precise.all(&moved(&law.law.state, increment));
-            check_tangent(&law, &x0, &x1, &|x0, x1| law.entropy_form(x0, x1));
+            check_tangent(law, &x0, &x1, &|x0, x1| law.entropy_form(x0, x1));
             if law.thermal() {
-                check_tangent(&law, &x0, &x1, &|x0, x1| law.temperature_form(x0, x1));
+                check_tangent(law, &x0, &x1, &|x0, x1| law.temperature_form(x0, x1));
             }
         }
     }
@@ -219,7 +201,7 @@ const RESPONSE: f64 = 1e-14;
 
 #[test]
 fn double_precision_keeps_responses_and_tangents() {
-    for law in laws() {
+    for law in evaluated(0) {
         for increment in INCREMENTS {
             for entropy in [true, false] {
                 if !entropy && !law.thermal() {
@@ -238,63 +220,13 @@ fn double_precision_keeps_responses_and_tangents() {
     }
 }
 
-/// Double precision with the ends of a difference in ascending order: symmetric, as kernels are.
-struct Symmetric;
-
-impl Arithmetic for Symmetric {
-    type Number = f64;
-
-    fn constant(&self, number: &Number) -> f64 {
-        number.to_f64()
-    }
-    fn add(&self, a: &f64, b: &f64) -> f64 {
-        a + b
-    }
-    fn sub(&self, a: &f64, b: &f64) -> f64 {
-        a - b
-    }
-    fn mul(&self, a: &f64, b: &f64) -> f64 {
-        a * b
-    }
-    fn div(&self, a: &f64, b: &f64) -> f64 {
-        a / b
-    }
-    fn neg(&self, a: &f64) -> f64 {
-        -a
-    }
-    fn powi(&self, a: &f64, n: i32) -> f64 {
-        a.powi(n)
-    }
-    fn sqrt(&self, a: &f64) -> f64 {
-        a.sqrt()
-    }
-    fn power(&self, a: &f64, b: &f64) -> f64 {
-        a.powf(*b)
-    }
-    fn apply(&self, function: Function, a: &f64) -> f64 {
-        F64.apply(function, a)
-    }
-    fn divided_difference(&self, kernel: ProgramKernel<&f64>, a: &f64, b: &f64) -> f64 {
-        let kernel = match kernel {
-            ProgramKernel::Power(value_a, value_b) if b < a => {
-                ProgramKernel::Power(value_b, value_a)
-            }
-            kernel => kernel,
-        };
-        F64.divided_difference(kernel, &a.min(*b), &a.max(*b))
-    }
-    fn second_divided_difference(&self, kernel: ProgramKernel<&f64>, a: &f64, b: &f64) -> f64 {
-        F64.second_divided_difference(kernel, a, b)
-    }
-}
-
 /// Exchanging the states changes no bit of f*, g*, θ*, and the sign of Δs: the scheme is
 /// self-adjoint in floating-point arithmetic. A logarithm that one state has from the other one is
 /// the same up to its rounding.
 #[test]
 fn temperature_form_is_symmetric_bit_by_bit() {
     let mut without_logarithm = 0;
-    for law in laws() {
+    for law in evaluated(0) {
         let Some(program) = &law.programs.temperature_form else {
             continue;
         };
@@ -307,8 +239,8 @@ fn temperature_form_is_symmetric_bit_by_bit() {
             let x0 = law.law.state.clone();
             let x1 = moved(&x0, increment);
             let inputs = |x0: &[f64], x1: &[f64]| [&law.law.parameters, x0, x1].concat();
-            let forward = program.interpret(&Symmetric, &inputs(&x0, &x1));
-            let mut backward = program.interpret(&Symmetric, &inputs(&x1, &x0));
+            let forward = program.interpret(&SymmetricKernels, &inputs(&x0, &x1));
+            let mut backward = program.interpret(&SymmetricKernels, &inputs(&x1, &x0));
             let last = law.responses() - 1;
             backward[last] = -backward[last];
             let exact = inputs(&x0, &x1).into_iter().map(Bounded::exact);
@@ -331,7 +263,7 @@ fn temperature_form_is_symmetric_bit_by_bit() {
 
 #[test]
 fn mixed_states_are_off_by_differences_of_the_entropy() {
-    for law in laws_and_random().iter().filter(|law| law.thermal()) {
+    for law in evaluated(RANDOM).iter().filter(|law| law.thermal()) {
         let (p, n) = (&law.precise, law.mechanical());
         let program = law.programs.mixed_states.as_ref().expect("a thermal law");
         let caloric = law.programs.caloric.as_ref().expect("a thermal law");

@@ -9,7 +9,7 @@ const NEARLY_LINEAR: f64 = 1.5;
 #[test]
 fn operations_grow_nearly_linearly() {
     for family in FAMILIES {
-        let per_node = [12, 36].map(|count| {
+        let per_node = [8, 24].map(|count| {
             let model = (family.model)(count);
             let nodes = model.graph.size(model.psi);
             let programs = model.programs();

@@ -1,14 +1,13 @@
 //! Derivatives of a law by its parameters: against differences in high precision, corners found anew, and one sweep
 //! against the other.
 
-use crate::support::corners::Evaluated;
+use crate::support::corners::{Evaluated, evaluated};
 use crate::support::precise::{Precise, to_f64};
 use crate::support::random::Random;
-use crate::support::solids;
 use eem_symbolic::{
     Arithmetic, Bounded, DifferencePart, Operation, ParameterPrograms, Program, RunningError, Stage,
 };
-use eem_testkit::length::at_length;
+use eem_testkit::length::{at_length, in_turn};
 use eem_testkit::precise::BigFloat;
 
 /// A central difference in high precision: offset 1e-30, squared.
@@ -17,14 +16,6 @@ const DIFFERENCE: f64 = 1e-50;
 const INCREMENTS: [f64; 3] = [0.0, -0.1, 1e-9];
 /// What an adjoint may cost, values included, over what it is the derivative of. Baur & Strassen 1983: four times.
 const COST: usize = 3;
-
-/// All laws, and a solid of three measures that nothing is separable in.
-fn laws() -> Vec<Evaluated> {
-    let laws = crate::support::all_laws().into_iter();
-    laws.chain([solids::random(0)])
-        .map(Evaluated::new)
-        .collect()
-}
 
 fn moved(state: &[f64], increment: f64) -> Vec<f64> {
     let factors = [1.0, -0.6, 0.8, 0.3].into_iter().cycle();
@@ -103,10 +94,10 @@ fn check(
 
 #[test]
 fn forms_are_what_differences_say() {
-    for mut law in laws() {
+    for (index, mut law) in evaluated(1).into_iter().enumerate() {
         let derivatives = law.law.model.parameter_programs(&law.programs);
         let rows = law.responses();
-        for &increment in at_length(&INCREMENTS[..], &INCREMENTS[..2]) {
+        for &increment in in_turn(&INCREMENTS, index) {
             let x0 = law.precise.all(&law.law.state);
             let x1 = law.precise.all(&moved(&law.law.state, increment));
             let corners = law.corners(&x0, &x1);
@@ -140,7 +131,7 @@ fn forms_are_what_differences_say() {
 
 #[test]
 fn functions_of_a_state_are_what_differences_say() {
-    for mut law in laws() {
+    for mut law in evaluated(1) {
         let derivatives = law.law.model.parameter_programs(&law.programs);
         let x = law.precise.all(&law.law.state);
         let gradient = [Some(&derivatives.gradient_adjoint), None];
@@ -207,7 +198,7 @@ fn agree(law: &Evaluated, [adjoint, tangent]: [&Program; 2], inputs: &[f64]) -> 
 
 #[test]
 fn adjoints_agree_with_tangents() {
-    for law in laws() {
+    for law in evaluated(1) {
         let derivatives = law.law.model.parameter_programs(&law.programs);
         let mut worst = [0.0_f64; 2];
         for &increment in at_length(&INCREMENTS[..], &INCREMENTS[..2]) {
@@ -250,7 +241,7 @@ fn derivatives(law: &Evaluated) -> ParameterPrograms {
 
 #[test]
 fn no_third_difference_is_needed() {
-    for law in laws() {
+    for law in evaluated(1) {
         let derivatives = derivatives(&law);
         assert_eq!(derivatives.verify(), Ok(()), "{}", law.law.name);
         for (name, program) in derivatives.named() {
@@ -285,7 +276,7 @@ fn no_third_difference_is_needed() {
 
 #[test]
 fn derivatives_cost_three_times_the_values_at_most() {
-    for law in laws() {
+    for law in evaluated(1) {
         let derivatives = derivatives(&law);
         let all = |program: &Program| {
             let count = program.operation_count();

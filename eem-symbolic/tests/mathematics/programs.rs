@@ -2,8 +2,8 @@
 
 use crate::support::laws;
 use eem_symbolic::{
-    F64, Function, Graph, Input, Instruction, Model, Number, Operation, Program, ProgramKernel,
-    Programs, Stage, Value, VerifyError, schedule,
+    F64, Function, Graph, Input, Instruction, Number, Operation, Program, ProgramKernel, Programs,
+    Stage, Value, VerifyError, schedule,
 };
 
 fn each(programs: &Programs) -> Vec<(&'static str, &Program)> {
@@ -331,45 +331,4 @@ fn magnitude_is_the_sum_of_magnitudes() {
     assert!(close(entropy, elastic + 20.0 * strain + caloric));
     assert!(close(magnitude, elastic - 20.0 * strain - caloric));
     assert!(close(capacity, 5000.0 - elastic));
-}
-
-/// ψ with n terms c sin(λ + i) exp(−θ/i) and a heat capacity.
-fn wide(terms: i64) -> Model {
-    let mut graph = Graph::new();
-    let symbols = ["lambda", "theta"].map(|name| graph.symbol(name));
-    let [lambda, theta] = symbols.map(|symbol| graph.variable(symbol));
-    let logarithm = graph.apply(Function::Ln, theta);
-    let product = graph.mul(theta, logarithm);
-    let mut psi = graph.neg(product);
-    for i in 1..=terms {
-        let index = graph.integer(i);
-        let phase = graph.add(lambda, index);
-        let sine = graph.apply(Function::Sin, phase);
-        let decay = graph.div(theta, index);
-        let decay = graph.neg(decay);
-        let decay = graph.apply(Function::Exp, decay);
-        let term = graph.mul(sine, decay);
-        psi = graph.add(psi, term);
-    }
-    Model {
-        graph,
-        measures: vec![symbols[0]],
-        strains: vec![],
-        dashpots: Vec::new(),
-        temperature: Some(symbols[1]),
-        parameters: Vec::new(),
-        psi,
-        viscosities: Vec::new(),
-        drag: None,
-    }
-}
-
-#[test]
-fn programs_grow_in_proportion_to_the_law() {
-    let [small, large] = [50, 200].map(|terms| wide(terms).programs().entropy_form);
-    let [small, large] = [small, large].map(|program| program.instructions.len());
-    assert!(
-        large < 5 * small,
-        "{small} instructions for 50 terms, {large} for 200"
-    );
 }

@@ -1,11 +1,34 @@
 //! A law in high precision: corner temperatures by Newton's method, discrete derivatives by plain
 //! quotients of e(y, s).
 
+use std::sync::LazyLock;
+
 use eem_symbolic::{Arithmetic, Program, Programs};
 use eem_testkit::precise::BigFloat;
 
 use super::laws::Law;
 use super::precise::{Precise, to_f64};
+use super::solids;
+
+/// How many random solids there are.
+pub(crate) const RANDOM: u64 = 3;
+
+/// All laws and then random solids of three measures that nothing is separable in, whose programs take a second.
+static BUILT: LazyLock<Vec<(Law, Programs)>> = LazyLock::new(|| {
+    let random = (0..RANDOM).map(solids::random);
+    let laws = super::all_laws().into_iter().chain(random);
+    laws.map(|law| (law.clone(), law.model.programs()))
+        .collect()
+});
+
+/// All laws and this many random solids.
+pub(crate) fn evaluated(random: u64) -> Vec<Evaluated> {
+    let left_out = usize::try_from(RANDOM - random).expect("a small number");
+    let taken = BUILT.iter().take(BUILT.len() - left_out);
+    taken
+        .map(|(law, programs)| Evaluated::new(law.clone(), programs.clone()))
+        .collect()
+}
 
 /// A law that can be evaluated.
 pub(crate) struct Evaluated {
@@ -20,8 +43,8 @@ pub(crate) struct Evaluated {
 pub(crate) type State = Vec<BigFloat>;
 
 impl Evaluated {
-    pub(crate) fn new(law: Law) -> Self {
-        let (programs, precise) = (law.model.programs(), Precise::new());
+    fn new(law: Law, programs: Programs) -> Self {
+        let precise = Precise::new();
         Self {
             parameters: precise.all(&law.parameters),
             law,

@@ -1,8 +1,14 @@
-//! Constitutive laws with data, built in the graph.
+//! Constitutive laws with data, read from texts.
 
-use eem_symbolic::{ExprId, Function, Graph, Model, Number, Symbol, diff};
+#[path = "reader.rs"]
+pub(crate) mod reader;
+
+use eem_symbolic::{Graph, LowerBound, Model, Rational, Symbol};
+
+use self::reader::read;
 
 /// A model, its parameters and a state to start from.
+#[derive(Clone)]
 pub(crate) struct Law {
     pub(crate) name: &'static str,
     pub(crate) model: Model,
@@ -10,7 +16,64 @@ pub(crate) struct Law {
     pub(crate) state: Vec<f64>,
 }
 
-/// All of them.
+/// How a law is written: ψ and viscosities of the variables and parameters; the temperature is `theta`, behind the dashpots.
+pub(crate) struct Text<'a> {
+    pub(crate) name: &'static str,
+    pub(crate) measures: &'a [&'a str],
+    pub(crate) dashpots: &'a [&'a str],
+    pub(crate) parameters: &'a [(&'a str, f64)],
+    pub(crate) psi: &'a str,
+    pub(crate) viscosities: &'a [&'a str],
+    pub(crate) state: &'a [f64],
+}
+
+/// From where on a strain is, by its name: e1 = tr E, e2 = E:E, j = J − 1.
+fn strain(name: &str, symbol: Symbol) -> Option<LowerBound> {
+    match name {
+        "e1" => Rational::new(-3, 2).map(|least| LowerBound::above(symbol, least)),
+        "e2" => Some(LowerBound::from(symbol, Rational::ZERO)),
+        "j" => Some(LowerBound::above(symbol, Rational::MINUS_ONE)),
+        _ => None,
+    }
+}
+
+impl Text<'_> {
+    pub(crate) fn law(&self) -> Law {
+        let mut graph = Graph::new();
+        let mut symbol = |name: &&str| graph.symbol(name);
+        let measures: Vec<_> = self.measures.iter().map(&mut symbol).collect();
+        let dashpots: Vec<_> = self.dashpots.iter().map(&mut symbol).collect();
+        let is_thermal = self.state.len() > measures.len() + dashpots.len();
+        let temperature = is_thermal.then(|| symbol(&"theta"));
+        let parameters = self.parameters.iter().map(|(name, _)| symbol(name));
+        let parameters = parameters.collect();
+        let strains = self.measures.iter().zip(&measures);
+        let strains = strains.filter_map(|(name, &symbol)| strain(name, symbol));
+        let strains = strains.collect();
+        let psi = read(&mut graph, self.psi);
+        let laws = self.viscosities.iter();
+        let viscosities = laws.map(|law| read(&mut graph, law)).collect();
+        let model = Model {
+            graph,
+            measures,
+            strains,
+            dashpots,
+            temperature,
+            parameters,
+            psi,
+            viscosities,
+            drag: None,
+        };
+        Law {
+            name: self.name,
+            model,
+            parameters: self.parameters.iter().map(|&(_, value)| value).collect(),
+            state: self.state.to_vec(),
+        }
+    }
+}
+
+/// All springs.
 pub(crate) fn all() -> Vec<Law> {
     vec![
         pendulum(),
@@ -21,278 +84,107 @@ pub(crate) fn all() -> Vec<Law> {
     ]
 }
 
-/// Collects symbols while a formula is written down.
-pub(crate) struct Writer {
-    pub(crate) graph: Graph,
-    pub(crate) parameters: Vec<Symbol>,
-    pub(crate) values: Vec<f64>,
-}
-
-impl Writer {
-    pub(crate) fn new() -> Self {
-        Self {
-            graph: Graph::new(),
-            parameters: Vec::new(),
-            values: Vec::new(),
-        }
-    }
-
-    pub(crate) fn variable(&mut self, name: &str) -> (Symbol, ExprId) {
-        let symbol = self.graph.symbol(name);
-        (symbol, self.graph.variable(symbol))
-    }
-
-    pub(crate) fn parameter(&mut self, name: &str, value: f64) -> ExprId {
-        let symbol = self.graph.symbol(name);
-        self.parameters.push(symbol);
-        self.values.push(value);
-        self.graph.variable(symbol)
-    }
-
-    /// ln(x/y).
-    fn log_ratio(&mut self, x: ExprId, y: ExprId) -> ExprId {
-        let ratio = self.graph.div(x, y);
-        self.graph.apply(Function::Ln, ratio)
-    }
-
-    /// c (θ − θr − θ ln(θ/θr)).
-    pub(crate) fn caloric(&mut self, c: ExprId, theta: ExprId, reference: ExprId) -> ExprId {
-        let logarithm = self.log_ratio(theta, reference);
-        let product = self.graph.mul(theta, logarithm);
-        let excess = self.graph.sub(theta, reference);
-        let bracket = self.graph.sub(excess, product);
-        self.graph.mul(c, bracket)
-    }
-
-    /// a − b (θ − θr).
-    pub(crate) fn softening(&mut self, [a, b]: [ExprId; 2], excess: ExprId) -> ExprId {
-        let loss = self.graph.mul(b, excess);
-        self.graph.sub(a, loss)
-    }
-
-    /// C/2 L² − β (θ − θr) L.
-    pub(crate) fn strain_energy(
-        &mut self,
-        [c, beta]: [ExprId; 2],
-        strain: ExprId,
-        excess: ExprId,
-    ) -> ExprId {
-        let square = self.graph.powi(strain, 2);
-        let half = self.graph.number(Number::HALF);
-        let elastic = self.graph.product(&[half, c, square]);
-        let thermal = self.graph.product(&[beta, excess, strain]);
-        self.graph.sub(elastic, thermal)
-    }
-
-    /// η0 exp(a (1/θ − 1/θr)).
-    pub(crate) fn viscosity(
-        &mut self,
-        [eta, a]: [ExprId; 2],
-        theta: ExprId,
-        reference: ExprId,
-    ) -> ExprId {
-        let inverse = [theta, reference].map(|x| self.graph.recip(x));
-        let difference = self.graph.sub(inverse[0], inverse[1]);
-        let exponent = self.graph.mul(a, difference);
-        let factor = self.graph.apply(Function::Exp, exponent);
-        self.graph.mul(eta, factor)
-    }
-}
+const PENDULUM: &[(&str, f64)] = &[
+    ("k0", 100.0),
+    ("k1", 0.5),
+    ("beta_c", 0.1),
+    ("beta_t", 4.0),
+    ("c", 1.0),
+    ("mu0", 5.0),
+    ("mu1", 0.1),
+    ("eta0", 100.0),
+    ("a", 10.0),
+    ("l0", 1.0),
+    ("theta_r", 300.0),
+];
+/// Of a dashpot of the pendulum, with ∂e/∂λ of the elastic energy e in front of it.
+const DASHPOT: &str = "(mu0 - mu1*(theta - theta_r))*gamma^2 \
+    - beta_c*gamma*((k0 - k1*(theta - theta_r))*ln(lambda/l0)/lambda - beta_t*(theta - theta_r)/lambda)";
+const ELASTIC: &str = "(1 + beta_c)*((0.5*(k0 - k1*(theta - theta_r))*ln(lambda/l0)^2 \
+    - beta_t*(theta - theta_r)*ln(lambda/l0)) + c*(theta - theta_r - theta*ln(theta/theta_r)))";
+const THINNING: &str = "eta0*exp(a*(1/theta - 1/theta_r))";
 
 /// García Orden & Romero 2012, §4.1.
 pub(crate) fn pendulum() -> Law {
-    thermo_visco_elastic("pendulum", 1, vec![1.3, 0.2, 380.0])
+    thermo_visco_elastic("pendulum", &["gamma1"], &[1.3, 0.2, 380.0])
 }
 
 /// The same with two dashpots.
 pub(crate) fn two_dashpots() -> Law {
-    thermo_visco_elastic("two dashpots", 2, vec![1.3, 0.2, -0.1, 380.0])
+    let dashpots = ["gamma1", "gamma2"];
+    thermo_visco_elastic("two dashpots", &dashpots, &[1.3, 0.2, -0.1, 380.0])
 }
 
-fn thermo_visco_elastic(name: &'static str, dashpots: usize, state: Vec<f64>) -> Law {
-    let mut w = Writer::new();
-    let (lambda, l) = w.variable("lambda");
-    let names = ["gamma1", "gamma2"];
-    let gammas: Vec<_> = names[..dashpots]
-        .iter()
-        .map(|name| w.variable(name))
-        .collect();
-    let (theta, t) = w.variable("theta");
-    let data = [
-        ("k0", 100.0),
-        ("k1", 0.5),
-        ("beta_c", 0.1),
-        ("beta_t", 4.0),
-        ("c", 1.0),
-    ];
-    let [k0, k1, beta_c, beta_t, c] = data.map(|(name, value)| w.parameter(name, value));
-    let data = [
-        ("mu0", 5.0),
-        ("mu1", 0.1),
-        ("eta0", 100.0),
-        ("a", 10.0),
-        ("l0", 1.0),
-    ];
-    let [mu0, mu1, eta0, a, l0] = data.map(|(name, value)| w.parameter(name, value));
-    let reference = w.parameter("theta_r", 300.0);
-    let excess = w.graph.sub(t, reference);
-    let strain = w.log_ratio(l, l0);
-    let stiffness = w.softening([k0, k1], excess);
-    let elastic = w.strain_energy([stiffness, beta_t], strain, excess);
-    let caloric = w.caloric(c, t, reference);
-    let elastic = w.graph.add(elastic, caloric);
-    let one = w.graph.integer(1);
-    let factor = w.graph.add(one, beta_c);
-    let mut psi = w.graph.mul(factor, elastic);
-    let force = diff(&mut w.graph, elastic, lambda);
-    let mu = w.softening([mu0, mu1], excess);
-    for &(_, gamma) in &gammas {
-        let square = w.graph.powi(gamma, 2);
-        let spring = w.graph.mul(mu, square);
-        let coupling = w.graph.product(&[beta_c, gamma, force]);
-        let dashpot = w.graph.sub(spring, coupling);
-        psi = w.graph.add(psi, dashpot);
+fn thermo_visco_elastic(name: &'static str, dashpots: &[&str], state: &[f64]) -> Law {
+    let mut psi = ELASTIC.to_owned();
+    for dashpot in dashpots {
+        psi = format!("{psi} + ({})", DASHPOT.replace("gamma", dashpot));
     }
-    let law = w.viscosity([eta0, a], t, reference);
-    let model = Model {
-        graph: w.graph,
-        measures: vec![lambda],
-        strains: vec![],
-        dashpots: gammas.iter().map(|&(symbol, _)| symbol).collect(),
-        temperature: Some(theta),
-        parameters: w.parameters,
-        psi,
-        viscosities: vec![law; dashpots],
-        drag: None,
-    };
-    Law {
+    Text {
         name,
-        model,
-        parameters: w.values,
+        measures: &["lambda"],
+        dashpots,
+        parameters: PENDULUM,
+        psi: &psi,
+        viscosities: &vec![THINNING; dashpots.len()],
         state,
     }
+    .law()
 }
 
 /// Conde Martín, Betsch & García Orden 2016, eq. 43 with C(θ) = C⁰ − C¹ θr ln(θ/θr): no closed
 /// inverse of s(θ).
 pub(crate) fn logarithmic_stiffness() -> Law {
-    let mut w = Writer::new();
-    let (lambda, l) = w.variable("lambda");
-    let (theta, t) = w.variable("theta");
-    let data = [
-        ("c0", 5000.0),
-        ("c1", 50.0),
-        ("beta", 20.0),
-        ("capacity", 5000.0),
-    ];
-    let [c0, c1, beta, capacity] = data.map(|(name, value)| w.parameter(name, value));
-    let [l0, reference] = [("l0", 2.0), ("theta_r", 300.0)].map(|(n, v)| w.parameter(n, v));
-    let excess = w.graph.sub(t, reference);
-    let strain = w.log_ratio(l, l0);
-    let logarithm = w.log_ratio(t, reference);
-    let loss = w.graph.product(&[c1, reference, logarithm]);
-    let stiffness = w.graph.sub(c0, loss);
-    let elastic = w.strain_energy([stiffness, beta], strain, excess);
-    let caloric = w.caloric(capacity, t, reference);
-    let psi = w.graph.add(elastic, caloric);
-    let model = Model {
-        graph: w.graph,
-        measures: vec![lambda],
-        strains: vec![],
-        dashpots: Vec::new(),
-        temperature: Some(theta),
-        parameters: w.parameters,
-        psi,
-        viscosities: Vec::new(),
-        drag: None,
-    };
-    let name = "logarithmic stiffness";
-    Law {
-        name,
-        model,
-        parameters: w.values,
-        state: vec![2.6, 380.0],
+    Text {
+        name: "logarithmic stiffness",
+        measures: &["lambda"],
+        dashpots: &[],
+        parameters: &[
+            ("c0", 5000.0),
+            ("c1", 50.0),
+            ("beta", 20.0),
+            ("capacity", 5000.0),
+            ("l0", 2.0),
+            ("theta_r", 300.0),
+        ],
+        psi: "0.5*(c0 - c1*theta_r*ln(theta/theta_r))*ln(lambda/l0)^2 - beta*(theta - theta_r)*ln(lambda/l0) \
+            + capacity*(theta - theta_r - theta*ln(theta/theta_r))",
+        viscosities: &[],
+        state: &[2.6, 380.0],
     }
+    .law()
 }
 
-/// Two measures and a solid whose heat capacity freezes out: ψ = k/2 (λ₁² + λ₁λ₂²) θ^¼ + c θ ln(1 − e^(−Θ/θ)).
+/// Two measures and a solid whose heat capacity freezes out.
 pub(crate) fn einstein() -> Law {
-    let mut w = Writer::new();
-    let (first, l1) = w.variable("lambda1");
-    let (second, l2) = w.variable("lambda2");
-    let (theta, t) = w.variable("theta");
-    let data = [("k", 3.0), ("c", 2.0), ("einstein", 250.0)];
-    let [k, c, einstein] = data.map(|(name, value)| w.parameter(name, value));
-    let squares = [l1, l2].map(|l| w.graph.powi(l, 2));
-    let mixed = w.graph.mul(l1, squares[1]);
-    let strain = w.graph.add(squares[0], mixed);
-    let quarter = w.graph.number(Number::from(-1_i64) / Number::from(4_i64));
-    let quarter = w.graph.power(t, quarter);
-    let half = w.graph.number(Number::HALF);
-    let elastic = w.graph.product(&[half, k, strain, quarter]);
-    let ratio = w.graph.div(einstein, t);
-    let exponent = w.graph.neg(ratio);
-    let factor = w.graph.apply(Function::Exp, exponent);
-    let minus = w.graph.neg(factor);
-    let logarithm = w.graph.apply(Function::Ln1p, minus);
-    let caloric = w.graph.product(&[c, t, logarithm]);
-    let psi = w.graph.add(elastic, caloric);
-    let model = Model {
-        graph: w.graph,
-        measures: vec![first, second],
-        strains: vec![],
-        dashpots: Vec::new(),
-        temperature: Some(theta),
-        parameters: w.parameters,
-        psi,
-        viscosities: Vec::new(),
-        drag: None,
-    };
-    Law {
+    Text {
         name: "Einstein solid",
-        model,
-        parameters: w.values,
-        state: vec![1.2, 0.7, 150.0],
+        measures: &["lambda1", "lambda2"],
+        dashpots: &[],
+        parameters: &[("k", 3.0), ("c", 2.0), ("einstein", 250.0)],
+        psi: "0.5*k*(lambda1^2 + lambda1*lambda2^2)*theta^-0.25 + c*theta*ln_1p(-exp(-(einstein/theta)))",
+        viscosities: &[],
+        state: &[1.2, 0.7, 150.0],
     }
+    .law()
 }
 
-/// No temperature: ψ = k/2 ln²(λ/λ0) + μ γ² − β k γ ln(λ/λ0)/λ.
+/// Without temperature.
 pub(crate) fn elastic() -> Law {
-    let mut w = Writer::new();
-    let (lambda, l) = w.variable("lambda");
-    let (gamma, g) = w.variable("gamma");
-    let data = [
-        ("k", 100.0),
-        ("mu", 5.0),
-        ("beta", 0.1),
-        ("l0", 1.0),
-        ("eta", 7.0),
-    ];
-    let [k, mu, beta, l0, eta] = data.map(|(name, value)| w.parameter(name, value));
-    let strain = w.log_ratio(l, l0);
-    let squares = [strain, g].map(|x| w.graph.powi(x, 2));
-    let half = w.graph.number(Number::HALF);
-    let elastic = w.graph.product(&[half, k, squares[0]]);
-    let viscous = w.graph.mul(mu, squares[1]);
-    let quotient = w.graph.div(strain, l);
-    let coupling = w.graph.product(&[beta, k, g, quotient]);
-    let coupling = w.graph.neg(coupling);
-    let psi = w.graph.sum(&[elastic, viscous, coupling]);
-    let model = Model {
-        graph: w.graph,
-        measures: vec![lambda],
-        strains: vec![],
-        dashpots: vec![gamma],
-        temperature: None,
-        parameters: w.parameters,
-        psi,
-        viscosities: vec![eta],
-        drag: None,
-    };
-    Law {
+    Text {
         name: "elastic",
-        model,
-        parameters: w.values,
-        state: vec![1.3, 0.45],
+        measures: &["lambda"],
+        dashpots: &["gamma"],
+        parameters: &[
+            ("k", 100.0),
+            ("mu", 5.0),
+            ("beta", 0.1),
+            ("l0", 1.0),
+            ("eta", 7.0),
+        ],
+        psi: "0.5*k*ln(lambda/l0)^2 + mu*gamma^2 - beta*k*gamma*(ln(lambda/l0)/lambda)",
+        viscosities: &["eta"],
+        state: &[1.3, 0.45],
     }
+    .law()
 }
