@@ -50,13 +50,3 @@ fn repeated_runs(effort: Effort) -> Tally {
     }
     tally
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn runs_have_the_same_bits_again_and_after_restoring() {
-        repeated_runs(Effort::Short).assert();
-    }
-}

@@ -8,9 +8,10 @@
 
 use eem::prelude::*;
 use eem::{Law, StepFailure, Tolerance};
+use eem_testkit::length::at_length;
 
 use super::model::model;
-use super::models::{Hooke, Maxwell, Thermoelastic};
+use super::models::{Maxwell, Thermoelastic, hooke};
 use super::random::Random;
 use super::rounding::ROUNDINGS;
 use super::watched::Watched;
@@ -84,7 +85,7 @@ fn carried<const D: usize>(
     let anchor = world.anchor([0.0; D]);
     let mass = world.mass(1.0, place, velocity);
     let length = 1.0;
-    world.spring(Hooke { stiffness, length }, [anchor, mass]);
+    world.spring(hooke(stiffness, length), [anchor, mass]);
     world.set_gravity(gravity);
     world.move_anchor(anchor, motion);
     world.start(scheme, step).expect("a sound scene")
@@ -188,7 +189,7 @@ fn at_random<const D: usize>(random: &mut Random) -> (World<D>, f64) {
             times.extend([(mass / stiffness).sqrt(), time]);
             let eta = stiffness * time;
             match random.below(3) {
-                0 => world.spring(Hooke { stiffness, length }, [last, node]),
+                0 => world.spring(hooke(stiffness, length), [last, node]),
                 1 => world.spring(
                     Fluid {
                         stiffness,
@@ -257,14 +258,7 @@ fn keep_the_law<const D: usize>(seeds: core::ops::Range<u64>) {
 
 #[test]
 fn no_chain_is_refused_for_its_rounding() {
-    keep_the_law::<1>(0..400);
-    keep_the_law::<2>(0..400);
-}
-
-/// Ten thousand scenes, a quarter of an hour.
-#[test]
-#[ignore = "long"]
-fn no_chain_of_ten_thousand_is_refused_for_its_rounding() {
-    keep_the_law::<1>(400..5400);
-    keep_the_law::<2>(400..5400);
+    let scenes = at_length(5400, 150);
+    keep_the_law::<1>(0..scenes);
+    keep_the_law::<2>(0..scenes);
 }

@@ -2,7 +2,8 @@
 
 use eem::prelude::*;
 
-use super::models::{Hooke, Hot, Maxwell, Thermoelastic, TwoDashpots, TwoLinearDashpots};
+use super::model::Model;
+use super::models::{Hot, Maxwell, Thermoelastic, TwoDashpots, TwoLinearDashpots, hooke};
 use super::random::Random;
 use super::watched::{Record, Watched};
 use super::world::World;
@@ -23,11 +24,25 @@ pub(crate) fn on_anchor(
     world
 }
 
+/// A spring of a model for [`on_anchor`], and a warm one.
+pub(crate) fn sprung(model: impl Model + Copy) -> impl Fn(&mut World<2>, [Node; 2]) + Copy {
+    move |world, ends| {
+        world.spring(model, ends);
+    }
+}
+
+pub(crate) fn warmed(
+    model: impl Model + Copy,
+    theta: f64,
+) -> impl Fn(&mut World<2>, [Node; 2]) + Copy {
+    move |world, ends| {
+        world.warm(model, ends, theta);
+    }
+}
+
 /// A mass on a hot spring, as it was found.
 pub(crate) fn hot_as_found(scheme: Scheme) -> Watched<2> {
-    let hot = |world: &mut World<2>, ends| {
-        world.warm(Hot::FOUND, ends, 414.0);
-    };
+    let hot = warmed(Hot::FOUND, 414.0);
     let world = on_anchor(hot, [0.384, 0.0], [-3.32, -0.0127]);
     world.start(scheme, 0.0988).expect("a sound scene")
 }
@@ -44,9 +59,7 @@ pub(crate) fn hot_at_random(random: &mut Random, scheme: Scheme) -> Option<Watch
     let position = [random.uniform(0.1, 2.0), 0.0];
     let velocity = [random.uniform(-4.0, 4.0), random.uniform(-0.5, 0.5)];
     let step = random.decades(0.01, 0.2);
-    let hot = |world: &mut World<2>, ends| {
-        world.warm(model, ends, theta);
-    };
+    let hot = warmed(model, theta);
     on_anchor(hot, position, velocity).start(scheme, step).ok()
 }
 
@@ -54,15 +67,7 @@ pub(crate) fn hot_at_random(random: &mut Random, scheme: Scheme) -> Option<Watch
 /// turned round, and its start: from q = (0.6, 0) to (−0.6, 0).
 pub(crate) fn turned_round(scheme: Scheme, factor: f64) -> Watched<2> {
     let step = (4.0 * 0.6 / 40.0_f64).sqrt() * factor;
-    let hooke = |world: &mut World<2>, ends| {
-        world.spring(
-            Hooke {
-                stiffness: 100.0,
-                length: 1.0,
-            },
-            ends,
-        );
-    };
+    let hooke = sprung(hooke(100.0, 1.0));
     let world = on_anchor(hooke, [0.6, 0.0], [-1.2 / step, 0.0]);
     world.start(scheme, step).expect("a sound scene")
 }
@@ -72,13 +77,7 @@ pub(crate) fn stiff_pair(scheme: Scheme, stiffness: f64) -> Watched<2> {
     let mut world = World::new();
     let a = world.mass(1.0, [0.0, 0.0], [0.0, -0.5]);
     let b = world.mass(1.0, [1.00014, 0.0], [0.0, 0.5]);
-    world.spring(
-        Hooke {
-            stiffness,
-            length: 1.0,
-        },
-        [a, b],
-    );
+    world.spring(hooke(stiffness, 1.0), [a, b]);
     world.start(scheme, 0.1).expect("a sound scene")
 }
 
@@ -111,9 +110,7 @@ pub(crate) fn small_capacity(scheme: Scheme, capacity: f64, radial: f64) -> Watc
     };
     // f = 100 (1.2 − 1) = 20 N at θ = θr.
     let velocity = [radial, (20.0 * 1.2_f64).sqrt()];
-    let spring = |world: &mut World<2>, ends| {
-        world.warm(model, ends, 300.0);
-    };
+    let spring = warmed(model, 300.0);
     on_anchor(spring, [1.2, 0.0], velocity)
         .start(scheme, 0.05)
         .expect("a sound scene")
@@ -137,18 +134,14 @@ pub(crate) fn contact(scheme: Scheme, ratio: f64) -> Watched<2> {
 
 /// The spring with two dashpots of finding 5.
 pub(crate) fn two_dashpots(scheme: Scheme, eta: f64) -> Watched<2> {
-    let element = |world: &mut World<2>, ends| {
-        world.warm(TwoDashpots::of_viscosity(eta), ends, 300.0);
-    };
+    let element = warmed(TwoDashpots::of_viscosity(eta), 300.0);
     let world = on_anchor(element, [1.5, 0.0], [0.0, 1.0]);
     world.start(scheme, 0.2).expect("a sound scene")
 }
 
 /// The same, linear in the extension.
 pub(crate) fn two_linear_dashpots(scheme: Scheme, eta: f64) -> Watched<2> {
-    let element = |world: &mut World<2>, ends| {
-        world.warm(TwoLinearDashpots::of_viscosity(eta), ends, 300.0);
-    };
+    let element = warmed(TwoLinearDashpots::of_viscosity(eta), 300.0);
     let world = on_anchor(element, [1.5, 0.0], [0.0, 1.0]);
     world.start(scheme, 0.2).expect("a sound scene")
 }

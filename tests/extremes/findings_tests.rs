@@ -59,15 +59,7 @@ fn random_compressed_springs_keep_energy_or_are_refused() {
         let position = [random.uniform(0.05, 1.0), 0.0];
         let step = random.decades(0.05, 2.0);
         let speed = random.uniform(-4.0, 1.0) * position[0] / step;
-        let hooke = |world: &mut World<2>, ends| {
-            world.spring(
-                Hooke {
-                    stiffness: 100.0,
-                    length: 1.0,
-                },
-                ends,
-            );
-        };
+        let hooke = sprung(hooke(100.0, 1.0));
         let world = on_anchor(hooke, position, [speed, random.uniform(-0.01, 0.01)]);
         let mut watched = world.start(scheme, step).unwrap();
         let _ = watched.step();
@@ -123,9 +115,7 @@ fn a_violent_expansion_is_within_the_bound_that_it_reports() {
         capacity: 0.404_960_703_873_662_45,
     };
     for scheme in EXACT {
-        let hot = |world: &mut World<2>, ends| {
-            world.warm(model, ends, 550.710_916_054_669_5);
-        };
+        let hot = warmed(model, 550.710_916_054_669_5);
         let velocity = [2.516_759_489_194_263_3, -0.089_354_402_400_728_45];
         let world = on_anchor(hot, [0.103_181_195_524_740_99, 0.0], velocity);
         let mut watched = world.start(scheme, 0.050_002_669_286_462_99).unwrap();

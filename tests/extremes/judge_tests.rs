@@ -2,7 +2,7 @@
 
 use eem::{Law, Scheme, StepError, StepFailure};
 
-use super::super::models::{Hooke, Maxwell, Thermoelastic};
+use super::super::models::{Maxwell, Thermoelastic, hooke};
 use super::super::published::{LOGARITHMIC, double_pendulum, single_pendulum};
 use super::super::watched::{EXACT, FORMS};
 use super::super::world::World;
@@ -56,7 +56,7 @@ fn a_spoilt_rotation_is_seen_in_every_plane() {
         at[along] += 1.1;
         let second = world.mass(3.0, at, [0.0; 4]);
         let (stiffness, length) = (100.0, 1.0);
-        world.spring(Hooke { stiffness, length }, [first, second]);
+        world.spring(hooke(stiffness, length), [first, second]);
         let mut watched = world.start(FORMS[0], 0.01).expect("a sound scene");
         let before = watched.stored().clone();
         let report = watched.step().expect("a small step");

@@ -63,3 +63,66 @@ pub(crate) const ALL: [Kind; 10] = [
         families: bits::FAMILIES,
     },
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::super::tally::Effort;
+
+    /// Every family of a kind keeps the laws, or is refused, and keeps what it claims beside.
+    fn assert(name: &str) {
+        let kind = super::ALL.iter().find(|kind| kind.name == name).unwrap();
+        for family in kind.families {
+            family(Effort::Short).assert();
+        }
+    }
+
+    #[test]
+    fn steps_of_any_size_keep_the_laws_or_are_refused() {
+        assert("steps");
+    }
+
+    #[test]
+    fn rest_and_uniform_motion_stay_and_tangents_are_exact_there() {
+        assert("rest");
+    }
+
+    #[test]
+    fn ratios_of_stiffness_mass_and_viscosity_keep_the_laws() {
+        assert("stiffness");
+    }
+
+    #[test]
+    fn temperatures_conductances_and_capacities_keep_the_laws() {
+        assert("heat");
+    }
+
+    #[test]
+    fn lengths_of_any_size_keep_the_laws_or_are_refused() {
+        assert("lengths");
+    }
+
+    #[test]
+    fn energies_that_are_not_convex_are_lawful_or_refused() {
+        assert("phases");
+    }
+
+    #[test]
+    fn long_runs_keep_the_laws() {
+        assert("long");
+    }
+
+    #[test]
+    fn units_do_not_matter() {
+        assert("units");
+    }
+
+    #[test]
+    fn random_scenes_are_lawful_or_refused() {
+        assert("scenes");
+    }
+
+    #[test]
+    fn runs_have_the_same_bits_again_and_after_restoring() {
+        assert("bits");
+    }
+}

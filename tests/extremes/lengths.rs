@@ -2,8 +2,8 @@
 
 use eem::prelude::*;
 
-use super::findings::on_anchor;
-use super::models::{Hencky, Hooke, LogarithmicStiffness};
+use super::findings::{on_anchor, sprung};
+use super::models::{LogarithmicStiffness, hencky, hooke};
 use super::random::Random;
 use super::tally::{Effort, Family, Tally};
 use super::watched::EXACT;
@@ -18,15 +18,7 @@ fn stretches(effort: Effort) -> Tally {
     for scheme in EXACT {
         for exponent in -6..=6 {
             let lambda = 10.0_f64.powi(exponent);
-            let hencky = |world: &mut World<2>, ends| {
-                world.spring(
-                    Hencky {
-                        stiffness: 100.0,
-                        length: 1.0,
-                    },
-                    ends,
-                );
-            };
+            let hencky = sprung(hencky(100.0, 1.0));
             let warm = |world: &mut World<2>, ends| {
                 let model = LogarithmicStiffness {
                     stiffness: 100.0,
@@ -66,24 +58,8 @@ fn ways_past_an_anchor(effort: Effort) -> Tally {
         ] {
             // 1e-400 is 0: the way leads through the anchor.
             let offset = 10.0_f64.powi(exponent);
-            let hooke = |world: &mut World<2>, ends| {
-                world.spring(
-                    Hooke {
-                        stiffness: 100.0,
-                        length: 0.5,
-                    },
-                    ends,
-                );
-            };
-            let hencky = |world: &mut World<2>, ends| {
-                world.spring(
-                    Hencky {
-                        stiffness: 1.0,
-                        length: 0.5,
-                    },
-                    ends,
-                );
-            };
+            let hooke = sprung(hooke(100.0, 0.5));
+            let hencky = sprung(hencky(1.0, 0.5));
             let step = random.uniform(0.01, 0.1);
             let scenes = [
                 on_anchor(hooke, [1.0, offset], [-8.0, 0.0]),
@@ -106,15 +82,7 @@ fn ways_past_an_anchor(effort: Effort) -> Tally {
 
 /// A pendulum of another size, with the same period.
 fn sized(scheme: Scheme, size: f64) -> Result<super::watched::Watched<2>, SceneError> {
-    let hooke = |world: &mut World<2>, ends| {
-        world.spring(
-            Hooke {
-                stiffness: 100.0,
-                length: size,
-            },
-            ends,
-        );
-    };
+    let hooke = sprung(hooke(100.0, size));
     let world = on_anchor(hooke, [1.3 * size, 0.0], [0.0, size]);
     world.start(scheme, 0.1)
 }
@@ -153,29 +121,4 @@ fn beyond_the_doubles(effort: Effort) -> Tally {
         }
     }
     tally
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn springs_of_any_stretch_keep_the_laws() {
-        stretches(Effort::Short).assert();
-    }
-
-    #[test]
-    fn ways_past_and_through_an_anchor_are_lawful_or_refused() {
-        ways_past_an_anchor(Effort::Short).assert();
-    }
-
-    #[test]
-    fn pendulums_of_any_size_keep_the_laws() {
-        lengths(Effort::Short).assert();
-    }
-
-    #[test]
-    fn lengths_beyond_the_doubles_are_refused() {
-        beyond_the_doubles(Effort::Short).assert();
-    }
 }

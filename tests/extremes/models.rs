@@ -18,6 +18,14 @@ model! {
     }
 }
 
+pub(crate) const fn hooke(stiffness: f64, length: f64) -> Hooke {
+    Hooke { stiffness, length }
+}
+
+pub(crate) const fn hencky(stiffness: f64, length: f64) -> Hencky {
+    Hencky { stiffness, length }
+}
+
 model! {
     /// Newton's potential: Kepler's problem.
     Gravitation { strength } (lambda: Stretch) { -(strength / lambda) }

@@ -3,9 +3,10 @@
 
 use eem::Tolerance;
 use eem::prelude::*;
+use eem_testkit::length::at_length;
 
 use super::model::{Model, model};
-use super::models::{Hooke, Maxwell};
+use super::models::{Maxwell, hooke};
 use super::random::Random;
 use super::watched::Watched;
 use super::world::World;
@@ -102,7 +103,7 @@ fn assert_none(broken: &[String]) {
 
 #[test]
 fn energies_near_the_limit_of_a_chain_are_within_the_reported_bound() {
-    assert_none(&broken(&SCHEMES, 200, |random| {
+    assert_none(&broken(&SCHEMES, at_length(200, 80), |random| {
         let limit = 1.0 + random.unit();
         let length = limit * (1.0 - random.decades(1e-5, 1e-2));
         let chain = Chain {
@@ -117,7 +118,7 @@ fn energies_near_the_limit_of_a_chain_are_within_the_reported_bound() {
 
 #[test]
 fn energies_of_atoms_that_are_pressed_are_within_the_reported_bound() {
-    assert_none(&broken(&SCHEMES, 200, |random| {
+    assert_none(&broken(&SCHEMES, at_length(200, 80), |random| {
         let size = 1.0 + random.unit();
         let atoms = Atoms {
             depth: random.decades(1e-3, 1e2),
@@ -138,7 +139,7 @@ fn temperatures_in_a_steep_transition_have_the_entropy_that_is_kept() {
         (Scheme::EemExplicit, None),
         (Scheme::EemTemperature, None),
     ];
-    assert_none(&broken(&schemes, 200, |random| {
+    assert_none(&broken(&schemes, at_length(200, 80), |random| {
         let centre = 300.0;
         let width = random.decades(0.02, 10.0);
         let theta = centre + width * random.uniform(-2.0, 2.0);
@@ -155,7 +156,7 @@ fn temperatures_in_a_steep_transition_have_the_entropy_that_is_kept() {
         let world = held(spring, 1.1 * length, velocity, Some(theta));
         (world, random.decades(1e-3, 1e-2))
     }));
-    assert_none(&broken(&schemes, 200, |random| {
+    assert_none(&broken(&schemes, at_length(200, 80), |random| {
         let centre = 300.0;
         let width = random.decades(1.0, 10.0);
         let theta = centre + width * random.uniform(-2.0, 2.0);
@@ -211,10 +212,7 @@ fn energies_whose_terms_cancel_are_within_the_reported_bound_and_their_defect_is
 #[test]
 fn a_bound_of_the_size_of_the_rounding_of_the_energies_is_not_wide() {
     for (scheme, _) in SCHEMES {
-        let hooke = Hooke {
-            stiffness: 100.0,
-            length: 1.0,
-        };
+        let hooke = hooke(100.0, 1.0);
         let world = held(hooke, 1.1, [0.2, 1.0], None);
         let mut watched = world.start(scheme, 0.01).expect("a sound scene");
         let report = watched.step().expect("a right step");

@@ -5,8 +5,8 @@ use core::f64::consts::PI;
 
 use eem::prelude::*;
 
-use super::findings::on_anchor;
-use super::models::{Hooke, ThermoViscoElastic, Thermoelastic, TwoDashpots};
+use super::findings::{on_anchor, sprung, warmed};
+use super::models::{ThermoViscoElastic, Thermoelastic, TwoDashpots, hooke};
 use super::published::{LOGARITHMIC, double_pendulum, single_pendulum};
 use super::tally::{Effort, Family, Tally};
 use super::watched::{EXACT, FORMS, Watched};
@@ -26,13 +26,7 @@ fn row(scheme: Scheme, velocity: [f64; 2], step: f64) -> Watched<2> {
     let nodes: Vec<Node> = (0..4_u8)
         .map(|i| world.mass(1.0, [f64::from(i), 0.0], velocity))
         .collect();
-    world.spring(
-        Hooke {
-            stiffness: 100.0,
-            length: 1.0,
-        },
-        [nodes[0], nodes[1]],
-    );
+    world.spring(hooke(100.0, 1.0), [nodes[0], nodes[1]]);
     world.warm(Thermoelastic::ORDINARY, [nodes[1], nodes[2]], 300.0);
     world.warm(TwoDashpots::of_viscosity(1.0), [nodes[2], nodes[3]], 300.0);
     world.start(scheme, step).expect("a sound scene")
@@ -60,15 +54,7 @@ fn at_rest(effort: Effort) -> Tally {
                 is_still,
                 format!("free, h = {step}, {}: it moves", scheme.name()),
             );
-            let hooke = |world: &mut World<2>, ends| {
-                world.spring(
-                    Hooke {
-                        stiffness: 128.0,
-                        length: 1.0,
-                    },
-                    ends,
-                );
-            };
+            let hooke = sprung(hooke(128.0, 1.0));
             // 8 N on 128 N/m, which is known exactly.
             let mut world = on_anchor(hooke, [0.0, -1.0625], [0.0, 0.0]);
             world.set_gravity([0.0, -8.0]);
@@ -115,9 +101,7 @@ fn turning_rigidly(effort: Effort) -> Tally {
             // f = 100 (1.2 − 1) = 20 N, and tan(α/2) = h v/2λ in the schemes.
             let speed = (20.0 * 1.2_f64).sqrt();
             let step = 2.0 * 1.2 / speed * (0.5_f64 * angle).tan();
-            let spring = |world: &mut World<2>, ends| {
-                world.warm(Thermoelastic::ORDINARY, ends, 300.0);
-            };
+            let spring = warmed(Thermoelastic::ORDINARY, 300.0);
             let world = on_anchor(spring, [1.2, 0.0], [0.0, speed]);
             let mut watched = world.start(scheme, step).expect("a sound scene");
             let label = format!("{angle} rad, {}", scheme.name());
@@ -263,34 +247,4 @@ fn quadratic_convergence(effort: Effort) -> Tally {
         }
     }
     tally
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_at_rest_stays_there() {
-        at_rest(Effort::Short).assert();
-    }
-
-    #[test]
-    fn uniform_motion_goes_on() {
-        in_uniform_motion(Effort::Short).assert();
-    }
-
-    #[test]
-    fn a_rigid_turn_keeps_its_radius() {
-        turning_rigidly(Effort::Short).assert();
-    }
-
-    #[test]
-    fn tangents_are_exact_at_increments_of_any_size() {
-        tangents(Effort::Short).assert();
-    }
-
-    #[test]
-    fn newtons_method_converges_quadratically() {
-        quadratic_convergence(Effort::Short).assert();
-    }
 }

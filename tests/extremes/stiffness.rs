@@ -2,8 +2,8 @@
 
 use eem::prelude::*;
 
-use super::findings::{on_anchor, two_dashpots, two_linear_dashpots};
-use super::models::{Hooke, LogarithmicStiffness, TwoDashpots};
+use super::findings::{on_anchor, sprung, two_dashpots, two_linear_dashpots};
+use super::models::{LogarithmicStiffness, TwoDashpots, hooke};
 use super::tally::{Effort, Family, Tally};
 use super::watched::{EXACT, FORMS, Watched};
 use super::world::World;
@@ -27,14 +27,14 @@ fn chain(scheme: Scheme, stiffnesses: [f64; 2], step: f64) -> Watched<2> {
         // Slack at the start: what turns the chain stretches it.
         let [a, b] = [places[i], places[i + 1]];
         let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-        world.spring(Hooke { stiffness, length }, [ends[0], ends[1]]);
+        world.spring(hooke(stiffness, length), [ends[0], ends[1]]);
     }
     world.start(scheme, step).expect("a sound scene")
 }
 
 fn stiffness_ratios(effort: Effort) -> Tally {
     let mut tally = Tally::new("free chain of 5 masses, springs k = 1 and 1 … 1e12 N/m, h = 0.1 s");
-    let steps = effort.of([5, 60, 10_000]);
+    let steps = effort.of([5, 30, 10_000]);
     for scheme in EXACT {
         for exponent in 0..=12 {
             let stiff = 10.0_f64.powi(exponent);
@@ -49,11 +49,8 @@ fn stiffness_ratios(effort: Effort) -> Tally {
 fn mass_ratios(effort: Effort) -> Tally {
     let mut tally =
         Tally::new("double pendulum of masses 1 and 1e-9 … 1e9 kg on Hooke springs, k = 100 N/m");
-    let steps = effort.of([5, 60, 10_000]);
-    let hooke = Hooke {
-        stiffness: 100.0,
-        length: 1.0,
-    };
+    let steps = effort.of([5, 30, 10_000]);
+    let hooke = hooke(100.0, 1.0);
     for scheme in EXACT {
         for exponent in -9..=9 {
             let ratio = 10.0_f64.powi(exponent);
@@ -178,15 +175,7 @@ fn near_rigid_pendulum(effort: Effort) -> Tally {
     let mut tally = Tally::new(
         "pendulum of 1 m, EA = 1e8 N, released horizontally: period 2.36784 s + 2.654 h²/s",
     );
-    let hooke = |world: &mut World<2>, ends| {
-        world.spring(
-            Hooke {
-                stiffness: 1e8,
-                length: 1.0,
-            },
-            ends,
-        );
-    };
+    let hooke = sprung(hooke(1e8, 1.0));
     for scheme in EXACT {
         for step in effort.of([
             &[0.05][..],
@@ -234,19 +223,11 @@ fn second_return(watched: &mut Watched<2>) -> f64 {
 fn central_springs(effort: Effort) -> Tally {
     let mut tally =
         Tally::new("mass about a centre, ψ = ½k (r − 1)², k = 1e2 … 1e10 N/m, h = 0.05 s");
-    let steps = effort.of([5, 60, 10_000]);
+    let steps = effort.of([5, 30, 10_000]);
     for scheme in EXACT {
         for exponent in 2..=10 {
             let stiffness = 10.0_f64.powi(exponent);
-            let hooke = |world: &mut World<2>, ends| {
-                world.spring(
-                    Hooke {
-                        stiffness,
-                        length: 1.0,
-                    },
-                    ends,
-                );
-            };
+            let hooke = sprung(hooke(stiffness, 1.0));
             // Started at rest in the radial direction, a little outside of the circle of balance.
             let radius = 1.0 + 2.0 / stiffness;
             let world = on_anchor(hooke, [radius, 0.0], [0.0, 1.0]);
@@ -256,39 +237,4 @@ fn central_springs(effort: Effort) -> Tally {
         }
     }
     tally
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn chains_of_soft_and_stiff_springs_keep_the_laws() {
-        stiffness_ratios(Effort::Short).assert();
-    }
-
-    #[test]
-    fn light_and_heavy_masses_keep_the_laws() {
-        mass_ratios(Effort::Short).assert();
-    }
-
-    #[test]
-    fn dashpots_of_any_viscosity_keep_the_laws() {
-        viscosities(Effort::Short).assert();
-    }
-
-    #[test]
-    fn dashpots_approach_the_springs_that_they_become() {
-        limits_of_dashpots(Effort::Short).assert();
-    }
-
-    #[test]
-    fn a_near_rigid_pendulum_has_the_period_of_the_rigid_one() {
-        near_rigid_pendulum(Effort::Short).assert();
-    }
-
-    #[test]
-    fn central_springs_of_any_stiffness_keep_the_laws() {
-        central_springs(Effort::Short).assert();
-    }
 }

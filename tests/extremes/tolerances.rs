@@ -39,7 +39,7 @@ fn errors<const N: usize>(index: u64, schemes: [Scheme; N]) -> [f64; N] {
 #[test]
 fn errors_at_the_end_of_random_scenes_are_at_most_some_tolerances() {
     let schemes = [Scheme::EemExplicit, Scheme::EemEntropy6];
-    let scenes = at_length(100, 30);
+    let scenes = at_length(100, 20);
     let all: Vec<_> = (0..scenes).map(|index| errors(index, schemes)).collect();
     for (place, scheme) in schemes.into_iter().enumerate() {
         let mut own: Vec<f64> = all.iter().map(|errors| errors[place]).collect();

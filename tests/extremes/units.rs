@@ -112,13 +112,3 @@ fn compare(tally: &mut Tally, label: &str, si: &Trace, other: &Trace) {
         tally.claim(a.abs_diff(*b) <= 1, message);
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_do_not_matter() {
-        systems_of_units(Effort::Short).assert();
-    }
-}
