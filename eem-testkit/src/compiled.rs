@@ -8,6 +8,7 @@ use eem::prelude::*;
 
 use crate::scenes::dashpots::{ThreeDashpots, TwoDashpots};
 use crate::scenes::solids::{MooneyRivlin, Reinforced, Relaxing};
+use crate::scenes::springs::{Braked, Branched};
 
 const HENCKY: Hencky = Hencky {
     stiffness: 1.0,
@@ -18,6 +19,28 @@ const ELASTIC: SaintVenantKirchhoff = SaintVenantKirchhoff {
     shear: 1.0,
 };
 
+const BRANCHED: Branched = Branched {
+    k: 1.0,
+    mu: 1.0,
+    eta: 1.0,
+    length: 1.0,
+};
+const BRAKED: Braked = Braked {
+    k: 1.0,
+    eta: 1.0,
+    length: 1.0,
+};
+
+/// Models of springs on a line.
+pub fn line(
+    mut scene: Scene<1>,
+    ends: [Node; 2],
+) -> Result<StepReport, Box<dyn std::error::Error>> {
+    scene.spring(BRANCHED, ends);
+    scene.spring(BRAKED, ends);
+    Ok(Simulation::new(scene, Scheme::EemEntropy, 1.0)?.step()?)
+}
+
 /// Models of springs and solids in the plane.
 pub fn plane(
     mut scene: Scene<2>,
@@ -25,6 +48,8 @@ pub fn plane(
 ) -> Result<StepReport, Box<dyn std::error::Error>> {
     scene.spring(HENCKY, ends);
     scene.spring(LogarithmicStiffness::FIRST, ends);
+    scene.spring(BRANCHED, ends);
+    scene.spring(BRAKED, ends);
     scene.spring(TwoDashpots::DATA, ends);
     scene.spring(ThreeDashpots::DATA, ends);
     let linear = Mesh::<Quad4, 2>::block([1; 2], [[0.0, 1.0]; 2])?;

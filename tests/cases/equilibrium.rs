@@ -4,14 +4,13 @@ use eem::EquilibriumError;
 use eem::kinematics::{Hex8, Hex20, Quad8, Shape};
 use eem::materials::Hooke;
 use eem::prelude::*;
+use eem_testkit::length::at_length;
 
+use crate::support::hooke;
 use crate::support::solids::{SaintVenant, ThermoelasticSolid};
 
 const SPRINGS: u8 = 200;
-const CHAIN: Hooke = Hooke {
-    stiffness: 500.0,
-    natural_length: 0.1,
-};
+const CHAIN: Hooke = hooke(500.0, 0.1);
 const MASS: f64 = 0.02;
 const GRAVITY: f64 = 10.0;
 
@@ -120,20 +119,19 @@ fn a_cantilever_of_twenty_nodes_bends_like_a_beam() {
 fn a_cantilever_of_eight_nodes_converges_with_order_two() {
     // The shear that a bent cell of eight nodes has by mistake makes it stiffer by a number times the square of its
     // length.
-    let errors = [20, 40, 80].map(|cells| deflection::<Hex8>([cells, 2, 1]).recip() - 1.0);
+    let cells = at_length(&[20, 40, 80][..], &[20, 40]).iter();
+    let errors = cells.map(|&cells| deflection::<Hex8>([cells, 2, 1]).recip() - 1.0);
+    let errors: Vec<_> = errors.collect();
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!((order - 2.0).abs() < 0.05, "{errors:?}");
     }
-    assert!(errors[2] < 0.04, "{errors:?}");
+    assert!(errors[1] < 0.16, "{errors:?}");
 }
 
 /// A spring that has no force where a node is in the end, and keeps it from leaving in one direction.
 fn guide<const D: usize>(scene: &mut Scene<D>, node: Node, end: [f64; D], axis: usize) {
-    let spring = Hooke {
-        stiffness: 100.0,
-        natural_length: 1.0,
-    };
+    let spring = hooke(100.0, 1.0);
     let mut place = end;
     place[axis] -= 1.0;
     let anchor = scene.anchor(place);
@@ -238,11 +236,7 @@ fn row(spacing: f64, springs: &[(f64, f64)]) -> (Scene<1>, Vec<Node>) {
     for &(stiffness, load) in springs {
         place += spacing;
         let node = scene.mass(1.0, [place], [0.0]);
-        let hooke = Hooke {
-            stiffness,
-            natural_length: spacing,
-        };
-        scene.spring(hooke, [nodes[nodes.len() - 1], node]);
+        scene.spring(hooke(stiffness, spacing), [nodes[nodes.len() - 1], node]);
         scene.dead_load(node, [load]);
         nodes.push(node);
     }
@@ -321,11 +315,7 @@ fn weight<const D: usize>(angle: f64, [mass, stiffness]: [f64; 2], load: f64) ->
     };
     let hook = scene.anchor([0.0; D]);
     let weight = scene.mass(mass, vector(angle.sin(), angle.cos()), [0.0; D]);
-    let hooke = Hooke {
-        stiffness,
-        natural_length: 1.0,
-    };
-    scene.spring(hooke, [hook, weight]);
+    scene.spring(hooke(stiffness, 1.0), [hook, weight]);
     scene.set_gravity(vector(0.0, -GRAVITY));
     scene.dead_load(weight, vector(load, 0.0));
     (scene, weight)

@@ -45,7 +45,7 @@ fn converges<M, const N: usize>(name: &str, material: (&M, f64), fibre: bool)
 where
     M: FreeEnergy<f64> + StrainEnergy<N> + Clone + Send + Sync + 'static,
 {
-    let exact = end(material, fibre, (Scheme::EemTemperature, STEPS[1] / 8.0));
+    let exact = end(material, fibre, (Scheme::EemTemperature, STEPS[1] / 4.0));
     for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
         let errors = STEPS.map(|step| {
             let found = end(material, fibre, (scheme, step));

@@ -58,7 +58,7 @@ where
             let momenta = 20.0 * f64::min(1.0, 0.2 / step);
             let mut entropy = first.entropy;
             let mut worst = [0.0_f64; 3];
-            for _ in 0..at_length(40, 8) {
+            for _ in 0..at_length(40, 4) {
                 run.step().unwrap();
                 let ledger = run.ledger();
                 let errors = [

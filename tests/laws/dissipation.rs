@@ -3,24 +3,20 @@
 use eem::prelude::*;
 
 use crate::support::solids::Viscous;
+use crate::support::springs::{Braked, Branched};
 use crate::support::{EXACT, ThermoViscoElastic};
 
-/// A Maxwell element without temperature.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch, gamma: Viscous| {
-    0.5 * k * (lambda - 1).powi(2) + 0.5 * mu * (lambda - 1 - gamma).powi(2)
-})]
-#[viscosity(gamma = eta)]
-struct Maxwell {
-    k: f64,
-    mu: f64,
-    eta: f64,
-}
-
-const MAXWELL: Maxwell = Maxwell {
+const MAXWELL: Branched = Branched {
     k: 4.0,
     mu: 10.0,
     eta: 2.0,
+    length: 1.0,
+};
+
+const VOIGT: Braked = Braked {
+    k: 4.0,
+    eta: 0.5,
+    length: 1.0,
 };
 
 /// A dashpot whose heat warms the element and nothing else.
@@ -33,15 +29,6 @@ struct Warm {
     mu: f64,
     eta: f64,
     c: f64,
-}
-
-/// A spring with a dashpot in parallel, without temperature.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2))]
-#[viscosity(lambda = eta)]
-struct Voigt {
-    k: f64,
-    eta: f64,
 }
 
 /// Roundings of sums of this size over the steps of a test, generously.
@@ -187,7 +174,7 @@ fn dashpots_in_parallel_and_points_of_solids_are_metered() {
     for scheme in schemes {
         let mut scene = Scene::<1>::new();
         let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.2], [0.0])];
-        let spring = scene.spring(Voigt { k: 4.0, eta: 0.5 }, ends);
+        let spring = scene.spring(VOIGT, ends);
         let mut run = Simulation::new(scene, scheme, 0.05).unwrap();
         run.meter_heat();
         run.run_until(2.0).unwrap();

@@ -4,14 +4,9 @@
 use eem::Tolerance;
 use eem::prelude::*;
 
-const SCHEME: Scheme = Scheme::EemExplicit;
+use crate::support::springs::{Branched, linear};
 
-/// ψ = ½ k (λ − 1)²
-#[derive(Clone, FreeEnergy)]
-#[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 1.0).powi(2))]
-struct Linear {
-    k: f64,
-}
+const SCHEME: Scheme = Scheme::EemExplicit;
 
 /// k, N/m, of a spring at a mass of 1 kg.
 const K: f64 = 100.0;
@@ -43,7 +38,7 @@ fn a_mass_at_rest_begins_to_move() {
             let mut scene = Scene::<1>::new();
             let mass = scene.mass(1.0, [1.0], [0.0]);
             let ends = [scene.anchor([0.0]), mass];
-            scene.spring(Linear { k: K }, ends);
+            scene.spring(linear(K), ends);
             scene.force(mass, move |t| [force(t)]);
             let tolerance = Tolerance::new(relative);
             let mut run = Simulation::with_tolerance(scene, SCHEME, tolerance).unwrap();
@@ -107,7 +102,7 @@ fn a_load_begins_as_a_subnormal_number() {
             let [free, held] = [2.0, 1.0].map(|x| scene.mass(mass, [x], [0.0]));
             let stiffness = mass / (5.0 * step).powi(2);
             let ends = [scene.anchor([0.0]), held];
-            scene.spring(Linear { k: stiffness }, ends);
+            scene.spring(linear(stiffness), ends);
             for node in [free, held] {
                 scene.force(node, move |t| [(-(t / width - start).powi(2)).exp()]);
             }
@@ -129,26 +124,13 @@ fn a_load_begins_as_a_subnormal_number() {
     }
 }
 
-/// ψ = ½ k (λ − ℓ)² + ½ μ (λ − ℓ − γ)², η constant.
-#[derive(Clone, FreeEnergy)]
-#[free_energy(|lambda: Stretch, gamma: Viscous| {
-    0.5 * k * (lambda - length).powi(2) + 0.5 * mu * (lambda - length - gamma).powi(2)
-})]
-#[viscosity(gamma = eta)]
-struct Maxwell {
-    k: f64,
-    mu: f64,
-    eta: f64,
-    length: f64,
-}
-
 /// After a bump the motion decays to the last bits. What the bump has left of the rounding of its energy, 1e-3 J, is then more than all that
 /// moves, and no reason to refuse a step.
 #[test]
 fn a_damped_mass_rests_after_a_bump() {
     let (k, length, mass) = (2.8e5, 0.56, 0.29);
     for mu in [4.217e4, 5.0119e4, 6.4938e4, 7.2862e4, 8.1752e4] {
-        let spring = Maxwell {
+        let spring = Branched {
             k,
             mu,
             eta: 170.0,
@@ -198,7 +180,7 @@ fn hanging<const D: usize>(g: [f64; D]) -> (Scene<D>, Node) {
     let mut scene = Scene::<D>::new();
     let node = scene.mass(1.0, g.map(|g| g / size * (1.0 + size / K)), [0.0; D]);
     let ends = [scene.anchor([0.0; D]), node];
-    scene.spring(Linear { k: K }, ends);
+    scene.spring(linear(K), ends);
     scene.set_gravity(g);
     (scene, node)
 }
@@ -289,7 +271,7 @@ fn masses_pushed_along_skew_lines_stay_on_them() {
             let mut last = scene.anchor([0.0; 3]);
             for mass in 1..=masses {
                 let next = scene.mass(1.0, (line * f64::from(mass)).into(), [0.0; 3]);
-                scene.spring(Linear { k: K }, [last, next]);
+                scene.spring(linear(K), [last, next]);
                 last = next;
             }
             scene.force(last, move |t| (line * load(t)).into());

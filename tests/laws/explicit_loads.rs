@@ -5,6 +5,8 @@ use eem::Tolerance;
 use eem::materials::Hooke;
 use eem::prelude::*;
 
+use crate::support::hooke;
+
 const SCHEME: Scheme = Scheme::EemExplicit;
 
 /// Errors per step are as large as step control allows in practice.
@@ -14,10 +16,7 @@ const COARSE: f64 = 1e-2;
 /// a step leaves at a turning point may be no debt of later ones, so that the energy does a random walk: √N of them in N steps.
 const ROUNDINGS: f64 = 16.0;
 
-const SPRING: Hooke = Hooke {
-    stiffness: 100.0,
-    natural_length: 1.0,
-};
+const SPRING: Hooke = hooke(100.0, 1.0);
 
 /// A mass and the constant force on it.
 #[derive(Clone, Copy)]

@@ -3,12 +3,9 @@
 
 use eem::prelude::*;
 
-use crate::support::{Hencky, LogarithmicStiffness};
+use crate::support::{Hencky, LogarithmicStiffness, hencky};
 
-const SPRING: Hencky = Hencky {
-    stiffness: 60.0,
-    natural_length: 1.0,
-};
+const SPRING: Hencky = hencky(60.0, 1.0);
 
 /// Roundings of `Σ |q||p|` that a step may change an angular momentum by.
 const ROUNDINGS: f64 = 64.0;

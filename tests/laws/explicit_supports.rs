@@ -4,28 +4,17 @@
 use eem::Tolerance;
 use eem::prelude::*;
 
+use crate::support::springs::Branched;
+
 const SCHEME: Scheme = Scheme::EemExplicit;
 
 /// Roundings of each term of an energy, as in the certificate.
 const ROUNDINGS: f64 = 64.0;
 
-/// A spring beside a spring with a dashpot in series, without temperature.
-#[derive(Clone, Copy, FreeEnergy)]
-#[free_energy(|lambda: Stretch, gamma: Viscous| {
-    0.5 * k * (lambda - length).powi(2) + 0.5 * mu * (lambda - length - gamma).powi(2)
-})]
-#[viscosity(gamma = eta)]
-struct Damped {
-    k: f64,
-    mu: f64,
-    eta: f64,
-    length: f64,
-}
-
 /// The end of a spring and the work on it, with a viscous stretch, follow from `γ̇ = μ (x − ℓ − γ)/η` for
 /// `x = 1.1 + a (1 − cos ωt)`.
 struct Course {
-    model: Damped,
+    model: Branched,
     amplitude: f64,
     omega: f64,
 }
@@ -73,7 +62,7 @@ impl Course {
 /// The energy of the spring is 500 J, that of the dashpot 5e-3 J: it bears no error of the spring's work.
 #[test]
 fn a_weak_dashpot_beside_a_stiff_spring_keeps_its_accuracy() {
-    let model = Damped {
+    let model = Branched {
         k: 1e5,
         mu: 1.0,
         eta: 1.0,
@@ -121,7 +110,7 @@ fn bump(t: f64) -> f64 {
 }
 
 /// A row of springs between two anchors, at rest, of which one is moved.
-fn row(model: Damped, has_mass: bool) -> (Scene<2>, Option<Node>, Vec<Element>) {
+fn row(model: Branched, has_mass: bool) -> (Scene<2>, Option<Node>, Vec<Element>) {
     let mut scene = Scene::<2>::new();
     let length = model.length;
     let count = if has_mass { 2.0 } else { 1.0 };
@@ -139,7 +128,7 @@ fn row(model: Damped, has_mass: bool) -> (Scene<2>, Option<Node>, Vec<Element>) 
 /// The energy of a row by its formula, and the terms whose rounding it has, J.
 fn energy(
     run: &Simulation<2>,
-    model: Damped,
+    model: Branched,
     (mass, springs): (Option<Node>, &[Element]),
 ) -> [f64; 2] {
     let length = model.length;
@@ -171,7 +160,7 @@ fn a_support_begins_to_strain_what_is_at_rest() {
     for has_mass in [false, true] {
         for (k, mu) in [(0.1, 0.1), (0.1, 1e3), (10.0, 10.0)] {
             for (eta, length) in [(0.1, 1.0), (100.0, 0.3)] {
-                let model = Damped { k, mu, eta, length };
+                let model = Branched { k, mu, eta, length };
                 let name = format!("{has_mass} {k} {mu} {eta} {length}");
                 for relative in [1e-4, 1e-7] {
                     let (scene, mass, springs) = row(model, has_mass);
@@ -205,7 +194,7 @@ fn a_support_begins_to_strain_what_is_at_rest() {
 #[test]
 fn constant_steps_leave_rest() {
     for length in [0.3, 1.0] {
-        let model = Damped {
+        let model = Branched {
             k: 10.0,
             mu: 10.0,
             eta: 1.0,

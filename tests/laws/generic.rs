@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::kelvin_voigt::VOIGT;
 use crate::support::solids::{Relaxing, SECTION};
-use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic, single_pendulum_scene};
+use crate::support::{DoublePendulum, ThermoViscoElastic, hencky, single_pendulum_scene};
 
 /// Roundings of one sum of products, relative to its terms.
 const ROUNDING: f64 = 1e-14;
@@ -29,10 +29,7 @@ fn network(scheme: Scheme, step: f64) -> (Simulation<2>, [Element; 3]) {
         scene.spring(ThermoViscoElastic::PENDULUM, [pivot, masses[0]]),
         scene.spring(ThermoViscoElastic::PENDULUM, [masses[0], masses[1]]),
     ];
-    let hencky = Hencky {
-        stiffness: 30.0,
-        natural_length: 1.5,
-    };
+    let hencky = hencky(30.0, 1.5);
     scene.spring(hencky, [pivot, masses[1]]);
     let voigt = scene.spring(VOIGT, [masses[1], masses[0]]);
     scene.set_temperature(voigt, 320.0);
@@ -112,25 +109,29 @@ fn a_step_that_is_no_longer_known_has_no_discrete_form() {
     assert!(run.generic_of_last_step().is_none());
 }
 
+/// Steps of which each is a discrete GENERIC system: what changes is what the form says.
+fn assert_steps(run: &mut Simulation<2>, steps: usize) {
+    assert!(run.generic_of_last_step().is_none());
+    for _ in 0..steps {
+        let z0 = run.generic_state();
+        run.step().unwrap();
+        let generic = run.generic_of_last_step().unwrap();
+        assert_structure(&generic);
+        let change = run.generic_state() - &z0;
+        let expected = rate(&generic) * run.step_size();
+        let size = z0.abs() + run.generic_state().abs();
+        for ((found, exact), size) in change.iter().zip(expected.iter()).zip(size.iter()) {
+            // Discrete forces are those of the state before closing, off by rounding.
+            let tolerance = 1e-13 * (1.0 + size + exact.abs());
+            assert!((found - exact).abs() <= tolerance, "{found} {exact}");
+        }
+    }
+}
+
 #[test]
 fn steps_are_discrete_generic_systems() {
     for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
-        let mut run = scene(scheme, 0.05);
-        assert!(run.generic_of_last_step().is_none());
-        for _ in 0..100 {
-            let z0 = run.generic_state();
-            run.step().unwrap();
-            let generic = run.generic_of_last_step().unwrap();
-            assert_structure(&generic);
-            let change = run.generic_state() - &z0;
-            let expected = rate(&generic) * 0.05;
-            let size = z0.abs() + run.generic_state().abs();
-            for ((found, exact), size) in change.iter().zip(expected.iter()).zip(size.iter()) {
-                // Discrete forces are those of the state before closing, off by rounding.
-                let tolerance = 1e-13 * (1.0 + size + exact.abs());
-                assert!((found - exact).abs() <= tolerance, "{found} {exact}");
-            }
-        }
+        assert_steps(&mut scene(scheme, 0.05), 100);
     }
 }
 
@@ -147,19 +148,7 @@ fn steps_of_a_flowing_solid_are_discrete_generic_systems() {
         }
         let mut run = Simulation::new(scene, scheme, 0.02).unwrap();
         assert_structure(&run.generic());
-        for _ in 0..20 {
-            let z0 = run.generic_state();
-            run.step().unwrap();
-            let generic = run.generic_of_last_step().unwrap();
-            assert_structure(&generic);
-            let change = run.generic_state() - &z0;
-            let expected = rate(&generic) * 0.02;
-            let size = z0.abs() + run.generic_state().abs();
-            for ((found, exact), size) in change.iter().zip(expected.iter()).zip(size.iter()) {
-                let tolerance = 1e-13 * (1.0 + size + exact.abs());
-                assert!((found - exact).abs() <= tolerance, "{found} {exact}");
-            }
-        }
+        assert_steps(&mut run, 20);
     }
 }
 

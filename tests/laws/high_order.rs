@@ -5,10 +5,10 @@ use eem::prelude::*;
 use eem_testkit::length::at_length;
 
 use crate::support::dashpots::{ONE_DASHPOT, TwoDashpots};
-use crate::support::orders::{exact_row, slope, step_to};
+use crate::support::orders::{double_error, exact_row, slope, step_to};
+use crate::support::tangents::assert_tangent;
 use crate::support::{
-    DoublePendulum, Hencky, Laws, ThermoViscoElastic, pendulums_in_contact, reference,
-    single_pendulum,
+    DoublePendulum, Laws, ThermoViscoElastic, hencky, pendulums_in_contact, single_pendulum,
 };
 
 const SCHEMES: [Scheme; 2] = [Scheme::EemEntropy4, Scheme::EemEntropy6];
@@ -74,24 +74,6 @@ fn the_single_pendulum_has_the_published_errors_after_twenty_seconds() {
     }
 }
 
-/// The largest error of q, p and θ of a double pendulum after a second, relative to their sizes.
-fn double_error(case: &DoublePendulum, scheme: Scheme, step: f64) -> f64 {
-    let rows = reference(&format!("double_pendulum_{}_exact.csv", case.name));
-    let exact = rows.iter().find(|row| row[0] >= 1.0).unwrap();
-    let mut pendulum = case.simulation(scheme, step);
-    while pendulum.run.time() < 1.0 - 0.5 * step {
-        pendulum.run.step().unwrap();
-    }
-    let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let row = pendulum.row();
-    let errors = [0..6, 6..12, 12..14].map(|part| {
-        let difference = row[part.clone()].iter().zip(&exact[1..][part.clone()]);
-        let difference: Vec<_> = difference.map(|(x, exact)| x - exact).collect();
-        norm(&difference) / norm(&exact[1..][part])
-    });
-    errors.into_iter().fold(0.0, f64::max)
-}
-
 // Heat flows between the springs.
 #[test]
 fn double_pendulums_show_the_orders_too() {
@@ -102,7 +84,7 @@ fn double_pendulums_show_the_orders_too() {
     ];
     for (case, steps) in cases {
         for ((scheme, step), order) in SCHEMES.into_iter().zip(steps).zip([4.0, 6.0]) {
-            let errors = [1.0, 0.5, 0.25].map(|part| double_error(&case, scheme, part * step));
+            let errors = [1.0, 0.5, 0.25].map(|part| double_error(&case, scheme, part * step, 1.0));
             println!(
                 "{} {scheme}: {errors:?}, slope {}",
                 case.name,
@@ -111,29 +93,6 @@ fn double_pendulums_show_the_orders_too() {
             assert!((slope(&errors) - order).abs() <= 0.3);
         }
     }
-}
-
-/// Runs until `duration` and looks at every step.
-fn watch<const D: usize>(run: &mut Simulation<D>, duration: f64) -> Laws {
-    let mut laws = Laws::new(run);
-    let (mut iterations, mut steps) = (0.0, 0.0);
-    while run.time() < duration - 0.5 * run.step_size() {
-        let report = run.step().unwrap();
-        assert!(report.least_production >= 0.0);
-        #[expect(clippy::cast_precision_loss, reason = "a handful of iterations")]
-        let needed = report.iterations as f64;
-        (iterations, steps) = (iterations + needed, steps + 1.0);
-        laws.watch(run);
-    }
-    let (h, per_step) = (run.step_size(), iterations / steps);
-    println!(
-        "{} h = {h}: {per_step} iterations per step, E {:e}, J {:e}, ΔS {} ulp",
-        run.scheme(),
-        laws.energy,
-        laws.angular_momentum,
-        laws.entropy_ulps
-    );
-    laws
 }
 
 fn assert_lawful(laws: &Laws, momentum: f64) {
@@ -146,7 +105,7 @@ fn assert_lawful(laws: &Laws, momentum: f64) {
 fn the_single_pendulum_keeps_all_laws() {
     for scheme in SCHEMES {
         for step in [0.2, 0.1, 0.05, 0.01] {
-            let laws = watch(&mut single_pendulum(scheme, step).run, 20.0);
+            let laws = Laws::until(&mut single_pendulum(scheme, step).run, 20.0);
             assert_lawful(&laws, MOMENTUM_TOLERANCE);
         }
     }
@@ -160,7 +119,7 @@ fn double_pendulums_keep_all_laws() {
             for fraction in [1.0, 0.5] {
                 let mut run = case.simulation(scheme, fraction * case.step).run;
                 println!("{}", case.name);
-                let laws = watch(&mut run, case.duration.min(at_length(25.0, 10.0)));
+                let laws = Laws::until(&mut run, case.duration.min(at_length(25.0, 10.0)));
                 assert_lawful(&laws, NETWORK_MOMENTUM_TOLERANCE);
             }
         }
@@ -286,10 +245,7 @@ fn several_dashpots_and_springs_without_temperature_keep_all_laws() {
         let nodes = places.map(|at| scene.mass(1.0, at, [0.2 - at[1], at[0], 0.1]));
         let viscous = scene.spring(TwoDashpots::DATA, [nodes[0], nodes[1]]);
         let hot = scene.spring(ONE_DASHPOT, [nodes[1], nodes[2]]);
-        let hencky = || Hencky {
-            stiffness: 40.0,
-            natural_length: 1.0,
-        };
+        let hencky = || hencky(40.0, 1.0);
         scene.spring(hencky(), [nodes[2], nodes[3]]);
         scene.spring(hencky(), [nodes[3], nodes[0]]);
         scene.set_temperature(viscous, 350.0);
@@ -307,7 +263,7 @@ fn several_dashpots_and_springs_without_temperature_keep_all_laws() {
     }
 }
 
-/// Residual and tangent of two pendulums in contact, by differences of fourth order.
+/// Of two pendulums in contact.
 #[test]
 fn the_tangent_is_that_of_the_residual() {
     for scheme in SCHEMES {
@@ -338,26 +294,8 @@ fn the_tangent_is_that_of_the_residual() {
                 }
             })
             .collect();
-        let system = run.linearize(&at).unwrap();
-        let mut worst = 0.0_f64;
-        for column in 0..count {
-            let step = if column % per_set < 4 { 1e-4 } else { 1e-2 };
-            let mut residual = |shift: f64| {
-                let mut moved = at.clone();
-                moved[column] += shift * step;
-                run.linearize(&moved).unwrap().residual
-            };
-            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(&mut residual);
-            for row in 0..count {
-                let slope = (a[row] - 8.0 * b[row] + 8.0 * c[row] - d[row]) / (12.0 * step);
-                let entry = system.tangent[row * count + column];
-                let size = system.tangent[row * count..][..count].iter();
-                let size = size.fold(0.0_f64, |most, entry| most.max(entry.abs()));
-                worst = worst.max((slope - entry).abs() / size);
-            }
-        }
-        println!("{scheme}: tangent off by {worst:e}");
-        assert!(worst <= 1e-8);
+        let width = |column: usize| if column % per_set < 4 { 1e-4 } else { 1e-2 };
+        assert_tangent(&mut run, &at, 0..count, (width, 1e-8));
     }
 }
 
@@ -393,10 +331,7 @@ fn lag(scheme: Scheme, steps: u32) -> f64 {
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [1.0, 0.0], [0.0, 0.0]);
-    let rod = Hencky {
-        stiffness: 1e8,
-        natural_length: 1.0,
-    };
+    let rod = hencky(1e8, 1.0);
     scene.spring(rod, [pivot, bob]);
     scene.set_gravity([0.0, -GRAVITY]);
     let mut run = Simulation::new(scene, scheme, PERIOD / f64::from(steps)).unwrap();

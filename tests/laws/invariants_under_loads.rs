@@ -6,7 +6,7 @@ use core::fmt::Debug;
 use eem::prelude::*;
 
 use crate::support::dashpots::ONE_DASHPOT;
-use crate::support::{Hencky, LogarithmicStiffness};
+use crate::support::{LogarithmicStiffness, hencky};
 
 /// One rounding of the terms that the invariant sums per step, in a random walk of [`STEPS`]: √1000 ε, relative to the
 /// sum of their magnitudes.
@@ -119,10 +119,7 @@ fn assert_vertical_momentum(run: &Simulation<3>, first: f64) {
 // T + V + Σψ − W is constant: there is no heat at all.
 #[test]
 fn an_elastic_scene() {
-    let hencky = Hencky {
-        stiffness: 100.0,
-        natural_length: 1.5,
-    };
+    let hencky = hencky(100.0, 1.5);
     both(|scheme, is_pushed| {
         let mut run = chain(&hencky, scheme, is_pushed, Heat::None);
         let first = run.ledger().angular_momentum[2];

@@ -63,7 +63,7 @@ fn is_booked<H: Shape<3>>(scheme: Scheme, is_lumped: bool) {
     let (mut run, _) = moved::<H>(shake, (0.0, 3.0), is_lumped, (scheme, 0.05));
     let first = run.ledger();
     let mut entropy = first.entropy;
-    for _ in 0..at_length(20, 6) {
+    for _ in 0..at_length(20, 4) {
         run.step().unwrap();
         let ledger = run.ledger();
         // 2 m³ of 100 J/(K m³) at 300 K.
@@ -151,7 +151,7 @@ fn moved_solids_are_of_second_order() {
         };
         nodes.map(place).collect::<Vec<_>>()
     };
-    let [coarse, middle, fine] = [40, 80, 160].map(state);
+    let [coarse, middle, fine] = [30, 60, 120].map(state);
     for quantity in 0..2 {
         let distance = |a: &[[f64; 2]], b: &[[f64; 2]]| -> f64 {
             let pairs = a.iter().zip(b);
@@ -220,12 +220,12 @@ fn a_motion_without_a_first_velocity_is_refused() {
 /// Momenta of nodes that are moved follow from the motion, however short the step: they do not decide about it.
 #[test]
 fn step_control_passes_kinks_and_goes_to_tight_tolerances() {
-    let pull = |t: f64| 0.2 * (t - 1.0 / 3.0).max(0.0);
+    let pull = |t: f64| 0.2 * (t - 1.0 / 9.0).max(0.0);
     for &is_lumped in at_length(&[true, false][..], &[false]) {
         let by = (Scheme::EemTemperature, 0.01);
         let (mut run, _) = moved::<Hex8>(pull, (0.0, -1.0), is_lumped, by);
         run.control_steps(Tolerance::new(1e-3)).unwrap();
-        run.run_until(0.4).unwrap();
+        run.run_until(0.15).unwrap();
         let (mut run, _) = moved::<Hex8>(shake, (0.0, 3.0), is_lumped, by);
         run.control_steps(Tolerance::new(1e-6)).unwrap();
         run.run_until(0.02).unwrap();

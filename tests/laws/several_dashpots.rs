@@ -4,35 +4,20 @@ use core::fmt::Debug;
 
 use eem::prelude::*;
 
+use crate::kelvin_voigt::{CONDUCTANCE, ROOM, pendulum};
 use crate::support::Laws;
 use crate::support::dashpots::{ONE_DASHPOT, ThreeDashpots, TwoDashpots};
+use crate::support::orders::runge_kutta;
 
 /// As in `laws.rs`: a dozen roundings of the energies in the sum, and two of the entropy.
 const ENERGY_TOLERANCE: f64 = 4e-15;
 const ENTROPY_TOLERANCE: f64 = -2.0;
 
-const ROOM: f64 = 300.0;
-const CONDUCTANCE: f64 = 3.0;
 const SCHEMES: [Scheme; 3] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
     Scheme::EemDamped,
 ];
-
-/// A mass of 1 kg on the model, stretched, turning, hot, and cooled by the room.
-fn pendulum<M>(model: M, scheme: Scheme, step: f64) -> (Simulation<2>, Node, Element)
-where
-    M: FreeEnergy<f64> + Debug + Send + Sync + 'static,
-{
-    let mut scene = Scene::<2>::new();
-    let pivot = scene.anchor([0.0, 0.0]);
-    let bob = scene.mass(1.0, [1.4, 0.0], [0.3, 1.0]);
-    let spring = scene.spring(model, [pivot, bob]);
-    scene.set_temperature(spring, 340.0);
-    let room = scene.reservoir(ROOM);
-    scene.conduct(spring, room, CONDUCTANCE);
-    (Simulation::new(scene, scheme, step).unwrap(), bob, spring)
-}
 
 /// The viscous stretches of an element.
 fn stretches(run: &Simulation<2>, spring: Element) -> Vec<f64> {
@@ -100,20 +85,6 @@ fn rate(model: &ThreeDashpots, z: &State) -> State {
     [px, py, pull * qx, pull * qy, c1, c2, c3, theta_rate]
 }
 
-/// The solution at `end`, s, by the classical Runge–Kutta method.
-fn runge_kutta(model: &ThreeDashpots, mut z: State, end: f64, steps: u32) -> State {
-    let h = end / f64::from(steps);
-    let along = |z: &State, k: &State, c: f64| core::array::from_fn(|i| z[i] + c * h * k[i]);
-    for _ in 0..steps {
-        let k1 = rate(model, &z);
-        let k2 = rate(model, &along(&z, &k1, 0.5));
-        let k3 = rate(model, &along(&z, &k2, 0.5));
-        let k4 = rate(model, &along(&z, &k3, 1.0));
-        z = core::array::from_fn(|i| z[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
-    }
-    z
-}
-
 // Errors of second order are a quarter after halving; the next order, h⁴ of a symmetric scheme,
 // changes the slope by less than a tenth at these steps.
 const SLOPE_TOLERANCE: f64 = 0.1;
@@ -123,8 +94,8 @@ fn each_dashpot_creeps_as_its_own_force_over_viscosity() {
     const END: f64 = 0.5;
     let model = ThreeDashpots::DATA;
     let start = [1.4, 0.0, 0.3, 1.0, 0.0, 0.0, 0.0, 340.0];
-    let exact = runge_kutta(&model, start, END, 2_000);
-    let coarse = runge_kutta(&model, start, END, 1_000);
+    let exact = runge_kutta(|z| rate(&model, z), start, END, 2_000);
+    let coarse = runge_kutta(|z| rate(&model, z), start, END, 1_000);
     for scheme in SCHEMES {
         let errors = [100, 200].map(|steps| {
             let (mut run, _, spring) = pendulum(model.clone(), scheme, END / f64::from(steps));

@@ -113,8 +113,12 @@ fn the_kept_entropy_is_that_of_the_state() {
         natural_length: [2.0, 1.0][i],
         theta_ref: 300.0,
     });
-    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
-        let mut double = case.simulation(scheme, case.step);
+    for (scheme, step) in [
+        (Scheme::EemEntropy, case.step),
+        (Scheme::EemTemperature, case.step),
+        (Scheme::EemExplicit, 0.02),
+    ] {
+        let mut double = case.simulation(scheme, step);
         let mut worst = 0.0_f64;
         for _ in 0..1_000 {
             double.run.step().unwrap();

@@ -6,103 +6,23 @@
 
 mod kernels;
 
-use eem_symbolic::{
-    Arithmetic, Bounded, ExprId, Graph, Input, Operation, Program, Stage, Symbol, Value, diff,
-    divided_difference, schedule,
-};
+use eem_symbolic::{Arithmetic, Bounded, Program};
 use eem_testkit::length::at_length;
 use eem_testkit::precise::{BigFloat, Precise, error, to_f64};
-use eem_testkit::random::{Random, expression};
+use eem_testkit::secant::{Secant, run, start};
 use kernels::{BoundedKernels, Kernels};
 
 /// Random expressions, of which at least 10 of 17 are of moderate size.
 fn expressions() -> u32 {
-    at_length(1700, 510)
+    at_length(1700, 340)
 }
-const DEPTH: usize = 6;
 /// |b − a|/a: nothing, less than b can resolve, a few bits of b, … , as much as a.
 const INCREMENTS: [f64; 9] = [0.0, 1e-18, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1, 1.0];
-/// Expressions that grow beyond this say nothing about rounding.
-const LARGE: f64 = 1e6;
-/// The error bound integrates f′ and f″, and does not resolve sin between larger arguments.
-const OSCILLATING: f64 = 50.0;
 /// Offset of the numerical derivatives of the truth: errors of 2⁻³⁰⁰ from the formula and 2⁻³⁶⁰
 /// from rounding.
 const OFFSET: i32 = -150;
 /// Error of the truth: the larger of those, times third derivatives, over an increment of 1e-15.
 const TRUTH: f64 = 1e-60;
-
-/// f(x) and f\[a, b\] of a random expression.
-struct Secant {
-    value: Program,
-    difference: Program,
-    graph: Graph,
-    symbols: [Symbol; 2],
-    expression: ExprId,
-}
-
-impl Secant {
-    fn new(seed: u64) -> Self {
-        let mut random = Random::new(seed);
-        let mut graph = Graph::new();
-        let x = graph.symbol("x");
-        let variable = graph.variable(x);
-        let e = expression(&mut graph, &mut random, variable, DEPTH);
-        let symbols = [graph.version(x, "a"), graph.version(x, "b")];
-        let [a, b] = symbols.map(|end| graph.variable(end));
-        let expression = divided_difference(&mut graph, e, x, a, b);
-        Self {
-            value: program(&graph, &[x], e),
-            difference: program(&graph, &symbols, expression),
-            graph,
-            symbols,
-            expression,
-        }
-    }
-
-    /// f\[a, b, b\] = ∂f\[a, b\]/∂b.
-    fn slope(&mut self) -> Program {
-        let slope = diff(&mut self.graph, self.expression, self.symbols[1]);
-        program(&self.graph, &self.symbols, slope)
-    }
-
-    /// Whether value and difference are of moderate size at these ends, and the arguments of all
-    /// divided differences below [`OSCILLATING`].
-    fn moderate(&self, ends: [f64; 2]) -> bool {
-        let mut all = self.difference.clone();
-        all.outputs = (0..all.instructions.len()).map(Value::new).collect();
-        let values = all.interpret(&Kernels, &ends);
-        let resolved = all.instructions.iter().all(|instruction| {
-            let Operation::DividedDifference(_, a, b) = &instruction.operation else {
-                return true;
-            };
-            let ends = [a, b].map(|end| values[end.index()]);
-            ends.iter().all(|end| end.abs() < OSCILLATING)
-        });
-        let difference = values[self.difference.outputs[0].index()];
-        let [at_a, at_b] = ends.map(|x| run(&self.value, &Kernels, &[x]));
-        let sizes = [at_a, at_b, difference];
-        resolved && sizes.iter().all(|size| size.abs() < LARGE)
-    }
-}
-
-fn program(graph: &Graph, symbols: &[Symbol], output: ExprId) -> Program {
-    let input = |&symbol: &Symbol| Input {
-        symbol,
-        name: graph.name(symbol).to_owned(),
-        stage: Stage::New,
-    };
-    schedule(graph, symbols.iter().map(input).collect(), &[output])
-}
-
-fn run<A: Arithmetic>(program: &Program, arithmetic: &A, inputs: &[A::Number]) -> A::Number {
-    program.interpret(arithmetic, inputs).swap_remove(0)
-}
-
-/// The first end of random expression `seed`.
-fn start(seed: u64) -> f64 {
-    0.3 + 1.5 * Random::new(seed ^ 0xabcd).unit()
-}
 
 /// An expression with 512 bits, and its value at the first end.
 struct Truth<'a> {
@@ -206,13 +126,16 @@ fn differences_are_within_their_bound() {
     let (mut first, mut second) = (Statistics::default(), Statistics::default());
     let mut checked = 0;
     for seed in 0..u64::from(expressions()) {
-        let (mut secant, a) = (Secant::new(seed), start(seed));
+        let (secant, a) = (Secant::new(seed), start(seed));
         let ends = INCREMENTS.map(|increment| [a, a * (1.0 + increment)]);
-        if !ends.iter().rev().all(|&ends| secant.moderate(ends)) {
+        if !ends
+            .iter()
+            .rev()
+            .all(|&ends| secant.is_moderate(&Kernels, ends))
+        {
             continue;
         }
         checked += 1;
-        let slope = secant.slope();
         let truth = Truth::new(&precise, &secant.value, a);
         for (i, ends) in ends.into_iter().enumerate() {
             if i > 0 && ends[1].to_bits() == a.to_bits() {
@@ -223,7 +146,7 @@ fn differences_are_within_their_bound() {
             let difference = run(&secant.difference, &BoundedKernels, &inputs);
             first.add(&precise, difference, &truth.difference(ends[1]), &what);
             if in_turn(seed, i) {
-                let slope = run(&slope, &BoundedKernels, &inputs);
+                let slope = run(&secant.slope, &BoundedKernels, &inputs);
                 second.add(&precise, slope, &truth.slope(ends[1]), &what);
             }
         }

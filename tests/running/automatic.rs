@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use eem::prelude::*;
 use eem::{Checkpoint, RestoreError, SceneError, StepFailure, Tolerance};
 
-use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic, single_pendulum};
+use crate::support::{DoublePendulum, ThermoViscoElastic, bits, hencky, single_pendulum};
 
 mod orders;
 
@@ -154,11 +154,6 @@ fn laws_hold_when_the_scheme_changes() {
     assert!(statistics.changes_of_scheme >= 1, "{statistics:?}");
 }
 
-/// The state and all that the next steps depend on.
-fn bits(run: &Simulation<2>) -> String {
-    format!("{:?}", run.checkpoint())
-}
-
 #[test]
 fn a_resumed_run_has_the_same_bits_whatever_scheme_it_was_using() {
     let build = || relaxing(1e-3);
@@ -246,10 +241,7 @@ fn a_refused_checkpoint_of_another_scheme_leaves_no_trace() {
 
 /// Masses in a row on stiff springs, in slow motion across; what matrices may take, bytes.
 fn stiff_row(memory: Option<u64>) -> Simulation<2> {
-    let stiff = Hencky {
-        stiffness: 1e8,
-        natural_length: 1.0,
-    };
+    let stiff = hencky(1e8, 1.0);
     let mut scene = Scene::<2>::new();
     let mut last = scene.anchor([0.0, 0.0]);
     for index in 1..=20 {

@@ -1,20 +1,11 @@
 //! Another scheme and another step in the middle of a run.
 
-use eem::materials::Hooke;
 use eem::prelude::*;
 use eem_testkit::length::at_length;
 use eem_testkit::random::Random;
 
-use crate::support::{EXACT, Hencky, busy};
-
-/// A spring of 1 m with a dashpot in parallel.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - 1).powi(2))]
-#[viscosity(lambda = eta)]
-struct Damper {
-    stiffness: f64,
-    eta: f64,
-}
+use crate::support::springs::Braked;
+use crate::support::{EXACT, busy, hencky, hooke};
 
 /// The stored state in all bits; energies are evaluated again by another scheme.
 fn bits<const D: usize>(run: &Simulation<D>) -> String {
@@ -105,9 +96,10 @@ fn a_refused_scheme_leaves_the_run_as_it_was() {
     let mut scene = Scene::<1>::new();
     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
     let spring = scene.spring(
-        Damper {
-            stiffness: 4.0,
+        Braked {
+            k: 4.0,
             eta: 0.1,
+            length: 1.0,
         },
         ends,
     );
@@ -136,10 +128,7 @@ fn missing_memory_leaves_the_run_as_it_was() {
     let mut last = scene.anchor([0.0, 0.0]);
     for index in 1..=100 {
         let next = scene.mass(1.0, [f64::from(index), 0.0], [0.0, 0.0]);
-        let spring = Hooke {
-            stiffness: 1.0,
-            natural_length: 1.0,
-        };
+        let spring = hooke(1.0, 1.0);
         scene.spring(spring, [last, next]);
         last = next;
     }
@@ -157,10 +146,7 @@ fn a_run_may_start_at_any_time() {
         let mut scene = Scene::<1>::new();
         let support = scene.anchor([0.0]);
         let mass = scene.mass(1.0, [1.1], [0.0]);
-        let spring = Hencky {
-            stiffness: 30.0,
-            natural_length: 1.0,
-        };
+        let spring = hencky(30.0, 1.0);
         scene.spring(spring, [support, mass]);
         scene.force(mass, move |t: f64| [(t - shift).sin()]);
         scene.move_anchor(support, move |t: f64| [0.1 * (t - shift).sin()]);

@@ -1,9 +1,10 @@
 //! Forces, motions and temperatures that are set in the middle of a run.
 
 use eem::prelude::*;
+use eem_testkit::length::at_length;
 use eem_testkit::random::Random;
 
-use crate::support::{EXACT, Hencky, ThermoViscoElastic};
+use crate::support::{EXACT, ThermoViscoElastic, hencky};
 
 /// What a controller acts on.
 #[derive(Clone, Copy)]
@@ -24,10 +25,7 @@ fn scene() -> (Scene<2>, Handles) {
     ];
     let warm = scene.spring(ThermoViscoElastic::PENDULUM, [hook, masses[0]]);
     let held = scene.spring(ThermoViscoElastic::PENDULUM, masses);
-    let spring = Hencky {
-        stiffness: 30.0,
-        natural_length: 1.5,
-    };
+    let spring = hencky(30.0, 1.5);
     scene.spring(spring, [hook, masses[1]]);
     scene.set_temperature(warm, 320.0);
     scene.hold_temperature(held, 310.0);
@@ -114,7 +112,7 @@ fn solids_are_moved_and_pushed_too() {
         }
         let start = run.ledger().balance;
         let mut bound = 0.0;
-        for step in 0..40 {
+        for step in 0..at_length(40, 12) {
             let time = f64::from(step) * 0.01;
             run.set_force(tip, [0.0, 20.0 * (9.0 * time).sin()])
                 .unwrap();

@@ -4,17 +4,7 @@ use eem::materials::ThermoelasticSpring;
 use eem::prelude::*;
 use eem::{NewtonIteration, StepFailure};
 
-use crate::support::{Pendulum, single_pendulum};
-
-/// An observer that only watches.
-fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
-/// Everything that a step depends on, as text that tells all doubles apart.
-fn bits<const D: usize>(run: &Simulation<D>) -> String {
-    format!("{:?}", run.checkpoint())
-}
+use crate::support::{Pendulum, bits, single_pendulum, watch};
 
 #[test]
 fn the_end_is_hit_to_the_last_bit_and_the_step_size_stays() {

@@ -3,19 +3,9 @@
 use eem::StepFailure;
 use eem::prelude::*;
 
-use crate::support::single_pendulum;
+use crate::support::{bits, single_pendulum, watch};
 
 const STEP: f64 = 0.05;
-
-/// An observer that only watches.
-fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
-/// Everything that a step depends on, as text that tells all doubles apart.
-fn bits<const D: usize>(run: &Simulation<D>) -> String {
-    format!("{:?}", run.checkpoint())
-}
 
 /// The event that a function which cannot fail changes its sign.
 fn crossing<'f>(function: impl Fn(&Simulation<2>) -> f64 + 'f) -> Event<'f, 2> {

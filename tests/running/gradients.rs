@@ -1,6 +1,7 @@
 //! Gradients of runs: against differences of runs, and against the laws, which say what the gradient of the energy is.
 
 use eem::kinematics::{Hex8, Quad4};
+use eem::materials::KelvinVoigtDamper;
 use eem::prelude::*;
 use eem::{Gradient, GradientError, History, Objective};
 
@@ -17,31 +18,25 @@ use tangents::assert_tangent;
 
 const FORMS: [Scheme; 2] = [Scheme::EemTemperature, Scheme::EemEntropy];
 
-/// Thermoelastic, with a dashpot beside the spring that thins with heat.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch, theta: Temperature| {
-    let strain = ln(lambda / length);
-    0.5 * k * strain.powi(2) - beta * (theta - 300) * strain
-        + capacity * (theta - 300 - theta * ln(theta / 300))
-})]
-#[viscosity(lambda = eta * exp(activation * (1 / theta - 1 / 300)))]
-struct Voigt {
-    k: f64,
-    length: f64,
-    beta: f64,
-    capacity: f64,
-    eta: f64,
-    activation: f64,
-}
-
-const VOIGT: Voigt = Voigt {
-    k: 50.0,
-    length: 1.1,
-    beta: 0.05,
+const VOIGT: KelvinVoigtDamper = KelvinVoigtDamper {
+    stiffness: 50.0,
+    coupling: 0.05,
     capacity: 3.0,
+    natural_length: 1.1,
+    theta_ref: 300.0,
+    a: 400.0,
     eta: 0.7,
-    activation: 400.0,
 };
+
+/// Its parameters in [`Inputs`].
+const NAMES: [&str; 6] = [
+    "stiffness",
+    "natural_length",
+    "coupling",
+    "capacity",
+    "eta",
+    "a",
+];
 
 const TWO: TwoDashpots = TwoDashpots {
     stiffness: 60.0,
@@ -101,14 +96,15 @@ fn net(inputs: &Inputs) -> Net {
     let anchor = scene.anchor(inputs.anchor);
     let bob = scene.mass(inputs.masses[0], inputs.position, inputs.velocity);
     let tail = scene.mass(inputs.masses[1], [1.9, -0.4], [0.0, -0.5]);
-    let [k, length, beta, capacity, eta, activation] = inputs.voigt;
-    let voigt = Voigt {
-        k,
-        length,
-        beta,
+    let [stiffness, natural_length, coupling, capacity, eta, a] = inputs.voigt;
+    let voigt = KelvinVoigtDamper {
+        stiffness,
+        natural_length,
+        coupling,
         capacity,
         eta,
-        activation,
+        a,
+        ..VOIGT
     };
     let [stiffness, mu1, eta1] = inputs.two;
     let two = TwoDashpots {
@@ -196,8 +192,7 @@ fn gradients_are_differences_of_runs() {
         let mut check = |name: &str, got: f64, size: f64, change: Change| {
             all.push((name.to_owned(), got, size, change));
         };
-        let names = ["k", "length", "beta", "capacity", "eta", "activation"];
-        for (at, name) in names.into_iter().enumerate() {
+        for (at, name) in NAMES.into_iter().enumerate() {
             let size = 1e-3 * INPUTS.voigt[at];
             check(
                 name,
@@ -536,11 +531,8 @@ fn what_has_no_gradient_is_an_error() {
         GradientError::Component { components: 2, .. }
     ));
     let gradient = run.gradient(&at_end(Quantity::TotalEnergy)).unwrap();
-    let unknown = gradient
-        .by_parameter(voigt, "stiffness")
-        .unwrap_err()
-        .to_string();
-    assert!(unknown.contains("it has k, length"), "{unknown}");
+    let unknown = gradient.by_parameter(voigt, "k").unwrap_err().to_string();
+    assert!(unknown.contains("it has stiffness, coupling"), "{unknown}");
     assert!(gradient.by_viscous_stretch(two, 2).is_err());
     let other = single_pendulum_scene().1;
     assert!(matches!(

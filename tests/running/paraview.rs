@@ -9,7 +9,7 @@ use eem::prelude::*;
 use eem::{SolidState, VtkSeries};
 
 use crate::support::solids::{Relaxing, SECTION, ThermoelasticSolid};
-use crate::support::{Hencky, ThermoViscoElastic};
+use crate::support::{ThermoViscoElastic, hencky};
 
 /// The numbers of an array of a file.
 fn array(text: &str, name: &str) -> Vec<f64> {
@@ -32,11 +32,7 @@ fn files_have_all_digits_of_every_state() {
     let bob = scene.mass(1.0, [2.0, 1.0], [0.0, 1.0]);
     let damper = scene.spring(ThermoViscoElastic::PENDULUM, [nodes[2], bob]);
     scene.set_temperature(damper, 320.0);
-    let hencky = Hencky {
-        stiffness: 10.0,
-        natural_length: 1.0,
-    };
-    let spring = scene.spring(hencky, [nodes[1], bob]);
+    let spring = scene.spring(hencky(10.0, 1.0), [nodes[1], bob]);
     scene.conduct(damper, points[2], 2.0);
     let alone = scene.mass(2.0, [4.0, 0.0], [0.5, 0.0]);
 

@@ -3,31 +3,12 @@
 
 use std::ops::ControlFlow;
 
-use eem::materials::Hooke;
 use eem::prelude::*;
 use eem::{Equilibrium, Tolerance};
-use eem_testkit::length::{at_length, is_long};
+use eem_testkit::length::{at_length, in_turn, is_long};
 
-use crate::support::Hencky;
-
-/// ψ = ½ k (λ − 1)²
-#[derive(Clone, FreeEnergy)]
-#[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 1.0).powi(2))]
-struct Linear {
-    k: f64,
-}
-
-/// ψ = ½ k (λ − 1)² + ½ μ (λ − 1 − γ)², η constant.
-#[derive(Clone, FreeEnergy)]
-#[free_energy(|lambda: Stretch, gamma: Viscous| {
-    0.5 * k * (lambda - 1.0).powi(2) + 0.5 * mu * (lambda - 1.0 - gamma).powi(2)
-})]
-#[viscosity(gamma = eta)]
-struct Maxwell {
-    k: f64,
-    mu: f64,
-    eta: f64,
-}
+use crate::support::springs::{Braked, Branched, linear};
+use crate::support::{hencky, hooke};
 
 /// ψ = ½ k (λ − 1)² + c (θ − 300 − θ ln(θ/300)), η beside it, constant.
 #[derive(Clone, FreeEnergy)]
@@ -38,16 +19,6 @@ struct Maxwell {
 struct KelvinVoigt {
     k: f64,
     c: f64,
-    eta: f64,
-}
-
-/// ψ = ½ k (λ − l)², η beside it, constant.
-#[derive(Clone, FreeEnergy)]
-#[free_energy(|lambda: Stretch| 0.5 * k * (lambda - l).powi(2))]
-#[viscosity(lambda = eta)]
-struct Braked {
-    k: f64,
-    l: f64,
     eta: f64,
 }
 
@@ -111,8 +82,11 @@ impl Case {
         let ends = [scene.anchor([0.0]), mass];
         let mut warm = None;
         match kind {
-            Kind::Linear => _ = scene.spring(Linear { k }, ends),
-            Kind::Maxwell => _ = scene.spring(Maxwell { k, mu: k, eta }, ends),
+            Kind::Linear => _ = scene.spring(linear(k), ends),
+            Kind::Maxwell => {
+                let (mu, length) = (k, 1.0);
+                scene.spring(Branched { k, mu, eta, length }, ends);
+            }
             Kind::KelvinVoigt => {
                 let c = CAPACITY;
                 let spring = scene.spring(KelvinVoigt { k, c, eta }, ends);
@@ -220,11 +194,12 @@ fn check(case: Case, scheme: Scheme, relative: f64, searches: bool) {
     }
 }
 
-/// Three springs, seven loads, three schemes, two tolerances: 126 runs; one tolerance without `EEM_LONG`.
+/// Three springs, seven loads, three schemes, two tolerances: 126 runs; one tolerance, and the schemes in turn, without `EEM_LONG`.
 #[test]
 fn smooth_loads_set_masses_in_motion() {
-    for kind in [Kind::Linear, Kind::Maxwell, Kind::KelvinVoigt] {
-        for load in LOADS {
+    let kinds = [Kind::Linear, Kind::Maxwell, Kind::KelvinVoigt];
+    for (row, kind) in kinds.into_iter().enumerate() {
+        for (column, load) in LOADS.into_iter().enumerate() {
             let (k, mass, eta, end) = (100.0, 1.0, 2.0, 2.0);
             let case = Case {
                 kind,
@@ -234,7 +209,7 @@ fn smooth_loads_set_masses_in_motion() {
                 end,
                 load,
             };
-            for scheme in SCHEMES {
+            for &scheme in in_turn(&SCHEMES, row + column) {
                 for relative in at_length([1e-4, 1e-6].as_slice(), &[1e-4]) {
                     check(case, scheme, *relative, true);
                 }
@@ -285,10 +260,7 @@ fn hanging_masses_are_set_in_motion() {
                 *entry = if axis == corner { 1.5 } else { -1.0 };
             }
             let hook = scene.anchor(place);
-            let spring = Hencky {
-                stiffness: 80.0,
-                natural_length: 1.2,
-            };
+            let spring = hencky(80.0, 1.2);
             scene.spring(spring, [hook, mass]);
         }
         let mut gravity = [0.0; D];
@@ -350,12 +322,13 @@ fn a_car_runs_over_a_bump() {
         let road = scene.anchor([0.0]);
         let wheel = scene.mass(40.0, [1.0], [0.0]);
         let body = scene.mass(300.0, [2.0], [0.0]);
-        scene.spring(Linear { k: 2e5 }, [road, wheel]);
+        scene.spring(linear(2e5), [road, wheel]);
         scene.spring(
-            Maxwell {
+            Branched {
                 k: 2e4,
                 mu: 1e4,
                 eta: 1.5e3,
+                length: 1.0,
             },
             [wheel, body],
         );
@@ -413,8 +386,8 @@ fn masses_at_rest_do_not_fly_to_their_mirror_images() {
             let mass = scene.mass(1.0, place, [0.0; D]);
             for &anchor in anchors {
                 let ends = [scene.anchor(anchor), mass];
-                let (k, l, eta) = (100.0, length, 5.0);
-                scene.spring(Braked { k, l, eta }, ends);
+                let (k, eta) = (100.0, 5.0);
+                scene.spring(Braked { k, eta, length }, ends);
             }
             let tolerance = Tolerance::new(relative);
             let mut run = Simulation::with_tolerance(scene, scheme, tolerance).unwrap();
@@ -467,8 +440,8 @@ fn a_standing_mass_does_not_fall_through_its_anchor() {
     ] {
         let mut scene = Scene::<1>::new();
         let ends = [scene.anchor([0.0]), scene.mass(1.0, [0.9], [0.0])];
-        let (k, l, eta) = (100.0, 1.0, 5.0);
-        scene.spring(Braked { k, l, eta }, ends);
+        let (k, eta, length) = (100.0, 5.0, 1.0);
+        scene.spring(Braked { k, eta, length }, ends);
         scene.set_gravity([-5.0]);
         let tolerance = Tolerance::new(relative);
         let mut run = Simulation::with_tolerance(scene, scheme, tolerance).unwrap();
@@ -488,13 +461,7 @@ fn a_mass_may_fly_through_its_anchor() {
     ] {
         let mut scene = Scene::<1>::new();
         let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [0.0])];
-        scene.spring(
-            Hooke {
-                stiffness: 1.0,
-                natural_length: 0.0,
-            },
-            ends,
-        );
+        scene.spring(hooke(1.0, 0.0), ends);
         let tolerance = Tolerance::new(1e-4);
         let mut run = Simulation::with_tolerance(scene, scheme, tolerance).unwrap();
         run.run_until(20.0).unwrap();
@@ -545,7 +512,7 @@ fn a_weight_from_equilibrium_waits_for_its_load_in_few_steps() {
         let mut scene = Scene::<2>::new();
         let hook = scene.anchor([0.0; 2]);
         let mass = scene.mass(1.0, [0.0, -1.0], [0.0; 2]);
-        scene.spring(Linear { k: 100.0 }, [hook, mass]);
+        scene.spring(linear(100.0), [hook, mass]);
         scene.set_gravity([0.0, -9.81]);
         scene.equilibrium(Equilibrium::new()).unwrap();
         let push = |t: f64| -10.0 * ((t - 1.4) / 0.4).clamp(0.0, 1.0).powi(3);

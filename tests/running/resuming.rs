@@ -3,14 +3,11 @@
 use eem::RestoreError;
 use eem::prelude::*;
 
-use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic, busy, single_pendulum};
+use crate::support::{
+    DoublePendulum, ThermoViscoElastic, bits, busy, hencky, hooke, single_pendulum,
+};
 
 const STEP: f64 = 0.05;
-
-/// Everything that a step depends on, as text that tells all doubles apart.
-fn bits<const D: usize>(run: &Simulation<D>) -> String {
-    format!("{:?}", run.checkpoint())
-}
 
 /// A scene with everything in it.
 fn busy_scene(scheme: Scheme) -> Simulation<2> {
@@ -115,11 +112,7 @@ fn a_scene_of_another_shape_is_refused_with_what_differs() {
             let spring = scene.spring(ThermoViscoElastic::PENDULUM, [first, second]);
             scene.set_temperature(spring, 300.0);
         } else {
-            let hencky = Hencky {
-                stiffness: 1.0,
-                natural_length: 1.0,
-            };
-            scene.spring(hencky, [first, second]);
+            scene.spring(hencky(1.0, 1.0), [first, second]);
         }
         for _ in 0..reservoirs {
             scene.reservoir(300.0);
@@ -363,10 +356,7 @@ fn every_state_of_high_order_can_be_restored() {
         for (ends, stiffness, natural_length) in
             [([pivot, light], 280.0, 2.3), ([light, heavy], 0.6, 4.8)]
         {
-            let spring = eem::materials::Hooke {
-                stiffness,
-                natural_length,
-            };
+            let spring = hooke(stiffness, natural_length);
             scene.spring(spring, ends);
         }
         scene.set_gravity([0.0, 0.0, -9.81]);

@@ -1,29 +1,12 @@
 //! Errors that rounding explains neither reject a step nor make it shorter: far from the origin, long after the time zero, and where
 //! stiff springs hold a mass that hardly moves. Nor does the rounding of the energy of a prestress change a vibration beside it.
 
-use eem::materials::Hooke;
 use eem::prelude::*;
 use eem::{StepStatistics, Tolerance};
 use std::ops::ControlFlow;
 
-/// ψ = ½ k (λ − 1)²
-#[derive(Clone, FreeEnergy)]
-#[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 1.0).powi(2))]
-struct Linear {
-    k: f64,
-}
-
-/// ψ = ½ k (λ − 1)² + ½ μ (λ − 1 − γ)², η constant.
-#[derive(Clone, FreeEnergy)]
-#[free_energy(|lambda: Stretch, gamma: Viscous| {
-    0.5 * k * (lambda - 1.0).powi(2) + 0.5 * mu * (lambda - 1.0 - gamma).powi(2)
-})]
-#[viscosity(gamma = eta)]
-struct Maxwell {
-    k: f64,
-    mu: f64,
-    eta: f64,
-}
+use crate::support::hooke;
+use crate::support::springs::{Branched, linear};
 
 const SCHEMES: [Scheme; 5] = [
     Scheme::Auto,
@@ -70,7 +53,7 @@ impl Row {
         for _ in 0..self.masses {
             place += 1.0;
             let mass = scene.mass(1.0, [place], [0.0]);
-            scene.spring(Linear { k: self.k }, [last, mass]);
+            scene.spring(linear(self.k), [last, mass]);
             last = mass;
         }
         scene.force(last, move |t: f64| [self.force(t)]);
@@ -201,7 +184,7 @@ fn driven(what: Driven, scheme: Scheme, start: f64) -> ([f64; 2], u64) {
     let end = 3.0;
     let mut scene = Scene::<1>::new();
     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [0.0])];
-    scene.spring(Linear { k: 100.0 }, ends);
+    scene.spring(linear(100.0), ends);
     match what {
         Driven::Force => scene.force(ends[1], move |t: f64| [10.0 * (2.0 * (t - start)).sin()]),
         Driven::Anchor => {
@@ -261,10 +244,11 @@ fn a_dashpot_between_anchors_does_not_know_where_it_is() {
         let [near, far] = [0.0, 1e6].map(|x| {
             let mut scene = Scene::<1>::new();
             let ends = [scene.anchor([x]), scene.anchor([x + 1.1])];
-            let spring = Maxwell {
+            let spring = Branched {
                 k: 100.0,
                 mu: 100.0,
                 eta: 10.0,
+                length: 1.0,
             };
             let spring = scene.spring(spring, ends);
             let mut run = Simulation::new(scene, scheme, 0.001).unwrap();
@@ -289,10 +273,7 @@ fn a_dashpot_between_anchors_does_not_know_where_it_is() {
 /// 1 kg at the origin with the velocity 10⁻⁵ m/s, between two springs of 10⁴ N/m and 0.8 m from anchors at ±1 m: 400 J.
 fn beside_prestress(scheme: Scheme) {
     const SPEED: f64 = 1e-5;
-    let spring = Hooke {
-        stiffness: 1e4,
-        natural_length: 0.8,
-    };
+    let spring = hooke(1e4, 0.8);
     let mut scene = Scene::<1>::new();
     let mass = scene.mass(1.0, [0.0], [SPEED]);
     for side in [-1.0, 1.0] {
@@ -334,10 +315,7 @@ fn a_vibration_beside_a_prestress_keeps_its_amplitude() {
 /// What moved anchors do to a prestress far from the origin is closed as ever: no step is `Ok` beyond its bound.
 #[test]
 fn moved_anchors_beside_a_prestress_keep_the_energy() {
-    let spring = Hooke {
-        stiffness: 1.7e4,
-        natural_length: 0.825,
-    };
+    let spring = hooke(1.7e4, 0.825);
     for [origin, tolerance, way] in [[27.9, 1e-6, 1e-3], [3.7, 1e-4, 1e-4]] {
         let mut scene = Scene::<1>::new();
         let fixed = scene.anchor([origin]);
@@ -365,10 +343,7 @@ fn beside_tail(scheme: Scheme, is_moved: bool) -> [f64; 3] {
     let tail = |t: f64| 0.1 * (-(t - 18.0).powi(2)).exp();
     let mut scene = Scene::<1>::new();
     let anchor = scene.anchor([if is_moved { tail(0.0) } else { 0.0 }]);
-    let spring = Hooke {
-        stiffness: 1.0,
-        natural_length: 0.8,
-    };
+    let spring = hooke(1.0, 0.8);
     let masses = [1.0, 2.0, 3.0].map(|x| scene.mass(1.0, [x], [0.0]));
     for ends in [anchor, masses[0], masses[1], masses[2]].windows(2) {
         scene.spring(spring, [ends[0], ends[1]]);

@@ -1,8 +1,10 @@
 //! Studies of scenes in which nothing moves, or which begin without energy, have errors of finite size.
 
-use eem::materials::{Hooke, MaxwellDamper, ThermoelasticSpring};
+use eem::materials::{MaxwellDamper, ThermoelasticSpring};
 use eem::prelude::*;
 use eem::{Advice, Setting, StateQuantity, Study};
+
+use crate::support::hooke;
 
 /// A damper between two anchors: nothing moves, and its dashpot relaxes within 0.5 s.
 fn held_damper() -> Scene<1> {
@@ -46,10 +48,7 @@ fn errors_of_dashpots_between_anchors_are_relative_to_their_lengths() {
 fn pushed() -> Scene<1> {
     let mut scene = Scene::new();
     let [anchor, mass] = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [0.0])];
-    let spring = Hooke {
-        stiffness: 100.0,
-        natural_length: 1.0,
-    };
+    let spring = hooke(100.0, 1.0);
     scene.spring(spring, [anchor, mass]);
     scene.force(mass, |t| [5.0 * t * t]);
     scene

@@ -5,7 +5,7 @@ use eem::prelude::*;
 use eem::{Body, kinematics::Quad4};
 
 use crate::support::solids::Viscous;
-use crate::support::{Hencky, LogarithmicStiffness};
+use crate::support::{Hencky, LogarithmicStiffness, hencky};
 
 /// Nodes along a side of the lattice: enough for its system to be divided, see `eem-sparse/src/division.rs`.
 const SIDE: usize = 64;
@@ -18,10 +18,7 @@ const THERMAL: LogarithmicStiffness = LogarithmicStiffness {
     natural_length: 1.0,
     ..LogarithmicStiffness::FIRST
 };
-const ELASTIC: Hencky = Hencky {
-    stiffness: 5000.0,
-    natural_length: 1.0,
-};
+const ELASTIC: Hencky = hencky(5000.0, 1.0);
 
 /// A mass in motion; neighbours move differently.
 fn node(scene: &mut Scene<2>, [column, row]: [usize; 2]) -> Node {

@@ -2,7 +2,7 @@
 
 use eem::prelude::*;
 
-use crate::support::{Hencky, ThermoViscoElastic, only_error};
+use crate::support::{ThermoViscoElastic, hencky, only_error};
 
 /// An elastic and a thermal spring between an anchor and a mass, and a reservoir.
 struct Parts {
@@ -18,11 +18,7 @@ fn parts() -> Parts {
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
-    let hencky = Hencky {
-        stiffness: 10.0,
-        natural_length: 1.0,
-    };
-    let elastic = scene.spring(hencky, [pivot, bob]);
+    let elastic = scene.spring(hencky(10.0, 1.0), [pivot, bob]);
     let thermal = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
     scene.set_temperature(thermal, 300.0);
     let room = scene.reservoir(290.0);

@@ -3,7 +3,7 @@
 use eem::prelude::*;
 use eem::{StateError, StepFailure};
 
-use crate::support::{Hencky, ThermoViscoElastic, only_error, single_pendulum};
+use crate::support::{ThermoViscoElastic, hencky, only_error, single_pendulum};
 
 const NAN: f64 = f64::NAN;
 
@@ -160,10 +160,7 @@ fn handles() {
     let foreign = other.anchor([0.0, 0.0]);
     let mut scene = Scene::<2>::new();
     let bob = scene.mass(1.0, [1.0, 0.0], [0.0, 0.0]);
-    let hencky = Hencky {
-        stiffness: 1.0,
-        natural_length: 1.0,
-    };
+    let hencky = hencky(1.0, 1.0);
     scene.spring(hencky.clone(), [foreign, bob]);
     let error = only_error(Simulation::new(scene, Scheme::EemEntropy, 0.1));
     assert_eq!(error.to_string(), "node 0 belongs to another scene");

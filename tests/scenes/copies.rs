@@ -3,12 +3,9 @@
 use eem::prelude::*;
 
 use crate::support::solids::{SECTION, ThermoelasticSolid};
-use crate::support::{Hencky, ThermoViscoElastic};
+use crate::support::{Hencky, ThermoViscoElastic, hencky};
 
-const HENCKY: Hencky = Hencky {
-    stiffness: 100.0,
-    natural_length: 1.0,
-};
+const HENCKY: Hencky = hencky(100.0, 1.0);
 
 /// A scene with something of each kind, and handles of each kind.
 struct Full {

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use eem::prelude::*;
 
 use crate::support::dashpots::{ThreeDashpots, TwoDashpots};
-use crate::support::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
+use crate::support::{Hencky, LogarithmicStiffness, ThermoViscoElastic, hencky};
 
 /// A chain of two masses from an anchor, both springs of the same model; heat flows between the
 /// springs when `temperature` (K) is given.
@@ -26,10 +26,7 @@ where
     (Simulation::new(scene, scheme, 0.01).unwrap(), springs)
 }
 
-const HENCKY: Hencky = Hencky {
-    stiffness: 100.0,
-    natural_length: 1.0,
-};
+const HENCKY: Hencky = hencky(100.0, 1.0);
 
 /// Coordinates of the two free masses.
 const COORDINATES: usize = 6;

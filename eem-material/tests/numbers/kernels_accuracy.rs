@@ -16,7 +16,7 @@ use eem_testkit::precise::{BigFloat, Precise};
 
 /// Pairs per kernel.
 fn pairs() -> u32 {
-    at_length(2000, 500)
+    at_length(2000, 300)
 }
 
 /// The bound on first differences.

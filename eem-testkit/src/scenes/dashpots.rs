@@ -9,6 +9,8 @@
 pub use eem::materials::MaxwellDamper as OneDashpot;
 use eem::prelude::*;
 
+use super::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
+
 /// Two branches; μ and η of the second come last.
 #[derive(Clone, Debug, FreeEnergy)]
 #[free_energy(|lambda: Stretch, gamma1: Viscous, gamma2: Viscous, theta: Temperature| {
@@ -107,4 +109,52 @@ impl ThreeDashpots {
         mu3: 10.0,
         eta3: 60.0,
     };
+}
+
+/// A free body: four masses and six springs, one elastic, two logarithmic, and with one, two and three dashpots, the thermal ones
+/// in contact.
+pub fn tetrahedron() -> (Scene<3>, [Node; 4]) {
+    let mut scene = Scene::<3>::new();
+    let nodes = [
+        scene.mass(1.0, [1.1, 0.0, 0.0], [0.0, 0.5, 0.1]),
+        scene.mass(2.0, [-0.5, 0.9, 0.0], [-0.4, -0.2, 0.0]),
+        scene.mass(1.5, [-0.5, -0.9, 0.1], [0.4, -0.1, -0.2]),
+        scene.mass(0.5, [0.1, 0.0, 1.3], [0.1, 0.0, 0.3]),
+    ];
+    let logarithmic = LogarithmicStiffness {
+        natural_length: 1.7,
+        ..LogarithmicStiffness::FIRST
+    };
+    let one = ThermoViscoElastic {
+        natural_length: 1.5,
+        ..ThermoViscoElastic::PENDULUM
+    };
+    let two = TwoDashpots {
+        natural_length: 1.6,
+        ..TwoDashpots::DATA
+    };
+    let three = ThreeDashpots {
+        natural_length: 1.5,
+        ..ThreeDashpots::DATA
+    };
+    let thermal = [
+        scene.spring(logarithmic.clone(), [nodes[0], nodes[1]]),
+        scene.spring(one, [nodes[1], nodes[2]]),
+        scene.spring(logarithmic, [nodes[2], nodes[0]]),
+        scene.spring(three, [nodes[0], nodes[3]]),
+        scene.spring(two, [nodes[1], nodes[3]]),
+    ];
+    let elastic = Hencky {
+        stiffness: 200.0,
+        natural_length: 1.6,
+    };
+    scene.spring(elastic, [nodes[2], nodes[3]]);
+    let temperatures = [320.0, 290.0, 310.0, 300.0, 305.0];
+    for (element, temperature) in thermal.into_iter().zip(temperatures) {
+        scene.set_temperature(element, temperature);
+    }
+    for (pair, conductance) in thermal.windows(2).zip([5.0, 2.0, 1.0, 3.0]) {
+        scene.conduct(pair[0], pair[1], conductance);
+    }
+    (scene, nodes)
 }

@@ -4,6 +4,10 @@ pub mod dashpots;
 pub mod numbers;
 pub mod orders;
 pub mod solids;
+pub mod springs;
+pub mod tangents;
+
+pub use springs::{hencky, hooke};
 
 pub use eem::materials::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
 use eem::prelude::*;
@@ -16,6 +20,16 @@ pub fn only_error<const D: usize>(refused: Result<Simulation<D>, RefusedScene<D>
         panic!("{refused}")
     };
     error.clone()
+}
+
+/// Everything that a step depends on, as text that tells all doubles apart.
+pub fn bits<const D: usize>(run: &Simulation<D>) -> String {
+    format!("{:?}", run.checkpoint())
+}
+
+/// An observer that only watches.
+pub fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport) -> ControlFlow<()> {
+    ControlFlow::Continue(())
 }
 
 /// The schemes that keep the laws, and the choice among them.
@@ -276,6 +290,21 @@ impl Laws {
             angular_momentum: 0.0,
             entropy_ulps: f64::INFINITY,
         }
+    }
+
+    /// Steps to a time, and looks at every state; steps of exact schemes produce entropy everywhere.
+    pub fn until<const D: usize>(run: &mut Simulation<D>, end: f64) -> Self {
+        let mut laws = Self::new(run);
+        let (mut iterations, mut steps) = (0, 0);
+        while run.time() < end - 0.5 * run.step_size() {
+            let report = run.step().unwrap();
+            assert!(!run.scheme().is_exact() || report.least_production >= 0.0);
+            (iterations, steps) = (iterations + report.iterations, steps + 1);
+            laws.watch(run);
+        }
+        let (scheme, h) = (run.scheme(), run.step_size());
+        println!("{scheme}, h = {h}: {steps} steps, {iterations} iterations, {laws:?}");
+        laws
     }
 
     /// Looks at the state after a step.

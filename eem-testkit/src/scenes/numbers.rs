@@ -9,8 +9,4 @@ impl Numbers {
         let hash = self.0.wrapping_mul(2_654_435_761) ^ (self.0.wrapping_mul(40_503) >> 7);
         f64::from(hash) / f64::from(u32::MAX) * 2.0 - 1.0
     }
-
-    pub fn point(&mut self, size: f64) -> [f64; 2] {
-        [size * self.next(), size * self.next()]
-    }
 }

@@ -2,6 +2,7 @@
 //! differences of ψ, which is all that the two have in common.
 
 use eem_symbolic::{Bounded, Programs};
+use eem_testkit::length::at_length;
 
 use crate::zoo::bounds::{self, Output, Worst, assert_all};
 use crate::zoo::digits::{Law, exact};
@@ -130,7 +131,7 @@ fn compare_tangents(
             let response = law.form(output.function, &x0, x1, &near);
             response.expect("no increment is zero")
         };
-        for j in 0..x1.len() {
+        for j in (0..x1.len()).step_by(at_length(1, 2)) {
             let column = tangent(&respond, &x1, j);
             for (i, exact) in column.iter().enumerate() {
                 let place = column.len() + i * x1.len() + j;

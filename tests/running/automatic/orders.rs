@@ -6,8 +6,9 @@ use eem::materials::KelvinVoigtDamper;
 use eem::prelude::*;
 use eem::{ReferenceEnd, Setting, StateQuantity, Study};
 
-use crate::support::Hencky;
+use crate::support::hencky;
 use crate::support::solids::{SECTION, ThermoelasticSolid};
+use crate::support::springs::Branched;
 
 /// A square of rubber that starts to shear and to turn.
 fn square() -> Scene<2> {
@@ -43,17 +44,9 @@ fn damped_pendulum() -> Scene<2> {
 fn rocket() -> Scene<2> {
     let mut scene = Scene::<2>::new();
     let ends = [[0.0, 0.0], [1.0, 0.0]].map(|at| scene.mass(1.0, at, [0.0; 2]));
-    let rod = Hencky {
-        stiffness: 300.0,
-        natural_length: 1.0,
-    };
-    scene.spring(rod, ends);
+    scene.spring(hencky(300.0, 1.0), ends);
     let side = scene.mass(1.0, [0.0, 0.3], [0.0; 2]);
-    let tie = Hencky {
-        stiffness: 100.0,
-        natural_length: 0.3,
-    };
-    scene.spring(tie, [ends[0], side]);
+    scene.spring(hencky(100.0, 0.3), [ends[0], side]);
     scene.rocket(ends[1], [ends[0], side], |t| 5.0 * t.sin());
     scene
 }
@@ -65,27 +58,16 @@ fn maxwell_chain() -> Scene<2> {
     let mut last = scene.anchor([0.0, 0.0]);
     for index in 1..=5 {
         let next = scene.mass(1.0, [f64::from(index), 0.0], [0.0; 2]);
-        let spring = Relaxing {
-            stiffness: 300.0,
-            branch: 1e5,
+        let spring = Branched {
+            k: 300.0,
+            mu: 1e5,
             eta: 1.0,
+            length: 1.0,
         };
         scene.spring(spring, [last, next]);
         last = next;
     }
     scene
-}
-
-/// A spring in parallel with a Maxwell element.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch, gamma: Viscous| {
-    0.5 * stiffness * (lambda - 1).powi(2) + 0.5 * branch * (lambda - 1 - gamma).powi(2)
-})]
-#[viscosity(gamma = eta)]
-struct Relaxing {
-    stiffness: f64,
-    branch: f64,
-    eta: f64,
 }
 
 /// A run to 2 s in controlled steps.

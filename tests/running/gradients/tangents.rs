@@ -3,7 +3,7 @@
 use eem::prelude::*;
 use eem::{Gradient, GradientError, History, Input, Objective};
 
-use super::{FORMS, INPUTS, objective, start};
+use super::{FORMS, INPUTS, NAMES, objective, start};
 
 /// Along a direction of all inputs the objective changes as its gradient says.
 pub(super) fn assert_tangent<const D: usize>(
@@ -49,10 +49,7 @@ fn every_input_has_a_column() {
         let gradient = run.gradient(&Objective::at_end(of())).unwrap();
         let mut pairs: Vec<Pair> = Vec::new();
         for (element, names) in [
-            (
-                voigt,
-                &["k", "length", "beta", "capacity", "eta", "activation"][..],
-            ),
+            (voigt, &NAMES[..]),
             (two, &["stiffness", "a", "mu1", "eta1", "mu2", "eta2"]),
         ] {
             for &name in names {
@@ -189,7 +186,7 @@ fn inputs_that_are_not_there_are_errors() {
     let [voigt, two] = net.springs;
     let foreign = crate::support::single_pendulum_scene().1;
     for (input, expected) in [
-        (Input::parameter(voigt, "stiffness"), "it has k, length"),
+        (Input::parameter(voigt, "k"), "it has stiffness, coupling"),
         (Input::mass(foreign), "another scene"),
         (Input::gravity(2), "component 2"),
         (Input::position(bob, 3), "component 3"),

@@ -1,11 +1,11 @@
 //! Every public number may be anything: there is a typed error, or a run whose numbers are finite.
 
 use eem::Tolerance;
-use eem::materials::Hooke;
 use eem::prelude::*;
 use eem_testkit::length::at_length;
 
 use super::{WARM, Warm};
+use crate::support::hooke;
 
 const WILD: [f64; 14] = [
     f64::NAN,
@@ -217,11 +217,7 @@ fn steps_have_squares() {
         let scene = || {
             let mut scene = Scene::<1>::new();
             let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
-            let hooke = Hooke {
-                stiffness: 100.0,
-                natural_length: 1.0,
-            };
-            scene.spring(hooke, ends);
+            scene.spring(hooke(100.0, 1.0), ends);
             scene
         };
         for wild in [5e-324, 1e-300, 1e-160] {
