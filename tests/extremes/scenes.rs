@@ -40,7 +40,7 @@ fn wild_in_space(effort: Effort) -> Tally {
 
 /// Random scenes of one class. An ordinary scene whose springs leave the lengths of its class ends there.
 fn scenes<const D: usize>(what: &str, class: Class, effort: Effort, seed: u64) -> Tally {
-    let count = effort.of([4, 50, 2500]);
+    let count = effort.of([4, 30, 2500]);
     let steps = effort.of([10, 20, 200]);
     // Without optimisation, a large scene costs as much as a hundred small ones.
     let most = effort.of([8, 12, 30]);

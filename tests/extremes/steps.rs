@@ -31,7 +31,7 @@ fn logarithmic_pendulum(effort: Effort) -> Tally {
 
 /// Step sizes from 1e-12 to 1e6 s. Those up to the published one have to complete in an exact scheme.
 fn sizes((name, published, build): &Published, effort: Effort) -> Tally {
-    let count = effort.of([2, 5, 200]);
+    let count = effort.of([2, 3, 200]);
     let per_decade = effort.of([1, 1, 4]);
     let stride = effort.of([2, 2, 1]);
     let mut tally = Tally::new(format!(

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use eem::prelude::*;
 use eem::{StateError, StepFailure};
+use eem_testkit::length::at_length;
 use eem_testkit::table;
 
 use crate::support::dashpots::TwoDashpots;
@@ -369,7 +370,7 @@ fn steady_rotation_at_the_largest_entropy() {
     let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
     scene.set_temperature(spring, 300.0);
     let mut run = Simulation::new(scene, SCHEME, 0.05).unwrap();
-    let laws = laws_of(&mut run, 20_000);
+    let laws = laws_of(&mut run, at_length(20_000, 5_000));
     println!("{laws:?}");
     assert!(laws.energy * run.ledger().energy.abs() <= ENERGY * 300.0);
     assert!(laws.angular_momentum <= ANGULAR_MOMENTUM);

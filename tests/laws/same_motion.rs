@@ -146,7 +146,9 @@ fn newtons_method_converges_quadratically_for_solids() {
         Scheme::Midpoint,
         Scheme::Trapezoidal,
     ] {
-        for updates in [updates::<Hex8>(scheme), updates::<Hex20>(scheme)] {
+        // Cells of twenty nodes with the schemes of both forms.
+        let quadratic = scheme.is_exact().then(|| updates::<Hex20>(scheme));
+        for updates in [updates::<Hex8>(scheme)].into_iter().chain(quadratic) {
             println!("{scheme}: {updates:?}");
             let near = updates
                 .windows(2)

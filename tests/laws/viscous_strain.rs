@@ -11,10 +11,10 @@ use eem_testkit::length::at_length;
 
 use crate::support::solids::{Flowing, Relaxing, SaintVenant};
 
-/// A bar of two cubes that tumbles, all of it turned by some rotation.
+/// A bar that tumbles, all of it turned by some rotation.
 fn turned(turn: &Rotation3<f64>, scheme: Scheme) -> (Simulation<3>, Body<Hex8, 3>) {
     let mut scene = Scene::<3>::new();
-    let mesh = Mesh::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]]).unwrap();
+    let mesh = Mesh::block([1; 3], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]]).unwrap();
     let fibre = turn * Vector3::new(0.6, 0.8, 0.0);
     let bulk = Bulk::new(10.0).fibre(fibre.into());
     let rotated = mesh.rotated(turn).unwrap();
