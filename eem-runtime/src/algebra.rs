@@ -7,15 +7,6 @@ pub(crate) mod memory;
 pub(crate) mod pattern;
 pub(crate) mod system;
 pub(crate) mod threads;
+mod vector;
 
-/// The vector with these entries: `core::array::from_fn` for numbers, in a tenth of its code.
-#[inline]
-pub(crate) fn vector<T: Copy + Default, const N: usize>(
-    mut entry: impl FnMut(usize) -> T,
-) -> [T; N] {
-    let mut all = [T::default(); N];
-    for (index, number) in all.iter_mut().enumerate() {
-        *number = entry(index);
-    }
-    all
-}
+pub(crate) use vector::{add, difference, dot, hypot, largest, length, norm, scaled, size, vector};

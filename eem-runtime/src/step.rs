@@ -16,7 +16,6 @@ pub(crate) mod newton;
 pub(crate) mod outcome;
 pub(crate) mod rule;
 pub(crate) mod samples;
-mod scaled;
 pub(crate) mod scheme;
 pub(crate) mod solver;
 pub(crate) mod systems;

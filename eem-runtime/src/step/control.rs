@@ -2,15 +2,14 @@
 
 mod controller;
 mod least;
-mod norm;
 mod rounding;
 mod statistics;
 mod tolerance;
 mod worst;
 
-pub(crate) use controller::{AFTER_FAILURE, Accuracy, Controller, Estimate};
+pub(crate) use crate::algebra::{length, norm};
+pub(crate) use controller::{AFTER_FAILURE, Accuracy, Controller, Estimate, ROUNDINGS};
 pub(crate) use least::{LeastScales, Step};
-pub(crate) use norm::{ROUNDINGS, length, norm};
 pub(crate) use rounding::LoadRounding;
 pub use statistics::StepStatistics;
 pub use tolerance::Tolerance;

@@ -15,13 +15,12 @@ mod attempt;
 mod booking;
 mod closing;
 mod components;
-mod demand;
 mod error;
 mod guard;
 mod inertia;
 mod memory;
+mod origin;
 mod outside;
-mod past;
 mod prescribed;
 mod proof;
 mod saved;
@@ -31,7 +30,6 @@ mod stages;
 mod start;
 mod tableau;
 mod thermostats;
-mod vector;
 
 use core::mem;
 
@@ -49,8 +47,8 @@ use memory::{Books, LoadSums};
 use prescribed::Prescribed;
 use scratch::Scratch;
 
-pub(crate) use demand::Demand;
-pub(crate) use past::SavedExplicit;
+pub(crate) use attempt::Demand;
+pub(crate) use saved::SavedExplicit;
 pub(crate) use tableau::{REAL_LIMIT, load_rule, motion_rule};
 
 /// The explicit scheme for a scene.
@@ -146,7 +144,12 @@ impl<const D: usize> Explicit<D> {
             old_books: books.clone(),
             books,
             scratch: Scratch::new(&components, site.layout, site.masses.len()),
-            is_driven: has_loads || stage.has_thermostats || components.loses_heat(),
+            is_driven: has_loads
+                || stage.has_thermostats
+                || components
+                    .dashpots
+                    .iter()
+                    .any(|dashpot| dashpot.slot.is_none()),
             kept_places: if moves {
                 components.nodes.len()
             } else {
@@ -211,7 +214,7 @@ impl<const D: usize> Explicit<D> {
 fn produces(components: &Components, layout: &Layout) -> Vec<bool> {
     let mut produces = vec![false; layout.thermal];
     for path in &components.paths {
-        for end in path.slots() {
+        for end in path.ends {
             // Reservoirs come after the thermal slots.
             if let Some(produces) = produces.get_mut(end) {
                 *produces = true;
@@ -220,7 +223,7 @@ fn produces(components: &Components, layout: &Layout) -> Vec<bool> {
     }
     for dashpot in &components.dashpots {
         if let Some(slot) = dashpot.slot {
-            produces[slot as usize] = true;
+            produces[slot] = true;
         }
     }
     produces

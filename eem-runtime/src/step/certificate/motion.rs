@@ -1,7 +1,7 @@
 //! The contribution of the nodes to the certificate of a step: kinetic energy, work and momenta.
 
 use crate::algebra::bivector::Bivector;
-use crate::step::scaled::scaled;
+use crate::algebra::scaled;
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::Scalar;
 

@@ -1,7 +1,9 @@
 //! The error of a step as a function of its size, and the size of the next step from the errors of the last ones.
 
-use crate::step::control::norm::ROUNDINGS;
 use eem_material::number::scalar::Scalar;
+
+/// Errors of fewer roundings of their own terms cannot be distinguished from rounding.
+pub(crate) const ROUNDINGS: f64 = 16.0;
 
 /// The error that a step aims at, in units of the tolerance.
 const AIM: f64 = 0.8;

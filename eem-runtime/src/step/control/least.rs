@@ -3,12 +3,13 @@
 use core::f64::consts::TAU;
 use std::collections::BTreeMap;
 
+use crate::algebra::{length, norm};
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::group::Elements;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::step::control::controller::Accuracy;
-use crate::step::control::norm::{ROUNDINGS, length, norm};
+use crate::step::control::controller::ROUNDINGS;
 use eem_material::number::scalar::Scalar;
 
 /// A momentum that grows counts for at most this multiple of itself.

@@ -2,9 +2,10 @@
 
 use core::mem;
 
+use crate::algebra::{length, norm};
 use crate::scene::loads::{Loads, Written, inside, written, written_scalar};
+use crate::step::control::controller::ROUNDINGS;
 use crate::step::control::least::LeastScales;
-use crate::step::control::norm::{ROUNDINGS, length, norm};
 use eem_material::number::scalar::Scalar;
 
 /// Roundings of the time in the estimate of an error, in ε: half of one at each stage, with weights whose magnitudes add up to 4.2 in

@@ -1,10 +1,11 @@
 //! Tolerances of step control, and errors in units of them.
 
+use crate::algebra::length;
 use crate::element::state::State;
 use crate::scene::error::SceneError;
 use crate::step::control::controller::Accuracy;
+use crate::step::control::controller::ROUNDINGS;
 use crate::step::control::least::{LeastScales, Step};
-use crate::step::control::norm::{ROUNDINGS, length};
 use crate::step::control::rounding::LoadRounding;
 use crate::step::control::worst::{Unknown, Worst};
 use eem_material::number::scalar::{Scalar, is_positive};

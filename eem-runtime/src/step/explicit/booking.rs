@@ -3,10 +3,9 @@
 use super::components::Support;
 use super::guard::{PathRates, guarded, mean_drop};
 use super::thermostats::shift_weights;
-use super::vector::{add, difference, dot};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
-use crate::algebra::vector;
+use crate::algebra::{add, difference, dot, scaled};
 use crate::element::state::State;
 use eem_material::number::scalar::Scalar;
 
@@ -33,11 +32,11 @@ impl<const D: usize> Explicit<D> {
         let (stage, scratch) = (&mut self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
         for (path, kept) in self.components.paths.iter().zip(&mut scratch.paths) {
-            let [a, b] = path.slots();
+            let [a, b] = path.ends;
             let is_fixed = |end: usize| end >= slots || stage.is_held(end);
             // The closing does not change production that neither end stores.
             let closes = !(is_fixed(a) && is_fixed(b));
-            let progress = &mut scratch.progress[path.component as usize];
+            let progress = &mut scratch.progress[path.component];
             let [near, far] = &path.temperatures;
             let ([flow, production], shift) =
                 PathRates::new(path.conductance, [near, far]).guarded(h);
@@ -63,7 +62,7 @@ impl<const D: usize> Explicit<D> {
                 match path.share {
                     None => next.entropies.add(b, change),
                     Some(share) => {
-                        self.books.shares[share as usize].add(change);
+                        self.books.shares[share].add(change);
                         next.reservoir_entropies.add(b - slots, change);
                     }
                 }
@@ -76,7 +75,7 @@ impl<const D: usize> Explicit<D> {
         let scratch = &mut self.scratch;
         let integrals = self.stage.productions.iter();
         for (integral, dashpot) in integrals.zip(&self.components.dashpots) {
-            let component = dashpot.component as usize;
+            let component = dashpot.component;
             let progress = &mut scratch.progress[component];
             let production = guarded(h * integral.sum);
             let Some(slot) = dashpot.slot else {
@@ -85,7 +84,6 @@ impl<const D: usize> Explicit<D> {
                 self.books.targets[component].lost.add(production);
                 continue;
             };
-            let slot = slot as usize;
             next.entropies.add(slot, production);
             scratch.produced[slot] += production;
             progress.production.add(production);
@@ -98,18 +96,17 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn meter(&self, h: f64, next: &mut State) {
         let (stage, components) = (&self.stage, &self.components);
         let slots = self.scratch.produced.len();
-        let progress = |component: u32| &self.scratch.progress[component as usize];
+        let progress = |component: usize| &self.scratch.progress[component];
         for (index, dashpot) in components.dashpots.iter().enumerate() {
-            let slot = dashpot.slot.map(|slot| slot as usize);
             let scale = progress(dashpot.component).factor;
             let [heat, production] = [stage.heats[index], stage.productions[index].sum];
             next.meters.dissipate(index, scale * guarded(h * heat));
-            if let Some(slot) = slot {
+            if let Some(slot) = dashpot.slot {
                 next.meters.produce(slot, scale * guarded(h * production));
             }
         }
         for (path, &production) in components.paths.iter().zip(&self.scratch.paths) {
-            let [a, b] = path.slots();
+            let [a, b] = path.ends;
             let progress = progress(path.component);
             let is_fixed = |end: usize| end >= slots || stage.is_held(end);
             let scale = if is_fixed(a) && is_fixed(b) {
@@ -125,7 +122,7 @@ impl<const D: usize> Explicit<D> {
                 let heat = h
                     * path.conductance
                     * mean_drop([&path.temperatures[0], &path.temperatures[1]]);
-                next.meters.conduct(path.link as usize, heat);
+                next.meters.conduct(path.link, heat);
             }
         }
     }
@@ -134,7 +131,7 @@ impl<const D: usize> Explicit<D> {
         for anchor in self.components.masses..self.kept_places {
             let place = &self.stage.places[anchor];
             let way = difference(place.q(), &place.past.start[0]);
-            let sums = &mut self.load_sums[self.components.of_place[anchor] as usize];
+            let sums = &mut self.load_sums[self.components.of_place[anchor]];
             sums.work -= dot(&place.past.rates[0][1], &way) / h;
         }
         let progress = self.scratch.progress.iter_mut();
@@ -153,7 +150,7 @@ impl<const D: usize> Explicit<D> {
                 // would have an error that nothing can close.
                 let mut impulse = mass.force;
                 add(&mut impulse, 1.0, &sums.impulse);
-                let impulse = vector(|axis| h * impulse[axis]);
+                let impulse = scaled(h, &impulse);
                 let mut mean = mass.past.start[1];
                 add(&mut mean, 0.5, &impulse);
                 let way = difference(mass.q(), &mass.past.start[0]);
@@ -199,7 +196,7 @@ impl<const D: usize> Explicit<D> {
         let (stage, scratch) = (&self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
         for (path, &production) in self.components.paths.iter().zip(&scratch.paths) {
-            let [a, b] = path.slots();
+            let [a, b] = path.ends;
             let capacity = |end: usize| {
                 let takes = end < slots && !stage.is_held(end);
                 if takes {

@@ -22,7 +22,7 @@ mod rigid;
 mod rounding;
 mod shape;
 
-use super::demand::{Demand, Scales};
+use super::attempt::{Demand, Scales};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::element::group::{ClosingView, ComponentEnergy};

@@ -4,7 +4,7 @@
 //! that nothing is moved between bodies that do not touch.
 
 use core::ops::Range;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::guard::PerWeight;
 use crate::algebra::vector;
@@ -61,33 +61,31 @@ impl Component {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
     /// The thermal slots at both ends; reservoirs are numbered after all thermal slots.
-    pub(super) ends: [u32; 2],
-    /// The indices of their temperatures among the internal variables.
-    pub(super) places: [u32; 2],
-    pub(super) component: u32,
+    pub(super) ends: [usize; 2],
+    pub(super) component: usize,
     /// Its first link in the list of all.
-    pub(super) link: u32,
+    pub(super) link: usize,
     /// For a reservoir, which of the [shares](Components::shares) receives its entropy.
-    pub(super) share: Option<u32>,
+    pub(super) share: Option<usize>,
     /// κ, W/K.
     pub(super) conductance: f64,
     /// The temperatures of both ends at the stages with weights, K.
     pub(super) temperatures: [PerWeight; 2],
 }
 
-impl Path {
-    /// Its [`ends`](Self::ends) as indices.
-    #[inline]
-    pub(super) fn slots(&self) -> [usize; 2] {
-        [self.ends[0] as usize, self.ends[1] as usize]
-    }
+/// The entropy that a reservoir receives from a component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Share {
+    pub(super) component: usize,
+    pub(super) reservoir: usize,
 }
 
-/// The entropy that a reservoir receives from a component.
+/// A dashpot.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Share {
-    pub(super) component: u32,
-    pub(super) reservoir: u32,
+pub(super) struct Dashpot {
+    pub(super) component: usize,
+    /// The thermal slot of its element; without temperature its heat leaves the scene.
+    pub(super) slot: Option<usize>,
 }
 
 /// All components of a scene; in each list, the entries of one component are consecutive.
@@ -96,27 +94,19 @@ pub(super) struct Components {
     pub(super) all: Vec<Component>,
     /// The node of the scene at each place: first the masses of the first component, then those of the next; after all
     /// masses the anchors, once per component that they hold.
-    pub(super) nodes: Vec<u32>,
+    pub(super) nodes: Vec<usize>,
     /// The component of each place.
-    pub(super) of_place: Vec<u32>,
+    pub(super) of_place: Vec<usize>,
     /// Number of masses.
     pub(super) masses: usize,
-    pub(super) slots: Vec<u32>,
+    pub(super) slots: Vec<usize>,
     pub(super) paths: Vec<Path>,
     pub(super) shares: Vec<Share>,
     /// The component of each element.
     pub(super) of_element: Vec<u32>,
     pub(super) dashpots: Vec<Dashpot>,
     /// The element of each thermal slot.
-    pub(super) elements: Vec<u32>,
-}
-
-/// A dashpot.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Dashpot {
-    pub(super) component: u32,
-    /// The thermal slot of its element; without temperature its heat leaves the scene.
-    pub(super) slot: Option<u32>,
+    pub(super) elements: Vec<usize>,
 }
 
 /// Disjoint sets that are merged: each member points to another one of its set, the first to itself.
@@ -148,10 +138,9 @@ impl Components {
     ) -> Self {
         let nodes = masses.len();
         let mut slot_elements = vec![0; layout.thermal];
-        let thermal = layout.elements.iter().enumerate();
-        for (element, slots) in thermal {
+        for (element, slots) in layout.elements.iter().enumerate() {
             if let Some(slot) = slots.thermal {
-                slot_elements[slot] = compact(element);
+                slot_elements[slot] = element;
             }
         }
         let mut sets = Sets((0..nodes + elements.len()).collect());
@@ -162,15 +151,16 @@ impl Components {
                 }
             }
         }
-        let element_of = |slot: usize| nodes + slot_elements[slot] as usize;
         for slot in 0..layout.thermal {
             for link in conduction.links(slot) {
                 if let Partner::Slot(partner) = link.partner {
-                    sets.merge(element_of(slot), element_of(partner));
+                    let [one, other] = [slot, partner].map(|slot| nodes + slot_elements[slot]);
+                    sets.merge(one, other);
                 }
             }
         }
         let (numbers, count) = numbered(&mut sets, masses, nodes);
+        let of_element = &numbers[nodes..];
         let mut components = Self {
             all: Vec::with_capacity(count),
             nodes: Vec::new(),
@@ -179,12 +169,14 @@ impl Components {
             slots: Vec::new(),
             paths: Vec::new(),
             shares: Vec::new(),
-            dashpots: dashpots(layout, &numbers[nodes..]),
-            of_element: numbers[nodes..].to_vec(),
+            dashpots: dashpots(layout, of_element),
+            of_element: of_element
+                .iter()
+                .map(|&component| compact(component))
+                .collect(),
             elements: slot_elements,
         };
-        components.place_masses(&numbers, count, masses);
-        components.fill(conduction);
+        components.fill(&numbers, count, masses, conduction);
         components.place_anchors(masses, elements);
         components
     }
@@ -196,29 +188,25 @@ impl Components {
             .iter()
             .copied()
             .zip(self.nodes.iter().copied());
-        let places: BTreeMap<_, _> = owners.zip(0..).collect();
-        move |component, node| places[&(component, node)]
+        let places: BTreeMap<_, u32> = owners.zip(0..).collect();
+        move |component, node| places[&(component as usize, node as usize)]
     }
 
     /// The mass at each place, zero for anchors, kg.
     pub(super) fn masses_of(&self, masses: &Masses) -> Vec<f64> {
         let nodes = self.nodes.iter();
-        nodes
-            .map(|&node| masses.get(node as usize).unwrap_or(0.0))
-            .collect()
+        nodes.map(|&node| masses.get(node).unwrap_or(0.0)).collect()
     }
 
-    /// Whether an element with a dashpot has no temperature, so that the heat leaves the scene.
-    pub(super) fn loses_heat(&self) -> bool {
-        self.dashpots.iter().any(|dashpot| dashpot.slot.is_none())
+    /// The component of a thermal slot.
+    pub(super) fn of_slot(&self, slot: usize) -> usize {
+        self.of_element[self.elements[slot]] as usize
     }
 
-    /// The places of an anchor.
-    pub(super) fn anchors_of(&self, node: usize) -> Vec<usize> {
-        let places = self.masses..self.nodes.len();
-        places
-            .filter(|&place| self.nodes[place] as usize == node)
-            .collect()
+    /// The dashpots of a component.
+    pub(super) fn dashpots_of(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
+        let all = self.dashpots.iter().enumerate();
+        all.filter_map(move |(dashpot, of)| (of.component == index).then_some(dashpot))
     }
 
     /// The energies of the elements of a component in a state.
@@ -232,28 +220,36 @@ impl Components {
         own.map(|(_, energy)| energy)
     }
 
-    /// Gives the masses their places, component after component.
-    fn place_masses(&mut self, numbers: &[u32], count: usize, masses: &Masses) {
-        let mut own = vec![Vec::new(); count];
+    /// Lists masses, thermal slots and paths of heat, component after component.
+    fn fill(&mut self, numbers: &[usize], count: usize, masses: &Masses, conduction: &Conduction) {
+        let (mut own_nodes, mut own_slots) = (vec![Vec::new(); count], vec![Vec::new(); count]);
         for (node, mass) in masses.iter().enumerate() {
             if let Some(mass) = mass {
-                own[numbers[node] as usize].push((compact(node), mass));
+                own_nodes[numbers[node]].push((node, mass));
             }
         }
-        for (component, own) in own.into_iter().enumerate() {
-            let start = self.nodes.len();
+        for slot in 0..self.elements.len() {
+            own_slots[self.of_slot(slot)].push(slot);
+        }
+        for (component, (nodes, slots)) in own_nodes.into_iter().zip(own_slots).enumerate() {
             let [mut mass, mut products] = [0.0; 2];
-            for (node, own) in own {
+            let first = self.nodes.len();
+            for (node, own) in nodes {
                 self.nodes.push(node);
-                self.of_place.push(compact(component));
+                self.of_place.push(component);
                 mass += own;
                 products += 1.0 + own.recip();
             }
+            let starts = [self.slots.len(), self.paths.len(), self.shares.len()];
+            for slot in slots {
+                self.slots.push(slot);
+                self.add_paths(component, slot, conduction);
+            }
             self.all.push(Component {
-                masses: start..self.nodes.len(),
-                slots: 0..0,
-                paths: 0..0,
-                shares: 0..0,
+                masses: first..self.nodes.len(),
+                slots: starts[0]..self.slots.len(),
+                paths: starts[1]..self.paths.len(),
+                shares: starts[2]..self.shares.len(),
                 support: Support::Free,
                 mass,
                 products,
@@ -265,40 +261,19 @@ impl Components {
         self.masses = self.nodes.len();
     }
 
-    /// Lists thermal slots and paths of heat, component after component.
-    fn fill(&mut self, conduction: &Conduction) {
-        let mut own = vec![Vec::new(); self.all.len()];
-        for (slot, &element) in self.elements.iter().enumerate() {
-            own[self.of_element[element as usize] as usize].push(compact(slot));
-        }
-        for (component, own) in own.into_iter().enumerate() {
-            let starts = [self.slots.len(), self.paths.len(), self.shares.len()];
-            for slot in own {
-                self.slots.push(slot);
-                self.add_paths(component, slot, conduction);
-            }
-            self.all[component].slots = starts[0]..self.slots.len();
-            self.all[component].paths = starts[1]..self.paths.len();
-            self.all[component].shares = starts[2]..self.shares.len();
-        }
-    }
-
     /// Gives each anchor a place for every component that it holds.
     fn place_anchors(&mut self, masses: &Masses, elements: &Ends) {
-        let mut places = BTreeMap::<_, u32>::new();
+        let mut placed = BTreeSet::new();
         for (element, ends) in elements.iter().enumerate() {
-            let component = self.of_element[element];
-            let is_anchor = |node: &&u32| masses.get(**node as usize).is_none();
-            for &node in ends.iter().filter(is_anchor) {
-                let key = (component, node);
-                if places.contains_key(&key) {
+            let component = self.of_element[element] as usize;
+            for node in ends.iter().map(|&node| node as usize) {
+                if masses.get(node).is_some() || !placed.insert((component, node)) {
                     continue;
                 }
                 let place = self.nodes.len();
-                places.insert(key, compact(place));
                 self.nodes.push(node);
                 self.of_place.push(component);
-                let support = &mut self.all[component as usize].support;
+                let support = &mut self.all[component].support;
                 *support = match *support {
                     Support::Free => Support::Anchor(place),
                     Support::Anchor(_) | Support::Several => Support::Several,
@@ -308,48 +283,45 @@ impl Components {
     }
 
     /// Adds the paths that begin at a slot; each is linked at both ends, and added at the first one.
-    fn add_paths(&mut self, component: usize, slot: u32, conduction: &Conduction) {
-        let links = conduction.links(slot as usize).iter();
-        for (link, place) in links.zip(conduction.first_link(slot as usize)..) {
-            let (far, share) = match link.partner {
-                Partner::Slot(partner) if partner < slot as usize => continue,
+    fn add_paths(&mut self, component: usize, slot: usize, conduction: &Conduction) {
+        let links = conduction.links(slot).iter();
+        for (own, link) in links.zip(conduction.first_link(slot)..) {
+            let (far, share) = match own.partner {
+                Partner::Slot(partner) if partner < slot => continue,
                 Partner::Slot(partner) => (partner, None),
                 Partner::Reservoir(reservoir) => {
-                    let share = self.share(compact(component), compact(reservoir));
-                    (self.elements.len() + reservoir, Some(share))
+                    let share = Share {
+                        component,
+                        reservoir,
+                    };
+                    (self.elements.len() + reservoir, Some(self.index_of(share)))
                 }
             };
-            let ends = [slot, compact(far)];
-            // Temperatures are numbered after the stretches of all dashpots.
-            let dashpots: u32 = compact(self.dashpots.len());
             self.paths.push(Path {
-                component: compact(component),
-                link: compact(place),
-                ends,
-                places: [dashpots + ends[0], dashpots + ends[1]],
+                ends: [slot, far],
+                component,
+                link,
                 share,
-                conductance: link.conductance,
+                conductance: own.conductance,
                 temperatures: [[1.0; _]; 2],
             });
         }
     }
 
-    fn share(&mut self, component: u32, reservoir: u32) -> u32 {
+    /// The index of a share of the last component, which is added unless it is there.
+    fn index_of(&mut self, share: Share) -> usize {
         let own = self.shares.iter().rev();
-        let mut own = own.take_while(|share| share.component == component);
-        if let Some(back) = own.position(|share| share.reservoir == reservoir) {
-            return compact(self.shares.len() - 1 - back);
+        let mut own = own.take_while(|other| other.component == share.component);
+        if let Some(back) = own.position(|other| *other == share) {
+            return self.shares.len() - 1 - back;
         }
-        self.shares.push(Share {
-            component,
-            reservoir,
-        });
-        compact(self.shares.len() - 1)
+        self.shares.push(share);
+        self.shares.len() - 1
     }
 }
 
 /// Numbers the components in the order of their first members. Returns the number of each member, and their count.
-fn numbered(sets: &mut Sets, masses: &Masses, nodes: usize) -> (Vec<u32>, usize) {
+fn numbered(sets: &mut Sets, masses: &Masses, nodes: usize) -> (Vec<usize>, usize) {
     let mut numbers = vec![0; sets.0.len()];
     let mut count = 0;
     for member in 0..sets.0.len() {
@@ -359,7 +331,7 @@ fn numbered(sets: &mut Sets, masses: &Masses, nodes: usize) -> (Vec<u32>, usize)
         }
         let first = sets.first(member);
         if first == member {
-            numbers[member] = compact(count);
+            numbers[member] = count;
             count += 1;
         } else {
             numbers[member] = numbers[first];
@@ -369,10 +341,10 @@ fn numbered(sets: &mut Sets, masses: &Masses, nodes: usize) -> (Vec<u32>, usize)
 }
 
 /// All dashpots, given the component of each element.
-fn dashpots(layout: &Layout, components: &[u32]) -> Vec<Dashpot> {
+fn dashpots(layout: &Layout, components: &[usize]) -> Vec<Dashpot> {
     let mut all = Vec::with_capacity(layout.viscous);
     for (element, &component) in components.iter().enumerate() {
-        let slot = layout.elements[element].thermal.map(compact);
+        let slot = layout.elements[element].thermal;
         let next = layout.elements.get(element + 1);
         let end = next.map_or(layout.viscous, |next| next.viscous);
         all.resize(end, Dashpot { component, slot });

@@ -1,9 +1,9 @@
 //! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
 
-use super::demand::Scales;
+use super::attempt::Scales;
 use super::stages::{errors, unclosed};
-use super::vector::{difference, dot, length};
 use super::{Explicit, ExplicitView};
+use crate::algebra::{difference, dot, hypot};
 use crate::element::group::Place;
 use crate::element::state::State;
 use crate::step::control::{self, Accuracy, ROUNDINGS, Step, Tolerance, Unknown, Worst, norm};
@@ -66,7 +66,7 @@ impl<const D: usize> Explicit<D> {
             for (at, &value) in place.now.as_flattened().iter().enumerate() {
                 if !value.is_finite() {
                     return Err(StepFailure::Unbounded {
-                        node: node as usize,
+                        node,
                         axis: at % D,
                         quantity: ["position", "momentum"][at / D],
                         value,
@@ -141,7 +141,7 @@ impl<const D: usize> Explicit<D> {
             let [position, momentum] = &place.past.start;
             let positions = [&position[..], place.q()];
             let momenta = [&momentum[..], place.p()];
-            if !view.least.is_at_rest(node as usize, positions, momenta) {
+            if !view.least.is_at_rest(node, positions, momenta) {
                 return view.least.hidden(beyond, view.step, accurate);
             }
         }
@@ -256,24 +256,22 @@ impl<const D: usize> Explicit<D> {
         let stretch = relative * stretches + tolerance.position;
         for at in self.components.all[index].masses.clone() {
             let place = &self.stage.places[at];
-            let node = self.components.nodes[at] as usize;
+            let node = self.components.nodes[at];
             let rounding = self.rounding_of(view, place, node);
             let momentum = momentum_scale(view, tolerance, scales, (node, rounding));
             let before = unclosed(&place.past, view.step);
-            see(length(&difference(place.q(), &before[0])), position);
-            see(length(&difference(place.p(), &before[1])), momentum);
+            see(hypot(&difference(place.q(), &before[0])), position);
+            see(hypot(&difference(place.p(), &before[1])), momentum);
         }
         let change = |at: usize| {
             let [before] = unclosed(&self.stage.inner_past[at / 2], view.step);
             (self.stage.inner[at].now - before[at % 2]).abs()
         };
-        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
-            if own.component as usize == index {
-                see(change(dashpot), stretch);
-            }
+        for dashpot in self.components.dashpots_of(index) {
+            see(change(dashpot), stretch);
         }
         for slot in self.slots_of(index) {
-            let slot = self.components.slots[slot] as usize;
+            let slot = self.components.slots[slot];
             if !self.stage.is_held(slot) {
                 let allowed = relative * self.stage.theta(slot) + tolerance.temperature;
                 see(change(self.stage.temperatures + slot), allowed);
@@ -328,7 +326,6 @@ impl<const D: usize> Explicit<D> {
         let are_alike = least.are_below(scales.momentum, step);
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             let [fifth, third] = errors(&place.past);
-            let node = node as usize;
             let momentum = if are_alike {
                 momentum
             } else {

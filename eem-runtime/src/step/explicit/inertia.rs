@@ -9,16 +9,44 @@
 //! In the principal axes of M, with moments μ, it is `J_ab = (μ_a + μ_b) Ω_ab`. Masses on a line have no inertia about
 //! the line. In planes without inertia, no change of the momenta of the masses changes J; see [`turning`].
 
-mod moments;
-mod principal;
 pub(super) mod turning;
 
-use super::vector::{dot, length};
-use crate::algebra::bivector::Bivector;
-use crate::algebra::vector;
+use crate::algebra::bivector::{Bivector, planes};
+use crate::algebra::jacobi::diagonalize;
+use crate::algebra::{dot, hypot, vector};
 
-pub(super) use moments::{Moments, WEAK};
-pub(super) use principal::Principal;
+/// The fraction of the trace of M below which the inertia in a plane is weak: a correction of momenta there would be
+/// at least a hundred times as large as in other planes, so that the body is rotated instead.
+pub(super) const WEAK: f64 = 1e-4;
+
+/// The fraction below which it is rounding: 64 ε.
+const NO_INERTIA: f64 = 1.4e-14;
+
+/// `M = Σ m r rᵀ`, kg m². Only the entries on and above the diagonal are used.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moments<const D: usize>([[f64; D]; D]);
+
+impl<const D: usize> Moments<D> {
+    /// Of nothing.
+    pub(super) fn none() -> Self {
+        Self([[0.0; D]; D])
+    }
+
+    /// Adds a mass at the end of an arm.
+    #[inline]
+    pub(super) fn add(&mut self, mass: f64, r: &[f64; D]) {
+        for i in 0..D {
+            for j in i..D {
+                self.0[i][j] += mass * (r[i] * r[j]);
+            }
+        }
+    }
+
+    #[inline]
+    fn trace(&self) -> f64 {
+        (0..D).fold(0.0, |sum, axis| sum + self.0[axis][axis])
+    }
+}
 
 /// The inertia of a body.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +81,7 @@ impl<const D: usize> Inertia<D> {
         if D < 3 {
             return Self::Single(moment);
         }
-        let far = length(arm);
+        let far = hypot(arm);
         let has_length = far > 0.0;
         let along = vector(|axis| if has_length { arm[axis] / far } else { 0.0 });
         Self::Line { along, moment }
@@ -126,11 +154,54 @@ impl Inverse {
     }
 }
 
+/// Principal axes and moments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Principal<const D: usize> {
+    /// Unit vectors.
+    axes: [[f64; D]; D],
+    /// `Σ m r_a²`, not negative, kg m².
+    moments: [f64; D],
+}
+
+impl<const D: usize> Principal<D> {
+    pub(super) fn of(moments: &Moments<D>) -> Self {
+        let mut matrix = moments.0;
+        for [i, j] in planes::<D>() {
+            matrix[j][i] = matrix[i][j];
+        }
+        let mut axes = [[0.0; D]; D];
+        for (axis, row) in axes.iter_mut().enumerate() {
+            row[axis] = 1.0;
+        }
+        diagonalize(D, matrix.as_flattened_mut(), axes.as_flattened_mut());
+        // Sums of squares, but rounding may leave −0 or less.
+        let moments = vector(|axis| matrix[axis][axis].max(0.0));
+        Self { axes, moments }
+    }
+
+    fn trace(&self) -> f64 {
+        self.moments.iter().sum()
+    }
+
+    /// The slowest rotation with an angular momentum, in the planes that have inertia.
+    fn solve(&self, momentum: &Bivector<f64, D>) -> Bivector<f64, D> {
+        let least = NO_INERTIA * self.trace();
+        let mut omega = Bivector::zero();
+        for [a, b] in planes::<D>() {
+            let inertia = self.moments[a] + self.moments[b];
+            if inertia > least {
+                let speed = momentum.between(&self.axes[a], &self.axes[b]) / inertia;
+                omega.add(speed, &Bivector::wedge(&self.axes[a], &self.axes[b]));
+            }
+        }
+        omega
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::super::vector::difference;
     use super::*;
-    use crate::algebra::bivector::planes;
+    use crate::algebra::difference;
 
     /// The angular momentum of masses 1, 2, … that turn, and their moments.
     fn turning<const D: usize>(
@@ -199,7 +270,7 @@ mod tests {
                 assert!(along.abs() < 1e-13, "{along}");
             }
             let [a, b] = found.map(|omega| omega.turn(&[1.0, 2.0, 3.0]));
-            assert!(length(&difference(&a, &b)) < 1e-13);
+            assert!(hypot(&difference(&a, &b)) < 1e-13);
         }
     }
 }

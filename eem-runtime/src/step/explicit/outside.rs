@@ -3,9 +3,10 @@
 use super::Explicit;
 use super::components::Support;
 use super::memory::LoadSums;
+use super::origin::Origin;
 use super::tableau::{MOTION_SLOPES, WEIGHTS};
-use super::vector::{add, difference, dot, size};
 use crate::algebra::bivector::Bivector;
+use crate::algebra::{add, difference, dot, size};
 use crate::element::loads::StepLoads;
 
 impl<const D: usize> Explicit<D> {
@@ -55,12 +56,12 @@ impl<const D: usize> Explicit<D> {
         for index in 0..self.load_sums.len() {
             let component = &self.components.all[index];
             let sums = &mut self.load_sums[index];
-            let origin = Self::origin(&self.stage.places, component);
+            let origin = Origin::of(&self.stage.places, component);
             let mut momentum = [0.0; D];
             for at in component.masses.clone() {
                 let place = &self.stage.places[at];
                 let arm = origin.arm(place.q());
-                let node = self.components.nodes[at] as usize;
+                let node = self.components.nodes[at];
                 let load = self.loads.total_force(node);
                 let varying = difference(&load, &place.force);
                 sums.work += weight * dot(&varying, place.velocity());
@@ -89,7 +90,7 @@ impl<const D: usize> Explicit<D> {
             }
         }
         for anchor in self.components.masses..self.kept_places {
-            let sums = &mut self.load_sums[self.components.of_place[anchor] as usize];
+            let sums = &mut self.load_sums[self.components.of_place[anchor]];
             let place = &self.stage.places[anchor];
             let [velocity, reaction] = &place.rates;
             let change = difference(reaction, &place.past.rates[0][1]);

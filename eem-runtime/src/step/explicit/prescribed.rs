@@ -5,6 +5,7 @@
 //! order above that of the scheme.
 
 use core::f64::consts::PI;
+use std::collections::BTreeMap;
 
 use crate::algebra::vector;
 use crate::element::group::points;
@@ -15,6 +16,7 @@ use crate::scene::loads::{Loads, TemperatureCourse};
 use crate::step::error::StepFailure;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::tableau::{STAGES, TIMES};
+use crate::step::timed::TimedLoad;
 use eem_material::number::scalar::{Scalar, is_positive};
 
 /// Number of points of a step at which motions are evaluated, one more than the degree.
@@ -93,25 +95,35 @@ pub(super) struct Prescribed<const D: usize> {
 
 impl<const D: usize> Prescribed<D> {
     pub(super) fn new(loads: &Loads<D>, layout: &Layout, components: &Components) -> Self {
-        // Of several motions of one anchor the last one counts, as in the implicit schemes.
-        let mut moved: Vec<Moved<D>> = Vec::new();
-        for (motion, (node, _)) in loads.motions.iter().enumerate() {
-            let mut later = loads.motions[motion + 1..].iter();
-            if later.all(|(later, _)| later != node) {
-                moved.push(Moved {
-                    node: *node,
-                    places: components.anchors_of(node.index),
-                    motion,
-                    positions: [[0.0; D]; STAGES],
-                    velocities: [[0.0; D]; STAGES],
-                });
-            }
+        let mut places: BTreeMap<_, Vec<_>> = BTreeMap::new();
+        for place in components.masses..components.nodes.len() {
+            places
+                .entry(components.nodes[place])
+                .or_default()
+                .push(place);
         }
-        let has_moved = !moved.is_empty();
+        let motions = loads.motions.iter();
+        let moved = last_of_each(motions.map(|(node, _)| Some(node.index)));
+        let moved = moved.map(|(motion, node)| Moved {
+            node: loads.motions[motion].0,
+            places: places.remove(&node).unwrap_or_default(),
+            motion,
+            positions: [[0.0; D]; STAGES],
+            velocities: [[0.0; D]; STAGES],
+        });
+        let moved: Vec<_> = moved.collect();
+        let slots = loads.temperatures.iter();
+        let held = last_of_each(slots.map(|(of, _)| layout.elements[of.index()].thermal));
+        let held = held.map(|(temperature, slot)| Held {
+            element: loads.temperatures[temperature].0,
+            slot,
+            temperature,
+            temperatures: [1.0; STAGES],
+        });
         Self {
-            interpolation: has_moved.then(Interpolation::new),
+            interpolation: (!moved.is_empty()).then(Interpolation::new),
             moved,
-            held: held(&loads.temperatures, layout),
+            held: held.collect(),
         }
     }
 
@@ -136,25 +148,15 @@ impl<const D: usize> Prescribed<D> {
     }
 }
 
-/// The thermostats of a scene. Of several at one element the last one counts.
-fn held(temperatures: &[(Element, TemperatureCourse)], layout: &Layout) -> Vec<Held> {
-    let mut held = Vec::new();
-    let slot_of = |element: Element| layout.elements[element.index()].thermal;
-    for (temperature, (element, _)) in temperatures.iter().enumerate() {
-        let Some(slot) = slot_of(*element) else {
-            continue;
-        };
-        let mut later = temperatures[temperature + 1..].iter();
-        if later.all(|(later, _)| slot_of(*later) != Some(slot)) {
-            held.push(Held {
-                element: *element,
-                slot,
-                temperature,
-                temperatures: [1.0; STAGES],
-            });
-        }
-    }
-    held
+/// The indices of loads with what they act on: of several that act on the same the last one counts, as in implicit schemes.
+fn last_of_each(
+    targets: impl Iterator<Item = Option<usize>> + Clone,
+) -> impl Iterator<Item = (usize, usize)> {
+    let of = targets
+        .enumerate()
+        .filter_map(|(load, target)| Some((load, target?)));
+    let last: BTreeMap<_, _> = of.clone().map(|(load, target)| (target, load)).collect();
+    of.filter(move |(load, target)| last.get(target) == Some(load))
 }
 
 impl Held {
@@ -168,11 +170,8 @@ impl Held {
             let at = time + share * step;
             let value = course.at(at, from, share);
             if !is_positive(value) {
-                return Err(StepFailure::PrescribedTemperature {
-                    element: self.element,
-                    value,
-                    time: at,
-                });
+                let load = TimedLoad::Temperature(self.element);
+                return Err(StepFailure::of_load(load, 0, value, at));
             }
             *theta = value;
         }
@@ -196,12 +195,8 @@ impl<const D: usize> Moved<D> {
             for axis in 0..D {
                 position[axis] = found[axis];
                 if !found[axis].is_finite() {
-                    return Err(StepFailure::Motion {
-                        node: self.node,
-                        axis,
-                        value: found[axis],
-                        time: at,
-                    });
+                    let load = TimedLoad::Motion(self.node);
+                    return Err(StepFailure::of_load(load, axis, found[axis], at));
                 }
             }
         }
@@ -211,11 +206,7 @@ impl<const D: usize> Moved<D> {
                 // Differences do not lose digits to the distance from the origin.
                 let from_start = |m: usize| positions[m][axis] - start[axis];
                 let sum = |row: &[f64; POINTS]| {
-                    let mut sum = 0.0;
-                    for (m, weight) in row.iter().enumerate().skip(1) {
-                        sum += weight * from_start(m);
-                    }
-                    sum
+                    (1..POINTS).fold(0.0, |sum, m| sum + row[m] * from_start(m))
                 };
                 self.positions[stage][axis] = start[axis] + sum(&interpolation.values[stage]);
                 self.velocities[stage][axis] = sum(&interpolation.slopes[stage]) / step;

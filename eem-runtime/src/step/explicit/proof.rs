@@ -3,8 +3,8 @@
 use super::Explicit;
 use super::closing::FROZEN;
 use super::components::Support;
-use super::vector::largest;
 use crate::algebra::bivector::planes;
+use crate::algebra::largest;
 use crate::element::group::UnkeptEntropy;
 use crate::element::state::State;
 use crate::step::certificate::is_wide;

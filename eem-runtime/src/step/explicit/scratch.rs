@@ -1,15 +1,15 @@
 //! Working memory of the closing of a step.
 
 use crate::algebra::bivector::Bivector;
+use crate::algebra::{add, dot, size};
 use crate::element::group::{ComponentEnergy, Place, UnkeptEntropy};
 use crate::element::layout::Layout;
 use crate::step::explicit::components::Components;
-use crate::step::explicit::vector::{add, dot, size};
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::Scalar;
 
 /// The progress of the closing of a component.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each is a question of its own about the closing"
@@ -76,7 +76,7 @@ pub(super) struct Motion<const D: usize> {
 }
 
 /// What an element with a thermostat receives in a step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HeldBalance {
     /// Entropy from dashpots and paths, and from the thermostat, J/K.
     pub(super) received: f64,
@@ -84,18 +84,6 @@ pub(super) struct HeldBalance {
     /// Heat from the thermostat, and the part of it that the entropy does not tell, J.
     pub(super) heat: f64,
     pub(super) by_course: f64,
-}
-
-impl HeldBalance {
-    pub(super) fn none() -> Self {
-        let [received, given, heat, by_course] = [0.0; 4];
-        Self {
-            received,
-            given,
-            heat,
-            by_course,
-        }
-    }
 }
 
 /// Sums of rows of matrices, which bound the fastest motion.
@@ -145,27 +133,9 @@ pub(super) struct Scratch<const D: usize> {
 impl Progress {
     pub(super) fn none() -> Self {
         Self {
-            iterations: 0,
-            has_heated: false,
-            defect: 0.0,
-            present: None,
-            scale: 0.0,
-            correction: 0.0,
-            moved: 0.0,
-            warmed: 0.0,
-            has_shifted: false,
-            lost: 0.0,
-            carried: 0.0,
-            production: Total::default(),
             least: f64::MAX,
             factor: 1.0,
-            granularity: 0.0,
-            values: 0.0,
-            moment: 0.0,
-            debt: 0.0,
-            is_forgiven: false,
-            is_closed: false,
-            is_rigid: false,
+            ..Self::default()
         }
     }
 }
@@ -228,7 +198,7 @@ impl<const D: usize> Scratch<D> {
             capacities: vec![[0.0; 2]; thermal],
             produced: vec![0.0; thermal],
             unkept: None,
-            held: vec![HeldBalance::none(); thermal],
+            held: vec![HeldBalance::default(); thermal],
             forces: vec![[0.0; D]; components.nodes.len()],
             creep: vec![[0.0; 2]; layout.viscous],
             paths: vec![0.0; components.paths.len()],
@@ -249,7 +219,7 @@ impl<const D: usize> Scratch<D> {
         self.subnormal = f64::MIN_POSITIVE * (1.0 + h);
         self.progress.fill(Progress::none());
         self.produced.fill(0.0);
-        self.held.fill(HeldBalance::none());
+        self.held.fill(HeldBalance::default());
         self.unkept = None;
         self.has_stiffnesses = false;
         self.least = f64::MAX;

@@ -3,8 +3,8 @@
 use super::components::Path;
 use super::scratch::RowSums;
 use super::tableau::{IMAGINARY_LIMIT, REAL_LIMIT};
-use super::vector::largest;
 use super::{Explicit, ExplicitView};
+use crate::algebra::largest;
 use crate::element::error::StateError;
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
@@ -132,7 +132,7 @@ impl<const D: usize> Explicit<D> {
             return None;
         };
         let elements = &self.components.elements;
-        let slot = (0..elements.len()).find(|&at| elements[at] as usize == element.index())?;
+        let slot = elements.iter().position(|&at| at == element.index())?;
         let mut heat_capacity = 0.0;
         for group in &self.groups {
             group.elements().stiffness(view.state, &mut |found| {
@@ -157,7 +157,7 @@ impl<const D: usize> Explicit<D> {
 /// Adds the flows along paths of heat to the sums of the rows of their slots, given the heat capacities, J/K.
 fn add_conduction(paths: &[Path], capacities: &[f64], flows: &mut [f64]) {
     for path in paths {
-        let ends = path.slots();
+        let ends = path.ends;
         let per_root = |end: usize| {
             let capacity = capacities.get(end).copied();
             capacity.map_or(0.0, |capacity| capacity.sqrt().recip())

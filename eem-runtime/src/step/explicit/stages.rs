@@ -164,7 +164,7 @@ impl<const D: usize> Explicit<D> {
     fn apply_loads(&mut self) {
         let masses = self.stage.places[..self.components.masses].iter_mut();
         for (place, &node) in masses.zip(&self.components.nodes) {
-            place.rates[1] = self.loads.total_force(node as usize);
+            place.rates[1] = self.loads.total_force(node);
         }
     }
 
@@ -202,9 +202,9 @@ impl<const D: usize> Explicit<D> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
     fn conduct(&mut self, weight: Option<usize>) {
-        let inner = &mut self.stage.inner[..];
+        let inner = &mut self.stage.inner[self.stage.temperatures..];
         for path in &mut self.components.paths {
-            let [a, b] = [path.places[0] as usize, path.places[1] as usize];
+            let [a, b] = path.ends;
             let [near, far] = [inner[a].now, inner[b].now];
             let flow = path.conductance * (far - near);
             inner[a].rate += flow;

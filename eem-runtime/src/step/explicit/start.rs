@@ -1,13 +1,13 @@
 //! The start of a step: from the end of the last one, or from a new state.
 
-use super::components::{Component, Support};
+use super::components::Support;
 use super::memory::Target;
 use super::outside::copy_loads;
 use super::stages::From;
 use super::tableau::WEIGHTS;
-use super::vector::Origin;
+
 use super::{Explicit, ExplicitView};
-use crate::element::group::{ComponentEnergy, Inner, Place, points};
+use crate::element::group::{ComponentEnergy, Inner, points};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Sum;
@@ -38,7 +38,7 @@ impl<const D: usize> Explicit<D> {
             self.begin_heats();
         }
         for path in &mut self.components.paths {
-            let [a, b] = path.slots();
+            let [a, b] = path.ends;
             path.temperatures[0][0] = self.stage.theta(a);
             path.temperatures[1][0] = self.stage.theta(b);
         }
@@ -56,7 +56,7 @@ impl<const D: usize> Explicit<D> {
         stage.has_heats = true;
         let dashpots = self.components.dashpots.iter().enumerate();
         for (index, dashpot) in dashpots {
-            let theta = dashpot.slot.map_or(1.0, |slot| stage.theta(slot as usize));
+            let theta = dashpot.slot.map_or(1.0, |slot| stage.theta(slot));
             let power = stage.productions[index].start * theta;
             stage.heats[index] = WEIGHTS[0] * power;
         }
@@ -74,8 +74,8 @@ impl<const D: usize> Explicit<D> {
         let positions = points::<D>(state.positions.values());
         let momenta = points::<D>(state.momenta.values());
         for (place, &node) in stage.places.iter_mut().zip(&self.components.nodes) {
-            place.now = [positions[node as usize], momenta[node as usize]];
-            place.force = self.loads.total_force(node as usize);
+            place.now = [positions[node], momenta[node]];
+            place.force = self.loads.total_force(node);
             place.begin_rates();
         }
         let mut inner = stage.inner.iter_mut();
@@ -140,17 +140,6 @@ impl<const D: usize> Explicit<D> {
             let [energy, _] = self.energy_of(index);
             target.energy = Sum::new(energy);
             self.books.targets[index] = target;
-        }
-    }
-
-    /// The point about which the angular momentum of a component is conserved: its anchor or its centre of mass; the
-    /// origin with several anchors, where none is.
-    #[inline]
-    pub(super) fn origin(places: &[Place<D>], component: &Component) -> Origin<D> {
-        match component.support {
-            Support::Free => Origin::center(&places[component.masses.clone()], component.mass),
-            Support::Anchor(place) => Origin::at(places[place].q()),
-            Support::Several => Origin::at(&[0.0; D]),
         }
     }
 }

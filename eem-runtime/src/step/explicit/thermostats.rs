@@ -46,7 +46,7 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn book_thermostats(&mut self, view: &ExplicitView<'_, D>, next: &State) {
         for at in 0..self.prescribed.held.len() {
             let slot = self.prescribed.held[at].slot;
-            if self.scratch.open[self.component_of(slot)] {
+            if self.scratch.open[self.components.of_slot(slot)] {
                 let balance = &mut self.scratch.held[slot];
                 let change = next.entropies.change(slot, &view.state.entropies);
                 balance.given = change - balance.received;
@@ -65,7 +65,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Replaces the heat of a thermostat in the target of its component by that of the entropy that it gives.
     fn book_heat(&mut self, slot: usize) {
-        let component = self.component_of(slot);
+        let component = self.components.of_slot(slot);
         let balance = &mut self.scratch.held[slot];
         let heat = self.stage.thermostats[slot].last * balance.given + balance.by_course;
         // The same heat again leaves the bits of the target.
@@ -77,11 +77,6 @@ impl<const D: usize> Explicit<D> {
             }
             balance.heat = heat;
         }
-    }
-
-    fn component_of(&self, slot: usize) -> usize {
-        let element = self.components.elements[slot] as usize;
-        self.components.of_element[element] as usize
     }
 
     /// Books what thermostats have given, once the state is closed.

@@ -1,11 +1,10 @@
 //! The momentum balance of a node that moves.
 
 use super::places::MovingNode;
-use crate::algebra::vector;
+use crate::algebra::{scaled, vector};
 use crate::element::group::{StepView, Trial, points};
 use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Speeds;
-use crate::step::scaled::scaled;
 
 /// A moving node in Newton's method, during one step.
 #[derive(Clone, Copy, Debug)]

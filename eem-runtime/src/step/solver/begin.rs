@@ -4,17 +4,16 @@
 //! q¹ = q⁰ + (h/m)(p⁰ + ½h F)      F: the mean force of the step, predicted from those of the last ones
 //! ```
 
+use crate::algebra::{scaled, vector};
 use core::ops::Range;
 
 use super::Solver;
 use super::balance::Balance;
 use super::places::MovingNode;
-use crate::algebra::vector;
 use crate::element::group::{Group, Old, StepView, points};
 use crate::element::loads::StepLoads;
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::error::StepFailure;
-use crate::step::scaled::scaled;
 use crate::step::scheme::Scheme;
 use crate::step::solver::past::SavedPast;
 

@@ -7,13 +7,12 @@ mod supports;
 
 use super::Solver;
 use super::begin::old_force;
-use crate::algebra::vector;
+use crate::algebra::{scaled, vector};
 use crate::element::group::{Along, Group, StepView, points};
 use crate::element::state::State;
 use crate::element::tally::{Care, Reevaluation, Tally};
 use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
-use crate::step::scaled::scaled;
 use crate::step::scheme::Closing;
 
 impl<const D: usize> Solver<D> {

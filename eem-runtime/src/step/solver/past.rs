@@ -1,10 +1,9 @@
 //! The forces and internal variables of the last steps, from which the initial guess of Newton's method is predicted.
 //! Nothing else depends on them.
 
-use crate::algebra::vector;
+use crate::algebra::{scaled, vector};
 use crate::element::group::Before;
 use crate::element::impulse::{Impulses, PLACES};
-use crate::step::scaled::scaled;
 
 /// The factor by which the error of a predictor decays in each step. Any value that averages over several steps will do.
 const MEMORY: f64 = 0.875;

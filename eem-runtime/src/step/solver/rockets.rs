@@ -6,14 +6,13 @@
 //! ```
 
 use crate::algebra::system::LinearSystem;
-use crate::algebra::vector;
+use crate::algebra::{scaled, vector};
 use crate::element::error::StateError;
 use crate::element::group::{Sites, StepView, Trial, points};
 use crate::element::impulse::Impulses;
 use crate::element::loads::{Push, PushLine, StepLoads};
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::line::Line;
-use crate::step::scaled::scaled;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::{Scalar, is_positive};
 

@@ -1,10 +1,11 @@
 //! The energy of a component, and its correction by heat.
 
 use super::super::Explicit;
-use super::super::demand::Demand;
+use super::super::attempt::Demand;
+use super::super::origin::Origin;
 use super::super::scratch::Motion;
-use super::super::vector::dot;
 use super::{FROZEN, Status};
+use crate::algebra::dot;
 use crate::element::group::{Place, is_met};
 use crate::element::state::State;
 use core::ops::Range;
@@ -34,7 +35,7 @@ impl<const D: usize> Explicit<D> {
         add: impl Fn(&mut Motion<D>, &Place<D>, &[f64; D]),
     ) {
         let component = &self.components.all[index];
-        let origin = Self::origin(&self.stage.places, component);
+        let origin = Origin::of(&self.stage.places, component);
         let mut motion = Motion::none();
         for place in &self.stage.places[component.masses.clone()] {
             add(&mut motion, place, &origin.arm(place.q()));
@@ -54,7 +55,7 @@ impl<const D: usize> Explicit<D> {
             magnitude += lost.value.abs();
         }
         for share in self.components.all[index].shares.clone() {
-            let reservoir = self.components.shares[share].reservoir as usize;
+            let reservoir = self.components.shares[share].reservoir;
             let theta = self.stage.theta(self.components.elements.len() + reservoir);
             let sum = self.books.shares[share];
             energy.add(theta * sum.value);
@@ -175,7 +176,7 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn produced_heat(&self, index: usize) -> f64 {
         let mut sum = self.scratch.progress[index].lost;
         for at in self.slots_of(index) {
-            let slot = self.components.slots[at] as usize;
+            let slot = self.components.slots[at];
             sum += self.scratch.produced[slot] * self.stage.theta(slot);
         }
         sum
@@ -197,7 +198,7 @@ impl<const D: usize> Explicit<D> {
         scratch.progress[index].present = None;
         let mut is_small = true;
         for at in self.slots_of(index) {
-            let slot = self.components.slots[at] as usize;
+            let slot = self.components.slots[at];
             let entropy = self.scratch.produced[slot] * part;
             if entropy != 0.0 {
                 is_small &= self.warm(index, slot, entropy, next);
@@ -235,7 +236,7 @@ impl<const D: usize> Explicit<D> {
         let energy = *theta * entropy * (1.0 + 0.5 * ratio);
         next.entropies.add(slot, entropy);
         scratch.energies[index].value.add(energy);
-        let element = self.components.elements[slot] as usize;
+        let element = self.components.elements[slot];
         next.energies[element].value += energy;
         *theta += *theta * ratio * (1.0 + 0.5 * ratio);
         // 2 √u: neglected are the cube of r, and the second-order change of forces.

@@ -4,10 +4,10 @@ use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
 use super::super::inertia::{Inertia, Moments, WEAK};
+use super::super::origin::Origin;
 use super::super::scratch::{Motion, farther};
-use super::super::vector::{Origin, add, dot, size};
 use crate::algebra::bivector::Bivector;
-use crate::algebra::vector;
+use crate::algebra::{add, dot, size, vector};
 use crate::element::group::Place;
 use eem_material::number::compensated::Sum;
 
@@ -73,7 +73,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn body(&self, component: &Component) -> Body<D> {
         let mut body = Body {
-            origin: Self::origin(&self.stage.places, component),
+            origin: Origin::of(&self.stage.places, component),
             inertia: None,
         };
         let without_arm = match component.support {
@@ -209,7 +209,7 @@ impl<const D: usize> Explicit<D> {
     #[cold]
     pub(in super::super) fn moment_at_start(&self, index: usize) -> f64 {
         let component = &self.components.all[index];
-        let origin = Self::origin(&self.stage.places, component);
+        let origin = Origin::of(&self.stage.places, component);
         let mut sum = 0.0;
         for place in &self.stage.places[component.masses.clone()] {
             let [q, p] = &place.past.start;

@@ -1,10 +1,10 @@
 //! Fallback of the closing: a component that moves nearly like a rigid body is rotated rigidly.
 
-use super::super::demand::{Demand, Scales};
-use super::super::vector::{add, difference, length};
+use super::super::attempt::{Demand, Scales};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use crate::algebra::bivector::Bivector;
+use crate::algebra::{add, difference, hypot};
 use crate::element::group::Place;
 use crate::element::state::State;
 use crate::step::error::StepFailure;
@@ -23,27 +23,25 @@ impl<const D: usize> Explicit<D> {
         let largest = demand.largest_turn();
         let is_loaded = !self.load_sums.is_empty();
         let slots = &self.components.slots[self.slots_of(index)];
-        let has_thermostat = slots.iter().any(|&slot| self.stage.is_held(slot as usize));
+        let has_thermostat = slots.iter().any(|&slot| self.stage.is_held(slot));
         if is_loaded || has_thermostat || !self.takes_turn(index, view.step, largest, scales) {
             return Err(StepFailure::NotClosed {
                 defect: self.scratch.progress[index].defect,
                 time: view.state.time.value + view.step,
             });
         }
-        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
-            if own.component as usize == index {
-                self.stage.inner[dashpot].now = self.stage.inner_start(dashpot);
-            }
+        for dashpot in self.components.dashpots_of(index) {
+            self.stage.inner[dashpot].now = self.stage.inner_start(dashpot);
         }
         let old = view.state;
         for at in self.slots_of(index) {
-            let slot = self.components.slots[at] as usize;
+            let slot = self.components.slots[at];
             let at = self.stage.temperatures + slot;
             self.stage.inner[at].now = self.stage.inner_start(at);
             next.entropies.advance(slot, &old.entropies, 0.0);
         }
         for share in self.components.all[index].shares.clone() {
-            let reservoir = self.components.shares[share].reservoir as usize;
+            let reservoir = self.components.shares[share].reservoir;
             // One by one: their difference would be rounded to ε of what is taken back.
             let (new, old) = (self.books.shares[share], self.old_books.shares[share]);
             for change in [-new.value, old.value, -new.carry, old.carry] {
@@ -109,17 +107,15 @@ impl<const D: usize> Explicit<D> {
         };
         for place in &self.stage.places[self.components.all[index].masses.clone()] {
             let [position, momentum] = turned(place, rigid, h);
-            see(length(&difference(&position, place.q())), scales.position);
-            see(length(&difference(&momentum, place.p())), scales.momentum);
+            see(hypot(&difference(&position, place.q())), scales.position);
+            see(hypot(&difference(&momentum, place.p())), scales.momentum);
         }
-        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
-            if own.component as usize == index {
-                let change = self.stage.inner[dashpot].now - self.stage.inner_start(dashpot);
-                see(change, scales.position);
-            }
+        for dashpot in self.components.dashpots_of(index) {
+            let change = self.stage.inner[dashpot].now - self.stage.inner_start(dashpot);
+            see(change, scales.position);
         }
         for at in self.slots_of(index) {
-            let at = self.stage.temperatures + self.components.slots[at] as usize;
+            let at = self.stage.temperatures + self.components.slots[at];
             let start = self.stage.inner_start(at);
             see(self.stage.inner[at].now - start, start);
         }
@@ -167,16 +163,10 @@ mod tests {
         *about.at_mut([0, 1]) = 1.0;
         let turned = rotated(&[1.0, 0.0, 2.0], &about, core::f64::consts::FRAC_PI_2);
         let expected = [0.0, 1.0, 2.0];
-        assert!(
-            length(&difference(&turned, &expected)) < 1e-15,
-            "{turned:?}"
-        );
+        assert!(hypot(&difference(&turned, &expected)) < 1e-15, "{turned:?}");
         let mut about = Bivector::<f64, 2>::zero();
         *about.at_mut([0, 1]) = -1.0;
         let flat = rotated(&[1.0, 2.0], &about, core::f64::consts::PI);
-        assert!(
-            length(&difference(&flat, &[-1.0, -2.0])) < 1e-15,
-            "{flat:?}"
-        );
+        assert!(hypot(&difference(&flat, &[-1.0, -2.0])) < 1e-15, "{flat:?}");
     }
 }

@@ -42,9 +42,9 @@
 //! if step control would feel the correction and no anchor is moved. It stays a debt, so that the energy does not drift: what is more than
 //! rounding is corrected. The work of moved anchors changes the prestress, which a debt would outlive.
 
-use super::super::vector::{difference, dot, size};
 use super::super::{Explicit, ExplicitView};
 use super::{FROZEN, Status};
+use crate::algebra::{difference, dot, size};
 use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
 use core::mem::swap;
@@ -156,26 +156,24 @@ impl<const D: usize> Explicit<D> {
             sum += energy.excess;
         }
         for (at, place) in self.stage.places.iter().enumerate() {
-            if self.components.of_place[at] as usize != index {
+            if self.components.of_place[at] != index {
                 continue;
             }
             let node = self.components.nodes[at];
-            let old = points::<D>(view.state.positions.values())[node as usize];
+            let old = points::<D>(view.state.positions.values())[node];
             let way = difference(place.q(), &old);
             let position = size(place.q());
-            let stiffness = self.scratch.stiffnesses[node as usize];
+            let stiffness = self.scratch.stiffnesses[node];
             sum += stiffness * position * (size(&way) + f64::EPSILON * position);
             if place.mass > 0.0 {
                 let start = &place.past.start[1];
                 sum += 0.5 * dot(start, start) * place.per_mass;
             }
         }
-        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
-            if own.component as usize == index {
-                let now = self.stage.inner[dashpot].now;
-                let way = (now - self.stage.inner_start(dashpot)).abs();
-                sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
-            }
+        for dashpot in self.components.dashpots_of(index) {
+            let now = self.stage.inner[dashpot].now;
+            let way = (now - self.stage.inner_start(dashpot)).abs();
+            sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
         }
         sum + self.rounding_of_work(index, view) / (FROZEN * f64::EPSILON)
     }
@@ -189,7 +187,7 @@ impl<const D: usize> Explicit<D> {
         let size = |vector: &[f64; D]| dot(vector, vector).sqrt();
         let mut sum = 0.0;
         for at in self.components.all[index].masses.clone() {
-            let (place, node) = (&self.stage.places[at], self.components.nodes[at] as usize);
+            let (place, node) = (&self.stage.places[at], self.components.nodes[at]);
             let impulse = self.rounding.impulse(node);
             let momenta = size(&place.past.start[1]) + size(place.p()) + impulse;
             sum += impulse * momenta * place.per_mass;

@@ -1,11 +1,11 @@
 //! Corrections of the energy by motion, by shape and, as a last resort, by entropy.
 
+use super::super::attempt::Demand;
 use super::super::components::{Component, Support};
-use super::super::demand::Demand;
-use super::super::vector::{add, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use super::{MOST_ITERATIONS, Status};
+use crate::algebra::{add, dot};
 use crate::element::state::State;
 use eem_material::number::scalar::Scalar;
 
@@ -112,7 +112,7 @@ impl<const D: usize> Explicit<D> {
     fn creeping_power(&self, index: usize) -> f64 {
         let mut sum = 0.0;
         for (creep, dashpot) in self.scratch.creep.iter().zip(&self.components.dashpots) {
-            if dashpot.component as usize == index {
+            if dashpot.component == index {
                 sum += creep[1];
             }
         }
@@ -123,7 +123,7 @@ impl<const D: usize> Explicit<D> {
     fn exchange(&self, component: &Component, h: f64) -> f64 {
         let mut sum = 0.0;
         for path in &self.components.paths[component.paths.clone()] {
-            let ends = path.slots();
+            let ends = path.ends;
             let [a, b] = [self.stage.theta(ends[0]), self.stage.theta(ends[1])];
             if !self.meets_thermostat(ends) {
                 let drop = a - b;
@@ -191,10 +191,8 @@ impl<const D: usize> Explicit<D> {
             add(&mut place.now[1], share, &own);
             add(&mut place.now[0], -change, &force);
         }
-        for (dashpot, own) in self.components.dashpots.iter().enumerate() {
-            if own.component as usize == index {
-                self.stage.inner[dashpot].now -= share * h * self.scratch.creep[dashpot][0];
-            }
+        for dashpot in self.components.dashpots_of(index) {
+            self.stage.inner[dashpot].now -= share * h * self.scratch.creep[dashpot][0];
         }
         self.exchange_heat(index, share * h, next);
     }
@@ -203,7 +201,7 @@ impl<const D: usize> Explicit<D> {
     fn exchange_heat(&mut self, index: usize, duration: f64, next: &mut State) {
         let slots = self.scratch.produced.len();
         for path in &self.components.paths[self.components.all[index].paths.clone()] {
-            let ends = path.slots();
+            let ends = path.ends;
             if self.meets_thermostat(ends) {
                 continue;
             }
@@ -211,11 +209,11 @@ impl<const D: usize> Explicit<D> {
             let entropy = (duration + duration) * path.conductance * (a - b) / (a + b);
             next.entropies.add(ends[0], entropy);
             let heat = duration * path.conductance * (a - b);
-            next.meters.conduct(path.link as usize, heat);
+            next.meters.conduct(path.link, heat);
             match path.share {
                 None => next.entropies.add(ends[1], -entropy),
                 Some(share) => {
-                    self.books.shares[share as usize].add(-entropy);
+                    self.books.shares[share].add(-entropy);
                     next.reservoir_entropies.add(ends[1] - slots, -entropy);
                 }
             }
@@ -248,14 +246,14 @@ impl<const D: usize> Explicit<D> {
         }
         let mut all = 0.0;
         for at in self.slots_of(index) {
-            let slot = self.components.slots[at] as usize;
+            let slot = self.components.slots[at];
             if self.takes(slot) {
                 all += self.scratch.capacities[slot][0] * self.stage.theta(slot);
             }
         }
         if all > 0.0 {
             for at in self.slots_of(index) {
-                let slot = self.components.slots[at] as usize;
+                let slot = self.components.slots[at];
                 if self.takes(slot) {
                     let entropy = self.scratch.capacities[slot][0] * (defect / all);
                     self.warm(index, slot, entropy, next);

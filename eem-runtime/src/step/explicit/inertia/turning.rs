@@ -13,8 +13,7 @@
 //!
 //! and the smallest that change it by δ are `φ_ba = δ T_bc/s`, `φ_bc = δ T_ab/s` with `s = Σ_b (T_bc² + T_ab²)`.
 
-use super::moments::{NO_INERTIA, WEAK};
-use super::principal::Principal;
+use super::{NO_INERTIA, Principal, WEAK};
 use crate::algebra::bivector::{Bivector, planes};
 use eem_material::number::scalar::Scalar;
 

@@ -8,14 +8,13 @@
 //! own rounding acts along the arms, and so has no torque on a path that gives positions and momenta at its stages. The
 //! residuals of the balances at the stages are judged.
 
-use crate::algebra::vector;
+use crate::algebra::{scaled, vector};
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
-use crate::step::scaled::scaled;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::{follow_coupled_masses, move_node};
 use crate::step::solver::stages::Stages;

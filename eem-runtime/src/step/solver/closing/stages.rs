@@ -1,6 +1,6 @@
 //! The end of a step through stages: positions and momenta from the forces at the stages.
 
-use crate::algebra::vector;
+use crate::algebra::{scaled, vector};
 use crate::element::group::{Along, Group, StepView, points};
 use crate::element::impulse::Impulses;
 use crate::element::state::State;
@@ -8,7 +8,6 @@ use crate::element::tableau::Ending;
 use crate::element::tally::Tally;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
-use crate::step::scaled::scaled;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::move_node;
 use crate::step::solver::stages::Stages;

@@ -6,12 +6,11 @@
 //!
 //! with the forces F of the elements and the motion of the path at the stages, and polynomials for v and p.
 
-use crate::algebra::vector;
+use crate::algebra::{scaled, vector};
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Path};
 use crate::step::certificate::{Motion, NodeStep, Speeds};
-use crate::step::scaled::scaled;
 use crate::step::solver::Solver;
 use crate::step::solver::coupling::changes_at_stages;
 use crate::step::solver::stages::Stages;
