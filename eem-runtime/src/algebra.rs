@@ -9,4 +9,6 @@ pub(crate) mod system;
 pub(crate) mod threads;
 mod vector;
 
-pub(crate) use vector::{add, difference, dot, hypot, largest, length, norm, scaled, size, vector};
+pub(crate) use vector::{
+    add, combined, difference, dot, hypot, largest, length, norm, scaled, size, vector,
+};

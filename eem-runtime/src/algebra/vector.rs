@@ -85,3 +85,16 @@ fn scaled_norm(each: &dyn Fn(See<'_>)) -> f64 {
     each(&mut |x| sum += (x / most) * (x / most));
     most * sum.sqrt()
 }
+
+/// `Σ w a`.
+#[inline]
+pub(crate) fn combined<const D: usize>(
+    weights: &[f64],
+    vectors: impl IntoIterator<Item = [f64; D]>,
+) -> [f64; D] {
+    let mut sum = [0.0; D];
+    for (&weight, vector) in weights.iter().zip(vectors) {
+        add(&mut sum, weight, &vector);
+    }
+    sum
+}

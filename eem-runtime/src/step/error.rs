@@ -4,6 +4,7 @@
 
 use thiserror::Error;
 
+use crate::algebra::lu::Singular;
 use crate::algebra::memory::TooLarge;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, Node};
@@ -330,6 +331,12 @@ impl core::fmt::Display for StepError {
 }
 
 impl core::error::Error for StepError {}
+
+impl From<Singular> for StepFailure {
+    fn from(_: Singular) -> Self {
+        Self::SingularTangent
+    }
+}
 
 /// What a smaller step would be needed for.
 fn needed(is_set: bool, smallest: f64) -> String {

@@ -136,6 +136,15 @@ impl StepReport {
     }
 }
 
+/// One iteration of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonIteration {
+    /// The largest residual of the momentum balances before the update, N s.
+    pub residual: f64,
+    /// The largest update, relative to the shortest stretch at each node and to the temperatures.
+    pub update: f64,
+}
+
 /// An update below `tolerance` is the last one if it is also this much smaller than the one before: the iteration then
 /// contracts, and the error is smaller still.
 pub(crate) const CONTRACTION: f64 = 0.1;
@@ -184,6 +193,13 @@ impl Largest {
     }
 
     #[inline]
+    pub(crate) fn see_all(&mut self, values: &[f64]) {
+        for &value in values {
+            self.see(value);
+        }
+    }
+
+    #[inline]
     pub(crate) fn found(self) -> f64 {
         // The product is zero, or NaN.
         self.largest + 0.0 * self.sum
@@ -222,13 +238,4 @@ mod tests {
         assert!(!is_last(3e-3, Some(4e-3), 1e-8));
         assert!(!is_last(f64::NAN, Some(1e-3), 1e-8));
     }
-}
-
-/// One iteration of Newton's method.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NewtonIteration {
-    /// The largest residual of the momentum balances before the update, N s.
-    pub residual: f64,
-    /// The largest update, relative to the shortest stretch at each node and to the temperatures.
-    pub update: f64,
 }

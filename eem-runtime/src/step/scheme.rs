@@ -145,7 +145,7 @@ struct Rule {
     closing: Closing,
     /// See [`Scheme::is_exact`].
     is_exact: bool,
-    /// See [`Scheme::predicts_its_start`].
+    /// See [`Scheme::is_classical`].
     is_classical: bool,
     order: u8,
     /// See [`Scheme::may_change_steps`].
@@ -303,17 +303,12 @@ impl Scheme {
         self.rule().is_exact
     }
 
-    /// Whether Newton's method starts from a motion under predicted forces, which saves most of an iteration. The
-    /// classical schemes start at the old state: with steps beyond their stability limit, the start decides which
-    /// solution is found, if any, and with the old state they break down where the literature reports it.
-    pub(crate) const fn predicts_its_start(self) -> bool {
-        !self.rule().is_classical
-    }
-
-    /// Whether, if Newton's method fails, the solution is continued from that of a smaller step. Not for the classical
-    /// schemes, for the same reason.
-    pub(crate) const fn follows_its_solution(self) -> bool {
-        !self.rule().is_classical
+    /// Whether Newton's method starts at the old state and tries nothing else. Others start from a motion under predicted
+    /// forces, which saves most of an iteration, and if that fails continue the solution from that of a smaller step. With steps
+    /// beyond the stability limit of a classical scheme, the start decides which solution is found, if any, and with the old state
+    /// they break down where the literature reports it.
+    pub(crate) const fn is_classical(self) -> bool {
+        self.rule().is_classical
     }
 
     /// Whether the nodal forces have a part that depends on the old state only; see

@@ -9,7 +9,6 @@ mod effort;
 mod iteration;
 mod kept_factors;
 mod past;
-mod places;
 mod progress;
 pub(crate) mod rest;
 mod rockets;
@@ -19,7 +18,7 @@ mod starts;
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::Conduction;
 use crate::element::error::StateError;
-use crate::element::group::{Sites, Trial};
+use crate::element::group::{Group, Sites, StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
@@ -28,14 +27,13 @@ use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Certificate;
 use crate::step::scheme::Scheme;
 use crate::step::systems::Systems;
-use balance::Balance;
+use balance::{Balance, Interface};
 use coupling::Coupling;
 
 pub(crate) use effort::Effort;
 use kept_factors::KeptFactors;
 use past::Past;
 pub(crate) use past::SavedPast;
-use places::{Interface, moving};
 use rockets::Rockets;
 use stages::Stages;
 
@@ -83,6 +81,13 @@ pub(crate) struct Solver<const D: usize> {
     evaluations: u64,
 }
 
+/// The search for the new state of a step: the solver with the elements and the data of the step.
+pub(crate) struct Search<'a, const D: usize> {
+    solver: &'a mut Solver<D>,
+    groups: &'a mut [Box<dyn Group<D>>],
+    view: &'a StepView<'a>,
+}
+
 /// Whether there are nodal forces that do not depend on the trial; forces at stages do not count.
 fn has_old_forces(scheme: Scheme, loads: &StepLoads) -> bool {
     scheme.has_old_forces() || (loads.has_total_force() && scheme.tableau().is_none())
@@ -119,8 +124,8 @@ impl<const D: usize> Solver<D> {
         let (mut nodes, mut interfaces) = (Vec::new(), Vec::new());
         for set in 0..sets.len() {
             let sites = sites.of_sets([set, set]);
-            nodes.extend(moving(masses, &sites).into_iter().map(Balance::new));
-            interfaces.extend(places::interfaces(&sites));
+            nodes.extend(Balance::all(masses, &sites));
+            interfaces.extend(Interface::all(&sites));
         }
         let coupling = Coupling::new(masses, &loads.moved, (&sites, sets.len()));
         let rockets = Rockets::new(scheme.tableau(), loads, masses.len(), &sites);
@@ -152,18 +157,32 @@ impl<const D: usize> Solver<D> {
         }
     }
 
+    fn search<'a>(
+        &'a mut self,
+        groups: &'a mut [Box<dyn Group<D>>],
+        view: &'a StepView<'a>,
+    ) -> Search<'a, D> {
+        Search {
+            solver: self,
+            groups,
+            view,
+        }
+    }
+
     /// Whether its eliminations keep nothing between steps, so that it can be [renewed](Self::renew).
     pub(crate) fn is_renewable(&self) -> bool {
-        let stages = self.stages.as_ref();
-        let secant = stages.and_then(|stages| stages.secant.as_ref());
-        self.tangent.is_fixed() && secant.is_none_or(LinearSystem::is_fixed)
+        self.tangent.is_fixed() && self.secant().is_none_or(LinearSystem::is_fixed)
+    }
+
+    fn secant(&self) -> Option<&LinearSystem<D>> {
+        self.stages.as_ref()?.secant.as_ref()
     }
 
     /// Makes it that of another scene with these masses, which differs in numbers only: the same nodes move, masses do not couple
     /// them, and the only load, in both scenes or in none, is gravity.
     pub(crate) fn renew(&mut self, masses: &Masses) {
         for node in &mut self.nodes {
-            node.place = node.place.with_mass(masses);
+            node.set_mass(masses);
         }
         self.past.clear();
         self.evaluations = 0;
@@ -195,10 +214,7 @@ impl<const D: usize> Solver<D> {
             layout,
             conduction,
             tangent: &self.tangent,
-            secant: self
-                .stages
-                .as_ref()
-                .and_then(|stages| stages.secant.as_ref()),
+            secant: self.secant(),
             sets: [0; 2],
         }
     }

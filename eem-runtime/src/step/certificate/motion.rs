@@ -2,6 +2,8 @@
 
 use crate::algebra::bivector::Bivector;
 use crate::algebra::scaled;
+use crate::element::group::points;
+use crate::element::state::State;
 use eem_material::number::compensated::Total;
 use eem_material::number::scalar::Scalar;
 
@@ -61,7 +63,24 @@ pub(crate) enum Speeds<const D: usize> {
     Given { old: [f64; D], change: [f64; D] },
 }
 
-impl<const D: usize> NodeStep<'_, D> {
+impl<'a, const D: usize> NodeStep<'a, D> {
+    /// From an old state.
+    #[inline]
+    pub(crate) fn new(
+        (old, node): (&'a State, usize),
+        speeds: Speeds<D>,
+        displacement: &'a [f64; D],
+        impulse: &'a [f64; D],
+    ) -> Self {
+        Self {
+            speeds,
+            position: &points(old.positions.values())[node],
+            momentum: &points(old.momenta.values())[node],
+            displacement,
+            impulse,
+        }
+    }
+
     /// `v̄·Δp` and `½(|v⁰·p⁰| + |v¹·p¹|)`, J.
     #[inline]
     pub(crate) fn energies(&self) -> [f64; 2] {

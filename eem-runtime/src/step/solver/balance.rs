@@ -1,15 +1,31 @@
-//! The momentum balance of a node that moves.
+//! The momentum balance of a node that moves, with the indices of its unknowns, and those of interface temperatures.
 
-use super::places::MovingNode;
 use crate::algebra::{scaled, vector};
-use crate::element::group::{StepView, Trial, points};
+use crate::element::group::{Sites, StepView, Trial, points};
+use crate::element::masses::Masses;
 use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Speeds;
 
 /// A moving node in Newton's method, during one step.
+///
+/// Moving nodes come first among the unknowns of a set, in their order: node `i` of them has the rows `D i`
+/// to `D i + D − 1` of the set in the tangent and row `i` of the secant matrix.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance<const D: usize> {
-    pub(super) place: MovingNode<D>,
+    pub(super) node: usize,
+    /// Its index in the trial, which has all nodes of every set of unknowns.
+    pub(super) in_trial: usize,
+    /// The set of unknowns to which it belongs.
+    pub(super) set: usize,
+    /// Its first row in the tangent.
+    row: usize,
+    /// Its diagonal entries in the tangent.
+    pub(super) diagonal: [usize; D],
+    /// Its diagonal entry in the secant matrix, if there is one.
+    pub(super) secant_diagonal: usize,
+    /// m, kg, and 1/m.
+    pub(super) mass: f64,
+    pub(super) per_mass: f64,
     /// `c (h/m) p⁰`, the displacement of free flight up to the stage, m; zero while nothing moves.
     pub(super) flight: [f64; D],
     /// 2m/h, or m/(ch) for a stage, kg/s.
@@ -22,55 +38,107 @@ pub(super) struct Balance<const D: usize> {
 }
 
 impl<const D: usize> Balance<D> {
-    pub(super) fn new(place: MovingNode<D>) -> Self {
-        Self {
-            place,
-            flight: [0.0; D],
-            inertia: 0.0,
-            per_length: 1.0,
-            push: [0.0; D],
-        }
+    /// Those of the nodes with a mass, for a set of unknowns.
+    pub(super) fn all<'a>(
+        masses: &'a Masses,
+        sites: &'a Sites<'_, D>,
+    ) -> impl Iterator<Item = Self> + 'a {
+        let [set, _] = sites.sets;
+        let nodes = masses.iter().zip(&sites.layout.nodes).enumerate();
+        nodes.filter_map(move |(node, (mass, first))| {
+            let (mass, first) = (mass?, (*first)?);
+            let own = Some(first / D);
+            Some(Self {
+                node,
+                in_trial: set * masses.len() + node,
+                set,
+                row: sites.row(Some(first)),
+                diagonal: vector(|axis| sites.place(Some(first + axis), Some(first + axis))),
+                secant_diagonal: sites.secant_place(own, own),
+                mass,
+                per_mass: mass.recip(),
+                flight: [0.0; D],
+                inertia: 0.0,
+                per_length: 1.0,
+                push: [0.0; D],
+            })
+        })
+    }
+
+    /// Makes it that of a scene with other masses.
+    pub(super) fn set_mass(&mut self, masses: &Masses) {
+        self.mass = masses.get(self.node).unwrap_or(self.mass);
+        self.per_mass = self.mass.recip();
+    }
+
+    /// Its rows of a vector of the tangent.
+    #[inline]
+    pub(super) fn rows<'a>(&self, vector: &'a [[f64; 1]]) -> &'a [f64; D] {
+        let rows = vector.as_flattened().get(self.row..self.row + D);
+        rows.and_then(<[f64]>::as_array)
+            .unwrap_or_else(|| no_such_row())
+    }
+
+    /// The same, mutable.
+    #[inline]
+    pub(super) fn rows_mut<'a>(&self, vector: &'a mut [[f64; 1]]) -> &'a mut [f64; D] {
+        let rows = vector.as_flattened_mut().get_mut(self.row..self.row + D);
+        rows.and_then(<[f64]>::as_mut_array)
+            .unwrap_or_else(|| no_such_row())
     }
 
     /// `c h v⁰`, m.
     #[inline]
     fn flight_in(&self, view: &StepView<'_>, time: f64) -> [f64; D] {
-        let at = self.place.node();
         let velocities = points::<D>(view.state.velocities.values());
-        if let Some(velocity) = velocities.get(at) {
+        if let Some(velocity) = velocities.get(self.node) {
             return scaled(time * view.step, velocity);
         }
-        let mobility = time * view.step * self.place.per_mass;
-        scaled(mobility, &points(view.state.momenta.values())[at])
+        let mobility = time * view.step * self.per_mass;
+        scaled(mobility, &points(view.state.momenta.values())[self.node])
     }
 
     /// Sets inertia, flight and push for a step, its set of unknowns and F⁰.
     #[inline]
     pub(super) fn weigh(&mut self, view: &StepView<'_>, set: &UnknownSet, force: [f64; D]) {
-        let time = set.time;
-        self.inertia = self.place.mass * (set.inertia * view.per_step);
+        self.inertia = self.mass * (set.inertia * view.per_step);
         if view.phase.moves() {
-            self.flight = self.flight_in(view, time);
+            self.flight = self.flight_in(view, set.time);
             self.push = scaled(-view.step, &force);
         } else {
             (self.flight, self.push) = ([0.0; D], [0.0; D]);
         }
     }
 
-    /// `Δq` at a trial, m.
-    pub(super) fn displacement(&self, trial: &Trial<D>) -> [f64; D] {
-        trial.displacements[self.place.in_trial()]
+    /// `Δq` at a trial and its rest, m.
+    #[inline]
+    pub(super) fn moved<'a>(&self, trial: &'a Trial<D>) -> [&'a [f64; D]; 2] {
+        [
+            &trial.displacements[self.in_trial],
+            &trial.carries[self.in_trial],
+        ]
     }
 
     /// `Δq − h v⁰` at a trial, m.
     pub(super) fn change(&self, trial: &Trial<D>) -> [f64; D] {
-        let at = self.place.in_trial();
-        self.beyond_flight([&trial.displacements[at], &trial.carries[at]])
+        self.beyond_flight(self.moved(trial))
     }
 
     #[inline]
     fn beyond_flight(&self, [displacement, rest]: [&[f64; D]; 2]) -> [f64; D] {
         vector(|axis| (displacement[axis] - self.flight[axis]) + rest[axis])
+    }
+
+    /// `(t/m)(p + I)`, where an impulse and a momentum take the node in some time, m.
+    #[inline]
+    pub(super) fn displacement(
+        &self,
+        time: f64,
+        momentum: &[f64; D],
+        impulse: &[f64; D],
+    ) -> [f64; D] {
+        let mobility = time * self.per_mass;
+        vector(|axis| mobility * (momentum[axis] + impulse[axis]))
     }
 
     /// Its velocities in a step.
@@ -81,8 +149,8 @@ impl<const D: usize> Balance<D> {
         trial: &Trial<D>,
         twice_per_step: f64,
     ) -> Speeds<D> {
-        match points::<D>(view.state.velocities.values()).get(self.place.node()) {
-            None => Speeds::OfMass(self.place.per_mass),
+        match points::<D>(view.state.velocities.values()).get(self.node) {
+            None => Speeds::OfMass(self.per_mass),
             Some(&old) => {
                 let change = scaled(twice_per_step, &self.change(trial));
                 Speeds::Given { old, change }
@@ -116,10 +184,39 @@ impl<const D: usize> Balance<D> {
         values: &mut [f64],
         right: &mut [[f64; 1]],
     ) {
-        for place in self.place.diagonal() {
+        for place in self.diagonal {
             values[place] = self.inertia;
         }
         let [impulse, _] = self.impulse(displacement);
-        *self.place.rows_mut(right) = vector(|axis| self.push[axis] - impulse[axis]);
+        *self.rows_mut(right) = vector(|axis| self.push[axis] - impulse[axis]);
+    }
+}
+
+#[cold]
+fn no_such_row() -> ! {
+    unreachable!("rows come from the system")
+}
+
+/// A coupled interface temperature.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Interface {
+    /// The thermal slot, and its index in the trial.
+    pub(super) slot: usize,
+    pub(super) in_trial: usize,
+    pub(super) row: usize,
+}
+
+impl Interface {
+    /// All of a set of unknowns.
+    pub(super) fn all<const D: usize>(sites: &Sites<'_, D>) -> impl Iterator<Item = Self> {
+        let first = sites.sets[0] * sites.layout.thermal;
+        let slots = sites.layout.coupled.iter().enumerate();
+        slots
+            .filter(|(_, unknown)| unknown.is_some())
+            .map(move |(slot, unknown)| Self {
+                slot,
+                in_trial: first + slot,
+                row: sites.row(*unknown),
+            })
     }
 }

@@ -4,17 +4,14 @@
 //! q¹ = q⁰ + (h/m)(p⁰ + ½h F)      F: the mean force of the step, predicted from those of the last ones
 //! ```
 
-use crate::algebra::{scaled, vector};
 use core::ops::Range;
 
-use super::Solver;
 use super::balance::Balance;
-use super::places::MovingNode;
-use crate::element::group::{Group, Old, StepView, points};
-use crate::element::loads::StepLoads;
+use super::{Search, Solver};
+use crate::algebra::{combined, scaled, vector};
+use crate::element::group::{Old, StepView, points};
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::error::StepFailure;
-use crate::step::scheme::Scheme;
 use crate::step::solver::past::SavedPast;
 
 /// The initial guess of a trial.
@@ -30,45 +27,43 @@ pub(super) enum Start {
     RestByFactors,
 }
 
-impl<const D: usize> Solver<D> {
+impl<const D: usize> Search<'_, D> {
     /// Starts at the old state, or at a predicted motion if the scheme uses one.
     #[inline]
-    pub(super) fn begin(
-        &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-        start: Start,
-    ) -> Result<(), StepFailure> {
-        for (node, force) in self.old_force.iter_mut().enumerate() {
+    pub(super) fn begin(&mut self, start: Start) -> Result<(), StepFailure> {
+        let (solver, view) = (&mut *self.solver, self.view);
+        for (node, force) in solver.old_force.iter_mut().enumerate() {
             *force = scaled(-1.0, &view.loads.total_force(node));
         }
-        self.lengths.fill(f64::MAX);
+        solver.lengths.fill(f64::MAX);
         let mut old = Old {
-            force: &mut self.old_force,
-            lengths: &mut self.lengths,
+            force: &mut solver.old_force,
+            lengths: &mut solver.lengths,
             before: match start {
-                Start::Predicted => self.past.before(view.step),
+                Start::Predicted => solver.past.before(view.step),
                 Start::Motion | Start::Rest | Start::RestByFactors => None,
             },
             by_factors: start == Start::RestByFactors,
         };
-        for group in groups.iter_mut() {
+        for group in &mut *self.groups {
             group.begin(view, &mut old)?;
         }
-        self.place_moved_anchors(view);
-        if !self.coupling.is_none() {
-            self.coupling.drive(self.scheme.tableau(), view);
+        solver.place_moved_anchors(view);
+        if !solver.coupling.is_none() {
+            solver.coupling.drive(solver.scheme.tableau(), view);
         }
-        self.start(view, start);
+        solver.start(view, start);
         Ok(())
     }
+}
 
+impl<const D: usize> Solver<D> {
     /// Sets inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_>) {
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
-            let force = force_of_set(rule, &node.place, (&self.old_force, view.stages));
-            node.weigh(view, &self.sets[node.place.set()], force);
+            let force = force_of_set(rule, node, (&self.old_force, view));
+            node.weigh(view, &self.sets[node.set], force);
         }
     }
 
@@ -104,7 +99,7 @@ impl<const D: usize> Solver<D> {
             let first = self.trial.first_of_set(set);
             for &node in &view.loads.moved {
                 self.trial.displacements[first + node] = if view.phase.moves() {
-                    motion_in_set(self.scheme, set, node, view)
+                    motion_in_set(self.scheme.tableau(), set, node, view)
                 } else {
                     [0.0; D]
                 };
@@ -124,29 +119,28 @@ impl<const D: usize> Solver<D> {
             (right[interface.row], solution[interface.row]) = ([0.0], [0.0]);
         }
         let is_at_rest = matches!(start, Start::Rest | Start::RestByFactors);
-        let is_predicted = !is_at_rest && view.phase.moves() && self.scheme.predicts_its_start();
+        let is_predicted = !is_at_rest && view.phase.moves() && !self.scheme.is_classical();
         let half_step = 0.5 * view.step;
         let predictor = self.past.predictor();
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
-            let (at, trial) = (node.place.node(), node.place.in_trial());
-            let set = &self.sets[node.place.set()];
-            let force = force_of_set(rule, &node.place, (&self.old_force, view.stages));
+            let set = &self.sets[node.set];
+            let force = force_of_set(rule, node, (&self.old_force, view));
             node.weigh(view, set, force);
-            node.per_length = inverse_length(self.lengths[at]);
+            node.per_length = inverse_length(self.lengths[node.node]);
             let mut displacement = [0.0; D];
             if is_predicted && is_coupled {
                 displacement = node.flight;
             } else if is_predicted {
-                let mobility = set.time * view.step * node.place.per_mass;
-                let force = predictor.of(at);
-                displacement =
-                    vector(|axis| mobility * (momenta[at][axis] + half_step * force[axis]));
+                let mobility = set.time * view.step * node.per_mass;
+                let momentum = &momenta[node.node];
+                let force = self.past.predicted(predictor, node.node);
+                displacement = vector(|axis| mobility * (momentum[axis] + half_step * force[axis]));
             }
             // The displacement from the old state is the first correction.
-            *node.place.rows_mut(solution) = displacement;
-            self.trial.displacements[trial] = displacement;
-            self.trial.carries[trial] = [0.0; D];
+            *node.rows_mut(solution) = displacement;
+            self.trial.displacements[node.in_trial] = displacement;
+            self.trial.carries[node.in_trial] = [0.0; D];
             node.balance([&displacement, &[0.0; D]], values, right);
         }
         self.couple(view);
@@ -162,13 +156,9 @@ impl<const D: usize> Solver<D> {
 
     #[inline(never)]
     fn couple_sets(&mut self, view: &StepView<'_>) {
-        let inertia = self.inertias(view);
+        let (inertia, moving) = (self.inertias(view), self.moving());
         let (values, right) = self.tangent.parts();
-        for (set, nodes) in self
-            .nodes
-            .chunks(self.nodes.len() / self.sets.len())
-            .enumerate()
-        {
+        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
             let nodes = (nodes, &self.trial);
             self.coupling
                 .balance(set, nodes, inertia[set], values, right);
@@ -177,7 +167,7 @@ impl<const D: usize> Solver<D> {
 
     /// Removes the last step from the history of the predictor.
     pub(crate) fn undo(&mut self) {
-        if self.scheme.predicts_its_start() {
+        if !self.scheme.is_classical() {
             self.past.forget();
         }
     }
@@ -207,7 +197,7 @@ impl<const D: usize> Solver<D> {
 
 /// The reciprocal of a unit of length, 1/m; 1 for a node without elements, whose unit is given as `f64::MAX`.
 #[inline]
-pub(super) fn inverse_length(length: f64) -> f64 {
+fn inverse_length(length: f64) -> f64 {
     #[expect(clippy::float_cmp, reason = "a mark, not a length")]
     if length == f64::MAX {
         1.0
@@ -218,44 +208,36 @@ pub(super) fn inverse_length(length: f64) -> f64 {
 
 /// The displacement of a moved anchor from the old state to the stage of a set, m.
 fn motion_in_set<const D: usize>(
-    scheme: Scheme,
+    rule: Option<&Tableau>,
     set: usize,
     node: usize,
     view: &StepView<'_>,
 ) -> [f64; D] {
-    let Some(rule) = scheme.tableau() else {
+    let Some(rule) = rule else {
         return view.loads.motion(node);
     };
-    let Some(path) = rule.path else {
-        return view.stages[rule.stage_of(set)].motion(node);
-    };
-    let mut motion = [0.0; D];
-    for (&share, support) in path.supports.to_stages[set].iter().zip(view.stages) {
-        for (sum, moved) in motion.iter_mut().zip(support.motion::<D>(node)) {
-            *sum += share * moved;
+    match rule.path {
+        None => view.stages[rule.stage_of(set)].motion(node),
+        Some(path) => {
+            let motions = view.stages.iter().map(|support| support.motion(node));
+            combined(path.supports.to_stages[set], motions)
         }
     }
-    motion
 }
 
 /// The part of the force on a node that does not change during a step, in the rows of its set of unknowns.
 #[inline]
 fn force_of_set<const D: usize>(
     rule: Option<&Tableau>,
-    place: &MovingNode<D>,
-    (old, stages): (&[[f64; D]], &[StepLoads]),
+    of: &Balance<D>,
+    (old, view): (&[[f64; D]], &StepView<'_>),
 ) -> [f64; D] {
     let Some(rule) = rule else {
-        return old_force(old, place.node());
+        return old_force(old, of.node);
     };
-    let mut force = [0.0; D];
-    for (&weight, loads) in rule.positions[place.set()].iter().zip(stages) {
-        let load = loads.total_force::<D>(place.node());
-        for (force, load) in force.iter_mut().zip(load) {
-            *force -= weight * load;
-        }
-    }
-    force
+    let loads = view.stages.iter();
+    let forces = loads.map(|loads| scaled(-1.0, &loads.total_force(of.node)));
+    combined(rule.positions[of.set], forces)
 }
 
 /// The part of the force on a node that depends on the old state and the loads only, N.

@@ -1,10 +1,9 @@
 //! Newton's method, iterated until the step closed at the trial state proves its laws.
 
-use super::Solver;
 use super::effort::Effort;
 use super::progress::{Conclusion, Progress, Target};
+use super::{Search, Solver};
 use crate::element::error::StateError;
-use crate::element::group::{Group, StepView};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use crate::step::newton::is_last;
@@ -13,93 +12,87 @@ use eem_material::number::scalar::natural_power;
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
 
-impl<const D: usize> Solver<D> {
+impl<const D: usize> Search<'_, D> {
     /// Newton's method from the trial state.
     ///
     /// A step ends at a trial at which the elements have been evaluated, if the last update is small and the step
     /// closed from there proves its laws. Otherwise the iteration continues until rounding stops it.
     pub(super) fn converge(
         &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
         effort: &mut Effort,
         target: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
         let max_iterations = effort.settings.max_iterations;
         let tolerance = target.tolerance(effort.settings.tolerance);
-        let tolerance = self.coupling.tolerance(tolerance);
+        let tolerance = self.solver.coupling.tolerance(tolerance);
         let mut before = None;
         let mut purpose = Purpose::Iterate;
         let mut progress = Progress::new();
-        self.factors.renew();
-        self.is_given_up = false;
+        self.solver.factors.renew();
+        self.solver.is_given_up = false;
         for left in (0..=max_iterations).rev() {
-            let is_full = self.advance(groups, view, purpose)?;
+            let is_full = self.advance(purpose)?;
             if is_full && purpose == Purpose::Close {
-                match self.conclude(groups, view, target, &mut progress) {
+                match self.conclude(target, &mut progress) {
                     Conclusion::Found => {
-                        effort.conclude(self.final_residual);
+                        effort.conclude(self.solver.final_residual);
                         return Ok(());
                     }
                     Conclusion::Refused(failure) => return Err(failure),
                     Conclusion::Open => {
                         before = effort.history.last().map(|last| last.update);
-                        self.linearize_again(groups, view)?;
+                        self.linearize_again()?;
                     }
                 }
             }
             if left == 0 {
                 break;
             }
-            let update = self.iterate(groups, view, effort)?;
+            let update = self.iterate(effort)?;
             if !update.is_finite() {
                 break;
             }
             let previous = before.replace(update).filter(|_| is_full);
             purpose = Purpose::Iterate;
-            let ends = is_last(update, previous, self.factors.tolerance(tolerance));
-            self.factors.judge(update, previous);
-            let is_stuck = self.is_stuck(&mut progress, update, previous);
-            if self.has_other_starts && progress.is_hopeless() {
-                self.is_given_up = true;
+            let ends = is_last(update, previous, self.solver.factors.tolerance(tolerance));
+            self.solver.factors.judge(update, previous);
+            let is_stuck = self.solver.is_stuck(&mut progress, update, previous);
+            if self.solver.has_other_starts && progress.is_hopeless() {
+                self.solver.is_given_up = true;
                 break;
             }
             if is_stuck || ends {
                 purpose = Purpose::Close;
             }
         }
-        Err(self.not_converged(before))
+        Err(self.solver.not_converged(before))
     }
 
     /// Closes the step at a trial where the elements have been evaluated, and judges it.
     pub(super) fn conclude(
         &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
         target: &mut Target<'_>,
         progress: &mut Progress,
     ) -> Conclusion {
         let Target::State(next) = target else {
             return Conclusion::Found;
         };
-        if let Err(failure) = self.close(groups, view, next) {
+        if let Err(failure) = self.close(next) {
             progress.note_rejected(f64::MAX);
-            if !self.scheme.is_exact() || progress.is_over() {
+            if !self.solver.scheme.is_exact() || progress.is_over() {
                 return Conclusion::Refused(failure);
             }
             return Conclusion::Open;
         }
-        let certificate = &self.certificate;
-        if !self.scheme.is_exact() {
-            return match certificate.unless_infinite(next.time.value) {
-                Ok(()) => Conclusion::Found,
-                Err(failure) => Conclusion::Refused(failure),
-            };
+        let certificate = &self.solver.certificate;
+        if !self.solver.scheme.is_exact() {
+            let finite = certificate.unless_infinite(next.time.value);
+            return finite.map_or_else(Conclusion::Refused, |()| Conclusion::Found);
         }
         if certificate.is_enough() {
             return Conclusion::Found;
         }
-        progress.note_rejected(self.final_residual);
+        progress.note_rejected(self.solver.final_residual);
         let is_settled = progress.has_stopped() && certificate.is_lawful();
         if !is_settled && !progress.is_over() {
             return Conclusion::Open;
@@ -112,8 +105,8 @@ impl<const D: usize> Solver<D> {
         match certificate.unexplained_law() {
             None => Conclusion::Found,
             Some((law, sizes)) => {
-                let element = self.worst.filter(|_| law == Law::Energy);
-                let time = view.state.time.value + view.step;
+                let element = self.solver.worst.filter(|_| law == Law::Energy);
+                let time = self.view.state.time.value + self.view.step;
                 Conclusion::Refused(law.not_kept(sizes, element, time))
             }
         }
@@ -121,17 +114,69 @@ impl<const D: usize> Solver<D> {
 
     /// Evaluates the tangent for another iteration, at a trial where only responses have been evaluated.
     #[cold]
-    pub(super) fn linearize_again(
-        &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-    ) -> Result<(), StepFailure> {
-        self.factors.renew();
-        self.balance(view);
-        self.evaluate(groups, view, true)?;
+    pub(super) fn linearize_again(&mut self) -> Result<(), StepFailure> {
+        self.solver.factors.renew();
+        self.solver.balance(self.view);
+        self.evaluate(true)?;
         Ok(())
     }
 
+    /// Solves the system of an iteration and applies its solution. Returns the largest scaled update.
+    #[inline]
+    fn iterate(&mut self, effort: &mut Effort) -> Result<f64, StepFailure> {
+        self.solver.final_residual = self.solver.residual();
+        self.solver.factors.solve(&mut self.solver.tangent)?;
+        let update = self.correct();
+        effort.note(self.solver.final_residual, update);
+        Ok(update)
+    }
+
+    /// Evaluates the elements at the trial state, to which the last correction has been applied, and takes parts of the
+    /// correction back until every element is in an admissible state. Returns whether none was taken back.
+    #[inline]
+    pub(super) fn advance(&mut self, purpose: Purpose) -> Result<bool, StepFailure> {
+        self.solver.obstacle = None;
+        let (mut share, mut goes_on) = (1.0, purpose == Purpose::Iterate);
+        while let Err(error) = self.evaluate(goes_on) {
+            share = self.retreat(share, error)?;
+            goes_on = true;
+        }
+        Ok(share >= 1.0)
+    }
+
+    /// Applies half the fraction of the correction that failed.
+    #[cold]
+    #[inline(never)]
+    fn retreat(&mut self, share: f64, error: StateError) -> Result<f64, StepFailure> {
+        if share <= natural_power(0.5, HALVINGS) {
+            return Err(error.into());
+        }
+        self.solver.obstacle = Some(error);
+        let share = 0.5 * share;
+        // The part that is taken back is as large as the part that stays.
+        self.solver.take_back(self.view, share);
+        for group in &mut *self.groups {
+            group.apply(share);
+        }
+        Ok(share)
+    }
+
+    /// Evaluates the responses at the trial state and, if `goes_on`, adds their contributions to the system of the next
+    /// iteration.
+    #[inline]
+    pub(super) fn evaluate(&mut self, goes_on: bool) -> Result<(), StateError> {
+        self.solver.evaluations += 1;
+        let trial = &self.solver.trial;
+        for group in &mut *self.groups {
+            let system = goes_on.then_some(&mut self.solver.tangent);
+            group.evaluate(self.view, trial, system)?;
+        }
+        let system = goes_on.then_some(&mut self.solver.tangent);
+        self.solver.rockets.evaluate(self.view, trial, system)
+    }
+}
+
+impl<const D: usize> Solver<D> {
     /// Whether the last update may be no smaller than the one before because of rounding.
     fn is_stuck(&self, progress: &mut Progress, update: f64, before: Option<f64>) -> bool {
         self.scheme.is_exact()
@@ -148,84 +193,6 @@ impl<const D: usize> Solver<D> {
                 update: update.unwrap_or(f64::NAN),
             },
         }
-    }
-
-    /// Solves the system of an iteration and applies its solution. Returns the largest scaled update.
-    #[inline]
-    fn iterate(
-        &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-        effort: &mut Effort,
-    ) -> Result<f64, StepFailure> {
-        self.final_residual = self.residual();
-        let solved = self.factors.solve(&mut self.tangent);
-        solved.map_err(|_| StepFailure::SingularTangent)?;
-        let update = self.correct(groups, view);
-        effort.note(self.final_residual, update);
-        Ok(update)
-    }
-
-    /// Evaluates the elements at the trial state, to which the last correction has been applied, and takes parts of the
-    /// correction back until every element is in an admissible state. Returns whether none was taken back.
-    #[inline]
-    pub(super) fn advance(
-        &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-        purpose: Purpose,
-    ) -> Result<bool, StepFailure> {
-        if self.obstacle.is_some() {
-            self.obstacle = None;
-        }
-        let (mut share, mut goes_on) = (1.0, purpose == Purpose::Iterate);
-        while let Err(error) = self.evaluate(groups, view, goes_on) {
-            share = self.retreat(groups, view, share, error)?;
-            goes_on = true;
-        }
-        Ok(share >= 1.0)
-    }
-
-    /// Applies half the fraction of the correction that failed.
-    #[cold]
-    #[inline(never)]
-    fn retreat(
-        &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-        share: f64,
-        error: StateError,
-    ) -> Result<f64, StepFailure> {
-        if share <= natural_power(0.5, HALVINGS) {
-            return Err(error.into());
-        }
-        self.obstacle = Some(error);
-        let share = 0.5 * share;
-        // The part that is taken back is as large as the part that stays.
-        self.take_back(view, share);
-        for group in groups {
-            group.apply(share);
-        }
-        Ok(share)
-    }
-
-    /// Evaluates the responses at the trial state and, if `goes_on`, adds their contributions to the system of the next
-    /// iteration.
-    #[inline]
-    pub(super) fn evaluate(
-        &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-        goes_on: bool,
-    ) -> Result<(), StateError> {
-        self.evaluations += 1;
-        let trial = &self.trial;
-        for group in groups {
-            let system = goes_on.then_some(&mut self.tangent);
-            group.evaluate(view, trial, system)?;
-        }
-        let system = goes_on.then_some(&mut self.tangent);
-        self.rockets.evaluate(view, trial, system)
     }
 }
 

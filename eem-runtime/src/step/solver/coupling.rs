@@ -10,11 +10,10 @@
 use std::collections::BTreeSet;
 
 use super::balance::Balance;
-use crate::algebra::vector;
+use crate::algebra::{add, combined, difference, vector};
 use crate::element::group::{Sites, StepView, Trial};
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
-use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
 /// The masses that couple nodes of a scene, with the indices of their matrix entries.
@@ -35,7 +34,7 @@ pub(super) struct Coupling<const D: usize> {
 #[derive(Clone, Copy, Debug)]
 struct Drive<const D: usize> {
     /// The index of the node among the moving nodes.
-    node: u32,
+    node: usize,
     /// In the rows of each set of unknowns.
     of_sets: [[[f64; D]; 2]; MOST_SETS],
     /// In the whole step.
@@ -45,27 +44,20 @@ struct Drive<const D: usize> {
 /// Two coupled moving nodes, by their indices among the moving nodes.
 #[derive(Clone, Copy, Debug)]
 struct CoupledPair<const D: usize> {
-    nodes: [u32; 2],
+    nodes: [usize; 2],
     /// kg.
     mass: f64,
     /// The entries of the tangent: rows of the first node, then rows of the second.
-    places: [[u32; D]; 2],
+    places: [[usize; D]; 2],
 }
 
 /// A moving node, by its index among the moving nodes, and a moved anchor that a mass couples to it.
 #[derive(Clone, Copy, Debug)]
 struct DrivenPair {
-    node: u32,
-    moved: u32,
+    node: usize,
+    moved: usize,
     /// kg.
     mass: f64,
-}
-
-impl<const D: usize> CoupledPair<D> {
-    fn indices(&self) -> [usize; 2] {
-        let [a, b] = self.nodes;
-        [a as usize, b as usize]
-    }
 }
 
 impl<const D: usize> Coupling<D> {
@@ -85,10 +77,10 @@ impl<const D: usize> Coupling<D> {
                     continue;
                 };
                 let place = |row: usize, column: usize| {
-                    vector(|axis| compact(sites.place(Some(row + axis), Some(column + axis))))
+                    vector(|axis| sites.place(Some(row + axis), Some(column + axis)))
                 };
                 pairs.push(CoupledPair {
-                    nodes: [compact(a / D), compact(b / D)],
+                    nodes: [a / D, b / D],
                     mass: pair.mass,
                     places: [place(a, b), place(b, a)],
                 });
@@ -119,14 +111,14 @@ impl<const D: usize> Coupling<D> {
         for pair in self.driven.iter().filter(|_| view.phase.moves()) {
             let place = (self.drives).binary_search_by_key(&pair.node, |drive| drive.node);
             let Ok(at) = place else { continue };
-            let (drive, moved) = (&mut self.drives[at], pair.moved as usize);
-            let change = view.change_of_speed::<D>(moved);
+            let drive = &mut self.drives[at];
+            let change = view.change_of_speed::<D>(pair.moved);
             add_to(&mut drive.of_step, pair.mass, &change);
             let Some((rule, path)) = rule.and_then(|rule| Some((rule, rule.path?))) else {
                 add_to(&mut drive.of_sets[0], pair.mass, &change);
                 continue;
             };
-            let changes = changes_at_stages(&path, moved, view);
+            let changes = changes_at_stages(&path, pair.moved, view);
             for (set, rates) in rule.rates.iter().enumerate() {
                 let per_time = rule.times[set].recip();
                 for (&rate, change) in rates.iter().zip(&changes) {
@@ -177,24 +169,20 @@ impl<const D: usize> Coupling<D> {
         right: &mut [[f64; 1]],
     ) {
         for pair in self.of_set(set) {
-            let [a, b] = pair.indices();
+            let [a, b] = pair.nodes;
             let inertia = pair.mass * inertia_per_mass;
             for &place in pair.places.as_flattened() {
-                values[place as usize] += inertia;
+                values[place] += inertia;
             }
             for [own, other] in [[a, b], [b, a]] {
                 let change = nodes[other].change(trial);
-                for (row, change) in nodes[own].place.rows_mut(right).iter_mut().zip(change) {
-                    *row -= inertia * change;
-                }
+                add(nodes[own].rows_mut(right), -inertia, &change);
             }
         }
         for drive in &self.drives {
             let [impulses, _] = drive.of_sets[set];
-            let rows = nodes[drive.node as usize].place.rows_mut(right);
-            for (row, impulse) in rows.iter_mut().zip(impulses) {
-                *row -= impulse;
-            }
+            let rows = nodes[drive.node].rows_mut(right);
+            add(rows, -1.0, &impulses);
         }
     }
 
@@ -206,22 +194,24 @@ impl<const D: usize> Coupling<D> {
         inertia_per_mass: f64,
     ) {
         self.multiply(nodes, inertia_per_mass, &|node| {
-            let moved = node.displacement(trial);
-            [node.change(trial), vector(|axis| moved[axis].abs())]
+            let [moved, _] = node.moved(trial);
+            [node.change(trial), moved.map(f64::abs)]
         });
         for drive in &self.drives {
-            add_all(&mut self.impulses[drive.node as usize], &drive.of_sets[set]);
+            let more = drive.of_sets[set].as_flattened();
+            add(self.impulses[drive.node].as_flattened_mut(), 1.0, more);
         }
     }
 
     /// Finds `Δp` of all nodes from the changes of their velocities in a step, m/s, by node, if masses couple them.
     pub(super) fn find_impulses_of_step(&mut self, nodes: &[Balance<D>], changes: &[[f64; D]]) {
         self.multiply(nodes, 1.0, &|node| {
-            let change = &changes[node.place.node()];
-            [*change, vector(|axis| change[axis].abs())]
+            let change = changes[node.node];
+            [change, change.map(f64::abs)]
         });
         for drive in &self.drives {
-            add_all(&mut self.impulses[drive.node as usize], &drive.of_step);
+            let more = drive.of_step.as_flattened();
+            add(self.impulses[drive.node].as_flattened_mut(), 1.0, more);
         }
     }
 
@@ -234,7 +224,7 @@ impl<const D: usize> Coupling<D> {
         entries: &dyn Fn(&Balance<D>) -> [[f64; D]; 2],
     ) {
         for (node, impulse) in nodes.iter().zip(&mut self.impulses) {
-            let inertia = node.place.mass * factor;
+            let inertia = node.mass * factor;
             *impulse = entries(node);
             for entry in impulse.as_flattened_mut() {
                 *entry *= inertia;
@@ -242,16 +232,14 @@ impl<const D: usize> Coupling<D> {
         }
         let count = self.pairs.len() / self.sets;
         for pair in &self.pairs[..count] {
-            let [a, b] = pair.indices();
+            let [a, b] = pair.nodes;
             let inertia = pair.mass * factor;
             for [own, other] in [[a, b], [b, a]] {
                 let [entries, sizes] = entries(&nodes[other]);
                 let [sums, terms] = &mut self.impulses[own];
-                for axis in 0..D {
-                    sums[axis] += inertia * entries[axis];
-                    // Masses between corners and middles of edges are negative.
-                    terms[axis] += (inertia * sizes[axis]).abs();
-                }
+                add(sums, inertia, &entries);
+                // Masses between corners and middles of edges are negative.
+                add(terms, inertia.abs(), &sizes);
             }
         }
     }
@@ -271,8 +259,7 @@ impl<const D: usize> Coupling<D> {
         if let Some(found) = self.found(moving) {
             return *found;
         }
-        let at = node.place.in_trial();
-        node.impulse([&trial.displacements[at], &trial.carries[at]])
+        node.impulse(node.moved(trial))
     }
 }
 
@@ -291,8 +278,8 @@ fn driven(
                 && moved.binary_search(&moves).is_ok()
             {
                 driven.push(DrivenPair {
-                    node: compact(first / dimension),
-                    moved: compact(moves),
+                    node: first / dimension,
+                    moved: moves,
                     mass: pair.mass,
                 });
             }
@@ -302,7 +289,7 @@ fn driven(
 }
 
 impl<const D: usize> Drive<D> {
-    fn none(node: u32) -> Self {
+    fn none(node: usize) -> Self {
         let still = [[0.0; D]; 2];
         Self {
             node,
@@ -312,20 +299,10 @@ impl<const D: usize> Drive<D> {
     }
 }
 
-/// Adds an impulse and the magnitude of its terms.
-fn add_all<const D: usize>(sums: &mut [[f64; D]; 2], more: &[[f64; D]; 2]) {
-    let sums = sums.as_flattened_mut().iter_mut();
-    for (sum, &more) in sums.zip(more.as_flattened()) {
-        *sum += more;
-    }
-}
-
 /// Adds the impulse of a mass, kg, whose velocity changes, m/s, and the magnitude of its terms.
 fn add_to<const D: usize>([sum, terms]: &mut [[f64; D]; 2], mass: f64, change: &[f64; D]) {
-    for axis in 0..D {
-        sum[axis] += mass * change[axis];
-        terms[axis] += (mass * change[axis]).abs();
-    }
+    add(sum, mass, change);
+    add(terms, mass.abs(), &change.map(f64::abs));
 }
 
 /// The change of the velocity of a moved anchor from the old state to each stage, m/s, from its velocities at the
@@ -338,12 +315,8 @@ pub(super) fn changes_at_stages<const D: usize>(
     let [old, _] = view.state.velocities.point::<D>(node);
     let mut changes = [[0.0; D]; MOST_STAGES];
     for (change, shares) in changes.iter_mut().zip(path.supports.to_stages) {
-        for (&share, support) in shares.iter().zip(view.stages) {
-            let speed = support.speed::<D>(node);
-            for axis in 0..D {
-                change[axis] += share * (speed[axis] - old[axis]);
-            }
-        }
+        let supports = view.stages.iter();
+        *change = combined(shares, supports.map(|of| difference(&of.speed(node), old)));
     }
     changes
 }

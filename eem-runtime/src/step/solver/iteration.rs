@@ -1,8 +1,8 @@
 //! The global system of an iteration, and the corrections from its solution.
 
-use super::Solver;
+use super::balance::Interface;
 use super::begin::Start;
-use super::places::Interface;
+use super::{Search, Solver};
 use crate::element::group::{Group, StepView};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
@@ -11,43 +11,17 @@ use crate::step::solver::effort::Effort;
 use eem_material::number::compensated::correct;
 use eem_material::number::scalar::Scalar;
 
-impl<const D: usize> Solver<D> {
-    /// Starts the system of an iteration at the trial state.
-    pub(super) fn balance(&mut self, view: &StepView<'_>) {
-        let (values, right, _) = self.tangent.renew();
-        for interface in &self.interfaces {
-            right[interface.row] = [0.0];
-        }
-        for node in &self.nodes {
-            let at = node.place.in_trial();
-            let displacement = [&self.trial.displacements[at], &self.trial.carries[at]];
-            node.balance(displacement, values, right);
-        }
-        self.couple(view);
-    }
-
-    /// The largest entry of R.
-    #[inline]
-    pub(super) fn residual(&self) -> f64 {
-        let mut largest = Largest::none();
-        for node in &self.nodes {
-            for &row in node.place.rows(self.tangent.right()) {
-                largest.see(row);
-            }
-        }
-        largest.found()
-    }
-
+impl<const D: usize> Search<'_, D> {
     /// Applies the solution and the local corrections that follow from it to the trial state, and starts the next system
     /// there. Returns the largest scaled update.
     #[inline]
-    pub(super) fn correct(&mut self, groups: &mut [Box<dyn Group<D>>], view: &StepView<'_>) -> f64 {
-        let (values, right, solution) = self.tangent.renew();
-        let trial = &mut self.trial;
+    pub(super) fn correct(&mut self) -> f64 {
+        let (values, right, solution) = self.solver.tangent.renew();
+        let trial = &mut self.solver.trial;
         let mut largest = Largest::none();
-        for node in &self.nodes {
-            let at = node.place.in_trial();
-            let change = node.place.rows(solution);
+        for node in &self.solver.nodes {
+            let at = node.in_trial;
+            let change = node.rows(solution);
             let (mut displacement, mut rest) = (trial.displacements[at], trial.carries[at]);
             // Entry by entry, as the solution was stored: a wider load would stall.
             for axis in 0..D {
@@ -58,15 +32,67 @@ impl<const D: usize> Solver<D> {
             (trial.displacements[at], trial.carries[at]) = (displacement, rest);
             node.balance([&displacement, &rest], values, right);
         }
-        for &Interface { in_trial, row, .. } in &self.interfaces {
+        for &Interface { in_trial, row, .. } in &self.solver.interfaces {
             let change = solution[row][0];
             right[row] = [0.0];
             largest.see(change / trial.interface.values()[in_trial]);
             trial.interface.add(in_trial, change);
         }
+        self.solver.couple(self.view);
+        for group in &mut *self.groups {
+            largest.see(group.correct(self.solver.tangent.solution()));
+        }
+        largest.found()
+    }
+
+    /// Multiplies displacements by a factor, as a correction; all other unknowns stay.
+    pub(super) fn extrapolate(&mut self, factor: f64) {
+        self.solver.weigh(self.view);
+        let growth = factor - 1.0;
+        let solution = self.solver.tangent.solution_mut();
+        for node in &self.solver.nodes {
+            let at = node.in_trial;
+            for (axis, change) in node.rows_mut(solution).iter_mut().enumerate() {
+                let displacement = &mut self.solver.trial.displacements[at][axis];
+                *change = growth * *displacement;
+                correct(
+                    displacement,
+                    &mut self.solver.trial.carries[at][axis],
+                    *change,
+                );
+            }
+        }
+        for interface in &self.solver.interfaces {
+            solution[interface.row] = [0.0];
+        }
+        for group in &mut *self.groups {
+            group.hold();
+        }
+        self.solver.balance(self.view);
+    }
+}
+
+impl<const D: usize> Solver<D> {
+    /// Starts the system of an iteration at the trial state.
+    pub(super) fn balance(&mut self, view: &StepView<'_>) {
+        let (values, right, _) = self.tangent.renew();
+        for interface in &self.interfaces {
+            right[interface.row] = [0.0];
+        }
+        for node in &self.nodes {
+            node.balance(node.moved(&self.trial), values, right);
+        }
         self.couple(view);
-        for group in groups.iter_mut() {
-            largest.see(group.correct(self.tangent.solution()));
+    }
+
+    /// The largest entry of R.
+    #[inline]
+    pub(super) fn residual(&self) -> f64 {
+        let mut largest = Largest::none();
+        for node in &self.nodes {
+            for &row in node.rows(self.tangent.right()) {
+                largest.see(row);
+            }
         }
         largest.found()
     }
@@ -76,41 +102,14 @@ impl<const D: usize> Solver<D> {
         let trial = &mut self.trial;
         let solution = self.tangent.solution();
         for node in &self.nodes {
-            let at = node.place.in_trial();
-            for (axis, &change) in node.place.rows(solution).iter().enumerate() {
+            let at = node.in_trial;
+            for (axis, &change) in node.rows(solution).iter().enumerate() {
                 let displacement = &mut trial.displacements[at][axis];
                 correct(displacement, &mut trial.carries[at][axis], -share * change);
             }
         }
         for &Interface { in_trial, row, .. } in &self.interfaces {
             trial.interface.add(in_trial, -share * solution[row][0]);
-        }
-        self.balance(view);
-    }
-
-    /// Multiplies displacements by a factor, as a correction; all other unknowns stay.
-    pub(super) fn extrapolate(
-        &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-        factor: f64,
-    ) {
-        self.weigh(view);
-        let growth = factor - 1.0;
-        let solution = self.tangent.solution_mut();
-        for node in &self.nodes {
-            let at = node.place.in_trial();
-            for (axis, change) in node.place.rows_mut(solution).iter_mut().enumerate() {
-                let displacement = &mut self.trial.displacements[at][axis];
-                *change = growth * *displacement;
-                correct(displacement, &mut self.trial.carries[at][axis], *change);
-            }
-        }
-        for interface in &self.interfaces {
-            solution[interface.row] = [0.0];
-        }
-        for group in groups {
-            group.hold();
         }
         self.balance(view);
     }
@@ -123,11 +122,11 @@ impl<const D: usize> Solver<D> {
         unknowns: &[f64],
         effort: &mut Effort,
     ) -> Result<(Vec<f64>, Vec<f64>), StepFailure> {
-        self.begin(groups, view, Start::Predicted)?;
+        self.search(groups, view).begin(Start::Predicted)?;
         let given = unknowns.as_chunks::<1>().0;
         for node in &self.nodes {
-            self.trial.carries[node.place.in_trial()] = [0.0; D];
-            self.trial.displacements[node.place.in_trial()] = *node.place.rows(given);
+            self.trial.carries[node.in_trial] = [0.0; D];
+            self.trial.displacements[node.in_trial] = *node.rows(given);
         }
         for interface in &self.interfaces {
             self.trial
@@ -139,7 +138,7 @@ impl<const D: usize> Solver<D> {
         let mut before = f64::MAX;
         loop {
             self.balance(view);
-            self.advance(groups, view, Purpose::Iterate)?;
+            self.search(groups, view).advance(Purpose::Iterate)?;
             let residual = self.residual();
             if before <= f64::EPSILON {
                 break;

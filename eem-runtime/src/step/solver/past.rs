@@ -32,34 +32,6 @@ pub(super) struct Past<const D: usize> {
 /// The indices of the forces of the last step, of the one before and of the next one, for each value of `turn`.
 const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
-/// The predictor of the forces of the next step.
-#[derive(Debug)]
-pub(super) struct Predictor<'a, const D: usize> {
-    forces: &'a [[[f64; D]; PLACES]],
-    turn: [usize; PLACES],
-    weights: [f64; 2],
-}
-
-impl<const D: usize> Predictor<'_, D> {
-    /// The predicted force on a node, N.
-    #[inline]
-    pub(super) fn of(&self, node: usize) -> [f64; D] {
-        let ([last, before, _], forces) = (self.turn, &self.forces[node]);
-        let (last, before) = (&forces[last], &forces[before]);
-        let [by_last, by_before] = self.weights;
-        vector(|axis| by_last * last[axis] + by_before * before[axis])
-    }
-}
-
-/// Replaces the impulses of a step by its forces, node by node.
-#[derive(Debug)]
-pub(super) struct Remembering<'a, const D: usize> {
-    forces: &'a mut [[[f64; D]; PLACES]],
-    turn: [usize; PLACES],
-    errors: [f64; 3],
-    found: &'a mut [f64; 3],
-}
-
 /// The history in a checkpoint. Forces are per coordinate, N; those of anchors are meaningless.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
@@ -120,17 +92,21 @@ impl<const D: usize> Past<D> {
 
     /// The predictor with the smallest error so far.
     #[inline]
-    pub(super) fn predictor(&self) -> Predictor<'_, D> {
+    pub(super) fn predictor(&self) -> [f64; 2] {
         let [nothing, constant, linear] = self.errors;
         let is_linear = linear < constant && linear < nothing;
         let is_constant = constant < nothing;
         let [nothing, constant, linear] = PREDICTORS;
         let other = if is_constant { constant } else { nothing };
-        Predictor {
-            forces: &self.forces,
-            turn: TURNS[self.turn],
-            weights: if is_linear { linear } else { other },
-        }
+        if is_linear { linear } else { other }
+    }
+
+    /// The force on a node by a predictor, N.
+    #[inline]
+    pub(super) fn predicted(&self, [by_last, by_before]: [f64; 2], node: usize) -> [f64; D] {
+        let ([last, before, _], forces) = (TURNS[self.turn], &self.forces[node]);
+        let (last, before) = (&forces[last], &forces[before]);
+        vector(|axis| by_last * last[axis] + by_before * before[axis])
     }
 
     /// The impulses of the step that is being closed.
@@ -142,12 +118,31 @@ impl<const D: usize> Past<D> {
 
     /// Begins to record the forces of a step, which enters the history only with [`keep`](Self::keep).
     #[inline]
-    pub(super) fn remember(&mut self) -> Remembering<'_, D> {
-        Remembering {
-            forces: &mut self.forces,
-            turn: TURNS[self.turn],
-            errors: scaled(MEMORY, &self.errors),
-            found: &mut self.errors_after,
+    pub(super) fn remember(&mut self) {
+        self.errors_after = scaled(MEMORY, &self.errors);
+    }
+
+    /// The impulse of a node in the step that is being closed, N s.
+    #[inline]
+    pub(super) fn impulse(&mut self, node: usize) -> &mut [f64; D] {
+        let [_, _, next] = TURNS[self.turn];
+        &mut self.forces[node][next]
+    }
+
+    /// Multiplies the impulse of a node by 1/h, which makes it a force, and adds its prediction errors, as accelerations.
+    #[inline]
+    pub(super) fn take(&mut self, node: usize, per_step: f64, per_mass: f64) {
+        let [last, before, next] = TURNS[self.turn];
+        let forces = &mut self.forces[node];
+        let (last, before) = (forces[last], forces[before]);
+        for (axis, component) in forces[next].iter_mut().enumerate() {
+            let force = *component * per_step;
+            let change = force - last[axis];
+            let misses = [force, change, change - (last[axis] - before[axis])];
+            for (error, miss) in self.errors_after.iter_mut().zip(misses) {
+                *error += (miss * per_mass) * (miss * per_mass);
+            }
+            *component = force;
         }
     }
 
@@ -178,11 +173,7 @@ impl<const D: usize> Past<D> {
             }
             *last = step;
         }
-        self.turn = if self.turn + 1 == PLACES {
-            0
-        } else {
-            self.turn + 1
-        };
+        self.turn = (self.turn + 1) % PLACES;
         self.errors_before = self.errors;
         self.errors = self.errors_after;
     }
@@ -235,54 +226,14 @@ impl<const D: usize> Past<D> {
     }
 }
 
-impl<const D: usize> Remembering<'_, D> {
-    /// The impulse of a node, N s.
-    #[inline]
-    pub(super) fn impulse(&self, node: usize) -> &[f64; D] {
-        let [_, _, next] = self.turn;
-        &self.forces[node][next]
-    }
-
-    /// The impulse of a node, mutable, N s.
-    #[inline]
-    pub(super) fn impulse_mut(&mut self, node: usize) -> &mut [f64; D] {
-        let [_, _, next] = self.turn;
-        &mut self.forces[node][next]
-    }
-
-    /// Multiplies the impulse of a node by 1/h, which makes it a force, and adds its prediction errors, as accelerations.
-    #[inline]
-    pub(super) fn take(&mut self, node: usize, per_step: f64, per_mass: f64) {
-        let [last, before, next] = self.turn;
-        let forces = &mut self.forces[node];
-        let (last, before) = (forces[last], forces[before]);
-        for (axis, component) in forces[next].iter_mut().enumerate() {
-            let force = *component * per_step;
-            let change = force - last[axis];
-            let misses = [force, change, change - (last[axis] - before[axis])];
-            for (error, miss) in self.errors.iter_mut().zip(misses) {
-                *error += (miss * per_mass) * (miss * per_mass);
-            }
-            *component = force;
-        }
-    }
-
-    /// Stores the errors of the predictors after the last node.
-    #[inline]
-    pub(super) fn finish(self) {
-        *self.found = self.errors;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn go_on(past: &mut Past<1>, force: f64) {
-        *past.impulses().of(0) = [0.5 * force];
-        let mut remembering = past.remember();
-        remembering.take(0, 2.0, 0.5);
-        remembering.finish();
+        *past.impulse(0) = [0.5 * force];
+        past.remember();
+        past.take(0, 2.0, 0.5);
         past.keep([&[force], &[]], 2.0);
     }
 
@@ -296,7 +247,10 @@ mod tests {
 
     #[test]
     fn the_predictor_is_the_one_with_the_smallest_error() {
-        let predicted = |forces: [f64; 3]| after(forces).predictor().of(0).map(f64::to_bits);
+        let predicted = |forces: [f64; 3]| {
+            let past = after(forces);
+            past.predicted(past.predictor(), 0).map(f64::to_bits)
+        };
         assert_eq!(predicted([4.0, -4.0, 4.0]), [0.0_f64.to_bits()]);
         assert_eq!(predicted([4.0, 4.0, 4.0]), [4.0_f64.to_bits()]);
         assert_eq!(predicted([1.0, 2.0, 3.0]), [4.0_f64.to_bits()]);
@@ -319,10 +273,9 @@ mod tests {
     fn a_step_that_is_not_kept_leaves_no_trace() {
         let mut past = after([1.0, 2.0, 4.0]);
         let before = past.save();
-        *past.impulses().of(0) = [9.0];
-        let mut remembering = past.remember();
-        remembering.take(0, 1.0, 0.5);
-        remembering.finish();
+        *past.impulse(0) = [9.0];
+        past.remember();
+        past.take(0, 1.0, 0.5);
         assert_eq!(past.save(), before);
     }
 }

@@ -27,8 +27,8 @@
 mod stability;
 mod system;
 
-use super::Solver;
 use super::begin::Start;
+use super::{Search, Solver};
 use crate::element::group::{Group, StepView};
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
@@ -56,9 +56,7 @@ const FRICTION_STEPS: usize = 10;
 
 /// The iteration for a state at rest.
 pub(crate) struct AtRest<'a, const D: usize> {
-    solver: &'a mut Solver<D>,
-    groups: &'a mut [Box<dyn Group<D>>],
-    view: &'a StepView<'a>,
+    search: Search<'a, D>,
     settings: NewtonSettings,
     /// The end nodes of the arms of all elements: the edges from their first nodes.
     arms: Vec<[usize; 2]>,
@@ -104,9 +102,7 @@ impl<'a, const D: usize> AtRest<'a, D> {
         (settings, arms): (NewtonSettings, Vec<[usize; 2]>),
     ) -> Result<Self, StepFailure> {
         let mut rest = Self {
-            solver,
-            groups,
-            view,
+            search: solver.search(groups, view),
             settings,
             arms,
             first: Vec::new(),
@@ -157,12 +153,17 @@ impl<'a, const D: usize> AtRest<'a, D> {
     pub(crate) fn close(&mut self, next: &mut State) -> Result<(), StepFailure> {
         let [moved, carries] = self.place();
         for (at, (moved, carry)) in moved.iter().zip(&carries).enumerate() {
-            let old = &self.view.state.positions;
+            let old = &self.search.view.state.positions;
             next.positions.advance(at, old, moved + carry);
         }
         let mut tally = Tally::new(Care::Quick);
-        for group in &mut *self.groups {
-            group.close(self.view, &self.solver.trial, next, &mut tally)?;
+        for group in &mut *self.search.groups {
+            group.close(
+                self.search.view,
+                &self.search.solver.trial,
+                next,
+                &mut tally,
+            )?;
         }
         Ok(())
     }
@@ -266,9 +267,9 @@ impl<'a, const D: usize> AtRest<'a, D> {
 
     /// Starts at a place, or at the initial state, with the initial internal variables.
     fn start(&mut self, place: Option<&Place>) -> Result<(), StepFailure> {
-        self.solver.begin(self.groups, self.view, Start::Rest)?;
+        self.search.begin(Start::Rest)?;
         if let Some([moved, carries]) = place {
-            let trial = &mut self.solver.trial;
+            let trial = &mut self.search.solver.trial;
             trial
                 .displacements
                 .as_flattened_mut()
@@ -279,7 +280,7 @@ impl<'a, const D: usize> AtRest<'a, D> {
     }
 
     fn place(&self) -> Place {
-        let trial = &self.solver.trial;
+        let trial = &self.search.solver.trial;
         [
             trial.displacements.as_flattened().to_vec(),
             trial.carries.as_flattened().to_vec(),
@@ -288,11 +289,11 @@ impl<'a, const D: usize> AtRest<'a, D> {
 
     /// The largest force out of balance, N, and its node if any moves.
     pub(crate) fn residual(&self) -> (f64, Option<usize>) {
-        let mut largest = (0.0, self.solver.nodes.first().map(|node| node.place.node()));
-        for node in &self.solver.nodes {
-            for force in node.place.rows(self.solver.tangent.right()) {
+        let mut largest = (0.0, self.search.solver.nodes.first().map(|node| node.node));
+        for node in &self.search.solver.nodes {
+            for force in node.rows(self.search.solver.tangent.right()) {
                 if force.abs() > largest.0 {
-                    largest = (force.abs(), Some(node.place.node()));
+                    largest = (force.abs(), Some(node.node));
                 }
             }
         }
@@ -301,8 +302,8 @@ impl<'a, const D: usize> AtRest<'a, D> {
 
     /// The places of all nodes, m.
     pub(crate) fn positions(&self) -> Vec<f64> {
-        let mut positions = self.view.state.positions.values().to_vec();
-        let moved = self.solver.trial.displacements.as_flattened();
+        let mut positions = self.search.view.state.positions.values().to_vec();
+        let moved = self.search.solver.trial.displacements.as_flattened();
         for (position, moved) in positions.iter_mut().zip(moved) {
             *position += moved;
         }

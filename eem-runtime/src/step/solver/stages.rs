@@ -1,5 +1,6 @@
 //! Workspace of schemes with stages.
 
+use crate::algebra::combined;
 use crate::algebra::system::LinearSystem;
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_STAGES, Tableau};
@@ -38,12 +39,6 @@ impl<const D: usize> Stages<D> {
 
     /// `Σ_i weight_i impulse_i` on a node, N s.
     pub(super) fn combined(&self, node: usize, weights: &[f64]) -> [f64; D] {
-        let mut sum = [0.0; D];
-        for (&weight, impulse) in weights.iter().zip(&self.impulses[node]) {
-            for (sum, &impulse) in sum.iter_mut().zip(impulse) {
-                *sum += weight * impulse;
-            }
-        }
-        sum
+        combined(weights, self.impulses[node])
     }
 }

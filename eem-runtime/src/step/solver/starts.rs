@@ -1,7 +1,7 @@
 //! The initial guesses of Newton's method, tried one after the other.
 
-use super::Solver;
 use super::begin::Start;
+use super::{Search, Solver};
 use crate::element::group::{Group, StepView};
 use crate::element::state::State;
 use crate::step::certificate::Certificate;
@@ -22,22 +22,24 @@ impl<const D: usize> Solver<D> {
     ) -> Result<&Certificate, StepFailure> {
         let mut closing = Target::State(next);
         self.has_other_starts = self.scheme.is_exact();
-        let found = self.start_and_converge(groups, view, effort, (Start::Predicted, &mut closing));
-        if let Err(failure) = found {
-            if !self.scheme.follows_its_solution() {
+        let mut search = self.search(groups, view);
+        if let Err(failure) = search.start_from(Start::Predicted, effort, &mut closing) {
+            if search.solver.scheme.is_classical() {
                 return Err(failure);
             }
-            let found = self.try_other_starts(groups, view, effort, &mut closing);
+            let found = search.try_other_starts(effort, &mut closing);
             found.map_err(|_| failure)?;
         }
         // The step becomes the history of the predictors.
-        if view.phase.heats() && self.scheme.predicts_its_start() {
+        if view.phase.heats() && !self.scheme.is_classical() {
             let variables = [view.state.viscous.values(), &view.state.temperatures];
             self.past.keep(variables, view.step);
         }
         Ok(&self.certificate)
     }
+}
 
+impl<const D: usize> Search<'_, D> {
     /// Exact schemes start with the old internal variables, from the old state, and from the solution for another form if
     /// they have one; then the solution is followed from a small step to the full one; then temperatures are corrected by
     /// factors. If the first of these attempts was given up, an exact scheme at last makes it again, and takes all its
@@ -46,109 +48,91 @@ impl<const D: usize> Solver<D> {
     #[cold]
     fn try_other_starts(
         &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
         effort: &mut Effort,
         closing: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
-        let mut was_given_up = self.is_given_up;
-        if self.scheme.is_exact() && self.past.before(view.step).is_some() {
-            let start = (Start::Motion, &mut *closing);
-            let found = self.start_and_converge(groups, view, effort, start);
-            if found.is_ok() {
-                return found;
+        let (scheme, view) = (self.solver.scheme, self.view);
+        let mut was_given_up = self.solver.is_given_up;
+        if scheme.is_exact() && self.solver.past.before(view.step).is_some() {
+            if self.start_from(Start::Motion, effort, closing).is_ok() {
+                return Ok(());
             }
-            was_given_up = self.is_given_up;
+            was_given_up = self.solver.is_given_up;
         }
-        if self.scheme.is_exact() && view.phase.moves() {
-            let start = (Start::Rest, &mut *closing);
-            let found = self.start_and_converge(groups, view, effort, start);
-            if found.is_ok() {
-                return found;
-            }
+        let from_rest = scheme.is_exact() && view.phase.moves();
+        if from_rest && self.start_from(Start::Rest, effort, closing).is_ok() {
+            return Ok(());
         }
-        if self.scheme.has_starting_form() {
-            let found = self.start_by_another_form(groups, view, effort, closing);
-            if found.is_ok() {
-                return found;
-            }
+        if scheme.has_starting_form() && self.start_by_another_form(effort, closing).is_ok() {
+            return Ok(());
         }
-        let found = self.follow(groups, view, effort, closing);
-        if found.is_ok() {
-            return found;
+        let followed = self.follow(effort, closing);
+        if followed.is_ok() {
+            return followed;
         }
-        if self.scheme.is_exact() && !view.state.temperatures.is_empty() {
-            let start = (Start::RestByFactors, &mut *closing);
-            let found = self.start_and_converge(groups, view, effort, start);
-            if found.is_ok() {
-                return found;
-            }
+        let by_factors = scheme.is_exact() && !view.state.temperatures.is_empty();
+        if by_factors
+            && self
+                .start_from(Start::RestByFactors, effort, closing)
+                .is_ok()
+        {
+            return Ok(());
         }
         if !was_given_up {
-            return found;
+            return followed;
         }
-        self.has_other_starts = false;
-        self.start_and_converge(groups, view, effort, (Start::Motion, closing))
+        self.solver.has_other_starts = false;
+        self.start_from(Start::Motion, effort, closing)
     }
 
     /// From the solution for the starting form of the scheme.
     fn start_by_another_form(
         &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
         effort: &mut Effort,
         closing: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
-        let start = (Start::Motion, &mut Target::SharpTrial);
-        self.trial.is_start = true;
-        let started = self.start_and_converge(groups, view, effort, start);
-        self.trial.is_start = false;
+        self.solver.trial.is_start = true;
+        let started = self.start_from(Start::Motion, effort, &mut Target::SharpTrial);
+        self.solver.trial.is_start = false;
         started?;
-        for group in groups.iter_mut() {
+        for group in &mut *self.groups {
             group.hold();
         }
-        self.converge(groups, view, effort, closing)
+        self.converge(effort, closing)
     }
 
-    fn start_and_converge(
+    fn start_from(
         &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
+        start: Start,
         effort: &mut Effort,
-        (start, target): (Start, &mut Target<'_>),
+        target: &mut Target<'_>,
     ) -> Result<(), StepFailure> {
-        self.begin(groups, view, start)?;
-        self.converge(groups, view, effort, target)
+        self.begin(start)?;
+        self.converge(effort, target)
     }
 
     /// The solutions for growing fractions of the step, each starting from the one before.
     #[cold]
-    fn follow(
-        &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-        effort: &mut Effort,
-        closing: &mut Target<'_>,
-    ) -> Result<(), StepFailure> {
+    fn follow(&mut self, effort: &mut Effort, closing: &mut Target<'_>) -> Result<(), StepFailure> {
         let number = |part: u8| f64::from(part);
         for part in 1..=CONTINUATION_STEPS {
-            let step = view.step * number(part) / number(CONTINUATION_STEPS);
-            let shorter = StepView {
+            let step = self.view.step * number(part) / number(CONTINUATION_STEPS);
+            let view = StepView {
                 step,
                 per_step: step.recip(),
-                ..*view
+                ..*self.view
             };
+            let mut shorter = self.solver.search(self.groups, &view);
             let target = if part == CONTINUATION_STEPS {
                 &mut *closing
             } else {
                 &mut Target::Trial
             };
             if part == 1 {
-                let start = (Start::Motion, target);
-                self.start_and_converge(groups, &shorter, effort, start)?;
+                shorter.start_from(Start::Motion, effort, target)?;
             } else {
-                self.extrapolate(groups, &shorter, number(part) / number(part - 1));
-                self.converge(groups, &shorter, effort, target)?;
+                shorter.extrapolate(number(part) / number(part - 1));
+                shorter.converge(effort, target)?;
             }
         }
         Ok(())

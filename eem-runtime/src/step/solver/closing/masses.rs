@@ -1,6 +1,6 @@
 //! The nodes at the end of a step: new positions and momenta.
 
-use crate::algebra::vector;
+use crate::algebra::difference;
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
@@ -28,21 +28,19 @@ impl<const D: usize> Solver<D> {
         let is_exact = self.scheme.is_exact();
         let takes_increments = self.scheme.closing() == Closing::Increments;
         let mut largest = Largest::none();
-        let mut remembering = self.past.remember();
+        self.past.remember();
         if !self.coupling.is_none() {
             let nodes = (self.nodes.as_slice(), &self.trial);
             self.coupling.find_impulses(0, nodes, twice_per_step);
         }
         for (moving, node) in self.nodes.iter().enumerate() {
-            let at = node.place.node();
+            let at = node.node;
             let (displacement, rest) = (&self.trial.displacements[at], &self.trial.carries[at]);
             if takes_increments {
                 let [impulse, terms] = (self.coupling).impulse((moving, node), &self.trial);
-                let found = remembering.impulse_mut(at);
-                let residual = vector(|axis| impulse[axis] - found[axis]);
-                for &residual in &residual {
-                    largest.see(residual);
-                }
+                let found = self.past.impulse(at);
+                let residual = difference(&impulse, found);
+                largest.see_all(&residual);
                 if is_exact {
                     let magnitude = match self.magnitudes.get(at) {
                         None => 0.0,
@@ -55,14 +53,9 @@ impl<const D: usize> Solver<D> {
                 }
                 *found = impulse;
             }
-            let impulse = remembering.impulse(at);
-            let moved = NodeStep {
-                speeds: node.speeds(view, &self.trial, twice_per_step),
-                position: &points(view.state.positions.values())[at],
-                momentum: &points(view.state.momenta.values())[at],
-                displacement,
-                impulse,
-            };
+            let impulse = &*self.past.impulse(at);
+            let speeds = node.speeds(view, &self.trial, twice_per_step);
+            let moved = NodeStep::new((view.state, at), speeds, displacement, impulse);
             let load = has_load.then(|| self.rockets.add_to(view.loads.total_force(at), [0, at]));
             motion.see(&moved, load.as_ref(), view.step);
             move_node(at, [displacement, rest, impulse], view.state, next)?;
@@ -70,9 +63,8 @@ impl<const D: usize> Solver<D> {
                 let (old, none) = (&view.state.velocities, [0.0; D]);
                 next.velocities.advance_point(at, old, [change, &none]);
             }
-            remembering.take(at, view.per_step, node.place.per_mass);
+            self.past.take(at, view.per_step, node.per_mass);
         }
-        remembering.finish();
         self.final_residual = largest.found();
         if view.masses.are_coupled() {
             follow_coupled_masses::<D>(view, next);
@@ -82,7 +74,7 @@ impl<const D: usize> Solver<D> {
 
     fn book_work(&self, view: &StepView<'_>, next: &mut State) {
         for node in &self.nodes {
-            let at = node.place.node();
+            let at = node.node;
             let force = self.rockets.add_to(view.loads.force(at), [0, at]);
             for (force, &displacement) in force.into_iter().zip(&self.trial.displacements[at]) {
                 if force != 0.0 {
@@ -143,4 +135,24 @@ fn find_unbounded<const D: usize>(node: usize, state: &State) -> Result<(), Step
         }
     }
     Ok(())
+}
+
+/// Adds the mass of a solid at a moved anchor, with the force of its loads if there are any, to the certificate; returns the work
+/// `v̄·Δp` of the support on it, J.
+pub(super) fn carry<const D: usize>(
+    (node, displacement): (usize, &[f64; D]),
+    load: Option<&[f64; D]>,
+    view: &StepView<'_>,
+    (next, motion): (&State, &mut Motion<D>),
+) -> f64 {
+    let [old, change] = [
+        points::<D>(view.state.velocities.values())[node],
+        view.change_of_speed(node),
+    ];
+    let [start, end] = [view.state, next].map(|state| points(state.momenta.values())[node]);
+    let impulse = difference(&end, &start);
+    let speeds = Speeds::Given { old, change };
+    let step = NodeStep::new((view.state, node), speeds, displacement, &impulse);
+    motion.see(&step, load, view.step);
+    step.energies()[0]
 }

@@ -8,8 +8,8 @@
 //! own rounding acts along the arms, and so has no torque on a path that gives positions and momenta at its stages. The
 //! residuals of the balances at the stages are judged.
 
-use crate::algebra::{scaled, vector};
-use crate::element::group::{StepView, points};
+use crate::algebra::{add, difference, scaled, vector};
+use crate::element::group::StepView;
 use crate::element::state::State;
 use crate::element::tally::Tally;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
@@ -17,6 +17,7 @@ use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::{follow_coupled_masses, move_node};
+use crate::step::solver::closing::stages::weight_of;
 use crate::step::solver::stages::Stages;
 
 impl<const D: usize> Solver<D> {
@@ -34,23 +35,19 @@ impl<const D: usize> Solver<D> {
             let of_set = (&self.nodes[nodes.clone()], &self.trial);
             self.coupling.find_impulses(set, of_set, inertias[set]);
             for (index, moving) in self.nodes[nodes].iter().enumerate() {
-                let node = moving.place.node();
+                let node = moving.node;
                 let [gained, terms] = (self.coupling).impulse((index, moving), &self.trial);
                 let terms = self.coupling.found(index).map_or([0.0; D], |_| terms);
                 let impulse = stages.combined(node, weights);
-                let residual = vector(|axis| gained[axis] - impulse[axis]);
-                for &residual in &residual {
-                    largest.see(residual);
-                }
+                let residual = difference(&gained, &impulse);
+                largest.see_all(&residual);
                 let mut magnitude = match self.magnitudes.get(node) {
                     None => 0.0,
                     Some(&magnitude) => {
                         let mut way = [0.0; D];
                         for (other, share) in stages.rule.ways_of_residual(set).enumerate() {
                             let moved = &self.trial.displacements_of_set(other)[node];
-                            for axis in 0..D {
-                                way[axis] += share * moved[axis];
-                            }
+                            add(&mut way, share, moved);
                         }
                         motion.fall_short(&residual, &way, view.per_step);
                         magnitude
@@ -78,11 +75,11 @@ impl<const D: usize> Solver<D> {
     ) -> Result<(), StepFailure> {
         self.change_velocities(stages, impulses, view);
         for (index, moving) in self.nodes_of_set(0).iter().enumerate() {
-            let (place, node) = (&moving.place, moving.place.node());
+            let node = moving.node;
             let state = view.state;
             // The compensation of rounding of the momentum moves the node, too.
             let (mobility, [rate, carry]) = match stages.changes.get(node) {
-                None => (view.step * place.per_mass, state.momenta.point::<D>(node)),
+                None => (view.step * moving.per_mass, state.momenta.point::<D>(node)),
                 Some(_) => (view.step, state.velocities.point::<D>(node)),
             };
             let (flight, mut rest) = (scaled(mobility, rate), scaled(mobility, carry));
@@ -95,18 +92,12 @@ impl<const D: usize> Solver<D> {
                 (impulse, Speeds::Given { old, change })
             } else {
                 let gained = self.gained(index, impulses);
-                let impulse = scaled(place.mass * view.per_step, &gained);
-                (impulse, Speeds::OfMass(place.per_mass))
+                let impulse = scaled(moving.mass * view.per_step, &gained);
+                (impulse, Speeds::OfMass(moving.per_mass))
             };
             let displacement = vector(|axis| flight[axis] + rest[axis]);
             move_node(node, [&flight, &rest, &impulse], state, next)?;
-            let moved = NodeStep {
-                speeds,
-                position: &points(state.positions.values())[node],
-                momentum: &points(state.momenta.values())[node],
-                displacement: &displacement,
-                impulse: &impulse,
-            };
+            let moved = NodeStep::new((state, node), speeds, &displacement, &impulse);
             motion.see(&moved, None, view.step);
             if !self.magnitudes.is_empty() {
                 let terms = self.terms_of_gain(index, impulses, view.per_step);
@@ -131,9 +122,7 @@ impl<const D: usize> Solver<D> {
     fn add_gained(&self, index: usize, weights: &[f64], gained: &mut [f64; D]) {
         for (set, &weight) in weights.iter().enumerate() {
             let change = self.nodes_of_set(set)[index].change(&self.trial);
-            for axis in 0..D {
-                gained[axis] += weight * change[axis];
-            }
+            add(gained, weight, &change);
         }
     }
 
@@ -156,7 +145,7 @@ impl<const D: usize> Solver<D> {
             return;
         }
         for index in 0..self.moving() {
-            let node = self.nodes[index].place.node();
+            let node = self.nodes[index].node;
             stages.changes[node] = scaled(view.per_step, &self.gained(index, weights));
         }
         let nodes = &self.nodes[..self.moving()];
@@ -179,14 +168,11 @@ impl<const D: usize> Solver<D> {
             let force = view.stages[stage].force::<D>(node);
             self.rockets.add_to(force, [stage, node])
         };
-        let (total, force) = (
-            view.stages[0].total_force::<D>(node),
-            view.stages[0].force::<D>(node),
-        );
+        let weight = weight_of::<D>(view, node);
         for axis in 0..D {
             let of_axis = |stage: usize| load(stage)[axis];
             next.work.add(self.work(stages, node, axis, &of_axis));
-            motion.work((total[axis] - force[axis]) * moved.displacement[axis]);
+            motion.work(weight[axis] * moved.displacement[axis]);
         }
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
             let share = view.step * weight;

@@ -1,89 +1,83 @@
 //! The end of a step through stages: positions and momenta from the forces at the stages.
 
-use crate::algebra::{scaled, vector};
-use crate::element::group::{Along, Group, StepView, points};
+use crate::algebra::{difference, scaled};
+use crate::element::group::{Along, StepView, points};
 use crate::element::impulse::Impulses;
 use crate::element::state::State;
 use crate::element::tableau::Ending;
 use crate::element::tally::Tally;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
-use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::move_node;
 use crate::step::solver::stages::Stages;
+use crate::step::solver::{Search, Solver};
 
-impl<const D: usize> Solver<D> {
+impl<const D: usize> Search<'_, D> {
     /// New positions and momenta, all finite, and the work of loads and supports.
     pub(super) fn move_through_stages(
         &mut self,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
         next: &mut State,
         (motion, tally): (&mut Motion<D>, &mut Tally),
     ) -> Result<(), StepFailure> {
-        let Some(mut stages) = self.stages.take() else {
+        let Some(mut stages) = self.solver.stages.take() else {
             return Ok(());
         };
-        let found = self.find_stages(&mut stages, groups, view);
+        let found = self.find_stages(&mut stages);
+        let (solver, view) = (&mut *self.solver, self.view);
         let moved = found.and_then(|()| match stages.rule.ending {
             Ending::Increments {
                 displacements,
                 impulses,
             } => {
-                self.judge_stages(&stages, view, (&mut *motion, &mut *tally));
+                solver.judge_stages(&stages, view, (&mut *motion, &mut *tally));
                 let weights = [displacements, impulses];
-                self.move_along_path(&mut stages, weights, view, next, (&mut *motion, tally))
+                solver.move_along_path(&mut stages, weights, view, next, (&mut *motion, tally))
             }
             Ending::StageByStage | Ending::Forces(_) => {
-                self.move_to_end(&stages, view, next, motion)
+                solver.move_to_end(&stages, view, next, motion)
             }
         });
-        self.stages = Some(stages);
+        solver.stages = Some(stages);
         moved?;
-        self.move_supports(view, next, motion);
+        solver.move_supports(view, next, motion);
         motion.work(next.work.change(view.state.work));
         Ok(())
     }
 
     /// Finds the impulses of all stages and, except along paths, the displacements at the end of the step.
-    fn find_stages(
-        &mut self,
-        stages: &mut Stages<D>,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-    ) -> Result<(), StepFailure> {
-        let rule = stages.rule;
+    fn find_stages(&mut self, stages: &mut Stages<D>) -> Result<(), StepFailure> {
+        let (rule, view) = (stages.rule, self.view);
         for stage in 0..rule.stages() {
             if matches!(rule.ending, Ending::StageByStage)
                 && let Some(set) = rule.set_of(stage)
             {
                 if rule.positions[set][stage] == 0.0 {
-                    self.move_to_stage(stages, view, set);
+                    self.solver.move_to_stage(stages, view, set);
                 } else {
-                    self.solve_for_stage(stages, groups, view, set)?;
+                    self.solve_for_stage(stages, set)?;
                 }
             }
+            let solver = &mut *self.solver;
             let mut impulses = Impulses::new(&mut stages.impulses, stage);
             for (node, impulse) in impulses.iter_mut().enumerate() {
                 *impulse = scaled(view.step, &view.stages[stage].total_force(node));
             }
-            for group in groups.iter_mut() {
-                let along = Along::Stage(stage);
-                let magnitudes = &mut self.magnitudes;
-                group.add_impulse(view, &self.trial, along, &mut impulses, magnitudes);
+            let (along, magnitudes) = (Along::Stage(stage), &mut solver.magnitudes);
+            for group in &mut *self.groups {
+                group.add_impulse(view, &solver.trial, along, &mut impulses, magnitudes);
             }
-            let at = (stage, view.step);
-            (self.rockets).add_impulses(at, &mut impulses, &mut self.magnitudes);
+            (solver.rockets).add_impulses((stage, view.step), &mut impulses, magnitudes);
         }
         let momenta = points::<D>(view.state.momenta.values());
-        for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
-            let node = mass.node();
+        for mass in self.solver.nodes_of_set(0) {
+            let node = mass.node;
             stages.ends[node] = match rule.ending {
-                Ending::StageByStage => self.trial.displacements_of_set(rule.sets() - 1)[node],
+                Ending::StageByStage => {
+                    self.solver.trial.displacements_of_set(rule.sets() - 1)[node]
+                }
                 Ending::Forces(weights) => {
-                    let (impulse, mobility) =
-                        (stages.combined(node, weights), view.step * mass.per_mass);
-                    vector(|axis| mobility * (momenta[node][axis] + impulse[axis]))
+                    let impulse = stages.combined(node, weights);
+                    mass.displacement(view.step, &momenta[node], &impulse)
                 }
                 // `move_along_path` finds the displacements from those of the stages.
                 Ending::Increments { .. } => break,
@@ -92,64 +86,54 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// `q_i − q⁰ = c (h/m)(p⁰ + Σ_j w_j h G_j)` with the total forces G of the stages before.
-    fn move_to_stage(&mut self, stages: &Stages<D>, view: &StepView<'_>, set: usize) {
-        let weights = stages.rule.positions[set];
-        let time = self.sets[set].time;
-        let momenta = points::<D>(view.state.momenta.values());
-        for at in self.range_of_set(set) {
-            let mass = self.nodes[at].place;
-            let (momentum, impulse) =
-                (&momenta[mass.node()], stages.combined(mass.node(), weights));
-            let mobility = time * view.step * mass.per_mass;
-            let displacement = vector(|axis| mobility * (momentum[axis] + impulse[axis]));
-            self.place(mass.in_trial(), displacement);
-        }
-    }
-
     /// `(m/(ch) + h w A)(q_i − q⁰) = p⁰ + Σ_{j<i} w_j h G_j + h w (load − A q⁰)`, where `A q_i` is the force found
     /// at the stage.
-    fn solve_for_stage(
-        &mut self,
-        stages: &mut Stages<D>,
-        groups: &mut [Box<dyn Group<D>>],
-        view: &StepView<'_>,
-        set: usize,
-    ) -> Result<(), StepFailure> {
+    fn solve_for_stage(&mut self, stages: &mut Stages<D>, set: usize) -> Result<(), StepFailure> {
         let Some(mut secant) = stages.secant.take() else {
             return Ok(());
         };
+        let (solver, view) = (&mut *self.solver, self.view);
         secant.clear();
-        for group in groups.iter_mut() {
-            group.add_secant(set, view, &self.trial, &mut secant);
+        for group in &mut *self.groups {
+            group.add_secant(set, view, &solver.trial, &mut secant);
         }
-        let rule = stages.rule;
-        let own = rule.stage_of(set);
-        let (before, weight) = (
-            &rule.positions[set][..own],
-            view.step * rule.positions[set][own],
-        );
+        let own = stages.rule.stage_of(set);
+        let (before, weights) = stages.rule.positions[set].split_at(own);
+        let weight = view.step * weights[0];
         let momenta = points::<D>(view.state.momenta.values());
-        let inertia = self.inertias(view)[set];
-        let nodes = self.nodes_of_set(set);
+        let inertia = solver.inertias(view)[set];
         let (values, right) = secant.parts();
-        for (mass, right) in nodes.iter().map(|node| &node.place).zip(right) {
-            values[mass.secant_diagonal()] += inertia * mass.mass;
-            let node = mass.node();
-            let impulse = stages.combined(node, before);
-            let load = view.stages[own].total_force::<D>(node);
+        for (mass, right) in solver.nodes_of_set(set).iter().zip(right) {
+            values[mass.secant_diagonal] += inertia * mass.mass;
+            let impulse = stages.combined(mass.node, before);
+            let load = view.stages[own].total_force::<D>(mass.node);
             for (axis, right) in right.iter_mut().enumerate() {
-                *right += momenta[node][axis] + impulse[axis] + weight * load[axis];
+                *right += momenta[mass.node][axis] + impulse[axis] + weight * load[axis];
             }
         }
         let solved = secant.solve();
         if solved.is_ok() {
-            for (at, &displacement) in self.range_of_set(set).zip(secant.solution()) {
-                self.place(self.nodes[at].place.in_trial(), displacement);
+            for (at, &displacement) in solver.range_of_set(set).zip(secant.solution()) {
+                solver.place(solver.nodes[at].in_trial, displacement);
             }
         }
         stages.secant = Some(secant);
-        solved.map_err(|_| StepFailure::SingularTangent)
+        Ok(solved?)
+    }
+}
+
+impl<const D: usize> Solver<D> {
+    /// `q_i − q⁰ = c (h/m)(p⁰ + Σ_j w_j h G_j)` with the total forces G of the stages before.
+    fn move_to_stage(&mut self, stages: &Stages<D>, view: &StepView<'_>, set: usize) {
+        let weights = stages.rule.positions[set];
+        let time = self.sets[set].time * view.step;
+        let momenta = points::<D>(view.state.momenta.values());
+        for at in self.range_of_set(set) {
+            let mass = &self.nodes[at];
+            let impulse = stages.combined(mass.node, weights);
+            let displacement = mass.displacement(time, &momenta[mass.node], &impulse);
+            self.place(mass.in_trial, displacement);
+        }
     }
 
     /// Sets the displacement of a node in a set.
@@ -166,8 +150,8 @@ impl<const D: usize> Solver<D> {
         motion: &mut Motion<D>,
     ) -> Result<(), StepFailure> {
         let none = [0.0; D];
-        for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
-            let node = mass.node();
+        for mass in self.nodes_of_set(0) {
+            let node = mass.node;
             let displacement = &stages.ends[node];
             let impulse = stages.combined(node, stages.rule.weights);
             move_node(node, [displacement, &none, &impulse], view.state, next)?;
@@ -175,18 +159,9 @@ impl<const D: usize> Solver<D> {
                 let load = |stage: usize| view.stages[stage].force::<D>(node)[axis];
                 next.work.add(self.work(stages, node, axis, &load));
             }
-            let moved = NodeStep {
-                speeds: Speeds::OfMass(mass.per_mass),
-                position: &points(view.state.positions.values())[node],
-                momentum: &points(view.state.momenta.values())[node],
-                displacement,
-                impulse: &impulse,
-            };
-            let (total, load) = (
-                view.stages[0].total_force::<D>(node),
-                view.stages[0].force::<D>(node),
-            );
-            let weight = vector(|axis| total[axis] - load[axis]);
+            let speeds = Speeds::OfMass(mass.per_mass);
+            let moved = NodeStep::new((view.state, node), speeds, displacement, &impulse);
+            let weight = weight_of(view, node);
             motion.see(&moved, Some(&weight), view.step);
         }
         Ok(())
@@ -212,4 +187,10 @@ impl<const D: usize> Solver<D> {
         }
         work
     }
+}
+
+/// The weight of a node in a step through stages, N.
+pub(super) fn weight_of<const D: usize>(view: &StepView<'_>, node: usize) -> [f64; D] {
+    let loads = &view.stages[0];
+    difference(&loads.total_force(node), &loads.force(node))
 }

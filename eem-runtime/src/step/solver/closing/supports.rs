@@ -6,12 +6,14 @@
 //!
 //! with the forces F of the elements and the motion of the path at the stages, and polynomials for v and p.
 
-use crate::algebra::{scaled, vector};
-use crate::element::group::{StepView, points};
+use crate::algebra::{add, combined, scaled};
+use crate::element::group::StepView;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Path};
-use crate::step::certificate::{Motion, NodeStep, Speeds};
+use crate::step::certificate::Motion;
 use crate::step::solver::Solver;
+use crate::step::solver::closing::masses::carry;
+use crate::step::solver::closing::stages::weight_of;
 use crate::step::solver::coupling::changes_at_stages;
 use crate::step::solver::stages::Stages;
 
@@ -51,8 +53,7 @@ impl<const D: usize> Solver<D> {
         view: &StepView<'_>,
         (next, motion): (&mut State, &mut Motion<D>),
     ) {
-        let state = view.state;
-        let [&old, _] = state.velocities.point::<D>(node);
+        let [&old, _] = view.state.velocities.point::<D>(node);
         let changes = changes_at_stages::<D>(path, node, view);
         let impulses = self.impulses_at_stages(node, (stages, path), view);
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
@@ -62,26 +63,9 @@ impl<const D: usize> Solver<D> {
             }
         }
         let displacement = view.loads.motion::<D>(node);
-        let momentum = points::<D>(state.momenta.values())[node];
-        let end = points::<D>(next.momenta.values())[node];
-        let impulse = vector(|axis| end[axis] - momentum[axis]);
-        let carried = NodeStep {
-            speeds: Speeds::Given {
-                old,
-                change: view.change_of_speed(node),
-            },
-            position: &points(state.positions.values())[node],
-            momentum: &momentum,
-            displacement: &displacement,
-            impulse: &impulse,
-        };
-        motion.see(&carried, None, view.step);
-        let [total, force] = [
-            view.stages[0].total_force::<D>(node),
-            view.stages[0].force::<D>(node),
-        ];
-        for axis in 0..D {
-            motion.work((total[axis] - force[axis]) * displacement[axis]);
+        carry((node, &displacement), None, view, (next, motion));
+        for (weight, displacement) in weight_of::<D>(view, node).iter().zip(displacement) {
+            motion.work(weight * displacement);
         }
     }
 
@@ -105,11 +89,7 @@ impl<const D: usize> Solver<D> {
                 self.changes_of_mass(other, stages, view)
             };
             let rates = differentiated(stages.rule.motion, &changes);
-            for (impulse, rate) in impulses.iter_mut().zip(&rates) {
-                for axis in 0..D {
-                    impulse[axis] += pair.mass * rate[axis];
-                }
-            }
+            add(impulses.as_flattened_mut(), pair.mass, rates.as_flattened());
         }
         impulses
     }
@@ -123,7 +103,7 @@ impl<const D: usize> Solver<D> {
     ) -> [[f64; D]; MOST_STAGES] {
         let masses = self.nodes_of_set(0);
         let mut beyond = [[0.0; D]; MOST_STAGES];
-        if let Ok(index) = masses.binary_search_by_key(&node, |mass| mass.place.node()) {
+        if let Ok(index) = masses.binary_search_by_key(&node, |mass| mass.node) {
             for (set, beyond) in beyond.iter_mut().enumerate().take(self.sets.len()) {
                 let change = self.nodes_of_set(set)[index].change(&self.trial);
                 *beyond = scaled(view.per_step, &change);
@@ -140,11 +120,7 @@ fn differentiated<const D: usize>(
 ) -> [[f64; D]; MOST_STAGES] {
     let mut rates = [[0.0; D]; MOST_STAGES];
     for (rate, shares) in rates.iter_mut().zip(motion) {
-        for (&share, value) in shares.iter().zip(values) {
-            for axis in 0..D {
-                rate[axis] += share * value[axis];
-            }
-        }
+        *rate = combined(shares, *values);
     }
     rates
 }

@@ -1,7 +1,8 @@
 //! Whether a state at rest is stable, and the motion against which there is least stiffness.
 
-use super::system::{ROUNDINGS, dot, norm};
+use super::system::ROUNDINGS;
 use super::{AtRest, LONG, Softest};
+use crate::algebra::{dot, hypot, largest};
 use crate::step::error::StepFailure;
 use eem_material::number::compact::compact;
 
@@ -12,7 +13,7 @@ const INVERSE_ITERATIONS: usize = 60;
 impl Softest {
     /// The part of these forces of all moving nodes along the motion, as a share of them.
     pub(crate) fn share_of(&self, forces: &[f64]) -> f64 {
-        dot(forces, &self.motion).abs() / (norm(forces) * norm(&self.motion))
+        dot(forces, &self.motion).abs() / (hypot(forces) * hypot(&self.motion))
     }
 }
 
@@ -23,9 +24,9 @@ fn weighted(dimension: usize, x: &[f64], sizes: &[f64]) -> Vec<f64> {
 }
 
 /// A vector in units of its largest entry.
-fn scaled(x: &[f64]) -> Vec<f64> {
-    let largest = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    x.iter().map(|x| x / largest).collect()
+fn in_units_of_largest(x: &[f64]) -> Vec<f64> {
+    let most = largest(x);
+    x.iter().map(|x| x / most).collect()
 }
 
 /// Quasi-random numbers, a vector with a component along every motion.
@@ -61,16 +62,16 @@ impl<const D: usize> AtRest<'_, D> {
             self.assemble_alone(shift).ok()?;
             let right = weighted(D, &x, &sizes);
             self.set_right(&right);
-            self.solver.tangent.solve().ok()?;
+            self.search.solver.tangent.solve().ok()?;
             let found = self.solution();
             // (K + shift D) y = D x gives 1/(λ + shift) = xᵀ D y / xᵀ D x.
             relative = dot(&right, &x) / dot(&right, &found) - shift;
-            x = scaled(&found);
+            x = in_units_of_largest(&found);
         }
         let stiffness = relative * (dot(&weighted(D, &x, &sizes), &x) / LONG) / dot(&x, &x);
-        let nodes = self.solver.nodes.iter();
+        let nodes = self.search.solver.nodes.iter();
         Some(Softest {
-            nodes: nodes.map(|node| node.place.node()).collect(),
+            nodes: nodes.map(|node| node.node).collect(),
             motion: x,
             stiffness,
             relative,
@@ -81,15 +82,16 @@ impl<const D: usize> AtRest<'_, D> {
     /// Assembles the symmetric part of K plus a shift in units of D.
     fn assemble_alone(&mut self, shift: f64) -> Result<(), StepFailure> {
         self.renew()?;
-        if !self.solver.rockets.are_none() {
-            self.solver.tangent.symmetrize();
+        if !self.search.solver.rockets.are_none() {
+            self.search.solver.tangent.symmetrize();
         }
         self.shift(shift);
         Ok(())
     }
 
     fn judge(&mut self, shift: f64) -> bool {
-        self.assemble_alone(shift).is_ok() && self.solver.tangent.solve_and_judge() == Ok(true)
+        self.assemble_alone(shift).is_ok()
+            && self.search.solver.tangent.solve_and_judge() == Ok(true)
     }
 
     /// What rounding may contribute to eigenvalues of K, relative to D: entries have the rounding of element

@@ -4,6 +4,7 @@ use eem_material::number::scalar::Scalar;
 
 use super::super::balance::Balance;
 use super::{AtRest, LONG, Place};
+use crate::algebra::{dot, hypot, largest};
 use crate::element::tally::Care;
 use crate::scene::loads::extent;
 use crate::step::error::StepFailure;
@@ -54,25 +55,10 @@ impl Update {
     }
 }
 
-pub(super) fn norm(vector: &[f64]) -> f64 {
-    vector
-        .iter()
-        .fold(0.0, |norm, &entry| Scalar::hypot(entry, norm))
-}
-
-pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(a, b)| a * b).sum()
-}
-
-fn difference(one: &[f64], other: &[f64]) -> Vec<f64> {
-    one.iter().zip(other).map(|(a, b)| a - b).collect()
-}
-
 /// Replaces the sizes of nodes without stiffness, or only with that of viscous forces, η/h.
 fn fill_sizes(sizes: &mut [f64]) {
-    let least = LONG.sqrt();
-    let largest = sizes.iter().fold(0.0_f64, |most, &size| most.max(size));
-    let unit = if largest > least { largest } else { LONG };
+    let (least, most) = (LONG.sqrt(), largest(sizes));
+    let unit = if most > least { most } else { LONG };
     for size in sizes.iter_mut().filter(|size| **size <= least) {
         *size = unit;
     }
@@ -82,7 +68,7 @@ fn fill_sizes(sizes: &mut [f64]) {
 fn entries<const D: usize>(nodes: &[Balance<D>], vector: &[[f64; 1]]) -> Vec<f64> {
     let mut entries = Vec::with_capacity(nodes.len() * D);
     for node in nodes {
-        entries.extend_from_slice(node.place.rows(vector));
+        entries.extend_from_slice(node.rows(vector));
     }
     entries
 }
@@ -106,23 +92,23 @@ fn largest_turn(dimension: usize, arms: &[[usize; 2]], places: &[f64], moved: &[
 impl<const D: usize> AtRest<'_, D> {
     /// Builds the system at the trial.
     pub(super) fn renew(&mut self) -> Result<(), StepFailure> {
-        self.solver.balance(self.view);
+        self.search.solver.balance(self.search.view);
         self.assemble()
     }
 
     /// Evaluates the elements at a trial whose system has been started.
     pub(super) fn assemble(&mut self) -> Result<(), StepFailure> {
-        self.solver.evaluate(self.groups, self.view, true)?;
-        let (values, right) = self.solver.tangent.parts();
+        self.search.evaluate(true)?;
+        let (values, right) = self.search.solver.tangent.parts();
         let left = 1.0 - self.share;
         self.sizes.clear();
-        for (at, node) in self.solver.nodes.iter().enumerate() {
+        for (at, node) in self.search.solver.nodes.iter().enumerate() {
             let first = self.first.get(at * D..).unwrap_or_default();
-            for (force, first) in node.place.rows_mut(right).iter_mut().zip(first) {
+            for (force, first) in node.rows_mut(right).iter_mut().zip(first) {
                 *force -= left * first;
             }
             let mut size = 0.0_f64;
-            for place in node.place.diagonal() {
+            for place in node.diagonal {
                 size = size.max(values[place].abs());
             }
             self.sizes.push(size);
@@ -136,20 +122,20 @@ impl<const D: usize> AtRest<'_, D> {
 
     /// Makes D proportional to the masses, and nowhere smaller.
     fn weigh(&mut self) {
-        let (nodes, mut most) = (&self.solver.nodes, 0.0);
+        let (nodes, mut most) = (&self.search.solver.nodes, 0.0);
         for (size, node) in self.sizes.iter().zip(nodes) {
-            most = Scalar::maximum(most, size / node.place.mass);
+            most = Scalar::maximum(most, size / node.mass);
         }
         for (size, node) in self.sizes.iter_mut().zip(nodes) {
-            *size = most * node.place.mass;
+            *size = most * node.mass;
         }
     }
 
     /// Adds a shift, in units of D, to K.
     pub(super) fn shift(&mut self, shift: f64) {
-        let (values, _) = self.solver.tangent.parts();
-        for (node, size) in self.solver.nodes.iter().zip(&self.sizes) {
-            for place in node.place.diagonal() {
+        let (values, _) = self.search.solver.tangent.parts();
+        for (node, size) in self.search.solver.nodes.iter().zip(&self.sizes) {
+            for place in node.diagonal {
                 values[place] += shift * size;
             }
         }
@@ -163,14 +149,14 @@ impl<const D: usize> AtRest<'_, D> {
     /// Whether the rounding of forces and of their arguments explains R: by node, with the terms of the forces of its
     /// elements as in the certificate of a step, of its loads, and of what is left of R(q⁰).
     pub(super) fn is_balanced(&mut self) -> bool {
-        (self.solver).find_motion(self.groups, self.view, Care::Thorough);
+        self.search.find_motion(Care::Thorough);
         let left = 1.0 - self.share;
-        let right = self.solver.tangent.right();
-        for (at, node) in self.solver.nodes.iter().enumerate() {
-            let (place, first) = (&node.place, self.first.get(at * D..).unwrap_or_default());
-            let loads = self.view.loads.total_force::<D>(place.node());
-            let magnitude = self.solver.magnitudes[place.node()];
-            for (axis, force) in place.rows(right).iter().enumerate() {
+        let right = self.search.solver.tangent.right();
+        for (at, node) in self.search.solver.nodes.iter().enumerate() {
+            let first = self.first.get(at * D..).unwrap_or_default();
+            let loads = self.search.view.loads.total_force::<D>(node.node);
+            let magnitude = self.search.solver.magnitudes[node.node];
+            for (axis, force) in node.rows(right).iter().enumerate() {
                 let first = first.get(axis).map_or(0.0, |first| left * first.abs());
                 let terms = magnitude + LONG * loads[axis].abs() + first;
                 let is_rounding = force.abs() <= ROUNDINGS * f64::EPSILON * terms;
@@ -184,27 +170,39 @@ impl<const D: usize> AtRest<'_, D> {
 
     /// R, N.
     pub(crate) fn forces(&self) -> Vec<f64> {
-        entries(&self.solver.nodes, self.solver.tangent.right())
+        entries(
+            &self.search.solver.nodes,
+            self.search.solver.tangent.right(),
+        )
     }
 
     /// The last update, m.
     pub(super) fn solution(&self) -> Vec<f64> {
-        entries(&self.solver.nodes, self.solver.tangent.solution())
+        entries(
+            &self.search.solver.nodes,
+            self.search.solver.tangent.solution(),
+        )
     }
 
     /// Replaces R.
     pub(super) fn set_right(&mut self, forces: &[f64]) {
-        let (_, right) = self.solver.tangent.parts();
-        for (node, force) in self.solver.nodes.iter().zip(forces.as_chunks::<D>().0) {
-            *node.place.rows_mut(right) = *force;
+        let (_, right) = self.search.solver.tangent.parts();
+        for (node, force) in self
+            .search
+            .solver
+            .nodes
+            .iter()
+            .zip(forces.as_chunks::<D>().0)
+        {
+            *node.rows_mut(right) = *force;
         }
     }
 
     /// Solves the system with friction. Returns whether it is definite, which is not asked of one that is not symmetric.
     fn solve(&mut self, friction: f64) -> Result<bool, StepFailure> {
         self.shift(friction);
-        let is_symmetric = self.solver.rockets.are_none();
-        let is_definite = self.solver.tangent.solve_and_judge();
+        let is_symmetric = self.search.solver.rockets.are_none();
+        let is_definite = self.search.solver.tangent.solve_and_judge();
         Ok(is_definite.map_err(|_| StepFailure::SingularTangent)? || !is_symmetric)
     }
 
@@ -218,7 +216,7 @@ impl<const D: usize> AtRest<'_, D> {
             sizes: self.sizes.clone(),
         };
         let is_definite = self.solve(friction)?;
-        let size = self.solver.correct(self.groups, self.view);
+        let size = self.search.correct();
         let change = self.solution();
         if !size.is_finite() {
             // An update that is not finite cannot be taken back.
@@ -258,8 +256,8 @@ impl<const D: usize> AtRest<'_, D> {
             size,
             is_definite,
             part,
-            before: norm(&begin.forces),
-            after: norm(&after),
+            before: hypot(&begin.forces),
+            after: hypot(&after),
             left: if slope > 0.0 {
                 dot(&after, &change) / slope
             } else {
@@ -281,7 +279,7 @@ impl<const D: usize> AtRest<'_, D> {
             self.set_right(&right);
             self.sizes.clone_from(&begin.sizes);
             if self.solve(friction) != Ok(true)
-                || !self.solver.correct(self.groups, self.view).is_finite()
+                || !self.search.correct().is_finite()
                 || self.turn(&begin.place) > LARGEST_TURN
                 || self.assemble().is_err()
             {
@@ -293,7 +291,7 @@ impl<const D: usize> AtRest<'_, D> {
                 return false;
             }
             update.left = dot(&after, &way) / slope;
-            update.after = norm(&after);
+            update.after = hypot(&after);
             if !update.goes_too_far() {
                 return true;
             }
@@ -305,15 +303,16 @@ impl<const D: usize> AtRest<'_, D> {
     fn way_from(&self, from: &Place) -> Vec<f64> {
         let all = self.moved_from(from);
         let mut moved = Vec::with_capacity(self.first.len());
-        for node in &self.solver.nodes {
-            moved.extend_from_slice(&all[node.place.node() * D..][..D]);
+        for node in &self.search.solver.nodes {
+            moved.extend_from_slice(&all[node.node * D..][..D]);
         }
         moved
     }
 
     /// The displacements of all nodes from a place, m.
     fn moved_from(&self, [from, _]: &Place) -> Vec<f64> {
-        difference(self.solver.trial.displacements.as_flattened(), from)
+        let now = self.search.solver.trial.displacements.as_flattened();
+        now.iter().zip(from).map(|(now, from)| now - from).collect()
     }
 
     /// The largest motion of an arm since it was at a place, in lengths of the arm there.
@@ -323,8 +322,8 @@ impl<const D: usize> AtRest<'_, D> {
 
     /// Reduces the part of the last update that is applied, and starts the next system.
     pub(super) fn take_back(&mut self, part: f64, next: f64) {
-        self.solver.take_back(self.view, part - next);
-        for group in &mut *self.groups {
+        (self.search.solver).take_back(self.search.view, part - next);
+        for group in &mut *self.search.groups {
             group.apply(next);
         }
     }
