@@ -21,32 +21,27 @@
 //! `2/h` would multiply what is lost. So the unknowns are the changes of w since the last step, and `λ_v − M w` is updated by `M` times
 //! these.
 
-mod error;
-mod inertia;
+mod equations;
 mod rockets;
 mod tangents;
 
 use core::mem;
 
 use crate::algebra::system::LinearSystem;
-use crate::element::conduction::InterfaceTemperatures;
 use crate::element::group::{Group, SeeParameters, StepBack, StepView};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 
 pub(crate) use crate::element::group::{Direction, PastStep, PerVariable, StepWeights, Terms};
-pub(crate) use error::NoAdjoint;
-use inertia::Inertia;
+use equations::Equations;
+pub(crate) use equations::NoAdjoint;
 pub(crate) use rockets::RocketStep;
 pub(crate) use tangents::{HeatChange, Tangents};
 
 /// The adjoint of one step after the other, with a workspace for all of them.
 #[derive(Debug)]
 pub(crate) struct Adjoint<const D: usize> {
-    inertia: Inertia<D>,
-    /// The interface temperatures of a step, and whether there are any.
-    interface: InterfaceTemperatures,
-    is_coupled: bool,
+    equations: Equations,
     /// `w_v` of the last step for each unknown; 0 unless the unknown is a position.
     last: Vec<[f64; 1]>,
     /// The change of `M w_v` by the last step, and `λ_v − M w_v` with the present λ.
@@ -69,11 +64,8 @@ impl<const D: usize> Adjoint<D> {
     ) -> Self {
         let zeros = |count| vec![0.0; count];
         let coordinates = costate.positions.len();
-        let is_coupled = layout.coupled.iter().any(Option::is_some);
         Self {
-            inertia: Inertia::new(layout, masses, system),
-            interface: InterfaceTemperatures::new(layout.thermal),
-            is_coupled,
+            equations: Equations::new(D, layout, masses, system),
             last: vec![[0.0]; system.right().len()],
             changes: zeros(coordinates),
             rests: costate.velocities.clone(),
@@ -102,11 +94,7 @@ impl<const D: usize> Adjoint<D> {
     ) -> Result<(), NoAdjoint> {
         mem::swap(&mut self.costate, &mut self.after);
         let view = &past.view;
-        if self.is_coupled {
-            for group in &mut *groups {
-                group.find_interfaces(past, &mut self.interface)?;
-            }
-        }
+        self.equations.find_interfaces(past, groups)?;
         system.clear();
         let by_new = &self.after;
         let step = StepBack {
@@ -114,13 +102,13 @@ impl<const D: usize> Adjoint<D> {
             by_new,
         };
         for group in &mut *groups {
-            group.pull_back(&step, &self.interface, system)?;
+            group.pull_back(&step, &self.equations.interface, system)?;
         }
         for rocket in rockets {
             rocket.add_to(layout, true, system);
         }
         system.subtract_product(&self.last);
-        self.inertia.add_to(view.step, system);
+        self.equations.add_inertia(view.step, system);
         self.find_weights(view, system)?;
         let solution = system.solution();
         for anchors in &mut self.weights.anchors {
@@ -134,7 +122,7 @@ impl<const D: usize> Adjoint<D> {
         };
         for group in groups {
             let found = (&mut self.costate, &mut self.weights);
-            group.recover(&step, &self.interface, solution, found, see);
+            group.recover(&step, &self.equations.interface, solution, found, see);
         }
         for rocket in rockets {
             rocket.subtract(layout, &mut self.costate, &mut self.weights);
@@ -155,42 +143,35 @@ impl<const D: usize> Adjoint<D> {
         view: &StepView<'_>,
         system: &mut LinearSystem<1>,
     ) -> Result<(), NoAdjoint> {
-        let Inertia { nodes, .. } = &self.inertia;
+        let moving = &self.equations.moving;
         let per = 2.0 / view.step;
         let (_, right) = system.parts();
         let (after, rests) = (&self.after, &mut self.rests);
-        for node in nodes {
-            for (at, unknown) in (node.coordinate..).zip(node.unknown..).take(D) {
-                right[unknown][0] += after.positions[at] + per * rests[at];
-            }
+        for of in moving {
+            let at = of.coordinate;
+            right[of.unknown][0] += after.positions[at] + per * rests[at];
         }
-        system.solve().map_err(|_| NoAdjoint::Singular)?;
+        system.solve()?;
         let motion = &mut self.weights.motion;
         motion.fill(0.0);
         let solution = system.solution_mut();
-        for node in nodes {
-            for (at, unknown) in (node.coordinate..).zip(node.unknown..).take(D) {
-                motion[at] = solution[unknown][0];
-                solution[unknown][0] += self.last[unknown][0];
-                self.last[unknown] = solution[unknown];
-            }
+        for of in moving {
+            motion[of.coordinate] = solution[of.unknown][0];
+            solution[of.unknown][0] += self.last[of.unknown][0];
+            self.last[of.unknown] = solution[of.unknown];
         }
         view.masses.find_momenta(D, motion, &mut self.changes);
-        for node in nodes {
-            for (at, unknown) in (node.coordinate..).zip(node.unknown..).take(D) {
-                motion[at] = solution[unknown][0];
-            }
+        for of in moving {
+            motion[of.coordinate] = solution[of.unknown][0];
         }
         let before = &mut self.costate;
         before.reservoirs.copy_from_slice(&after.reservoirs);
         before.positions.copy_from_slice(&after.positions);
         view.masses.find_momenta(D, motion, &mut before.velocities);
-        for node in nodes {
-            for at in (node.coordinate..).take(D) {
-                rests[at] = self.changes[at] - rests[at];
-                before.positions[at] = per * rests[at];
-                before.velocities[at] += rests[at];
-            }
+        for at in moving.iter().map(|of| of.coordinate) {
+            rests[at] = self.changes[at] - rests[at];
+            before.positions[at] = per * rests[at];
+            before.velocities[at] += rests[at];
         }
         Ok(())
     }

@@ -125,7 +125,7 @@ fn expected_gain([present, other]: [Scheme; 2], unknowns: usize, relative: f64) 
 }
 
 /// When the next trial of a kind may begin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
@@ -166,7 +166,7 @@ impl TrialClock {
 }
 
 /// The history of schemes in a run with [`Scheme::Auto`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
@@ -240,23 +240,8 @@ impl SchemeSelection {
         ]
     }
 
-    pub(crate) const fn new() -> Self {
-        Self {
-            recent_effort: 0.0,
-            recent_time: 0.0,
-            steps: 0,
-            size: 0.0,
-            limited_checks: 0,
-            failures: 0,
-            previous_rate: 0.0,
-            previous_step: 0.0,
-            is_on_trial: false,
-            tried_at: 0.0,
-            spent: 0.0,
-            explicit_trials: TrialClock::new(0.0),
-            implicit_trials: TrialClock::new(0.0),
-            failed_trials: 0,
-        }
+    pub(crate) fn new() -> Self {
+        Self::default()
     }
 
     /// Adds the effort of evaluations by a scheme. The time, s, is that of the step, zero if it was rejected.
@@ -291,7 +276,8 @@ impl SchemeSelection {
     pub(crate) const fn see(&mut self, fraction: f64, failures: u64) {
         let has_failed = failures > self.failures;
         self.failures = failures;
-        self.limited_checks = if fraction > NEARLY_UNSTABLE || has_failed {
+        let is_limited = fraction > NEARLY_UNSTABLE || has_failed;
+        self.limited_checks = if is_limited {
             self.limited_checks + 1
         } else {
             0

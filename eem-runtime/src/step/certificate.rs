@@ -70,6 +70,7 @@
 
 mod motion;
 
+use crate::algebra::largest;
 use crate::element::group::Group;
 use crate::element::handle::Element;
 use crate::element::state::State;
@@ -101,7 +102,7 @@ const REPORTED_VALUE_ROUNDINGS: f64 = 16.0;
 const WIDE: f64 = 100.0;
 
 /// The proof of a step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Certificate {
     /// R, J.
     pub(crate) defect: f64,
@@ -125,7 +126,8 @@ pub(crate) struct Certificate {
     angular: [f64; 2],
     /// The terms of the balances of nodes in the linear and the angular momentum, if bounds are thorough.
     residues: [f64; 2],
-    is_balanced: bool,
+    /// Whether the balances of all nodes, dashpots and temperatures hold to rounding.
+    pub(crate) is_balanced: bool,
 }
 
 /// The change of the internal energy in a step, from values at both ends.
@@ -169,26 +171,6 @@ impl Internal {
 }
 
 impl Certificate {
-    /// Before the first step.
-    pub(crate) fn none() -> Self {
-        let nothing = [0.0; 2];
-        Self {
-            defect: 0.0,
-            bound: 0.0,
-            motion: 0.0,
-            terms: nothing,
-            judged: nothing,
-            residual_work: 0.0,
-            production: 0.0,
-            least_production: 0.0,
-            unresolved: 0,
-            linear: nothing,
-            angular: nothing,
-            residues: nothing,
-            is_balanced: false,
-        }
-    }
-
     /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states.
     #[inline]
     pub(crate) fn new<const D: usize>(
@@ -204,10 +186,8 @@ impl Certificate {
         let rounding = ROUNDINGS * f64::EPSILON;
         let defect = energy.value();
         let has_produced = tally.least < f64::MAX;
-        let largest = |of: &[f64]| {
-            of.iter()
-                .fold(0.0, |most, x| Scalar::maximum(most, x.abs()))
-        };
+        let momenta = motion.momenta + tally.impulse + least;
+        let moments = motion.moments + motion.farthest * tally.impulse + least;
         Self {
             defect,
             bound: rounding * (terms + tally.forces + internal.excess) + motion.residual_work.abs(),
@@ -219,16 +199,10 @@ impl Certificate {
             least_production: if has_produced { tally.least } else { 0.0 },
             unresolved: tally.unresolved,
             linear: match motion.kept {
-                Kept::Both => [
-                    largest(&motion.linear),
-                    motion.momenta + tally.impulse + least,
-                ],
+                Kept::Both => [largest(&motion.linear), momenta],
                 Kept::None | Kept::Angular(_) => [0.0; 2],
             },
-            angular: [
-                motion.angular.largest(),
-                motion.moments + motion.farthest * tally.impulse + least,
-            ],
+            angular: [motion.angular.largest(), moments],
             residues: [tally.residues, motion.farthest * tally.residues],
             is_balanced: tally.is_balanced,
         }
@@ -292,16 +266,10 @@ impl Certificate {
         })
     }
 
-    /// Whether the balances of all nodes, dashpots and temperatures hold to rounding.
-    #[inline]
-    pub(crate) fn is_balanced(&self) -> bool {
-        self.is_balanced
-    }
-
     /// Whether the balances and all laws hold to what rounding explains.
     #[inline]
     pub(crate) fn is_lawful(&self) -> bool {
-        self.is_balanced() && self.broken_law().is_none()
+        self.is_balanced && self.broken_beyond([0.0; 2]).is_none()
     }
 
     /// Whether all equations hold as accurately as after another iteration.
@@ -335,12 +303,7 @@ impl Certificate {
         }
     }
 
-    /// The first violated law, with its defect and the bound for rounding.
-    pub(crate) fn broken_law(&self) -> Option<(Law, [f64; 2])> {
-        self.broken_beyond([0.0; 2])
-    }
-
-    /// The first law that stays violated where no iteration helps any more.
+    /// The first law that stays violated where no iteration helps any more, with its defect and the bound for rounding.
     #[cold]
     pub(crate) fn unexplained_law(&self) -> Option<(Law, [f64; 2])> {
         self.broken_beyond(self.residues)
@@ -348,37 +311,21 @@ impl Certificate {
 
     /// The first violated law, with these terms of the momenta beside their own.
     fn broken_beyond(&self, residues: [f64; 2]) -> Option<(Law, [f64; 2])> {
-        let rounding = ROUNDINGS * f64::EPSILON;
         let [energy, bound] = self.judged;
-        let [linear, momenta] = self.linear;
-        let [angular, moments] = self.angular;
-        let laws = [
-            (
-                Law::Energy,
-                energy - self.residual_work,
-                (1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound,
-            ),
-            (
-                Law::LinearMomentum,
-                linear,
-                rounding * (momenta + residues[0]),
-            ),
-            (
-                Law::AngularMomentum,
-                angular,
-                rounding * (moments + residues[1]),
-            ),
-            (
-                Law::Production,
-                Scalar::minimum(self.least_production, 0.0),
-                0.0,
-            ),
-        ];
+        let bound = (1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound;
+        let momentum = |[defect, terms]: [f64; 2], residue: f64| {
+            [defect, ROUNDINGS * f64::EPSILON * (terms + residue)]
+        };
+        let lost = Scalar::minimum(self.least_production, 0.0);
+        let mut laws = [
+            (Law::Energy, [energy - self.residual_work, bound]),
+            (Law::LinearMomentum, momentum(self.linear, residues[0])),
+            (Law::AngularMomentum, momentum(self.angular, residues[1])),
+            (Law::Production, [lost, 0.0]),
+        ]
+        .into_iter();
         // A NaN violates a law.
-        let broken = laws
-            .into_iter()
-            .find(|(_, defect, bound)| !(defect.abs() <= *bound));
-        broken.map(|(law, defect, bound)| (law, [defect, bound]))
+        laws.find(|(_, [defect, bound])| !(defect.abs() <= *bound))
     }
 }
 

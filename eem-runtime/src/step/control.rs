@@ -14,4 +14,4 @@ pub(crate) use rounding::LoadRounding;
 pub use statistics::StepStatistics;
 pub use tolerance::Tolerance;
 pub(crate) use tolerance::{Kinds, Scales};
-pub(crate) use worst::{Unknown, Worst};
+pub(crate) use worst::{Unknown, UnknownError, see_worst};

@@ -11,6 +11,7 @@ use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::scene::loads::{Course, Loads};
 use crate::step::error::StepFailure;
+use crate::step::timed::TimedLoad;
 use eem_material::number::scalar::is_positive;
 
 impl StepLoads {
@@ -98,13 +99,8 @@ impl StepLoads {
         self.evaluate_own_forces(loads, time, true)?;
         for (push, rocket) in self.pushes.iter_mut().zip(&loads.rockets) {
             push.thrust = (rocket.thrust)(time);
-            if !push.thrust.is_finite() {
-                return Err(StepFailure::Thrust {
-                    node: push.line.node,
-                    value: push.thrust,
-                    time,
-                });
-            }
+            let load = TimedLoad::Thrust(push.line.node);
+            expect_finite(load, 0, push.thrust, time)?;
         }
         self.add_weights(loads, masses);
         Ok(())
@@ -140,14 +136,7 @@ impl StepLoads {
                 // The sum of all loads on the node may overflow although none of them does.
                 let sum = &mut self.force[node.index * D + axis];
                 *sum += value[axis];
-                if !sum.is_finite() {
-                    return Err(StepFailure::Load {
-                        node: *node,
-                        axis,
-                        value: *sum,
-                        time,
-                    });
-                }
+                expect_finite(TimedLoad::Force(*node), axis, *sum, time)?;
             }
         }
         Ok(())
@@ -180,12 +169,8 @@ impl StepLoads {
                 let at = node.index * D + axis;
                 self.motion[at] = position[axis] - q0[at];
                 if !self.motion[at].is_finite() {
-                    return Err(StepFailure::Motion {
-                        node: *node,
-                        axis,
-                        value: position[axis],
-                        time: end,
-                    });
+                    let load = TimedLoad::Motion(*node);
+                    return Err(StepFailure::of_load(load, axis, position[axis], end));
                 }
             }
         }
@@ -220,12 +205,8 @@ impl StepLoads {
                     // No displacement at the start.
                     let place = position.map_or(0.0, |q| q[axis] - q0[coordinate]);
                     if !place.is_finite() {
-                        return Err(StepFailure::Motion {
-                            node: *node,
-                            axis,
-                            value: place + q0[coordinate],
-                            time: at,
-                        });
+                        let (load, value) = (TimedLoad::Motion(*node), place + q0[coordinate]);
+                        return Err(StepFailure::of_load(load, axis, value, at));
                     }
                     *sum += weight * (self.motion[coordinate] - place);
                 }
@@ -258,11 +239,10 @@ impl StepLoads {
             };
             let at = |time: f64, share: f64| match temperature.at(time, old[slot], share) {
                 value if is_positive(value) => Ok(value),
-                value => Err(StepFailure::PrescribedTemperature {
-                    element: *element,
-                    value,
-                    time,
-                }),
+                value => {
+                    let load = TimedLoad::Temperature(*element);
+                    Err(StepFailure::of_load(load, 0, value, time))
+                }
             };
             self.prescribed[slot] = Some(Prescribed {
                 middle: at(time + 0.5 * span, 0.5 * share)?,
@@ -271,6 +251,14 @@ impl StepLoads {
         }
         Ok(())
     }
+}
+
+/// An error unless a component of a load is finite at a time.
+fn expect_finite(load: TimedLoad, axis: usize, value: f64, time: f64) -> Result<(), StepFailure> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    Err(StepFailure::of_load(load, axis, value, time))
 }
 
 /// The velocity at the end of a span, of the polynomial through positions at equal distances in time:

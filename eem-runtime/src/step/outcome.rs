@@ -77,6 +77,12 @@ pub(crate) struct Attempt {
 }
 
 impl Attempt {
+    /// A step whose error is too large.
+    pub(crate) fn rejected(error: f64) -> Self {
+        let outcome = None;
+        Self { error, outcome }
+    }
+
     /// A step that was made without a tolerance.
     pub(crate) fn made(outcome: impl Into<Outcome>) -> Self {
         Self {

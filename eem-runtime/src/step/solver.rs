@@ -150,7 +150,7 @@ impl<const D: usize> Solver<D> {
             anchors: masses.anchors().collect(),
             magnitudes: Vec::with_capacity(nodes_with(scheme.is_exact())),
             final_residual: 0.0,
-            certificate: Certificate::none(),
+            certificate: Certificate::default(),
             obstacle: None,
             worst: None,
             evaluations: 0,

@@ -79,7 +79,7 @@ pub(super) struct Automatic {
 }
 
 impl Automatic {
-    pub(super) const fn new(needs: Needs, memory_limit: MemoryLimit) -> Self {
+    pub(super) fn new(needs: Needs, memory_limit: MemoryLimit) -> Self {
         Self {
             selection: SchemeSelection::new(),
             needs,

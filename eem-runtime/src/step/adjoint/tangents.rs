@@ -4,21 +4,17 @@
 //! beyond those of the old state, and the changes of interface temperatures; there is one elimination for all directions.
 
 use crate::algebra::system::LinearSystem;
-use crate::element::conduction::{Conduction, InterfaceTemperatures, Partner};
+use crate::element::conduction::{Conduction, Partner};
 use crate::element::group::{Direction, Group, PastStep, PerVariable};
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
-use crate::step::adjoint::error::NoAdjoint;
-use crate::step::adjoint::inertia::Inertia;
+use crate::step::adjoint::equations::{Equations, NoAdjoint};
 use crate::step::adjoint::rockets::RocketStep;
 
 /// Computes the tangents of one step after the other, with a workspace for all of them.
 #[derive(Debug)]
 pub(crate) struct Tangents<const D: usize> {
-    inertia: Inertia<D>,
-    /// The interface temperatures of a step, and whether there are any.
-    interface: InterfaceTemperatures,
-    is_coupled: bool,
+    equations: Equations,
     /// θ*, by thermal slot.
     temperatures: Vec<f64>,
     /// The slot at which each path of heat begins, and its partner.
@@ -45,9 +41,7 @@ impl<const D: usize> Tangents<D> {
     ) -> Self {
         let zeros = |count| vec![0.0; count];
         Self {
-            inertia: Inertia::new(layout, masses, system),
-            interface: InterfaceTemperatures::new(layout.thermal),
-            is_coupled: layout.coupled.iter().any(Option::is_some),
+            equations: Equations::new(D, layout, masses, system),
             temperatures: vec![1.0; layout.thermal],
             paths: conduction.path_ends(),
             velocities: zeros(masses.len() * D),
@@ -86,19 +80,15 @@ impl<const D: usize> Tangents<D> {
         (directions, heats): (&mut [Direction], &[HeatChange]),
     ) -> Result<(), NoAdjoint> {
         let view = &past.view;
-        if self.is_coupled {
-            for group in &mut *groups {
-                group.find_interfaces(past, &mut self.interface)?;
-            }
-        }
+        self.equations.find_interfaces(past, groups)?;
         for (direction, of) in directions.iter_mut().zip(heats) {
             self.conduct(view.conduction, of, direction);
             self.push_inertia(view.masses, direction);
         }
         system.clear();
-        self.inertia.add_to(view.step, system);
+        self.equations.add_inertia(view.step, system);
         for group in &mut *groups {
-            let temperatures = (&self.interface, &mut self.temperatures[..]);
+            let temperatures = (&self.equations.interface, &mut self.temperatures[..]);
             group.push_forward(past, temperatures, system, directions)?;
         }
         for rocket in rockets {
@@ -108,9 +98,7 @@ impl<const D: usize> Tangents<D> {
             }
         }
         let columns = directions.iter_mut().map(|direction| &mut direction.right);
-        system
-            .solve_each(columns)
-            .map_err(|_| NoAdjoint::Singular)?;
+        system.solve_each(columns)?;
         for direction in &mut *directions {
             self.move_on(view.step, direction);
         }
@@ -132,7 +120,7 @@ impl<const D: usize> Tangents<D> {
         for (&by, &(slot, partner)) in of.conductances.iter().zip(&self.paths) {
             match partner {
                 Partner::Slot(other) => {
-                    let flow = by * self.interface.drop(slot, other);
+                    let flow = by * self.equations.interface.drop(slot, other);
                     direction.heat[slot][0] += flow;
                     direction.heat[other][0] -= flow;
                 }
@@ -159,11 +147,9 @@ impl<const D: usize> Tangents<D> {
         } = direction;
         let [v0, v1] = [&old.velocities, &new.velocities];
         if !masses.are_coupled() {
-            for node in &self.inertia.nodes {
-                for axis in 0..D {
-                    let speed = v0[node.coordinate + axis];
-                    right[node.unknown + axis][0] += node.mass * (speed + speed);
-                }
+            for of in &self.equations.moving {
+                let speed = v0[of.coordinate];
+                right[of.unknown][0] += of.mass * (speed + speed);
             }
             return;
         }
@@ -174,10 +160,8 @@ impl<const D: usize> Tangents<D> {
             }
         }
         masses.find_momenta(D, &self.velocities, &mut self.momenta);
-        for node in &self.inertia.nodes {
-            for axis in 0..D {
-                right[node.unknown + axis][0] += self.momenta[node.coordinate + axis];
-            }
+        for of in &self.equations.moving {
+            right[of.unknown][0] += self.momenta[of.coordinate];
         }
     }
 
@@ -187,13 +171,10 @@ impl<const D: usize> Tangents<D> {
             old, new, right, ..
         } = direction;
         let per = 2.0 / step;
-        for node in &self.inertia.nodes {
-            for axis in 0..D {
-                let at = node.coordinate + axis;
-                let moved = right[node.unknown + axis][0];
-                new.positions[at] = old.positions[at] + moved;
-                new.velocities[at] = per * moved - old.velocities[at];
-            }
+        for of in &self.equations.moving {
+            let (at, moved) = (of.coordinate, right[of.unknown][0]);
+            new.positions[at] = old.positions[at] + moved;
+            new.velocities[at] = per * moved - old.velocities[at];
         }
     }
 

@@ -44,12 +44,11 @@ impl Accuracy {
     }
 
     /// With a tolerance for the errors of all steps in a given time, unless the estimate is embedded.
-    pub(crate) fn over_time(self) -> Self {
-        let estimate = match self.estimate {
-            Estimate::Halves | Estimate::HalvesOverTime => Estimate::HalvesOverTime,
-            Estimate::Embedded => Estimate::Embedded,
-        };
-        Self { estimate, ..self }
+    pub(crate) fn over_time(mut self) -> Self {
+        if self.has_halves() {
+            self.estimate = Estimate::HalvesOverTime;
+        }
+        self
     }
 
     /// The error of two halves as a share of their difference from the whole step, given the relative tolerance r₁ of this step:
@@ -81,21 +80,16 @@ impl Accuracy {
     /// The smallest relative tolerance whose errors are above rounding.
     pub(super) fn floor(self) -> f64 {
         let rounding = ROUNDINGS * f64::EPSILON;
-        match self.estimate {
-            Estimate::Halves | Estimate::HalvesOverTime => {
-                Scalar::powf(rounding, self.order() / (self.order() + 1.0))
-            }
-            Estimate::Embedded => rounding,
+        if self.has_halves() {
+            Scalar::powf(rounding, self.order() / (self.order() + 1.0))
+        } else {
+            rounding
         }
     }
 
     /// Whether a step with this error, in units of the tolerance, is accepted.
     pub(crate) fn accepts(self, error: f64) -> bool {
-        let most = match self.estimate {
-            Estimate::Halves | Estimate::HalvesOverTime => MOST,
-            Estimate::Embedded => 1.0,
-        };
-        error <= most
+        error <= if self.has_halves() { MOST } else { 1.0 }
     }
 
     /// Whether an error, in units of the tolerance, can keep the next step from being longer.
@@ -106,10 +100,7 @@ impl Accuracy {
 
     /// The error, in units of the tolerance, after which steps keep their size.
     pub(crate) fn settled(self) -> f64 {
-        match self.estimate {
-            Estimate::Halves | Estimate::HalvesOverTime => AIM,
-            Estimate::Embedded => SETTLED,
-        }
+        if self.has_halves() { AIM } else { SETTLED }
     }
 
     /// The fraction of its size with which a rejected step is tried again.
@@ -117,11 +108,7 @@ impl Accuracy {
         let power = -1.0 / self.order_of_estimate();
         let left = AIM * Scalar::powf(error, power);
         // Not NaN if the error is NaN.
-        if left > LEAST_AFTER_ERROR {
-            left
-        } else {
-            LEAST_AFTER_ERROR
-        }
+        left.max(LEAST_AFTER_ERROR)
     }
 
     /// The power of the step size to which its estimated error, in units of the tolerance, is proportional.
@@ -190,32 +177,28 @@ impl Controller {
         let order = accuracy.order_of_estimate();
         let is_known = error > 0.0;
         if last.is_none() && is_known && accuracy.has_halves() {
-            return size * first_growth(error, order);
+            return size * Scalar::minimum(growth(error, 1.0 / order), FIRST_GROWTH);
         }
         let last = last.unwrap_or([error, size]);
-        let factor = match accuracy.estimate {
-            Estimate::Halves | Estimate::HalvesOverTime => filtered([size, error], last, order),
-            Estimate::Embedded => proportional(error, last, order),
-        };
-        size * factor
+        size * if accuracy.has_halves() {
+            filtered([size, error], last, order)
+        } else {
+            proportional(error, last, order)
+        }
     }
 }
 
-/// The factor on the size of the first step.
-fn first_growth(error: f64, order: f64) -> f64 {
-    let error = Scalar::maximum(error, LEAST_ERROR);
-    let factor = Scalar::powf(AIM / error, 1.0 / order);
-    Scalar::minimum(factor, FIRST_GROWTH)
+/// `(0.8/e)^power`
+fn growth(error: f64, power: f64) -> f64 {
+    Scalar::powf(AIM / Scalar::maximum(error, LEAST_ERROR), power)
 }
 
 /// The factor on the step size by the filter.
 fn filtered([size, error]: [f64; 2], [last_error, last_size]: [f64; 2], order: f64) -> f64 {
-    let share = |error: f64| {
-        let error = Scalar::maximum(error, LEAST_ERROR);
-        Scalar::powf(AIM / error, 1.0 / (MEMORY * order))
-    };
+    let share = |error: f64| growth(error, 1.0 / (MEMORY * order));
     let memory = Scalar::powf(size / last_size, -1.0 / MEMORY);
-    limited(share(error) * share(last_error) * memory)
+    let factor = share(error) * share(last_error) * memory;
+    1.0 + Scalar::atan(factor - 1.0)
 }
 
 /// The factor on the step size for an embedded estimate.
@@ -226,11 +209,6 @@ fn proportional(error: f64, [last_error, _]: [f64; 2], order: f64) -> f64 {
         AIM * Scalar::powf(error, FORGETTING - 1.0 / order) * Scalar::powf(last_error, REMEMBERING);
     let [least, most] = CHANGES;
     Scalar::minimum(Scalar::maximum(factor, least), most)
-}
-
-/// `1 + arctan(f − 1)`
-fn limited(factor: f64) -> f64 {
-    1.0 + Scalar::atan(factor - 1.0)
 }
 
 #[cfg(test)]

@@ -65,7 +65,7 @@ struct Link {
 
 /// What is around a mass.
 #[derive(Clone, Copy, Debug)]
-struct AtNode {
+pub(crate) struct AtNode {
     /// `2π/ω`, s; infinite where nothing holds the mass.
     period: f64,
     /// m ℓ ω, kg m/s.
@@ -235,9 +235,9 @@ impl LeastScales {
         [old, new]: [&[f64]; 2],
         [before, after]: [&[f64]; 2],
     ) -> bool {
-        let AtNode { period, mass, .. } = self.nodes[node];
+        let own @ AtNode { period, mass, .. } = self.nodes[node];
         let distance = Scalar::maximum(length(old), length(new));
-        let rounding = self.rounding(node, period, distance);
+        let rounding = own.rounding(period, distance);
         let way = norm(new.iter().zip(old).map(|(new, old)| new - old));
         let momentum = Scalar::maximum(length(before), length(after));
         let is_held = period < f64::MAX;
@@ -254,38 +254,14 @@ impl LeastScales {
         [self.size, self.most.bound]
     }
 
-    /// The scale of the momentum of a node in a step of this size, given that of all, kg m/s.
-    pub(crate) fn momentum(&self, node: usize, all: f64, step: Step) -> f64 {
-        self.nodes[node].scale(all, step)
+    /// What is around a node.
+    pub(crate) fn at(&self, node: usize) -> &AtNode {
+        &self.nodes[node]
     }
 
-    /// The time in which an error of the force on a node changes its momentum in a step of the size h, s: beyond a period the springs
-    /// balance it.
-    pub(crate) fn time_of_impulse(&self, node: usize, h: f64) -> f64 {
-        Scalar::minimum(h, self.nodes[node].period)
-    }
-
-    /// The rounding of the impulse of a step of the size h on a node at this distance from the origin, N s.
-    pub(crate) fn rounding(&self, node: usize, h: f64, distance: f64) -> f64 {
-        self.nodes[node].rounding(h, distance)
-    }
-
-    /// At least that of every node up to this distance from the origin, N s.
-    pub(crate) fn most_rounding(&self, h: f64, distance: f64) -> f64 {
-        self.most.rounding(h, distance)
-    }
-
-    /// How far an impulse of 1 N s moves a mass in a step of the size h, m: `h/m`, or `1/kh` where a spring holds it back.
-    pub(crate) fn mobility(&self, node: usize, h: f64) -> f64 {
-        let AtNode {
-            mass, stiffness, ..
-        } = self.nodes[node];
-        let is_mass = mass > 0.0;
-        if is_mass {
-            h / (mass + stiffness * h * h)
-        } else {
-            0.0
-        }
+    /// What is at least as large as around every node, for its scale and rounding.
+    pub(crate) fn most(&self) -> &AtNode {
+        &self.most
     }
 
     /// |λ|₂ of all springs with dashpots in series, m, given the dimension of space: the size of their viscous stretches, wherever the
@@ -310,11 +286,6 @@ impl LeastScales {
         let links = links.take_while(move |link| link.anchor == anchor);
         links.map(|link| (link.mass, link.stiffness))
     }
-
-    /// Whether the scale of all momenta is that of every node.
-    pub(crate) fn are_below(&self, all: f64, step: Step) -> bool {
-        self.most.scale(all, step) <= all
-    }
 }
 
 /// A step and its tolerance.
@@ -329,16 +300,33 @@ pub(crate) struct Step {
 }
 
 impl AtNode {
-    /// The scale of the momentum, given that of all: at least that of the smallest vibration.
-    fn scale(&self, all: f64, step: Step) -> f64 {
+    /// The scale of the momentum in a step, given that of all, kg m/s: at least that of the smallest vibration.
+    pub(crate) fn scale(&self, all: f64, step: Step) -> f64 {
         let part = step.relative * step.relative;
         let unseen = part * (self.bound + self.free / step.size);
         let ahead = Scalar::minimum(1.0 + step.growth * self.period, MOST_AHEAD);
         Scalar::maximum(all, unseen) * ahead
     }
 
-    fn rounding(&self, h: f64, distance: f64) -> f64 {
-        let time = Scalar::minimum(h, self.period);
+    /// The time in which an error of the force changes the momentum in a step of the size h, s: beyond a period the springs
+    /// balance it.
+    pub(crate) fn time_of_impulse(&self, h: f64) -> f64 {
+        Scalar::minimum(h, self.period)
+    }
+
+    /// The rounding of the impulse of a step of the size h at this distance from the origin, N s.
+    pub(crate) fn rounding(&self, h: f64, distance: f64) -> f64 {
+        let time = self.time_of_impulse(h);
         ROUNDINGS * f64::EPSILON * time * (self.force + self.stiffness * distance)
+    }
+
+    /// How far an impulse of 1 N s moves a mass in a step of the size h, m: `h/m`, or `1/kh` where a spring holds it back.
+    pub(crate) fn mobility(&self, h: f64) -> f64 {
+        let is_mass = self.mass > 0.0;
+        if is_mass {
+            h / (self.mass + self.stiffness * h * h)
+        } else {
+            0.0
+        }
     }
 }

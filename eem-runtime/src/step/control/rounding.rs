@@ -88,7 +88,7 @@ impl LoadRounding {
         let of_scalar = |of| terms(&loads.stops, span, &written_scalar(of), &mut [0.0; 2]);
         let impulses = &mut self.impulses;
         let mut push = |node: usize, [size, rate]: [f64; 2]| {
-            let duration = least.time_of_impulse(node, h);
+            let duration = least.at(node).time_of_impulse(h);
             impulses[node] += duration * (rounding * size + time * rate);
         };
         for (node, force) in &loads.forces {
@@ -112,7 +112,7 @@ impl LoadRounding {
             let height = time * speed;
             self.positions[anchor.index] += height;
             for (mass, stiffness) in least.pulled_by(anchor.index) {
-                self.impulses[mass] += least.time_of_impulse(mass, h) * stiffness * height;
+                self.impulses[mass] += least.at(mass).time_of_impulse(h) * stiffness * height;
                 self.pulls[mass] += height;
             }
         }

@@ -7,7 +7,7 @@ use crate::step::control::controller::Accuracy;
 use crate::step::control::controller::ROUNDINGS;
 use crate::step::control::least::{LeastScales, Step};
 use crate::step::control::rounding::LoadRounding;
-use crate::step::control::worst::{Unknown, Worst};
+use crate::step::control::worst::{Unknown, UnknownError, see_worst};
 use eem_material::number::scalar::{Scalar, is_positive};
 
 /// The tolerance of step control.
@@ -255,7 +255,7 @@ impl<'a> Scales<'a> {
 
     fn allowed_momentum(&self, node: usize) -> f64 {
         let [relative, absolute] = self.momentum;
-        let momentum = self.least.momentum(node, self.momenta, self.step);
+        let momentum = self.least.at(node).scale(self.momenta, self.step);
         relative * momentum + absolute
     }
 
@@ -266,7 +266,7 @@ impl<'a> Scales<'a> {
         };
         let [start, end] = self.states;
         let distance = Scalar::maximum(distance(start), distance(end));
-        self.least.rounding(node, self.step.size, distance)
+        self.least.at(node).rounding(self.step.size, distance)
     }
 
     /// What the tolerance allows the integral of the displacement of a moved anchor, m s: multiplied by the stiffness, it is an
@@ -302,18 +302,14 @@ impl<'a> Scales<'a> {
         rounding: Option<&LoadRounding>,
     ) -> f64 {
         let mut largest = 0.0;
-        self.each_difference(
-            states,
-            kinds,
-            rounding,
-            &mut |_, difference, [scale, rounding]| {
-                let error = Scalar::maximum(self.share * difference - rounding, 0.0);
-                // No difference is no error, even at scale zero.
-                let is_equal = error == 0.0;
-                let scale = Scalar::maximum(scale, rounding);
-                largest = Scalar::maximum(largest, if is_equal { 0.0 } else { error / scale });
-            },
-        );
+        let mut see = |_, difference: f64, [scale, rounding]: [f64; 2]| {
+            let error = Scalar::maximum(self.share * difference - rounding, 0.0);
+            // No difference is no error, even at scale zero.
+            if error != 0.0 {
+                largest = Scalar::maximum(largest, error / Scalar::maximum(scale, rounding));
+            }
+        };
+        self.each_difference(states, kinds, rounding, &mut see);
         largest
     }
 
@@ -324,19 +320,14 @@ impl<'a> Scales<'a> {
         states: [&State; 2],
         kinds: &Kinds,
         rounding: &LoadRounding,
-    ) -> Option<(Unknown, [f64; 2])> {
-        let mut worst = Worst::none();
-        let rounding = Some(rounding);
-        self.each_difference(
-            states,
-            kinds,
-            rounding,
-            &mut |unknown, difference, [scale, rounding]| {
-                let allowed = Scalar::maximum(scale, rounding) + rounding;
-                worst.see(unknown, [self.share * difference, allowed]);
-            },
-        );
-        worst.found
+    ) -> Option<UnknownError> {
+        let mut worst = None;
+        let mut see = |unknown, difference: f64, [scale, rounding]: [f64; 2]| {
+            let allowed = Scalar::maximum(scale, rounding) + rounding;
+            see_worst(&mut worst, unknown, [self.share * difference, allowed]);
+        };
+        self.each_difference(states, kinds, Some(rounding), &mut see);
+        worst
     }
 
     /// Calls `see` with each difference, its scale and, if that of loads is known, its rounding.
@@ -362,7 +353,7 @@ impl<'a> Scales<'a> {
             &|index, _| {
                 let node = index / self.dimension;
                 let moved = rounding(&|loads| {
-                    let mobility = self.least.mobility(node, self.step.size);
+                    let mobility = self.least.at(node).mobility(self.step.size);
                     mobility * impulse(node) + loads.position(node)
                 });
                 [self.position, moved]

@@ -13,25 +13,17 @@ pub(crate) enum Unknown {
     Temperature(usize),
 }
 
-/// The unknown with the largest error, with its error and what the tolerance allows.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Worst {
-    pub(crate) found: Option<(Unknown, [f64; 2])>,
-}
+/// An unknown, with its error and what the tolerance allows.
+pub(crate) type UnknownError = (Unknown, [f64; 2]);
 
-impl Worst {
-    pub(crate) const fn none() -> Self {
-        Self { found: None }
-    }
-
-    /// Takes an error if it is the largest so far, as a share of what is allowed.
-    pub(crate) fn see(&mut self, unknown: Unknown, [error, allowed]: [f64; 2]) {
-        let is_larger = match self.found {
-            None => error > 0.0,
-            Some((_, [largest, scale])) => largest * allowed < error * scale,
-        };
-        if is_larger {
-            self.found = Some((unknown, [error, allowed]));
-        }
+/// Takes an error if it is the largest so far, as a share of what is allowed.
+pub(crate) fn see_worst(worst: &mut Option<UnknownError>, unknown: Unknown, error: [f64; 2]) {
+    let [size, allowed] = error;
+    let is_larger = match worst {
+        None => size > 0.0,
+        Some((_, [largest, scale])) => *largest * allowed < size * *scale,
+    };
+    if is_larger {
+        *worst = Some((unknown, error));
     }
 }

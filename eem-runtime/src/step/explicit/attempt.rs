@@ -1,5 +1,6 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
+use super::error::Measure;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
@@ -56,15 +57,6 @@ impl Demand {
     }
 }
 
-/// The magnitudes of positions and momenta.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scales {
-    /// |q|₂ of all masses, m.
-    pub(super) position: f64,
-    /// |p|₂, the largest so far, kg m/s.
-    pub(super) momentum: f64,
-}
-
 impl<const D: usize> Explicit<D> {
     /// Writes the state after a step to `next`, from the state of the last accepted step or, after
     /// [`forget`](Self::forget), from any state. The outcome is `None` if the error exceeds the demand.
@@ -100,22 +92,23 @@ impl<const D: usize> Explicit<D> {
                 .evaluate(view.loads, [start, h], view.state)?;
         }
         let scales = self.approach(view, next)?;
-        let error = match demand {
-            Demand::None => 0.0,
-            Demand::Within(tolerance) => self.estimate(view, &tolerance, scales),
+        let measure = match &demand {
+            Demand::None => None,
+            Demand::Within(tolerance) => Some(Measure {
+                view,
+                tolerance,
+                scales,
+            }),
         };
+        let error = measure.as_ref().map_or(0.0, |by| self.estimate(by));
         if !(error <= 1.0) {
-            let outcome = None;
-            return Ok(Attempt { error, outcome });
+            return Ok(Attempt::rejected(error));
         }
         self.book(view, next);
         self.close(view, (demand, scales), next)?;
-        if let Demand::Within(tolerance) = demand {
-            let error = self.moved(view, &tolerance, scales);
-            if !(error <= 1.0) {
-                let outcome = None;
-                return Ok(Attempt { error, outcome });
-            }
+        let moved = measure.as_ref().map_or(0.0, |by| self.moved(by));
+        if !(moved <= 1.0) {
+            return Ok(Attempt::rejected(moved));
         }
         if next.meters.are_on {
             self.meter(h, next);

@@ -22,7 +22,8 @@ mod rigid;
 mod rounding;
 mod shape;
 
-use super::attempt::{Demand, Scales};
+use super::attempt::Demand;
+use super::error::Scales;
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::element::group::{ClosingView, ComponentEnergy};

@@ -1,12 +1,11 @@
 //! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
 
-use super::attempt::Scales;
 use super::stages::{errors, unclosed};
 use super::{Explicit, ExplicitView};
-use crate::algebra::{difference, dot, hypot};
+use crate::algebra::{difference, dot, hypot, length, norm};
 use crate::element::group::Place;
 use crate::element::state::State;
-use crate::step::control::{self, Accuracy, ROUNDINGS, Step, Tolerance, Unknown, Worst, norm};
+use crate::step::control::{ROUNDINGS, Step, Tolerance, Unknown, UnknownError, see_worst};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Scalar;
@@ -86,55 +85,43 @@ impl<const D: usize> Explicit<D> {
     /// with the scales of a [`Tolerance`]: |q| of all nodes, anchors among them, for positions; |λ| of the springs with dashpots for
     /// viscous stretches, the largest |p| so far for momenta, and θ. What rounding explains of each e₅ is none; that is found only
     /// where it could make the next step longer.
-    pub(super) fn estimate(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-        tolerance: &Tolerance,
-        scales: Scales,
-    ) -> f64 {
+    pub(super) fn estimate(&mut self, by: &Measure<'_, D>) -> f64 {
         let mut sums = [0.0; 2];
-        self.each_error::<false>(view, tolerance, scales, &mut |_, errors, [per_scale, _]| {
+        let h = by.view.step;
+        self.each_error::<false>(by, &mut |_, errors: [f64; 2], [per_scale, _]: [f64; 2]| {
             for (sum, error) in sums.iter_mut().zip(errors) {
-                let error = view.step * error * per_scale;
+                let error = h * error * per_scale;
                 *sum += error * error;
             }
         });
         let error = combined(sums);
-        let accuracy: Accuracy = Scheme::EemExplicit.accuracy();
-        if !accuracy.holds_back(error) {
+        if !Scheme::EemExplicit.accuracy().holds_back(error) {
             return error;
         }
-        self.find_rounding(view);
-        let may_explain = !self.rounding.is_none()
-            || ROUNDING_SHARE * error < self.most_rounding(view, tolerance, scales);
+        self.find_rounding(by.view);
+        let may_explain =
+            !self.rounding.is_none() || ROUNDING_SHARE * error < self.most_rounding(by);
         if may_explain {
-            self.estimate_beyond_rounding(view, tolerance, scales)
+            self.estimate_beyond_rounding(by)
         } else {
             error
         }
     }
 
     #[cold]
-    fn estimate_beyond_rounding(
-        &self,
-        view: &ExplicitView<'_, D>,
-        tolerance: &Tolerance,
-        scales: Scales,
-    ) -> f64 {
+    fn estimate_beyond_rounding(&self, by: &Measure<'_, D>) -> f64 {
+        let Measure {
+            view, tolerance, ..
+        } = *by;
         let mut sums = [0.0; 2];
-        self.each_rounded_error(
-            view,
-            tolerance,
-            scales,
-            &mut |_, [fifth, third], [per_scale, rounding]| {
-                let fifth = view.step * fifth;
-                let beyond = Scalar::maximum(fifth.abs() - rounding, 0.0) * per_scale;
-                let third = view.step * third * per_scale;
-                sums[0] += beyond * beyond;
-                sums[1] += third * third;
-            },
-        );
-        let accurate = (tolerance.relative, Scheme::EemExplicit.accuracy());
+        let mut see = |_, [fifth, third]: [f64; 2], [per_scale, rounding]: [f64; 2]| {
+            let fifth = view.step * fifth;
+            let beyond = Scalar::maximum(fifth.abs() - rounding, 0.0) * per_scale;
+            let third = view.step * third * per_scale;
+            sums[0] += beyond * beyond;
+            sums[1] += third * third;
+        };
+        self.each_error::<true>(by, &mut see as See<'_>);
         let beyond = Scalar::maximum(combined(sums), HIDDEN);
         let masses = &self.stage.places[..self.components.masses];
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
@@ -142,6 +129,7 @@ impl<const D: usize> Explicit<D> {
             let positions = [&position[..], place.q()];
             let momenta = [&momentum[..], place.p()];
             if !view.least.is_at_rest(node, positions, momenta) {
+                let accurate = (tolerance.relative, Scheme::EemExplicit.accuracy());
                 return view.least.hidden(beyond, view.step, accurate);
             }
         }
@@ -149,24 +137,17 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// At least what rounding of positions changes in the estimate.
-    fn most_rounding(
-        &self,
-        view: &ExplicitView<'_, D>,
-        tolerance: &Tolerance,
-        scales: Scales,
-    ) -> f64 {
-        let distance = farthest(view, scales);
-        let impulse = view.least.most_rounding(view.step, distance);
-        let momentum = tolerance.relative * scales.momentum + tolerance.momentum;
-        let stretches = view.least.stretches(D, view.state.positions.values());
-        let stretch = tolerance.relative * stretches + tolerance.position;
+    fn most_rounding(&self, by: &Measure<'_, D>) -> f64 {
+        let distance = by.farthest();
+        let impulse = by.view.least.most().rounding(by.view.step, distance);
+        let momentum = by.tolerance.relative * by.scales.momentum + by.tolerance.momentum;
         let count = self.components.masses * D + self.stage.temperatures;
         #[expect(clippy::cast_precision_loss, reason = "a count of far less than 2⁵³")]
         let all = (count as f64).sqrt();
         let mut sum = 0.0;
         for (rounding, scale) in [
             (impulse, momentum),
-            (rounding_of_stretch(distance), stretch),
+            (rounding_of_stretch(distance), by.stretch()),
         ] {
             sum += if scale > 0.0 { rounding / scale } else { 0.0 };
         }
@@ -188,80 +169,73 @@ impl<const D: usize> Explicit<D> {
         view: &ExplicitView<'_, D>,
         tolerance: &Tolerance,
         next: &mut State,
-    ) -> Result<Option<(Unknown, [f64; 2])>, StepFailure> {
+    ) -> Result<Option<UnknownError>, StepFailure> {
         let was_ready = self.is_ready;
         let tried = self.approach(view, next);
         // As before the attempt.
         self.is_ready = was_ready;
         let scales = tried?;
         self.find_rounding(view);
-        let mut worst = Worst::none();
-        self.each_rounded_error(
+        let by = Measure {
             view,
             tolerance,
             scales,
-            &mut |unknown, [fifth, _], [per_scale, rounding]| {
-                let allowed = per_scale.recip() + rounding;
-                worst.see(unknown, [(view.step * fifth).abs(), allowed]);
-            },
-        );
-        Ok(worst.found)
+        };
+        let mut worst = None;
+        let mut see = |unknown, [fifth, _]: [f64; 2], [per_scale, rounding]: [f64; 2]| {
+            let allowed = per_scale.recip() + rounding;
+            see_worst(&mut worst, unknown, [(view.step * fifth).abs(), allowed]);
+        };
+        self.each_error::<true>(&by, &mut see as See<'_>);
+        Ok(worst)
     }
 
     /// By how much the correction of the energy has changed unknowns, in units of the tolerance: of a mass that is nearly at rest,
     /// while a support does work on its spring, a small defect of the energy is a large part of the motion; and that of a stiff
     /// spring is a large part of a weak one in series with a dashpot.
-    pub(super) fn moved(
-        &mut self,
-        view: &ExplicitView<'_, D>,
-        tolerance: &Tolerance,
-        scales: Scales,
-    ) -> f64 {
+    pub(super) fn moved(&mut self, by: &Measure<'_, D>) -> f64 {
+        let relative = by.tolerance.relative;
         let mut largest = 0.0;
         for index in 0..self.scratch.progress.len() {
             let progress = self.scratch.progress[index];
             // No momentum is larger than that of all.
-            let is_small = progress.moved <= tolerance.relative
-                && MOST_HEATINGS * progress.warmed <= tolerance.relative;
+            let is_small =
+                progress.moved <= relative && MOST_HEATINGS * progress.warmed <= relative;
             if progress.is_rigid || is_small && !progress.has_shifted {
                 continue;
             }
-            let change = self.change_by_closing(index, (view, tolerance), scales);
+            let change = self.change_by_closing(index, by);
             let (defect, scale) = (progress.correction * progress.scale, progress.scale);
-            let is_change = change > 1.0 && !(defect.abs() <= self.explained(index, scale, view));
-            largest = Scalar::maximum(largest, if is_change { change } else { 0.0 });
+            if change > 1.0 && !(defect.abs() <= self.explained(index, scale, by.view)) {
+                largest = Scalar::maximum(largest, change);
+            }
         }
         largest
     }
 
     /// The largest change of an unknown of a component by its closing, in units of the tolerance.
     #[cold]
-    fn change_by_closing(
-        &self,
-        index: usize,
-        (view, tolerance): (&ExplicitView<'_, D>, &Tolerance),
-        scales: Scales,
-    ) -> f64 {
+    fn change_by_closing(&self, index: usize, by: &Measure<'_, D>) -> f64 {
         let mut largest = 0.0;
         let mut see = |change: f64, allowed: f64| {
             let has_scale = allowed > 0.0;
             let part = if has_scale { change / allowed } else { 0.0 };
             largest = Scalar::maximum(largest, part);
         };
-        let Tolerance { relative, .. } = *tolerance;
-        let positions = farthest(view, scales);
-        let positions = Scalar::maximum(positions, view.least.position(relative));
-        let position = relative * positions + tolerance.position;
-        let stretches = view.least.stretches(D, view.state.positions.values());
-        let stretch = relative * stretches + tolerance.position;
+        let (view, tolerance) = (by.view, by.tolerance);
+        let [position, stretch] = [by.position(), by.stretch()];
         for at in self.components.all[index].masses.clone() {
             let place = &self.stage.places[at];
             let node = self.components.nodes[at];
             let rounding = self.rounding_of(view, place, node);
-            let momentum = momentum_scale(view, tolerance, scales, (node, rounding));
+            let scale = view.least.at(node).scale(by.scales.momentum, by.step());
+            let momentum = tolerance.relative * scale + tolerance.momentum;
             let before = unclosed(&place.past, view.step);
             see(hypot(&difference(place.q(), &before[0])), position);
-            see(hypot(&difference(place.p(), &before[1])), momentum);
+            see(
+                hypot(&difference(place.p(), &before[1])),
+                Scalar::maximum(momentum, rounding),
+            );
         }
         let change = |at: usize| {
             let [before] = unclosed(&self.stage.inner_past[at / 2], view.step);
@@ -273,39 +247,23 @@ impl<const D: usize> Explicit<D> {
         for slot in self.slots_of(index) {
             let slot = self.components.slots[slot];
             if !self.stage.is_held(slot) {
-                let allowed = relative * self.stage.theta(slot) + tolerance.temperature;
+                let allowed = tolerance.relative * self.stage.theta(slot) + tolerance.temperature;
                 see(change(self.stage.temperatures + slot), allowed);
             }
         }
         largest
     }
 
-    /// Calls `see` with the errors of fifth and third order of every unknown, per time, the reciprocal of its scale and its rounding.
-    #[cold]
-    fn each_rounded_error(
-        &self,
-        view: &ExplicitView<'_, D>,
-        tolerance: &Tolerance,
-        scales: Scales,
-        see: &mut dyn FnMut(Unknown, [f64; 2], [f64; 2]),
-    ) {
-        self.each_error::<true>(view, tolerance, scales, see);
-    }
-
-    /// The same, without the rounding unless `ROUNDED`.
+    /// Calls `see` with the errors of fifth and third order of every unknown, per time, the reciprocal of its scale and, if
+    /// `ROUNDED`, its rounding.
     #[inline]
     fn each_error<const ROUNDED: bool>(
         &self,
-        view: &ExplicitView<'_, D>,
-        tolerance: &Tolerance,
-        scales: Scales,
+        by: &Measure<'_, D>,
         see: &mut (impl FnMut(Unknown, [f64; 2], [f64; 2]) + ?Sized),
     ) {
-        let per_scale = |size: f64, absolute: f64| {
-            let scale = tolerance.relative * size + absolute;
-            // Where the scale is zero nothing moves.
-            if scale > 0.0 { scale.recip() } else { 0.0 }
-        };
+        // Where the scale is zero nothing moves.
+        let per = |scale: f64| if scale > 0.0 { scale.recip() } else { 0.0 };
         // No scale is below the rounding.
         let rounded = |per_scale: f64, rounding: f64| {
             let is_below = per_scale * rounding > 1.0;
@@ -316,26 +274,27 @@ impl<const D: usize> Explicit<D> {
             };
             [per_scale, rounding]
         };
+        let Measure {
+            view, tolerance, ..
+        } = *by;
         let masses = &self.stage.places[..self.components.masses];
         let least = view.least;
-        let far = farthest(view, scales);
-        let positions = Scalar::maximum(far, least.position(tolerance.relative));
-        let position = per_scale(positions, tolerance.position);
-        let step = step_of(view, tolerance);
-        let momentum = per_scale(scales.momentum, tolerance.momentum);
-        let are_alike = least.are_below(scales.momentum, step);
+        let (all, step) = (by.scales.momentum, by.step());
+        let momentum = |scale: f64| per(tolerance.relative * scale + tolerance.momentum);
+        let position = per(by.position());
+        let of_all = momentum(all);
+        let are_alike = least.most().scale(all, step) <= all;
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             let [fifth, third] = errors(&place.past);
             let momentum = if are_alike {
-                momentum
+                of_all
             } else {
-                let own = least.momentum(node, scales.momentum, step);
-                per_scale(own, tolerance.momentum)
+                momentum(least.at(node).scale(all, step))
             };
             let mut per_scales = [[position, 0.0], [momentum, 0.0]];
             if ROUNDED {
                 let impulse = self.rounding_of(view, place, node);
-                let moved = least.mobility(node, view.step) * impulse;
+                let moved = least.at(node).mobility(view.step) * impulse;
                 per_scales = [rounded(position, moved), rounded(momentum, impulse)];
             }
             let kinds = [Unknown::Position, Unknown::Momentum];
@@ -349,10 +308,9 @@ impl<const D: usize> Explicit<D> {
         let first = self.stage.temperatures;
         let mut stretch = [0.0; 2];
         if first > 0 {
-            let stretches = least.stretches(D, view.state.positions.values());
-            stretch[0] = per_scale(stretches, tolerance.position);
+            stretch[0] = per(by.stretch());
             if ROUNDED {
-                stretch = rounded(stretch[0], rounding_of_stretch(far));
+                stretch = rounded(stretch[0], rounding_of_stretch(by.farthest()));
             }
         }
         for (pair, past) in self.stage.inner_past.iter().enumerate() {
@@ -363,12 +321,11 @@ impl<const D: usize> Explicit<D> {
                     (Unknown::Viscous(index), stretch)
                 } else {
                     let slot = index - first;
-                    let scale = per_scale(past.start[0][at], tolerance.temperature);
-                    let scale = if ROUNDED {
-                        rounded(scale, self.rounding.temperature(slot))
-                    } else {
-                        [scale, 0.0]
-                    };
+                    let theta = past.start[0][at];
+                    let mut scale = [per(tolerance.relative * theta + tolerance.temperature), 0.0];
+                    if ROUNDED {
+                        scale = rounded(scale[0], self.rounding.temperature(slot));
+                    }
                     (Unknown::Temperature(slot), scale)
                 };
                 see(unknown, [fifth[at], third[at]], per_scale);
@@ -377,19 +334,14 @@ impl<const D: usize> Explicit<D> {
     }
 
     /// The rounding of the impulse on a mass, N s.
-    pub(super) fn rounding_of(
-        &self,
-        view: &ExplicitView<'_, D>,
-        place: &Place<D>,
-        node: usize,
-    ) -> f64 {
-        let distance = Scalar::maximum(
-            control::length(&place.past.start[0]),
-            control::length(place.q()),
-        );
-        view.least.rounding(node, view.step, distance) + self.rounding.impulse(node)
+    fn rounding_of(&self, view: &ExplicitView<'_, D>, place: &Place<D>, node: usize) -> f64 {
+        let distance = Scalar::maximum(length(&place.past.start[0]), length(place.q()));
+        view.least.at(node).rounding(view.step, distance) + self.rounding.impulse(node)
     }
 }
+
+/// A function of an unknown, its errors of fifth and third order, the reciprocal of its scale and its rounding.
+type See<'a> = &'a mut dyn FnMut(Unknown, [f64; 2], [f64; 2]);
 
 /// Rounding is looked at where it is more than this part of the error: less would change the size of a step by 1 %.
 const ROUNDING_SHARE: f64 = 0.1;
@@ -398,12 +350,50 @@ const ROUNDING_SHARE: f64 = 0.1;
 /// too long.
 const HIDDEN: f64 = 1e-4;
 
-/// The largest |q| of the step, that of all nodes included, m.
-fn farthest<const D: usize>(view: &ExplicitView<'_, D>, scales: Scales) -> f64 {
-    Scalar::maximum(
-        scales.position,
-        control::length(view.state.positions.values()),
-    )
+/// The magnitudes of positions and momenta.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scales {
+    /// |q|₂ of all masses, m.
+    pub(super) position: f64,
+    /// |p|₂, the largest so far, kg m/s.
+    pub(super) momentum: f64,
+}
+
+/// What errors of a step are measured by.
+pub(super) struct Measure<'a, const D: usize> {
+    pub(super) view: &'a ExplicitView<'a, D>,
+    pub(super) tolerance: &'a Tolerance,
+    pub(super) scales: Scales,
+}
+
+impl<const D: usize> Measure<'_, D> {
+    /// The largest |q| of the step, that of all nodes included, m.
+    fn farthest(&self) -> f64 {
+        let all = length(self.view.state.positions.values());
+        Scalar::maximum(self.scales.position, all)
+    }
+
+    /// What the tolerance allows a position, m.
+    fn position(&self) -> f64 {
+        let least = self.view.least.position(self.tolerance.relative);
+        let size = Scalar::maximum(self.farthest(), least);
+        self.tolerance.relative * size + self.tolerance.position
+    }
+
+    /// What it allows a viscous stretch, m.
+    fn stretch(&self) -> f64 {
+        let positions = self.view.state.positions.values();
+        self.tolerance.relative * self.view.least.stretches(D, positions) + self.tolerance.position
+    }
+
+    fn step(&self) -> Step {
+        Step {
+            size: self.view.step,
+            relative: self.tolerance.relative,
+            // The estimate is careful enough.
+            growth: 0.0,
+        }
+    }
 }
 
 /// The rounding of a viscous stretch whose ends are this far from the origin, m.
@@ -417,26 +407,4 @@ fn combined([five, three]: [f64; 2]) -> f64 {
         return 0.0;
     }
     five / (five + 0.01 * three).sqrt()
-}
-
-/// A step with this tolerance.
-fn step_of<const D: usize>(view: &ExplicitView<'_, D>, tolerance: &Tolerance) -> Step {
-    Step {
-        size: view.step,
-        relative: tolerance.relative,
-        // Its estimate is careful enough.
-        growth: 0.0,
-    }
-}
-
-/// What the tolerance allows the momentum of a node, kg m/s, given the rounding of its impulse.
-fn momentum_scale<const D: usize>(
-    view: &ExplicitView<'_, D>,
-    tolerance: &Tolerance,
-    scales: Scales,
-    (node, rounding): (usize, f64),
-) -> f64 {
-    let step = step_of(view, tolerance);
-    let scale = view.least.momentum(node, scales.momentum, step);
-    Scalar::maximum(tolerance.relative * scale + tolerance.momentum, rounding)
 }

@@ -97,7 +97,7 @@ impl<const D: usize> Search<'_, D> {
         if !is_settled && !progress.is_over() {
             return Conclusion::Open;
         }
-        if !certificate.is_balanced() {
+        if !certificate.is_balanced {
             return Conclusion::Refused(StepFailure::NotConverged {
                 update: progress.last,
             });

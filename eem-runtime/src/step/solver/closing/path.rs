@@ -169,10 +169,10 @@ impl<const D: usize> Solver<D> {
             self.rockets.add_to(force, [stage, node])
         };
         let weight = weight_of::<D>(view, node);
-        for axis in 0..D {
+        for (axis, weight) in weight.iter().enumerate() {
             let of_axis = |stage: usize| load(stage)[axis];
             next.work.add(self.work(stages, node, axis, &of_axis));
-            motion.work(weight[axis] * moved.displacement[axis]);
+            motion.work(weight * moved.displacement[axis]);
         }
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
             let share = view.step * weight;
