@@ -5,7 +5,8 @@
 
 mod fixed;
 
-pub(crate) use fixed::{MOST_FIXED, Singular, solve_fixed, solve_one, solve_two};
+use fixed::subtract;
+pub(crate) use fixed::{MOST_FIXED, Singular, copied, solve_fixed, solve_one, solve_two};
 
 /// Factors the row-major `n × n` matrix, `n` the length of `pivots`: `P A = L U`.
 pub(crate) fn factor(matrix: &mut [f64], pivots: &mut [usize]) -> Result<(), Singular> {
@@ -40,9 +41,7 @@ fn eliminate(matrix: &mut [f64], n: usize, column: usize) {
     for row in below.chunks_exact_mut(n) {
         let factor = row[column] / pivot_row[column];
         row[column] = factor;
-        for (entry, &pivot) in row[column + 1..].iter_mut().zip(&pivot_row[column + 1..]) {
-            *entry -= factor * pivot;
-        }
+        subtract(&mut row[column + 1..], factor, &pivot_row[column + 1..]);
     }
 }
 
@@ -87,14 +86,6 @@ pub(crate) fn solve<const W: usize>(factors: &[f64], pivots: &[usize], b: &mut [
         for entry in &mut head[row] {
             *entry /= factors[row * n + row];
         }
-    }
-}
-
-/// `x −= factor y`.
-#[inline]
-fn subtract<const W: usize>(x: &mut [f64; W], factor: f64, y: &[f64; W]) {
-    for (x, &y) in x.iter_mut().zip(y) {
-        *x -= factor * y;
     }
 }
 

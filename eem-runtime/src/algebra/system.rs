@@ -11,10 +11,7 @@
 //! The [`Storage`] decides how entries are laid out and solved with. A new solver is a new variant there, with its `new`
 //! (from the pattern), `entries`, `position` and `solve`. Systems of one and two unknowns are solved without it.
 
-#[cfg(feature = "gradients")]
-mod columns;
-
-use core::mem;
+use core::{iter, mem};
 
 #[cfg(feature = "sparse")]
 use eem_sparse::{Analysis, Solver};
@@ -133,41 +130,54 @@ impl Storage {
     ) -> Result<(), Singular> {
         match self {
             Self::Fixed { unknowns } => lu::solve_fixed(*unknowns, values, right),
-            Self::Dense { pivots } => solve_dense(values, pivots, right),
-            #[cfg(feature = "sparse")]
-            Self::Sparse(sparse) => solve_sparse(values, sparse, right),
+            _ => self.solve_each(values, &mut iter::once(right)),
         }
+    }
+
+    /// The same for several sets of right-hand sides. A is eliminated once, or, with at most [`MOST_FIXED`] unknowns, for each.
+    #[inline(never)]
+    fn solve_each<'a, const W: usize>(
+        &mut self,
+        values: &mut [f64],
+        all: &mut dyn Iterator<Item = &'a mut [[f64; W]]>,
+    ) -> Result<(), Singular> {
+        let values = &mut values[..self.entries()];
+        match self {
+            Self::Fixed { unknowns } => {
+                let given = lu::copied(values);
+                for right in all {
+                    values.copy_from_slice(&given[..values.len()]);
+                    solve_small(*unknowns, values, right)?;
+                }
+            }
+            Self::Dense { pivots } => {
+                lu::factor(values, pivots)?;
+                all.for_each(|right| lu::solve(values, pivots, right));
+            }
+            #[cfg(feature = "sparse")]
+            Self::Sparse(sparse) => {
+                let mut factored = sparse.factor(values).map_err(|_| Singular)?;
+                for right in all {
+                    factored.solve(right).map_err(|_| Singular)?;
+                }
+            }
+        }
+        values.fill(0.0);
+        Ok(())
     }
 }
 
-/// The elimination of a full matrix, in a separate function, so that small systems do not spill registers for it.
-#[inline(never)]
-fn solve_dense<const W: usize>(
+/// The same for few unknowns; one and two of them are solved with the bits of [`LinearSystem::solve`].
+fn solve_small<const W: usize>(
+    unknowns: usize,
     values: &mut [f64],
-    pivots: &mut [usize],
     right: &mut [[f64; W]],
 ) -> Result<(), Singular> {
-    let values = &mut values[..pivots.len() * pivots.len()];
-    lu::factor(values, pivots)?;
-    lu::solve(values, pivots, right);
-    values.fill(0.0);
-    Ok(())
-}
-
-/// The elimination by the pattern, in a separate function for the same reason.
-#[cfg(feature = "sparse")]
-#[inline(never)]
-fn solve_sparse<const W: usize>(
-    values: &mut [f64],
-    sparse: &mut Solver,
-    right: &mut [[f64; W]],
-) -> Result<(), Singular> {
-    let values = &mut values[..sparse.pattern().entries()];
-    let factored = sparse.factor(values);
-    let solved = factored.and_then(|mut factored| factored.solve(right));
-    solved.map_err(|_| Singular)?;
-    values.fill(0.0);
-    Ok(())
+    match *right {
+        [given] => lu::solve_one(values, &[given], right),
+        [one, other] => lu::solve_two(values, &[one, other], right),
+        _ => lu::solve_fixed(unknowns, values, right),
+    }
 }
 
 impl<const W: usize> LinearSystem<W> {
@@ -333,6 +343,41 @@ impl<const W: usize> LinearSystem<W> {
                 mem::swap(&mut self.right, &mut self.solution);
             }
         }
+        self.is_clear = true;
+        Ok(())
+    }
+}
+
+#[cfg(feature = "gradients")]
+impl LinearSystem<1> {
+    /// Replaces B by `B − A x`.
+    pub(crate) fn subtract_product(&mut self, x: &[[f64; 1]]) {
+        let n = self.unknowns;
+        let rows = self.right[..n].iter_mut().enumerate();
+        #[cfg(feature = "sparse")]
+        if let Storage::Sparse(sparse) = &self.storage {
+            for (row, [right]) in rows {
+                for (place, column) in sparse.pattern().entries_of(row) {
+                    *right -= self.values[place] * x[column][0];
+                }
+            }
+            return;
+        }
+        for (row, [right]) in rows {
+            for (&value, [x]) in self.values[row * n..].iter().zip(&x[..n]) {
+                *right -= value * *x;
+            }
+        }
+    }
+
+    /// Overwrites right-hand sides with their solutions, except the scratch rows of anchors, and A with zeros.
+    pub(crate) fn solve_each<'a>(
+        &mut self,
+        columns: impl Iterator<Item = &'a mut Vec<[f64; 1]>>,
+    ) -> Result<(), Singular> {
+        let n = self.unknowns;
+        let mut columns = columns.map(|column| &mut column[..n]);
+        self.storage.solve_each(&mut self.values, &mut columns)?;
         self.is_clear = true;
         Ok(())
     }

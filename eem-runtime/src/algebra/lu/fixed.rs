@@ -87,16 +87,32 @@ pub(crate) fn solve_fixed<const W: usize>(
     matrix: &mut [f64],
     b: &mut [[f64; W]],
 ) -> Result<(), Singular> {
-    match unknowns {
-        0 => Ok(()),
-        _ if W > 1 => solve_rows(unknowns, matrix, b),
-        _ => solve_column(unknowns, matrix, b.as_flattened_mut()),
+    if W == 1 {
+        return solve_column(unknowns, matrix, b.as_flattened_mut());
     }
+    let given = copied(&matrix[..unknowns * unknowns]);
+    for at in 0..W {
+        matrix[..unknowns * unknowns].copy_from_slice(&given[..unknowns * unknowns]);
+        let mut column: [f64; MOST_FIXED] = vector(|row| b.get(row).map_or(0.0, |b| b[at]));
+        solve_column(unknowns, matrix, &mut column)?;
+        for (b, x) in b.iter_mut().zip(column) {
+            b[at] = x;
+        }
+    }
+    Ok(())
+}
+
+/// A matrix of at most [`MOST_FIXED`] unknowns, in front of zeros.
+pub(crate) fn copied(matrix: &[f64]) -> [f64; MOST_FIXED * MOST_FIXED] {
+    let mut copy = [0.0; MOST_FIXED * MOST_FIXED];
+    copy[..matrix.len()].copy_from_slice(matrix);
+    copy
 }
 
 /// The elimination that is compiled for this number of unknowns.
 fn solve_column(unknowns: usize, matrix: &mut [f64], b: &mut [f64]) -> Result<(), Singular> {
     match unknowns {
+        0 => Ok(()),
         1 => solve_compiled::<1>(matrix, b),
         2 => solve_compiled::<2>(matrix, b),
         3 => solve_compiled::<3>(matrix, b),
@@ -123,7 +139,7 @@ fn solve_compiled<const N: usize>(matrix: &mut [f64], b: &mut [f64]) -> Result<(
     // `exchange_from` finishes the solution itself: a return to `eliminate` would load rows again.
     match eliminate(a, right) {
         Ok(()) => substitute(a, right),
-        Err(row) => exchange_from(row, N, a.as_flattened_mut(), b.as_chunks_mut::<1>().0)?,
+        Err(row) => exchange_from(row, N, a.as_flattened_mut(), right)?,
     }
     *a = [[0.0; N]; N];
     Ok(())
@@ -183,48 +199,24 @@ fn eliminate_row<const N: usize>(
 #[inline]
 fn substitute<const N: usize>(a: &[[f64; N]; N], b: &mut [f64; N]) {
     for (row, entries) in a.iter().enumerate().rev() {
-        let (head, known) = b.split_at_mut(row + 1);
-        // The result computed last is used last.
-        for (known, &factor) in known.iter().zip(&entries[row + 1..]).rev() {
-            head[row] -= factor * known;
-        }
+        substitute_row(row, entries, b);
     }
 }
 
-/// The same for several right-hand sides, in loops, with the same bits.
-fn solve_rows<const W: usize>(
-    n: usize,
-    matrix: &mut [f64],
-    b: &mut [[f64; W]],
-) -> Result<(), Singular> {
-    let (a, b) = (&mut matrix[..n * n], &mut b[..n]);
-    let unfit = (0..n).find(|&at| {
-        eliminate_before(at, n, a, b);
-        let row = &a[at * n..][..n];
-        let is_fit = dominates(row, at);
-        if is_fit {
-            divide(at, n, a, b);
-        }
-        !is_fit
-    });
-    match unfit {
-        None => substitute_rows(n, a, b),
-        Some(row) => exchange_from(row, n, a, b)?,
+/// Finds the unknown of a row from those behind it; the result computed last is used last.
+#[inline]
+fn substitute_row(row: usize, entries: &[f64], b: &mut [f64]) {
+    let (head, known) = b.split_at_mut(row + 1);
+    for (known, &factor) in known.iter().zip(&entries[row + 1..]).rev() {
+        head[row] -= factor * known;
     }
-    a.fill(0.0);
-    Ok(())
 }
 
 /// Eliminates from row `first` on and solves, with the largest entry of each row as its pivot, if necessary by an
 /// exchange of two columns.
 #[cold]
 #[inline(never)]
-fn exchange_from<const W: usize>(
-    first: usize,
-    n: usize,
-    a: &mut [f64],
-    b: &mut [[f64; W]],
-) -> Result<(), Singular> {
+fn exchange_from(first: usize, n: usize, a: &mut [f64], b: &mut [f64]) -> Result<(), Singular> {
     let mut order: [usize; MOST_FIXED] = vector(|at| at);
     for at in first..n {
         eliminate_before(at, n, a, b);
@@ -235,9 +227,11 @@ fn exchange_from<const W: usize>(
         order.swap(at, pivot);
         divide(at, n, a, b);
     }
-    substitute_rows(n, a, b);
-    let mut found = [[0.0; W]; MOST_FIXED];
-    found[..n].copy_from_slice(&b[..n]);
+    for (row, entries) in a.chunks_exact(n).enumerate().rev() {
+        substitute_row(row, entries, b);
+    }
+    let mut found = [0.0; MOST_FIXED];
+    found[..n].copy_from_slice(b);
     for (&unknown, value) in order[..n].iter().zip(found) {
         b[unknown] = value;
     }
@@ -245,7 +239,7 @@ fn exchange_from<const W: usize>(
 }
 
 /// Eliminates the entries of a row before the diagonal.
-fn eliminate_before<const W: usize>(at: usize, n: usize, a: &mut [f64], b: &mut [[f64; W]]) {
+fn eliminate_before(at: usize, n: usize, a: &mut [f64], b: &mut [f64]) {
     let (above, below) = a.split_at_mut(at * n);
     let (known, right) = b.split_at_mut(at);
     for (k, (entries, known)) in above.chunks_exact(n).zip(known).enumerate() {
@@ -253,15 +247,15 @@ fn eliminate_before<const W: usize>(at: usize, n: usize, a: &mut [f64], b: &mut 
         // So that a row is eliminated once, however often it is looked at.
         below[k] = 0.0;
         subtract(&mut below[k + 1..n], factor, &entries[k + 1..]);
-        subtract(&mut right[0], factor, known);
+        right[0] -= factor * *known;
     }
 }
 
 /// Divides a row by its diagonal entry.
-fn divide<const W: usize>(at: usize, n: usize, a: &mut [f64], b: &mut [[f64; W]]) {
+fn divide(at: usize, n: usize, a: &mut [f64], b: &mut [f64]) {
     let row = &mut a[at * n..][..n];
     let inverse = row[at].recip();
-    for entry in row.iter_mut().chain(&mut b[at]) {
+    for entry in row.iter_mut().chain([&mut b[at]]) {
         *entry *= inverse;
     }
 }
@@ -278,16 +272,6 @@ fn largest_behind(row: &[f64], diagonal: usize) -> Result<usize, Singular> {
         Ok(pivot)
     } else {
         Err(Singular)
-    }
-}
-
-/// Finds the solutions from the upper factor, whose diagonal is one.
-fn substitute_rows<const W: usize>(n: usize, a: &[f64], b: &mut [[f64; W]]) {
-    for (row, entries) in a.chunks_exact(n).enumerate().rev() {
-        let (head, known) = b.split_at_mut(row + 1);
-        for (known, &factor) in known.iter().zip(&entries[row + 1..]).rev() {
-            subtract(&mut head[row], factor, known);
-        }
     }
 }
 
@@ -310,7 +294,7 @@ fn dominates(row: &[f64], diagonal: usize) -> bool {
 
 /// `x −= factor y`.
 #[inline]
-fn subtract(x: &mut [f64], factor: f64, y: &[f64]) {
+pub(super) fn subtract(x: &mut [f64], factor: f64, y: &[f64]) {
     for (x, &y) in x.iter_mut().zip(y) {
         *x -= factor * y;
     }
