@@ -118,7 +118,8 @@ pub(crate) struct Site<'a, const D: usize> {
 impl<const D: usize> Explicit<D> {
     /// For these groups, which know their entropies already.
     pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<D>>>, site: Site<'_, D>) -> Self {
-        let components = Components::new(site.masses, site.elements, site.layout, site.conduction);
+        let mut components =
+            Components::new(site.masses, site.elements, site.layout, site.conduction);
         let place_of = components.place_of();
         for group in &mut groups {
             group.join(&components.of_element, &place_of);
@@ -129,6 +130,11 @@ impl<const D: usize> Explicit<D> {
         for held in &prescribed.held {
             thermostats.resize(site.layout.thermal, Thermostat::new(false));
             thermostats[held.slot] = Thermostat::new(true);
+        }
+        for path in &mut components.paths {
+            for (stores, end) in path.stores.iter_mut().zip(path.ends) {
+                *stores &= !thermostats.get(end).is_some_and(|of| of.holds);
+            }
         }
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
         let counts = [site.masses.len(), site.layout.thermal];

@@ -145,16 +145,10 @@ impl<const D: usize> Explicit<D> {
         let limit = demand.largest_correction();
         for index in 0..self.scratch.progress.len() {
             let progress = &self.scratch.progress[index];
-            let (mut own, scale) = (progress.correction, progress.scale);
-            if !(own.abs() <= limit) {
-                let explained = self.explained(index, scale, view);
-                let is_rounding = (own * scale).abs() <= explained;
-                if is_rounding {
-                    own = 0.0;
-                }
-            }
-            let is_larger = largest.abs() < own.abs();
-            if is_larger {
+            let (own, scale) = (progress.correction, progress.scale);
+            let is_rounding =
+                !(own.abs() <= limit) && (own * scale).abs() <= self.explained(index, scale, view);
+            if !is_rounding && largest.abs() < own.abs() {
                 largest = own;
             }
         }

@@ -33,9 +33,6 @@ impl<const D: usize> Explicit<D> {
         let slots = scratch.produced.len();
         for (path, kept) in self.components.paths.iter().zip(&mut scratch.paths) {
             let [a, b] = path.ends;
-            let is_fixed = |end: usize| end >= slots || stage.is_held(end);
-            // The closing does not change production that neither end stores.
-            let closes = !(is_fixed(a) && is_fixed(b));
             let progress = &mut scratch.progress[path.component];
             let [near, far] = &path.temperatures;
             let ([flow, production], shift) =
@@ -50,10 +47,10 @@ impl<const D: usize> Explicit<D> {
             }
             *kept = production;
             progress.production.add(production);
-            let least = if closes {
-                &mut progress.least
-            } else {
-                &mut scratch.least
+            // The closing does not change production that neither end stores.
+            let least = match path.stores {
+                [false, false] => &mut scratch.least,
+                _ => &mut progress.least,
             };
             *least = Scalar::minimum(*least, production);
             next.entropies.add(a, flow);
@@ -95,7 +92,6 @@ impl<const D: usize> Explicit<D> {
     /// which the closing has scaled all productions of a component.
     pub(super) fn meter(&self, h: f64, next: &mut State) {
         let (stage, components) = (&self.stage, &self.components);
-        let slots = self.scratch.produced.len();
         let progress = |component: usize| &self.scratch.progress[component];
         for (index, dashpot) in components.dashpots.iter().enumerate() {
             let scale = progress(dashpot.component).factor;
@@ -106,17 +102,14 @@ impl<const D: usize> Explicit<D> {
             }
         }
         for (path, &production) in components.paths.iter().zip(&self.scratch.paths) {
-            let [a, b] = path.ends;
             let progress = progress(path.component);
-            let is_fixed = |end: usize| end >= slots || stage.is_held(end);
-            let scale = if is_fixed(a) && is_fixed(b) {
-                1.0
-            } else {
-                progress.factor
+            let scale = match path.stores {
+                [false, false] => 1.0,
+                _ => progress.factor,
             };
             match path.share {
-                Some(_) => next.meters.produce(a, scale * production),
-                None => next.meters.produce_between([a, b], scale * production),
+                Some(_) => next.meters.produce(path.ends[0], scale * production),
+                None => next.meters.produce_between(path.ends, scale * production),
             }
             if !progress.is_rigid {
                 let heat = h
@@ -193,25 +186,17 @@ impl<const D: usize> Explicit<D> {
     /// reservoir or has a thermostat, the other end receives all of it.
     #[inline]
     pub(super) fn share_productions(&mut self) {
-        let (stage, scratch) = (&self.stage, &mut self.scratch);
-        let slots = scratch.produced.len();
+        let scratch = &mut self.scratch;
         for (path, &production) in self.components.paths.iter().zip(&scratch.paths) {
-            let [a, b] = path.ends;
-            let capacity = |end: usize| {
-                let takes = end < slots && !stage.is_held(end);
-                if takes {
-                    scratch.capacities[end][0]
-                } else {
-                    0.0
+            let mut capacities = [0.0; 2];
+            for at in 0..2 {
+                if path.stores[at] {
+                    [capacities[at], _] = scratch.capacities[path.ends[at]];
                 }
-            };
-            let ends = [(a, capacity(a)), (b, capacity(b))];
-            let all = ends[0].1 + ends[1].1;
-            if all <= 0.0 {
-                continue;
             }
-            for (end, capacity) in ends {
-                if capacity > 0.0 {
+            let all = capacities[0] + capacities[1];
+            for (end, capacity) in path.ends.into_iter().zip(capacities) {
+                if all > 0.0 && capacity > 0.0 {
                     scratch.produced[end] += production * (capacity / all);
                 }
             }

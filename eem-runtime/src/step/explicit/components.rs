@@ -46,14 +46,10 @@ pub(super) struct Component {
 impl Component {
     /// The velocity of the centre of mass for a linear momentum, m/s; zero with an anchor.
     pub(super) fn velocity<const D: usize>(&self, linear: &[f64; D]) -> [f64; D] {
-        let is_free = self.support == Support::Free;
-        vector(|axis| {
-            if is_free {
-                linear[axis] / self.mass
-            } else {
-                0.0
-            }
-        })
+        if self.support != Support::Free {
+            return [0.0; D];
+        }
+        vector(|axis| linear[axis] / self.mass)
     }
 }
 
@@ -62,6 +58,8 @@ impl Component {
 pub(super) struct Path {
     /// The thermal slots at both ends; reservoirs are numbered after all thermal slots.
     pub(super) ends: [usize; 2],
+    /// Whether each end stores entropy: neither reservoirs do, nor elements with a thermostat.
+    pub(super) stores: [bool; 2],
     pub(super) component: usize,
     /// Its first link in the list of all.
     pub(super) link: usize,
@@ -299,6 +297,7 @@ impl Components {
             };
             self.paths.push(Path {
                 ends: [slot, far],
+                stores: [true, share.is_none()],
                 component,
                 link,
                 share,

@@ -90,21 +90,11 @@ impl<const D: usize> Inertia<D> {
     /// The slowest rotation with an angular momentum; none in planes without inertia.
     #[inline]
     pub(super) fn solve(&self, momentum: &Bivector<f64, D>) -> Bivector<f64, D> {
+        let over = |j: f64, moment: f64| if moment <= 0.0 { 0.0 } else { j / moment };
         match self {
-            Self::Single(moment) => {
-                let is_none = *moment <= 0.0;
-                momentum.map(0.0, |j| if is_none { 0.0 } else { j / *moment })
-            }
+            Self::Single(moment) => momentum.map(0.0, |j| over(j, *moment)),
             Self::Line { along, moment } => {
-                let is_none = *moment <= 0.0;
-                let turning = momentum.turn(along);
-                let speed = vector(|axis| {
-                    if is_none {
-                        0.0
-                    } else {
-                        turning[axis] / *moment
-                    }
-                });
+                let speed = momentum.turn(along).map(|j| over(j, *moment));
                 Bivector::wedge(along, &speed)
             }
             Self::Space(inverse) => inverse.solve(momentum),

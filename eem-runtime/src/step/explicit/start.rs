@@ -112,21 +112,14 @@ impl<const D: usize> Explicit<D> {
         self.books.copy_from(&self.old_books, self.is_driven);
     }
 
-    /// Sums the energies of the elements of a state.
-    fn sum_energies(&mut self, state: &State) {
-        self.scratch.energies.fill(ComponentEnergy::none());
-        let elements = self.components.of_element.iter().zip(&state.energies);
-        for (&component, energy) in elements {
-            let sum = &mut self.scratch.energies[component as usize];
-            sum.value.add(energy.value);
-            sum.magnitude += energy.magnitude;
-        }
-    }
-
     /// Takes energy and momenta of this state as the conserved targets.
     fn set_targets(&mut self, state: &State) {
         self.books.clear();
-        self.sum_energies(state);
+        self.scratch.energies.fill(ComponentEnergy::none());
+        let elements = self.components.of_element.iter().zip(&state.energies);
+        for (&component, energy) in elements {
+            self.scratch.energies[component as usize].add(energy);
+        }
         for index in 0..self.components.all.len() {
             self.look_at_motion(index);
             let motion = &self.scratch.motions[index];
