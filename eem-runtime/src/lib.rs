@@ -25,7 +25,7 @@
 //! |---|---|
 //! | add a scheme | a row in `step/scheme.rs` and in `step/features.rs`, and in `step/automatic.rs` if `Auto` may choose it; a `Tableau` in `step/rule` for one with stages; other conjugates in `element/conjugates` or a `Source` in `element/group/stages` |
 //! | change what a step proves | `step/certificate.rs`, `element/group/certify.rs`, `step/solver/closing` |
-//! | change Newton's method: start, convergence, end | `step/newton.rs`; `begin.rs`, `past.rs`, `converge.rs`, `progress.rs` in `step/solver` |
+//! | change Newton's method: start, convergence, end | `step/newton.rs`; `begin.rs`, `past.rs`, `converge.rs` in `step/solver` |
 //! | change step control | `step/control`; `attempt.rs`, `control.rs`, `halves.rs` in `run/simulation`; `step/explicit/error.rs` |
 //! | change when `Scheme::Auto` switches | `step/automatic.rs`, `run/simulation/automatic.rs` |
 //! | change the explicit scheme | `step/explicit`: `stages.rs`, `tableau.rs`, `closing`, `inertia`, `guard.rs`; `element/group/explicit` |

@@ -72,7 +72,6 @@ mod motion;
 
 use crate::algebra::largest;
 use crate::element::group::Group;
-use crate::element::handle::Element;
 use crate::element::state::State;
 use crate::element::tally::{ROUNDINGS, Reevaluation, Tally};
 use crate::step::error::StepFailure;
@@ -333,22 +332,4 @@ impl Certificate {
 pub(crate) fn is_wide(bound: f64, terms: f64) -> bool {
     let most = WIDE * ROUNDINGS * f64::EPSILON * terms;
     !(bound <= most)
-}
-
-impl Law {
-    /// The error of a step to `time` that violates the law, most of all in one element.
-    pub(crate) fn not_kept(
-        self,
-        [defect, bound]: [f64; 2],
-        element: Option<Element>,
-        time: f64,
-    ) -> StepFailure {
-        StepFailure::LawNotKept {
-            law: self,
-            defect,
-            bound,
-            element,
-            time,
-        }
-    }
 }

@@ -332,6 +332,24 @@ impl core::fmt::Display for StepError {
 
 impl core::error::Error for StepError {}
 
+impl Law {
+    /// The error of a step to `time` that violates the law, most of all in one element.
+    pub(crate) fn not_kept(
+        self,
+        [defect, bound]: [f64; 2],
+        element: Option<Element>,
+        time: f64,
+    ) -> StepFailure {
+        StepFailure::LawNotKept {
+            law: self,
+            defect,
+            bound,
+            element,
+            time,
+        }
+    }
+}
+
 impl From<Singular> for StepFailure {
     fn from(_: Singular) -> Self {
         Self::SingularTangent

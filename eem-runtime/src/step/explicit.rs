@@ -24,7 +24,6 @@ mod outside;
 mod prescribed;
 mod proof;
 mod saved;
-mod scratch;
 mod stability;
 mod stages;
 mod start;
@@ -43,9 +42,8 @@ use crate::element::state::State;
 use crate::scene::loads::Loads;
 use crate::step::control::{LeastScales, LoadRounding};
 use components::Components;
-use memory::{Books, LoadSums};
+use memory::{Books, LoadSums, Scratch};
 use prescribed::Prescribed;
-use scratch::Scratch;
 
 pub(crate) use attempt::Demand;
 pub(crate) use saved::SavedExplicit;

@@ -141,9 +141,9 @@ impl<const D: usize> Motion<D> {
         let [gain, size] = node.energies();
         self.energy.add(gain);
         self.kinetic += size;
-        if D > 0 && !matches!(self.kept, Kept::None) {
+        if let Some(origin) = self.origin() {
             let load = force.map_or([0.0; D], |force| scaled(step, force));
-            self.see_momenta(node, &load);
+            self.see_momenta(node, &load, &origin);
         }
         if let Some(force) = force {
             for (&force, &displacement) in force.iter().zip(node.displacement) {
@@ -174,10 +174,8 @@ impl<const D: usize> Motion<D> {
 
     /// Adds the impulse of a load, N s, on a node with this displacement from its old position.
     pub(crate) fn push(&mut self, [position, displacement]: [&[f64; D]; 2], impulse: &[f64; D]) {
-        let origin = match self.kept {
-            Kept::None => return,
-            Kept::Angular(origin) => origin,
-            Kept::Both => [0.0; D],
+        let Some(origin) = self.origin() else {
+            return;
         };
         let mut arm = [0.0; D];
         let (mut length, mut size) = (0.0, 0.0);
@@ -192,11 +190,17 @@ impl<const D: usize> Motion<D> {
         self.angular.add(-1.0, &Bivector::wedge(&arm, impulse));
     }
 
-    fn see_momenta(&mut self, node: &NodeStep<'_, D>, load: &[f64; D]) {
-        let origin = match self.kept {
-            Kept::Angular(origin) => origin,
-            Kept::None | Kept::Both => [0.0; D],
-        };
+    /// The point about which the angular momentum is kept.
+    #[inline]
+    fn origin(&self) -> Option<[f64; D]> {
+        match self.kept {
+            Kept::None => None,
+            Kept::Angular(origin) => Some(origin),
+            Kept::Both => Some([0.0; D]),
+        }
+    }
+
+    fn see_momenta(&mut self, node: &NodeStep<'_, D>, load: &[f64; D], origin: &[f64; D]) {
         let (mut arm, mut mean, mut net) = ([0.0; D], [0.0; D], [0.0; D]);
         let (mut length, mut size) = (0.0, 0.0);
         for axis in 0..D {

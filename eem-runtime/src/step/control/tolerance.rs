@@ -338,63 +338,61 @@ impl<'a> Scales<'a> {
         loads: Option<&LoadRounding>,
         see: &mut dyn FnMut(Unknown, f64, [f64; 2]),
     ) {
-        let mut each = |values: [&[f64]; 2],
-                        unknown: fn(usize) -> Unknown,
-                        scale: &dyn Fn(usize, f64) -> [f64; 2]| {
-            for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
-                see(unknown(index), (a - b).abs(), scale(index, b));
+        let (positions, momenta) = (&a.positions, &a.momenta);
+        let loads = loads.map(|loads| (loads, length(b.positions.values())));
+        let lists: [(fn(usize) -> Unknown, [&[f64]; 2]); 4] = [
+            (
+                Unknown::Position,
+                [positions.values(), b.positions.values()],
+            ),
+            (Unknown::Momentum, [momenta.values(), b.momenta.values()]),
+            (Unknown::Viscous, [a.viscous.values(), b.viscous.values()]),
+            (Unknown::Temperature, [&a.temperatures, &b.temperatures]),
+        ];
+        for (unknown, [a, b]) in lists {
+            for (at, (&a, &b)) in a.iter().zip(b).enumerate() {
+                let unknown = unknown(at);
+                see(unknown, (a - b).abs(), self.scale(unknown, b, kinds, loads));
             }
-        };
-        let rounding = |of: &dyn Fn(&LoadRounding) -> f64| loads.map_or(0.0, of);
+        }
+    }
+
+    /// The scale of an unknown of this value and, given the rounding of loads and |q|₂, its rounding.
+    fn scale(
+        &self,
+        unknown: Unknown,
+        value: f64,
+        kinds: &Kinds,
+        known: Option<(&LoadRounding, f64)>,
+    ) -> [f64; 2] {
+        let rounding =
+            |of: &dyn Fn(&LoadRounding) -> f64| known.map_or(0.0, |(loads, _)| of(loads));
         let impulse = |node: usize| rounding(&|loads| self.rounding(node) + loads.impulse(node));
-        each(
-            [a.positions.values(), b.positions.values()],
-            Unknown::Position,
-            &|index, _| {
-                let node = index / self.dimension;
+        match unknown {
+            Unknown::Position(at) => {
+                let node = at / self.dimension;
                 let moved = rounding(&|loads| {
                     let mobility = self.least.at(node).mobility(self.step.size);
                     mobility * impulse(node) + loads.position(node)
                 });
                 [self.position, moved]
-            },
-        );
-        each(
-            [a.momenta.values(), b.momenta.values()],
-            Unknown::Momentum,
-            &(|index, _| {
-                if kinds.are_given.get(index) == Some(&true) {
-                    [f64::MAX, 0.0]
-                } else {
-                    [
-                        self.allowed_momentum(index / self.dimension),
-                        impulse(index / self.dimension),
-                    ]
-                }
-            }),
-        );
-        let positions = length(b.positions.values());
-        each(
-            [a.viscous.values(), b.viscous.values()],
-            Unknown::Viscous,
-            &|index, _| {
-                if kinds.are_strains[index] {
-                    [self.strain, 0.0]
-                } else {
-                    let rounding = rounding(&|_| ROUNDINGS * f64::EPSILON * positions);
-                    [self.stretch, rounding]
-                }
-            },
-        );
-        let [relative, absolute] = self.temperature;
-        each(
-            [&a.temperatures, &b.temperatures],
-            Unknown::Temperature,
-            &|index, theta| {
-                let rounding = rounding(&|loads| loads.temperature(index));
-                [relative * theta + absolute, rounding]
-            },
-        );
+            }
+            Unknown::Momentum(at) if kinds.are_given.get(at) == Some(&true) => [f64::MAX, 0.0],
+            Unknown::Momentum(at) => {
+                let node = at / self.dimension;
+                [self.allowed_momentum(node), impulse(node)]
+            }
+            Unknown::Viscous(at) if kinds.are_strains[at] => [self.strain, 0.0],
+            Unknown::Viscous(_) => {
+                let positions = known.map_or(0.0, |(_, positions)| positions);
+                [self.stretch, ROUNDINGS * f64::EPSILON * positions]
+            }
+            Unknown::Temperature(slot) => {
+                let [relative, absolute] = self.temperature;
+                let rounding = rounding(&|loads| loads.temperature(slot));
+                [relative * value + absolute, rounding]
+            }
+        }
     }
 }
 

@@ -1,8 +1,12 @@
-//! Values that an explicit scheme keeps from step to step: targets and accumulated sums.
+//! Memory of an explicit scheme: targets and sums that it keeps from step to step, and the workspace of a closing.
 
 use crate::algebra::bivector::{Bivector, planes};
+use crate::algebra::{add, dot, size};
+use crate::element::group::{ComponentEnergy, Place, UnkeptEntropy};
+use crate::element::layout::Layout;
 use crate::step::explicit::components::Components;
-use eem_material::number::compensated::Sum;
+use eem_material::number::compensated::{Sum, Total};
+use eem_material::number::scalar::Scalar;
 
 /// Work and impulses of the loads on a component in a step.
 #[derive(Clone, Copy, Debug)]
@@ -118,4 +122,228 @@ impl<const D: usize> LoadSums<D> {
             moment: 0.0,
         }
     }
+}
+
+/// The progress of the closing of a component.
+#[derive(Clone, Copy, Debug, Default)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a question of its own about the closing"
+)]
+pub(super) struct Progress {
+    /// Number of corrections so far.
+    pub(super) iterations: usize,
+    /// Whether heat has been among them.
+    pub(super) has_heated: bool,
+    /// The defect of the energy, J.
+    pub(super) defect: f64,
+    /// [`defect_of`](super::Explicit::defect_of), while nothing has changed since.
+    pub(super) present: Option<[f64; 2]>,
+    /// The magnitude of the terms of the energy where the closing began, with what was carried; zero before, J.
+    pub(super) scale: f64,
+    /// The first defect over the scale.
+    pub(super) correction: f64,
+    /// The sum of the magnitudes of the relative changes of the motion that is not rigid.
+    pub(super) moved: f64,
+    /// The largest relative change of a temperature by one correction.
+    pub(super) warmed: f64,
+    /// Whether positions and viscous stretches have been changed.
+    pub(super) has_shifted: bool,
+    /// Heat that dashpots without temperature have lost in this step, J.
+    pub(super) lost: f64,
+    /// What moved anchors of a component without masses have taken and given in this step, J.
+    pub(super) carried: f64,
+    /// The total entropy production, and the smallest one before the closing, `f64::MAX` without any, J/K.
+    pub(super) production: Total,
+    pub(super) least: f64,
+    /// The factor by which the closing has changed every production.
+    pub(super) factor: f64,
+    /// Terms whose rounding explains the defect if no correction of the energy was possible, see
+    /// [`rounding`](super::closing); zero otherwise, J.
+    pub(super) granularity: f64,
+    /// Terms of the energy, in addition to `scale`, whose rounding explains the defect if step control would feel its correction; zero
+    /// otherwise, J.
+    pub(super) values: f64,
+    /// The part of the defect that earlier steps have left, where the rest alone is rounding; zero otherwise, J.
+    pub(super) debt: f64,
+    /// The terms of the torque of loads, times the step, kg m²/s. Their rounding counts where that of the momenta is smaller.
+    pub(super) moment: f64,
+    /// Whether the defect is explained only with terms that do not vanish with the energy, or only without the debt.
+    pub(super) is_forgiven: bool,
+    /// Whether the energy is within tolerance.
+    pub(super) is_closed: bool,
+    /// Whether the component was rotated rigidly because no correction was possible.
+    pub(super) is_rigid: bool,
+}
+
+/// Sums over the masses of a component.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<const D: usize> {
+    /// L, kg m/s, and J about the origin of the component, kg m²/s.
+    pub(super) linear: [f64; D],
+    pub(super) angular: Bivector<f64, D>,
+    /// `Σ |p|` and `Σ |q||p|` by sums of magnitudes, with coordinates q or arms about the origin, whichever are larger:
+    /// positions are rounded to ε of their coordinates.
+    pub(super) terms: [f64; 2],
+    /// Kinetic energy and that of constant forces, `−F·q`, and the magnitude of its terms, J.
+    pub(super) energy: Total,
+    pub(super) magnitude: f64,
+    pub(super) kinetic: f64,
+}
+
+/// What an element with a thermostat receives in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct HeldBalance {
+    /// Entropy from dashpots and paths, and from the thermostat, J/K.
+    pub(super) received: f64,
+    pub(super) given: f64,
+    /// Heat from the thermostat, and the part of it that the entropy does not tell, J.
+    pub(super) heat: f64,
+    pub(super) by_course: f64,
+}
+
+/// Sums of rows of matrices, which bound the fastest motion.
+#[derive(Clone, Debug)]
+pub(super) struct RowSums {
+    /// `ω²` per node of the scene, 1/s².
+    pub(super) squares: Vec<f64>,
+    /// c per thermal slot, J/K, and its share of conduction, 1/s.
+    pub(super) capacities: Vec<f64>,
+    pub(super) flows: Vec<f64>,
+}
+
+/// Working memory of the closing of a step.
+#[derive(Clone, Debug)]
+pub(super) struct Scratch<const D: usize> {
+    /// Per component.
+    pub(super) progress: Vec<Progress>,
+    /// The terms, in J, of which ε is the rounding of a product that is no normal number: of two momenta, or of a power, over the step.
+    pub(super) subnormal: f64,
+    pub(super) motions: Vec<Motion<D>>,
+    pub(super) energies: Vec<ComponentEnergy>,
+    /// Whether a component has to be evaluated, and whether its forces are needed.
+    pub(super) open: Vec<bool>,
+    pub(super) needs_forces: Vec<bool>,
+    /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
+    pub(super) capacities: Vec<[f64; 2]>,
+    pub(super) produced: Vec<f64>,
+    /// An element whose stored entropy does not match its temperature after the closing, if there is one.
+    pub(super) unkept: Option<UnkeptEntropy>,
+    /// Per thermal slot.
+    pub(super) held: Vec<HeldBalance>,
+    /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are needed, N, m/s and W.
+    pub(super) forces: Vec<[f64; D]>,
+    pub(super) creep: Vec<[f64; 2]>,
+    /// The production Π of each path of heat, J/K.
+    pub(super) paths: Vec<f64>,
+    /// The smallest production of paths of heat between thermostats and reservoirs; `f64::MAX` without any, J/K.
+    pub(super) least: f64,
+    pub(super) stability: RowSums,
+    /// The sum of the stiffnesses of elements at each node of the scene, N/m, and whether it is known in this step.
+    pub(super) stiffnesses: Vec<f64>,
+    /// The terms of the force of each dashpot, N.
+    pub(super) pulls: Vec<f64>,
+    pub(super) has_stiffnesses: bool,
+}
+
+impl Progress {
+    pub(super) fn none() -> Self {
+        Self {
+            least: f64::MAX,
+            factor: 1.0,
+            ..Self::default()
+        }
+    }
+}
+
+impl<const D: usize> Motion<D> {
+    /// Of no masses.
+    pub(super) fn none() -> Self {
+        Self {
+            linear: [0.0; D],
+            angular: Bivector::zero(),
+            terms: [0.0; 2],
+            energy: Total::default(),
+            magnitude: 0.0,
+            kinetic: 0.0,
+        }
+    }
+
+    /// Adds the momenta of a mass at the end of an arm.
+    #[inline]
+    pub(super) fn add_momenta(&mut self, place: &Place<D>, arm: &[f64; D]) {
+        let p = place.p();
+        add(&mut self.linear, 1.0, p);
+        self.angular.add(1.0, &Bivector::wedge(arm, p));
+        // Below the smallest normal number, rounding is that of this number.
+        let momentum = size(p) + f64::MIN_POSITIVE;
+        self.terms[0] += momentum;
+        self.terms[1] += farther(arm, place.q()) * momentum;
+    }
+
+    /// Adds momenta and energy of a mass at the end of an arm.
+    #[inline]
+    pub(super) fn add(&mut self, place: &Place<D>, arm: &[f64; D]) {
+        self.add_momenta(place, arm);
+        let (q, p) = (place.q(), place.p());
+        let kinetic = 0.5 * dot(p, p) * place.per_mass;
+        self.energy.add(kinetic);
+        self.kinetic += kinetic;
+        self.magnitude += kinetic;
+        for (&force, &q) in place.force.iter().zip(q) {
+            if force != 0.0 {
+                let potential = -force * q;
+                self.energy.add(potential);
+                self.magnitude += potential.abs();
+            }
+        }
+    }
+}
+
+impl<const D: usize> Scratch<D> {
+    /// A workspace for a scene with this many nodes.
+    pub(super) fn new(components: &Components, layout: &Layout, nodes: usize) -> Self {
+        let (count, thermal) = (components.all.len(), layout.thermal);
+        Self {
+            progress: vec![Progress::none(); count],
+            subnormal: f64::MIN_POSITIVE,
+            motions: vec![Motion::none(); count],
+            energies: vec![ComponentEnergy::none(); count],
+            open: vec![false; count],
+            needs_forces: vec![false; count],
+            capacities: vec![[0.0; 2]; thermal],
+            produced: vec![0.0; thermal],
+            unkept: None,
+            held: vec![HeldBalance::default(); thermal],
+            forces: vec![[0.0; D]; components.nodes.len()],
+            creep: vec![[0.0; 2]; layout.viscous],
+            paths: vec![0.0; components.paths.len()],
+            least: f64::MAX,
+            stability: RowSums {
+                squares: vec![0.0; nodes],
+                capacities: vec![0.0; thermal],
+                flows: vec![0.0; thermal],
+            },
+            stiffnesses: vec![0.0; nodes],
+            pulls: vec![0.0; layout.viscous],
+            has_stiffnesses: false,
+        }
+    }
+
+    /// Clears the workspace for the closing of a step of the size h, s.
+    pub(super) fn clear(&mut self, h: f64) {
+        self.subnormal = f64::MIN_POSITIVE * (1.0 + h);
+        self.progress.fill(Progress::none());
+        self.produced.fill(0.0);
+        self.held.fill(HeldBalance::default());
+        self.unkept = None;
+        self.has_stiffnesses = false;
+        self.least = f64::MAX;
+    }
+}
+
+/// The size of an arm or of the coordinates of its end, whichever is larger: positions are rounded to ε of their coordinates.
+#[inline]
+pub(super) fn farther(arm: &[f64], position: &[f64]) -> f64 {
+    Scalar::maximum(size(arm), size(position))
 }

@@ -1,7 +1,7 @@
 //! Why an explicit step failed: it is longer than the fastest motion allows, or an element is too cold.
 
 use super::components::Path;
-use super::scratch::RowSums;
+use super::memory::RowSums;
 use super::tableau::{IMAGINARY_LIMIT, REAL_LIMIT};
 use super::{Explicit, ExplicitView};
 use crate::algebra::largest;

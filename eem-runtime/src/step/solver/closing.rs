@@ -3,7 +3,6 @@
 mod masses;
 mod path;
 mod stages;
-mod supports;
 
 use super::begin::old_force;
 use super::{Search, Solver};

@@ -1,13 +1,12 @@
 //! Newton's method, iterated until the step closed at the trial state proves its laws.
 
-use super::effort::Effort;
-use super::progress::{Conclusion, Progress, Target};
 use super::{Search, Solver};
 use crate::element::error::StateError;
+use crate::element::state::State;
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
-use crate::step::newton::is_last;
-use eem_material::number::scalar::natural_power;
+use crate::step::newton::{CONTRACTION, Effort, STAGNATION, is_last};
+use eem_material::number::scalar::{Scalar, natural_power};
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
@@ -69,11 +68,7 @@ impl<const D: usize> Search<'_, D> {
     }
 
     /// Closes the step at a trial where the elements have been evaluated, and judges it.
-    pub(super) fn conclude(
-        &mut self,
-        target: &mut Target<'_>,
-        progress: &mut Progress,
-    ) -> Conclusion {
+    fn conclude(&mut self, target: &mut Target<'_>, progress: &mut Progress) -> Conclusion {
         let Target::State(next) = target else {
             return Conclusion::Found;
         };
@@ -114,7 +109,7 @@ impl<const D: usize> Search<'_, D> {
 
     /// Evaluates the tangent for another iteration, at a trial where only responses have been evaluated.
     #[cold]
-    pub(super) fn linearize_again(&mut self) -> Result<(), StepFailure> {
+    fn linearize_again(&mut self) -> Result<(), StepFailure> {
         self.solver.factors.renew();
         self.solver.balance(self.view);
         self.evaluate(true)?;
@@ -203,4 +198,120 @@ pub(super) enum Purpose {
     Iterate,
     /// Closing the step.
     Close,
+}
+
+/// Extra iterations after stagnation while the certificate fails; each changes the rounding errors.
+const MOST_RETRIES: u32 = 3;
+
+/// A residual counts as smaller only below this fraction of the smallest one so far.
+const SLOWEST: f64 = 0.75;
+
+/// The aim of an iteration.
+pub(super) enum Target<'a> {
+    /// A trial, as the initial guess for another iteration.
+    Trial,
+    /// Such a trial, converged as far as rounding allows.
+    SharpTrial,
+    /// A new state.
+    State(&'a mut State),
+}
+
+/// The result of closing a trial.
+enum Conclusion {
+    /// The step ends there.
+    Found,
+    /// Another iteration is needed.
+    Open,
+    /// No iteration will help.
+    Refused(StepFailure),
+}
+
+/// Iterations after which an attempt is given up if none of its updates has been small, as long as there
+/// are other starts.
+const PATIENCE: usize = 10;
+
+/// Whether Newton's method converges, and how often rounding has stopped it.
+#[derive(Clone, Copy, Debug)]
+struct Progress {
+    /// Iterations of this attempt.
+    iterations: usize,
+    /// The last update, and the smallest so far.
+    last: f64,
+    smallest: f64,
+    /// Consecutive updates that did not fall.
+    stuck: u32,
+    /// Rejected states at rounding level since the residual last fell, and that residual, N s.
+    retries: u32,
+    residual: f64,
+}
+
+impl Target<'_> {
+    /// The largest update that may be the last one.
+    fn tolerance(&self, usual: f64) -> f64 {
+        match self {
+            Self::Trial | Self::State(_) => usual,
+            Self::SharpTrial => f64::EPSILON,
+        }
+    }
+}
+
+impl Progress {
+    /// Before the first iteration.
+    fn new() -> Self {
+        Self {
+            iterations: 0,
+            last: f64::MAX,
+            smallest: f64::MAX,
+            stuck: 0,
+            retries: 0,
+            residual: f64::MAX,
+        }
+    }
+
+    /// Counts another update. Returns whether rounding may keep it from being smaller.
+    ///
+    /// The smallest possible update depends on the conditioning, so that its size does not decide: the balances are
+    /// checked wherever an update does not fall.
+    fn is_stuck(&mut self, update: f64, before: Option<f64>) -> bool {
+        self.iterations += 1;
+        self.last = update;
+        self.smallest = Scalar::minimum(self.smallest, update);
+        let Some(before) = before else {
+            return false;
+        };
+        let stagnates = STAGNATION * before <= update;
+        let is_small = update < CONTRACTION;
+        self.stuck = if stagnates && is_small {
+            self.stuck + 1
+        } else {
+            0
+        };
+        self.stuck > 0
+    }
+
+    /// Whether no update has been small in [`PATIENCE`] or more iterations.
+    fn is_hopeless(&self) -> bool {
+        self.iterations >= PATIENCE && CONTRACTION < self.smallest
+    }
+
+    /// Counts a rejected state with this residual. A clearly smaller residual restarts the count: iterating helps then,
+    /// however slowly.
+    fn note_rejected(&mut self, residual: f64) {
+        if residual < SLOWEST * self.residual {
+            self.retries = 0;
+            self.residual = residual;
+        } else {
+            self.retries += 1;
+        }
+    }
+
+    /// Whether rounding stops the iteration.
+    fn has_stopped(&self) -> bool {
+        self.stuck > 0
+    }
+
+    /// Whether all extra iterations are used up.
+    fn is_over(&self) -> bool {
+        self.retries > MOST_RETRIES
+    }
 }

@@ -5,9 +5,8 @@ use super::begin::Start;
 use super::{Search, Solver};
 use crate::element::group::{Group, StepView};
 use crate::step::error::StepFailure;
-use crate::step::newton::Largest;
+use crate::step::newton::{Effort, Largest};
 use crate::step::solver::converge::Purpose;
-use crate::step::solver::effort::Effort;
 use eem_material::number::compensated::correct;
 use eem_material::number::scalar::Scalar;
 

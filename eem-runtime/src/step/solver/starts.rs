@@ -6,8 +6,8 @@ use crate::element::group::{Group, StepView};
 use crate::element::state::State;
 use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
-use crate::step::solver::effort::{CONTINUATION_STEPS, Effort};
-use crate::step::solver::progress::Target;
+use crate::step::newton::{CONTINUATION_STEPS, Effort};
+use crate::step::solver::converge::Target;
 
 impl<const D: usize> Solver<D> {
     /// Finds the state after the step, or after the phase of it that the view names; returns its certificate.

@@ -2,8 +2,8 @@
 
 use super::super::Explicit;
 use super::super::attempt::Demand;
+use super::super::memory::Motion;
 use super::super::origin::Origin;
-use super::super::scratch::Motion;
 use super::{FROZEN, Status};
 use crate::algebra::dot;
 use crate::element::group::{Place, is_met};
