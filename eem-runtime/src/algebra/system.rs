@@ -136,10 +136,10 @@ impl Storage {
 
     /// The same for several sets of right-hand sides. A is eliminated once, or, with at most [`MOST_FIXED`] unknowns, for each.
     #[inline(never)]
-    fn solve_each<'a, const W: usize>(
+    fn solve_each<const W: usize>(
         &mut self,
         values: &mut [f64],
-        all: &mut dyn Iterator<Item = &'a mut [[f64; W]]>,
+        all: &mut dyn Iterator<Item = &mut [[f64; W]]>,
     ) -> Result<(), Singular> {
         let values = &mut values[..self.entries()];
         match self {

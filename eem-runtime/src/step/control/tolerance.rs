@@ -340,16 +340,19 @@ impl<'a> Scales<'a> {
     ) {
         let (positions, momenta) = (&a.positions, &a.momenta);
         let loads = loads.map(|loads| (loads, length(b.positions.values())));
-        let lists: [(fn(usize) -> Unknown, [&[f64]; 2]); 4] = [
-            (
-                Unknown::Position,
-                [positions.values(), b.positions.values()],
-            ),
-            (Unknown::Momentum, [momenta.values(), b.momenta.values()]),
-            (Unknown::Viscous, [a.viscous.values(), b.viscous.values()]),
-            (Unknown::Temperature, [&a.temperatures, &b.temperatures]),
+        let unknowns: [fn(usize) -> Unknown; 4] = [
+            Unknown::Position,
+            Unknown::Momentum,
+            Unknown::Viscous,
+            Unknown::Temperature,
         ];
-        for (unknown, [a, b]) in lists {
+        let values = [
+            [positions.values(), b.positions.values()],
+            [momenta.values(), b.momenta.values()],
+            [a.viscous.values(), b.viscous.values()],
+            [&a.temperatures, &b.temperatures],
+        ];
+        for (unknown, [a, b]) in unknowns.into_iter().zip(values) {
             for (at, (&a, &b)) in a.iter().zip(b).enumerate() {
                 let unknown = unknown(at);
                 see(unknown, (a - b).abs(), self.scale(unknown, b, kinds, loads));

@@ -188,16 +188,14 @@ impl<const D: usize> Explicit<D> {
     pub(super) fn share_productions(&mut self) {
         let scratch = &mut self.scratch;
         for (path, &production) in self.components.paths.iter().zip(&scratch.paths) {
-            let mut capacities = [0.0; 2];
-            for at in 0..2 {
-                if path.stores[at] {
-                    [capacities[at], _] = scratch.capacities[path.ends[at]];
-                }
-            }
-            let all = capacities[0] + capacities[1];
-            for (end, capacity) in path.ends.into_iter().zip(capacities) {
-                if all > 0.0 && capacity > 0.0 {
-                    scratch.produced[end] += production * (capacity / all);
+            let capacity = |at: usize| {
+                let slot = path.stores[at].then_some(path.ends[at]);
+                slot.map_or(0.0, |slot| scratch.capacities[slot][0])
+            };
+            let [a, b] = [capacity(0), capacity(1)];
+            for (end, capacity) in path.ends.into_iter().zip([a, b]) {
+                if a + b > 0.0 && capacity > 0.0 {
+                    scratch.produced[end] += production * (capacity / (a + b));
                 }
             }
         }

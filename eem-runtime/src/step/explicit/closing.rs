@@ -66,7 +66,6 @@ impl<const D: usize> Explicit<D> {
         self.share_productions();
         let mut has_looked = false;
         loop {
-            let mut needs_forces = false;
             self.scratch.needs_forces.fill(false);
             for index in 0..self.components.all.len() {
                 if !self.scratch.open[index] {
@@ -75,9 +74,8 @@ impl<const D: usize> Explicit<D> {
                 let status = self.balance(index, demand, next);
                 self.scratch.open[index] = status == Status::Changed;
                 self.scratch.needs_forces[index] = status == Status::NeedsForces;
-                needs_forces |= status == Status::NeedsForces;
             }
-            if needs_forces {
+            if self.scratch.needs_forces.contains(&true) {
                 if !has_looked {
                     self.expect_stable_dashpots(view)?;
                     has_looked = true;
@@ -93,7 +91,7 @@ impl<const D: usize> Explicit<D> {
                     }
                 }
             }
-            if !self.scratch.open.iter().any(|&open| open) {
+            if !self.scratch.open.contains(&true) {
                 return Ok(());
             }
             self.find_energies(view, next)?;

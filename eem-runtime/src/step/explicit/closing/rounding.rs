@@ -70,28 +70,23 @@ impl<const D: usize> Explicit<D> {
 
     /// Closed if the remaining defect, or what this step adds to it, is rounding, failed otherwise.
     pub(super) fn unless_rounding(&mut self, index: usize, view: &ExplicitView<'_, D>) -> Status {
-        let progress = &self.scratch.progress[index];
+        let mut progress = self.scratch.progress[index];
         let (defect, scale) = (progress.defect, progress.scale);
-        let mut granularity = self.granularity(index);
         let is_rounding =
             |defect: f64, terms: f64| defect.abs() <= FROZEN * f64::EPSILON * (scale + terms);
-        let mut is_closed = is_rounding(defect, granularity);
-        let (mut is_forgiven, mut debt) = (false, 0.0);
-        if !is_closed {
-            granularity += self.terms_at_rest(index, view);
-            is_forgiven = is_rounding(defect, granularity);
-            if !is_forgiven && self.is_driven {
-                debt = self.debt(index, view.state);
-                is_forgiven = is_rounding(defect - debt, granularity);
+        progress.granularity = self.granularity(index);
+        progress.is_closed = is_rounding(defect, progress.granularity);
+        if !progress.is_closed {
+            progress.granularity += self.terms_at_rest(index, view);
+            progress.is_forgiven = is_rounding(defect, progress.granularity);
+            if !progress.is_forgiven && self.is_driven {
+                progress.debt = self.debt(index, view.state);
+                progress.is_forgiven = is_rounding(defect - progress.debt, progress.granularity);
             }
-            is_closed = is_forgiven;
+            progress.is_closed = progress.is_forgiven;
         }
-        let progress = &mut self.scratch.progress[index];
-        progress.granularity = granularity;
-        progress.debt = debt;
-        progress.is_forgiven = is_forgiven;
-        progress.is_closed = is_closed;
-        if is_closed {
+        self.scratch.progress[index] = progress;
+        if progress.is_closed {
             Status::Closed
         } else {
             Status::Failed
@@ -184,15 +179,15 @@ impl<const D: usize> Explicit<D> {
         if self.rounding.is_none() {
             return 0.0;
         }
-        let size = |vector: &[f64; D]| dot(vector, vector).sqrt();
+        let length = |vector: &[f64; D]| dot(vector, vector).sqrt();
         let mut sum = 0.0;
         for at in self.components.all[index].masses.clone() {
             let (place, node) = (&self.stage.places[at], self.components.nodes[at]);
             let impulse = self.rounding.impulse(node);
-            let momenta = size(&place.past.start[1]) + size(place.p()) + impulse;
+            let momenta = length(&place.past.start[1]) + length(place.p()) + impulse;
             sum += impulse * momenta * place.per_mass;
             // The force of the springs is that on the mass less the constant one.
-            let force = size(&self.scratch.forces[at]) + size(&place.force);
+            let force = length(&self.scratch.forces[at]) + length(&place.force);
             sum += force * self.rounding.pull(node);
         }
         sum
