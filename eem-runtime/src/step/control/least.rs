@@ -10,6 +10,7 @@ use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::step::control::controller::Accuracy;
 use crate::step::control::controller::ROUNDINGS;
+use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
 /// A momentum that grows counts for at most this multiple of itself.
@@ -46,25 +47,16 @@ pub(crate) struct LeastScales {
     nodes: Box<[AtNode]>,
     /// The largest entries of all nodes.
     most: AtNode,
-    /// Between moved anchors and masses, in the order of the anchors.
-    links: Box<[Link]>,
+    /// The sum of the stiffnesses between each moved anchor and a mass, N/m.
+    links: BTreeMap<[u32; 2], f64>,
     /// The ends of springs with dashpots in series.
     viscous: Box<[[u32; 2]]>,
     /// The largest κ/c of the elements at each reservoir, 1/s.
     exchanges: Box<[f64]>,
 }
 
-/// What pulls a mass when an anchor moves.
-#[derive(Clone, Copy, Debug)]
-struct Link {
-    anchor: usize,
-    mass: usize,
-    /// The sum of the stiffnesses between them, N/m.
-    stiffness: f64,
-}
-
-/// What is around a mass.
-#[derive(Clone, Copy, Debug)]
+/// What is around a node.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct AtNode {
     /// `2π/ω`, s; infinite where nothing holds the mass.
     period: f64,
@@ -74,8 +66,11 @@ pub(crate) struct AtNode {
     free: f64,
     /// The terms of the forces, N.
     force: f64,
-    /// The sum of the stiffnesses, N/m.
+    /// The sums of the stiffnesses, N/m, and of the dampers, N s/m.
     stiffness: f64,
+    damping: f64,
+    /// ℓ: the shortest length, m.
+    length: f64,
     /// Zero for an anchor, kg.
     mass: f64,
 }
@@ -90,106 +85,100 @@ impl LeastScales {
     ) -> Self {
         let size = length(state.positions.values());
         let size = if size > 0.0 { size } else { 1.0 };
-        // Stiffness, damping, shortest length and terms of forces at each node.
-        let mut around = vec![([0.0; 3], f64::MAX); masses.len()];
+        let alone = AtNode {
+            length: f64::MAX,
+            ..AtNode::default()
+        };
+        let mut nodes = vec![alone; masses.len()];
         let mut rate = 0.0;
         let mut links = BTreeMap::new();
         let mut viscous = Vec::new();
         let mut exchanges = vec![0.0; conduction.reservoirs.len()];
         for group in groups {
-            group.stiffness(
-                state,
-                &mut (|point| {
-                    rate = Scalar::maximum(rate, point.relaxation);
-                    if point.has_viscous_stretch {
-                        viscous.push([point.nodes[0], point.nodes[1]]);
-                    }
-                    if let Some((slot, capacity)) = point.capacity {
-                        let mut flow = 0.0;
-                        for link in conduction.links(slot) {
-                            flow += link.conductance;
-                            if let Partner::Reservoir(index) = link.partner {
-                                let own = link.conductance / capacity;
-                                exchanges[index] = Scalar::maximum(exchanges[index], own);
-                            }
+            group.stiffness(state, &mut |point| {
+                rate = Scalar::maximum(rate, point.relaxation);
+                if point.has_viscous_stretch {
+                    viscous.push([point.nodes[0], point.nodes[1]]);
+                }
+                if let Some((slot, capacity)) = point.capacity {
+                    let mut flow = 0.0;
+                    for link in conduction.links(slot) {
+                        flow += link.conductance;
+                        if let Partner::Reservoir(index) = link.partner {
+                            let own = link.conductance / capacity;
+                            exchanges[index] = Scalar::maximum(exchanges[index], own);
                         }
-                        rate = Scalar::maximum(rate, flow / capacity);
                     }
+                    rate = Scalar::maximum(rate, flow / capacity);
+                }
+                for &node in point.nodes {
+                    let at = &mut nodes[node as usize];
+                    at.stiffness += point.elastic;
+                    at.damping += point.damping;
+                    at.force += point.force;
+                    at.length = Scalar::minimum(at.length, point.length);
+                }
+                let is_moved = |anchor: &&u32| moved.binary_search(&(**anchor as usize)).is_ok();
+                for &anchor in point.nodes.iter().filter(is_moved) {
                     for &node in point.nodes {
-                        let (sums, length) = &mut around[node as usize];
-                        let terms = [point.elastic, point.damping, point.force];
-                        for (sum, term) in sums.iter_mut().zip(terms) {
-                            *sum += term;
-                        }
-                        *length = Scalar::minimum(*length, point.length);
-                    }
-                    for &anchor in point.nodes {
-                        if moved.binary_search(&(anchor as usize)).is_err() {
-                            continue;
-                        }
-                        for &node in point.nodes {
+                        if masses.get(node as usize).is_some() {
                             *links.entry([anchor, node]).or_insert(0.0) += point.elastic;
                         }
                     }
-                }),
-            );
-        }
-        // Anchors have momenta next to solids.
-        let weights = masses.weights();
-        let nodes: Box<[_]> = (masses.iter().zip(&*weights).zip(around))
-            .map(|((own, &held), ([stiffness, damping, force], length))| {
-                let mass = own.unwrap_or(held);
-                let is_mass = own.unwrap_or(0.0) > 0.0;
-                let fastest = Scalar::maximum((stiffness / mass).sqrt(), damping / mass);
-                rate = Scalar::maximum(rate, if is_mass { fastest } else { 0.0 });
-                let length = if length < f64::MAX { length } else { size };
-                // m ω = √(k m), times ω m/d at most.
-                let root = (stiffness * mass).sqrt();
-                let is_slow = root < damping;
-                let bound = if is_slow {
-                    root * (root / damping)
-                } else {
-                    root
-                };
-                let is_free = stiffness == 0.0;
-                let period = TAU * mass / bound;
-                let has_period = bound > 0.0 && mass > 0.0;
-                AtNode {
-                    period: if has_period { period } else { f64::MAX },
-                    bound: length * bound,
-                    free: if is_free { mass * length } else { 0.0 },
-                    force: force + own.unwrap_or(0.0) * gravity,
-                    stiffness,
-                    mass: own.unwrap_or(0.0),
                 }
-            })
-            .collect();
-        let largest = |of: &dyn Fn(&AtNode) -> f64| {
-            nodes
-                .iter()
-                .fold(0.0, |most, node| Scalar::maximum(most, of(node)))
+            });
+        }
+        let mut most = AtNode {
+            period: f64::MAX,
+            ..AtNode::default()
         };
-        let links = links.into_iter().map(|([anchor, mass], stiffness)| Link {
-            anchor: anchor as usize,
-            mass: mass as usize,
-            stiffness,
-        });
-        let links = links.filter(|link| masses.get(link.mass).is_some());
+        // Anchors have momenta next to solids.
+        for ((at, own), &held) in nodes.iter_mut().zip(masses.iter()).zip(&*masses.weights()) {
+            let mass = own.unwrap_or(held);
+            at.mass = own.unwrap_or(0.0);
+            if at.mass > 0.0 {
+                let fastest = Scalar::maximum((at.stiffness / mass).sqrt(), at.damping / mass);
+                rate = Scalar::maximum(rate, fastest);
+            }
+            let length = if at.length < f64::MAX {
+                at.length
+            } else {
+                size
+            };
+            // m ω = √(k m), times ω m/d at most.
+            let root = (at.stiffness * mass).sqrt();
+            let is_slow = root < at.damping;
+            let bound = if is_slow {
+                root * (root / at.damping)
+            } else {
+                root
+            };
+            let has_period = bound > 0.0 && mass > 0.0;
+            at.period = if has_period {
+                TAU * mass / bound
+            } else {
+                f64::MAX
+            };
+            at.bound = length * bound;
+            at.free = if at.stiffness == 0.0 {
+                mass * length
+            } else {
+                0.0
+            };
+            at.force += at.mass * gravity;
+            most.bound = Scalar::maximum(most.bound, at.bound);
+            most.free = Scalar::maximum(most.free, at.free);
+            most.force = Scalar::maximum(most.force, at.force);
+            most.stiffness = Scalar::maximum(most.stiffness, at.stiffness);
+        }
         Self {
             size,
             rate,
-            links: links.collect(),
+            links,
             viscous: viscous.into(),
             exchanges: exchanges.into(),
-            most: AtNode {
-                period: f64::MAX,
-                bound: largest(&|node| node.bound),
-                free: largest(&|node| node.free),
-                force: largest(&|node| node.force),
-                stiffness: largest(&|node| node.stiffness),
-                mass: 0.0,
-            },
-            nodes,
+            most,
+            nodes: nodes.into(),
         }
     }
 
@@ -281,10 +270,9 @@ impl LeastScales {
 
     /// The masses that a moved anchor pulls, with the stiffness between them, N/m.
     pub(crate) fn pulled_by(&self, anchor: usize) -> impl Iterator<Item = (usize, f64)> {
-        let first = self.links.partition_point(|link| link.anchor < anchor);
-        let links = self.links[first..].iter();
-        let links = links.take_while(move |link| link.anchor == anchor);
-        links.map(|link| (link.mass, link.stiffness))
+        let anchor = compact(anchor);
+        let links = self.links.range([anchor, 0]..=[anchor, u32::MAX]);
+        links.map(|(&[_, mass], &stiffness)| (mass as usize, stiffness))
     }
 }
 

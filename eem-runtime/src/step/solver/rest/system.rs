@@ -1,8 +1,9 @@
 //! The system of an iteration for a state at rest, and its updates.
 
+use core::ops::Range;
+
 use eem_material::number::scalar::Scalar;
 
-use super::super::balance::Balance;
 use super::{AtRest, LONG, Place};
 use crate::algebra::{dot, hypot, largest};
 use crate::element::tally::Care;
@@ -62,15 +63,6 @@ fn fill_sizes(sizes: &mut [f64]) {
     for size in sizes.iter_mut().filter(|size| **size <= least) {
         *size = unit;
     }
-}
-
-/// The entries of moving nodes in a vector of the system.
-fn entries<const D: usize>(nodes: &[Balance<D>], vector: &[[f64; 1]]) -> Vec<f64> {
-    let mut entries = Vec::with_capacity(nodes.len() * D);
-    for node in nodes {
-        entries.extend_from_slice(node.rows(vector));
-    }
-    entries
 }
 
 /// The largest change of an arm by displacements, m, in units of its length before, given all coordinates now.
@@ -168,34 +160,26 @@ impl<const D: usize> AtRest<'_, D> {
         true
     }
 
+    /// The entries of moving nodes in a vector of the system.
+    fn rows(&self) -> Range<usize> {
+        0..self.search.solver.nodes.len() * D
+    }
+
     /// R, N.
     pub(crate) fn forces(&self) -> Vec<f64> {
-        entries(
-            &self.search.solver.nodes,
-            self.search.solver.tangent.right(),
-        )
+        self.search.solver.tangent.right().as_flattened()[self.rows()].to_vec()
     }
 
     /// The last update, m.
     pub(super) fn solution(&self) -> Vec<f64> {
-        entries(
-            &self.search.solver.nodes,
-            self.search.solver.tangent.solution(),
-        )
+        self.search.solver.tangent.solution().as_flattened()[self.rows()].to_vec()
     }
 
     /// Replaces R.
     pub(super) fn set_right(&mut self, forces: &[f64]) {
+        let rows = self.rows();
         let (_, right) = self.search.solver.tangent.parts();
-        for (node, force) in self
-            .search
-            .solver
-            .nodes
-            .iter()
-            .zip(forces.as_chunks::<D>().0)
-        {
-            *node.rows_mut(right) = *force;
-        }
+        right.as_flattened_mut()[rows].copy_from_slice(forces);
     }
 
     /// Solves the system with friction. Returns whether it is definite, which is not asked of one that is not symmetric.
