@@ -344,8 +344,8 @@ impl SchemeSelection {
         if self.implicit_trials.wait.is_none() {
             // Of the explicit scheme it is known that stability limits it.
             let gain = if is_explicit { 1.0 } else { gain };
-            self.implicit_trials
-                .wait_for(PATIENCE * effort / gain, self.spent);
+            let wait = PATIENCE * effort / gain;
+            self.implicit_trials.wait_for(wait, self.spent);
         }
         let is_first = self.failed_trials == 0;
         let is_due = self.spent >= self.implicit_trials.due
@@ -378,8 +378,8 @@ impl SchemeSelection {
 
     /// Waits as long as for the first trial of the explicit scheme.
     fn expect_explicit(&mut self) {
-        self.explicit_trials
-            .wait_for(PATIENCE * EXPLICIT_TRIAL, self.spent);
+        let wait = PATIENCE * EXPLICIT_TRIAL;
+        self.explicit_trials.wait_for(wait, self.spent);
     }
 
     /// Switches to another scheme, after steps of this size, s.

@@ -217,17 +217,12 @@ impl<const D: usize> Explicit<D> {
 /// Whether each thermal slot has a path of heat or a dashpot.
 fn produces(components: &Components, layout: &Layout) -> Vec<bool> {
     let mut produces = vec![false; layout.thermal];
-    for path in &components.paths {
-        for end in path.ends {
-            // Reservoirs come after the thermal slots.
-            if let Some(produces) = produces.get_mut(end) {
-                *produces = true;
-            }
-        }
-    }
-    for dashpot in &components.dashpots {
-        if let Some(slot) = dashpot.slot {
-            produces[slot] = true;
+    let ends = components.paths.iter().flat_map(|path| path.ends);
+    let dashpots = components.dashpots.iter();
+    for slot in ends.chain(dashpots.filter_map(|dashpot| dashpot.slot)) {
+        // Reservoirs come after the thermal slots.
+        if let Some(produces) = produces.get_mut(slot) {
+            *produces = true;
         }
     }
     produces

@@ -353,10 +353,10 @@ impl Scheme {
                 inertia: 2.0,
             }];
         };
-        let sets = (0..rule.sets()).map(|set| {
-            let time = rule.times[rule.stage_of(set)];
-            let inertia = time.recip();
-            UnknownSet { time, inertia }
+        let times = (0..rule.sets()).map(|set| rule.times[rule.stage_of(set)]);
+        let sets = times.map(|time| UnknownSet {
+            time,
+            inertia: time.recip(),
         });
         sets.collect()
     }

@@ -108,9 +108,8 @@ impl<const D: usize> Solver<D> {
     ) -> Self {
         let sets = scheme.sets();
         let Systems { tangent, secant } = systems;
-        let stages = scheme
-            .tableau()
-            .map(|rule| Stages::new(rule, secant, masses));
+        let rule = scheme.tableau();
+        let stages = rule.map(|rule| Stages::new(rule, secant, masses));
         let sites = Sites {
             layout,
             conduction,

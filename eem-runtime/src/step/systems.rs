@@ -116,10 +116,8 @@ fn mass_pattern(
             pair_all(masses, pair);
         }
         for rocket in rockets {
-            pair_all(
-                || nodes_of(rocket, layout).map(|first| first / dimension),
-                pair,
-            );
+            let masses = || nodes_of(rocket, layout).map(|first| first / dimension);
+            pair_all(masses, pair);
         }
     })
 }
@@ -134,8 +132,7 @@ fn nodes_of<'a>(rocket: &PushLine, layout: &'a Layout) -> impl Iterator<Item = u
 /// Adds every pair of some unknowns.
 fn pair_all<I: Iterator<Item = usize>>(own: impl Fn() -> I, pair: &mut dyn FnMut(usize, usize)) {
     for row in own() {
-        own()
-            .filter(|&column| column < row)
-            .for_each(|column| pair(row, column));
+        let before = own().filter(|&column| column < row);
+        before.for_each(|column| pair(row, column));
     }
 }

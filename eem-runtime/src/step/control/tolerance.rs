@@ -214,22 +214,16 @@ impl<'a> Scales<'a> {
         let of = |size: f64, absolute: f64| relative * size + share * absolute;
         let [first, last] = [old.positions.values(), new.positions.values()];
         let positions = Scalar::maximum(length(first), length(last));
+        let positions = Scalar::maximum(positions, least.position(tolerance.relative));
         let stretch = |positions| least.stretches(dimension, positions);
         let stretches = Scalar::maximum(stretch(first), stretch(last));
         let [start, end] = [length(old.momenta.values()), length(new.momenta.values())];
         let before = Scalar::maximum(start, largest_momentum);
         let momenta = Scalar::maximum(end, before);
-        let grows = before < end;
-        let growth = if grows {
-            (end - start) / (step * end)
-        } else {
-            0.0
-        };
+        let growth = (end - start) / (step * end);
+        let growth = if before < end { growth } else { 0.0 };
         Self {
-            position: of(
-                Scalar::maximum(positions, least.position(tolerance.relative)),
-                tolerance.position,
-            ),
+            position: of(positions, tolerance.position),
             stretch: of(stretches, tolerance.position),
             strain: of(1.0, tolerance.position),
             momentum: [relative, share * tolerance.momentum],

@@ -230,12 +230,10 @@ impl<const D: usize> Explicit<D> {
             let rounding = self.rounding_of(view, place, node);
             let scale = view.least.at(node).scale(by.scales.momentum, by.step());
             let momentum = tolerance.relative * scale + tolerance.momentum;
+            let momentum = Scalar::maximum(momentum, rounding);
             let before = unclosed(&place.past, view.step);
             see(hypot(&difference(place.q(), &before[0])), position);
-            see(
-                hypot(&difference(place.p(), &before[1])),
-                Scalar::maximum(momentum, rounding),
-            );
+            see(hypot(&difference(place.p(), &before[1])), momentum);
         }
         let change = |at: usize| {
             let [before] = unclosed(&self.stage.inner_past[at / 2], view.step);

@@ -39,15 +39,11 @@ impl<const D: usize> Explicit<D> {
             let magnitude = magnitude + FROZEN / ROUNDINGS * progress.granularity;
             // What the bound of the step counts with the energies of both ends.
             let values = FROZEN / ROUNDINGS * progress.values;
-            expect(
-                Law::Energy,
-                [progress.debt - defect, rounding * (magnitude + values)],
-                time,
-            )?;
+            let bound = rounding * (magnitude + values);
+            expect(Law::Energy, [progress.debt - defect, bound], time)?;
             self.prove_momenta(index, time)?;
             residue -= defect;
-            let is_forgiven = self.scratch.progress[index].is_forgiven;
-            if self.is_driven && is_forgiven {
+            if self.is_driven && self.scratch.progress[index].is_forgiven {
                 // The rounding of this step is not that of later ones.
                 self.books.targets[index].energy.add(-defect);
                 forgiven += defect;
@@ -67,21 +63,16 @@ impl<const D: usize> Explicit<D> {
         let (mut production, mut least) = (Total::default(), self.scratch.least);
         for progress in &self.scratch.progress {
             production.add_total(progress.production);
-            let has_produced = progress.least < f64::MAX;
-            // The factor is rounded to ε of what was produced before the closing.
-            let closed = Scalar::minimum(
-                progress.least * progress.factor,
-                progress.production.value(),
-            );
-            least = Scalar::minimum(least, if has_produced { closed } else { f64::MAX });
+            if progress.least < f64::MAX {
+                // The factor is rounded to ε of what was produced before the closing.
+                let closed = progress.least * progress.factor;
+                let closed = Scalar::minimum(closed, progress.production.value());
+                least = Scalar::minimum(least, closed);
+            }
         }
-        let has_produced = least < f64::MAX;
-        let least_production = if has_produced { least } else { 0.0 };
-        expect(
-            Law::Production,
-            [Scalar::minimum(least_production, 0.0), 0.0],
-            time,
-        )?;
+        let least_production = if least < f64::MAX { least } else { 0.0 };
+        let lost = Scalar::minimum(least_production, 0.0);
+        expect(Law::Production, [lost, 0.0], time)?;
         Ok(Outcome {
             defect: residue - old_residue,
             bound,

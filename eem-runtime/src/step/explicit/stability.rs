@@ -96,26 +96,21 @@ impl<const D: usize> Explicit<D> {
         };
         let mut relaxation = 0.0;
         for group in &self.groups {
-            group.elements().stiffness(
-                view.state,
-                &mut (|element| {
-                    let [a, b] = element.ends();
-                    let [by_a, by_b] = [per_root(a), per_root(b)];
-                    let both = by_a + by_b;
-                    let held = |slot: usize| self.stage.is_held(slot);
-                    let stiffness = match element.capacity {
-                        Some((slot, _)) if held(slot) => element.isothermal,
-                        _ => element.elastic,
-                    };
-                    squares[a] += stiffness * by_a * both;
-                    squares[b] += stiffness * by_b * both;
-                    relaxation = Scalar::maximum(relaxation, element.relaxation);
-                    if let Some((slot, capacity)) = element.capacity {
+            group.elements().stiffness(view.state, &mut |element| {
+                let [a, b] = element.ends();
+                let [by_a, by_b] = [per_root(a), per_root(b)];
+                let mut stiffness = element.elastic;
+                if let Some((slot, capacity)) = element.capacity {
+                    capacities[slot] = capacity;
+                    if self.stage.is_held(slot) {
                         // A thermostat keeps the temperature as a body of any size would.
-                        capacities[slot] = if held(slot) { f64::MAX } else { capacity };
+                        (stiffness, capacities[slot]) = (element.isothermal, f64::MAX);
                     }
-                }),
-            );
+                }
+                squares[a] += stiffness * by_a * (by_a + by_b);
+                squares[b] += stiffness * by_b * (by_a + by_b);
+                relaxation = Scalar::maximum(relaxation, element.relaxation);
+            });
         }
         add_conduction(&self.components.paths, capacities, flows);
         [largest(squares).sqrt(), largest(flows), relaxation]

@@ -3,6 +3,7 @@
 use super::balance::Interface;
 use super::begin::Start;
 use super::{Search, Solver};
+use crate::algebra::scaled;
 use crate::element::group::{Group, StepView};
 use crate::step::error::StepFailure;
 use crate::step::newton::{Effort, Largest};
@@ -49,17 +50,12 @@ impl<const D: usize> Search<'_, D> {
         self.solver.weigh(self.view);
         let growth = factor - 1.0;
         let solution = self.solver.tangent.solution_mut();
+        let trial = &mut self.solver.trial;
         for node in &self.solver.nodes {
-            let at = node.in_trial;
-            for (axis, change) in node.rows_mut(solution).iter_mut().enumerate() {
-                let displacement = &mut self.solver.trial.displacements[at][axis];
-                *change = growth * *displacement;
-                correct(
-                    displacement,
-                    &mut self.solver.trial.carries[at][axis],
-                    *change,
-                );
-            }
+            let displacement = &mut trial.displacements[node.in_trial];
+            let change = scaled(growth, displacement);
+            correct_all(displacement, &mut trial.carries[node.in_trial], &change);
+            *node.rows_mut(solution) = change;
         }
         for interface in &self.solver.interfaces {
             solution[interface.row] = [0.0];
@@ -101,11 +97,9 @@ impl<const D: usize> Solver<D> {
         let trial = &mut self.trial;
         let solution = self.tangent.solution();
         for node in &self.nodes {
-            let at = node.in_trial;
-            for (axis, &change) in node.rows(solution).iter().enumerate() {
-                let displacement = &mut trial.displacements[at][axis];
-                correct(displacement, &mut trial.carries[at][axis], -share * change);
-            }
+            let displacement = &mut trial.displacements[node.in_trial];
+            let change = scaled(-share, node.rows(solution));
+            correct_all(displacement, &mut trial.carries[node.in_trial], &change);
         }
         for &Interface { in_trial, row, .. } in &self.interfaces {
             trial.interface.add(in_trial, -share * solution[row][0]);
@@ -127,10 +121,8 @@ impl<const D: usize> Solver<D> {
             self.trial.carries[node.in_trial] = [0.0; D];
             self.trial.displacements[node.in_trial] = *node.rows(given);
         }
-        for interface in &self.interfaces {
-            self.trial
-                .interface
-                .set(interface.in_trial, unknowns[interface.row]);
+        for &Interface { in_trial, row, .. } in &self.interfaces {
+            self.trial.interface.set(in_trial, unknowns[row]);
         }
         // With a zero solution, a correction that is taken back does not change the global unknowns.
         self.tangent.solution_mut().fill([0.0]);
@@ -158,5 +150,12 @@ impl<const D: usize> Solver<D> {
         let right = &self.tangent.right()[..unknowns.len()];
         let residual = right.iter().map(|&[entry]| -entry).collect();
         Ok((residual, self.tangent.dense()))
+    }
+}
+
+/// Adds a change to a vector that is stored with its rest.
+fn correct_all<const D: usize>(sum: &mut [f64; D], rest: &mut [f64; D], change: &[f64; D]) {
+    for axis in 0..D {
+        correct(&mut sum[axis], &mut rest[axis], change[axis]);
     }
 }

@@ -90,8 +90,8 @@ pub(crate) struct Softest {
     pub(crate) rounding: f64,
 }
 
-/// The displacements of all nodes and their compensations of rounding, coordinate after coordinate, m.
-pub(super) type Place = [Vec<f64>; 2];
+/// The displacements of all nodes and their compensations of rounding, m.
+pub(super) type Place<const D: usize> = [Vec<[f64; D]>; 2];
 
 impl<'a, const D: usize> AtRest<'a, D> {
     /// Starts at the state of a view whose step is [`LONG`], given the end nodes of the arms of elements.
@@ -152,18 +152,15 @@ impl<'a, const D: usize> AtRest<'a, D> {
     /// Writes the state that was found.
     pub(crate) fn close(&mut self, next: &mut State) -> Result<(), StepFailure> {
         let [moved, carries] = self.place();
-        for (at, (moved, carry)) in moved.iter().zip(&carries).enumerate() {
+        let moved = moved.as_flattened().iter().zip(carries.as_flattened());
+        for (at, (moved, carry)) in moved.enumerate() {
             let old = &self.search.view.state.positions;
             next.positions.advance(at, old, moved + carry);
         }
+        let (view, trial) = (self.search.view, &self.search.solver.trial);
         let mut tally = Tally::new(Care::Quick);
         for group in &mut *self.search.groups {
-            group.close(
-                self.search.view,
-                &self.search.solver.trial,
-                next,
-                &mut tally,
-            )?;
+            group.close(view, trial, next, &mut tally)?;
         }
         Ok(())
     }
@@ -266,25 +263,19 @@ impl<'a, const D: usize> AtRest<'a, D> {
     }
 
     /// Starts at a place, or at the initial state, with the initial internal variables.
-    fn start(&mut self, place: Option<&Place>) -> Result<(), StepFailure> {
+    fn start(&mut self, place: Option<&Place<D>>) -> Result<(), StepFailure> {
         self.search.begin(Start::Rest)?;
         if let Some([moved, carries]) = place {
             let trial = &mut self.search.solver.trial;
-            trial
-                .displacements
-                .as_flattened_mut()
-                .copy_from_slice(moved);
-            trial.carries.as_flattened_mut().copy_from_slice(carries);
+            trial.displacements.copy_from_slice(moved);
+            trial.carries.copy_from_slice(carries);
         }
         self.renew()
     }
 
-    fn place(&self) -> Place {
+    fn place(&self) -> Place<D> {
         let trial = &self.search.solver.trial;
-        [
-            trial.displacements.as_flattened().to_vec(),
-            trial.carries.as_flattened().to_vec(),
-        ]
+        [trial.displacements.clone(), trial.carries.clone()]
     }
 
     /// The largest force out of balance, N, and its node if any moves.

@@ -146,11 +146,8 @@ impl<const D: usize> Rockets<D> {
                     let weight = self.rule.map_or(1.0, |rule| rule.positions[set][stage]);
                     let impulse = weight * (view.step * thrust);
                     let turning = line.turning(share * impulse);
-                    rocket.add_to(
-                        [set, stage],
-                        system,
-                        (&scaled(impulse, &line.direction), &turning),
-                    );
+                    let impulse = scaled(impulse, &line.direction);
+                    rocket.add_to([set, stage], system, (&impulse, &turning));
                 }
             }
         }

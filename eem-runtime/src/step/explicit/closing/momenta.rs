@@ -227,11 +227,11 @@ impl<const D: usize> Explicit<D> {
     #[cold]
     fn turn_body(&mut self, index: usize, body: &Body<D>) -> bool {
         let (component, origin) = (&self.components.all[index], &body.origin);
-        let inertia = body
-            .inertia
-            .filter(|of| matches!(of, Inertia::Principal(_)));
-        let inertia = inertia.unwrap_or_else(|| Inertia::of_body(self.moments(component, origin)));
-        let Inertia::Principal(principal) = inertia else {
+        let inertia = match body.inertia {
+            Some(Inertia::Principal(_)) => body.inertia,
+            _ => Some(Inertia::of_body(self.moments(component, origin))),
+        };
+        let Some(Inertia::Principal(principal)) = inertia else {
             // No inertia is weak: the momenta alone are corrected.
             return false;
         };

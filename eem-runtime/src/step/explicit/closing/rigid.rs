@@ -128,10 +128,8 @@ impl<const D: usize> Explicit<D> {
 fn turned<const D: usize>(place: &Place<D>, rigid: &Rigid<D>, h: f64) -> [[f64; D]; 2] {
     let [position, momentum] = &place.past.start;
     let speed = rigid.omega.square().sqrt();
-    let is_turning = speed > 0.0;
-    let about = rigid
-        .omega
-        .map(0.0, |w| if is_turning { w / speed } else { w });
+    let per = if speed > 0.0 { speed } else { 1.0 };
+    let about = rigid.omega.map(0.0, |w| w / per);
     let mut along = [0.0; D];
     add(&mut along, place.mass, &rigid.velocity);
     let mut way = rotated(&rigid.origin.arm(position), &about, speed * h);

@@ -103,13 +103,9 @@ pub(super) fn move_node<const D: usize>(
     old: &State,
     next: &mut State,
 ) -> Result<(), StepFailure> {
-    let by_position = next
-        .positions
-        .advance_point(node, &old.positions, [displacement, rest]);
-    let none = [0.0; D];
-    let by_momentum = next
-        .momenta
-        .advance_point(node, &old.momenta, [impulse, &none]);
+    let (positions, momenta) = (&mut next.positions, &mut next.momenta);
+    let by_position = positions.advance_point(node, &old.positions, [displacement, rest]);
+    let by_momentum = momenta.advance_point(node, &old.momenta, [impulse, &[0.0; D]]);
     // The compensation of a sum is finite only if the sum is.
     if (by_position + by_momentum).is_finite() {
         return Ok(());

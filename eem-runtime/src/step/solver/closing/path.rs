@@ -175,20 +175,17 @@ impl<const D: usize> Solver<D> {
             return;
         }
         let load = |stage: usize| {
-            let force = view.stages[stage].force::<D>(node);
+            let force = view.stages[stage].force(node);
             self.rockets.add_to(force, [stage, node])
         };
-        let weight = weight_of::<D>(view, node);
-        for (axis, weight) in weight.iter().enumerate() {
-            let of_axis = |stage: usize| load(stage)[axis];
-            next.work.add(self.work(stages, node, axis, &of_axis));
-            motion.work(weight * moved.displacement[axis]);
+        self.add_work(stages, node, &load, &mut next.work);
+        for (weight, moved) in weight_of::<D>(view, node).iter().zip(moved.displacement) {
+            motion.work(weight * moved);
         }
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
-            let share = view.step * weight;
-            let total = view.stages[stage].total_force::<D>(node);
+            let total = view.stages[stage].total_force(node);
             let total = self.rockets.add_to(total, [stage, node]);
-            let impulse = scaled(share, &total);
+            let impulse = scaled(view.step * weight, &total);
             let displacement = &self.trial.displacements_of_set(stage)[node];
             motion.push([moved.position, displacement], &impulse);
         }
@@ -205,14 +202,11 @@ impl<const D: usize> Solver<D> {
             return;
         };
         for &node in &view.loads.moved {
-            let displacement = view.loads.motion::<D>(node);
-            for (axis, &displacement) in displacement.iter().enumerate() {
-                let old = &view.state.positions;
-                next.positions.advance(node * D + axis, old, displacement);
-                // The support bears the forces of the elements.
-                let support = |stage: usize| -stages.impulses[node][stage][axis] * view.per_step;
-                next.work.add(self.work(stages, node, axis, &support));
-            }
+            let (old, displacement) = (&view.state.positions, view.loads.motion(node));
+            (next.positions).advance_point(node, old, [&displacement, &[0.0; D]]);
+            // The support bears the forces of the elements.
+            let support = |stage: usize| scaled(-view.per_step, &stages.impulses[node][stage]);
+            self.add_work(stages, node, &support, &mut next.work);
             if let Some(path) = stages.rule.path
                 && view.masses.are_coupled()
             {
@@ -238,11 +232,8 @@ impl<const D: usize> Solver<D> {
                 next.work.add(weight * speed * impulses[stage][axis]);
             }
         }
-        let displacement = view.loads.motion::<D>(node);
-        carry((node, &displacement), None, view, (next, motion));
-        for (weight, displacement) in weight_of::<D>(view, node).iter().zip(displacement) {
-            motion.work(weight * displacement);
-        }
+        let (displacement, weight) = (view.loads.motion(node), weight_of(view, node));
+        carry((node, &displacement), Some(&weight), view, (next, motion));
     }
 
     /// `h ṗ = h Σ_b M_mb v̇_b` of a moved anchor at the stages, N s.

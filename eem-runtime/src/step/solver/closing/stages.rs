@@ -1,6 +1,6 @@
 //! The end of a step through stages: positions and momenta from the forces at the stages.
 
-use crate::algebra::{difference, scaled};
+use crate::algebra::{combined, difference, scaled};
 use crate::element::group::{Along, StepView, points};
 use crate::element::impulse::Impulses;
 use crate::element::state::State;
@@ -11,6 +11,7 @@ use crate::step::error::StepFailure;
 use crate::step::solver::closing::masses::move_node;
 use crate::step::solver::stages::Stages;
 use crate::step::solver::{Search, Solver};
+use eem_material::number::compensated::Sum;
 
 impl<const D: usize> Search<'_, D> {
     /// New positions and momenta, all finite, and the work of loads and supports.
@@ -155,10 +156,8 @@ impl<const D: usize> Solver<D> {
             let displacement = &stages.ends[node];
             let impulse = stages.combined(node, stages.rule.weights);
             move_node(node, [displacement, &none, &impulse], view.state, next)?;
-            for axis in 0..D {
-                let load = |stage: usize| view.stages[stage].force::<D>(node)[axis];
-                next.work.add(self.work(stages, node, axis, &load));
-            }
+            let load = |stage: usize| view.stages[stage].force(node);
+            self.add_work(stages, node, &load, &mut next.work);
             let speeds = Speeds::OfMass(mass.per_mass);
             let moved = NodeStep::new((view.state, node), speeds, displacement, &impulse);
             let weight = weight_of(view, node);
@@ -167,25 +166,24 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// `h Σ b_i f_i v_i` of a coordinate, with the velocities that the rule gives to the stages, J.
-    pub(super) fn work(
+    /// Adds `h Σ b_i f_i·v_i` of a node, with the velocities that the rule gives to the stages, J.
+    pub(super) fn add_work(
         &self,
         stages: &Stages<D>,
         node: usize,
-        axis: usize,
-        force: &dyn Fn(usize) -> f64,
-    ) -> f64 {
+        force: &dyn Fn(usize) -> [f64; D],
+        work: &mut Sum,
+    ) {
+        let mut sums = [0.0; D];
         let rule = stages.rule;
-        let mut work = 0.0;
         for (stage, (&weight, shares)) in rule.weights.iter().zip(rule.motion).enumerate() {
-            let mut motion = 0.0;
-            for (set, &share) in shares.iter().enumerate() {
-                let displacement = self.trial.displacements_of_set(set)[node][axis];
-                motion += share * displacement;
+            let moved = (0..).map(|set| self.trial.displacements_of_set(set)[node]);
+            let (force, motion) = (force(stage), combined(shares, moved));
+            for axis in 0..D {
+                sums[axis] += weight * force[axis] * motion[axis];
             }
-            work += weight * force(stage) * motion;
         }
-        work
+        sums.into_iter().for_each(|sum| work.add(sum));
     }
 }
 

@@ -27,16 +27,16 @@ pub(super) const ROUNDINGS: f64 = 64.0;
 const SETTLING: usize = 6;
 
 /// Where an update begins.
-pub(super) struct Begin {
-    pub(super) place: Place,
+pub(super) struct Begin<const D: usize> {
+    pub(super) place: Place<D>,
     /// R, N, and D per moving node, N/m.
     forces: Vec<f64>,
     sizes: Vec<f64>,
 }
 
 /// An update, as far as it was applied.
-pub(super) struct Update {
-    pub(super) begin: Begin,
+pub(super) struct Update<const D: usize> {
+    pub(super) begin: Begin<D>,
     /// The largest change, in lengths of elements.
     pub(super) size: f64,
     pub(super) is_definite: bool,
@@ -49,7 +49,7 @@ pub(super) struct Update {
     pub(super) left: f64,
 }
 
-impl Update {
+impl<const D: usize> Update<D> {
     /// Whether the force along it at its end points backwards and exceeds [`OVERSHOOT`].
     pub(super) fn goes_too_far(&self) -> bool {
         self.left < -OVERSHOOT
@@ -99,11 +99,8 @@ impl<const D: usize> AtRest<'_, D> {
             for (force, first) in node.rows_mut(right).iter_mut().zip(first) {
                 *force -= left * first;
             }
-            let mut size = 0.0_f64;
-            for place in node.diagonal {
-                size = size.max(values[place].abs());
-            }
-            self.sizes.push(size);
+            let sizes = node.diagonal.iter().map(|&place| values[place].abs());
+            self.sizes.push(sizes.fold(0.0, f64::max));
         }
         fill_sizes(&mut self.sizes);
         if self.is_by_mass {
@@ -151,8 +148,7 @@ impl<const D: usize> AtRest<'_, D> {
             for (axis, force) in node.rows(right).iter().enumerate() {
                 let first = first.get(axis).map_or(0.0, |first| left * first.abs());
                 let terms = magnitude + LONG * loads[axis].abs() + first;
-                let is_rounding = force.abs() <= ROUNDINGS * f64::EPSILON * terms;
-                if !is_rounding {
+                if !(force.abs() <= ROUNDINGS * f64::EPSILON * terms) {
                     return false;
                 }
             }
@@ -186,14 +182,13 @@ impl<const D: usize> AtRest<'_, D> {
     fn solve(&mut self, friction: f64) -> Result<bool, StepFailure> {
         self.shift(friction);
         let is_symmetric = self.search.solver.rockets.are_none();
-        let is_definite = self.search.solver.tangent.solve_and_judge();
-        Ok(is_definite.map_err(|_| StepFailure::SingularTangent)? || !is_symmetric)
+        Ok(self.search.solver.tangent.solve_and_judge()? || !is_symmetric)
     }
 
     /// An update with friction, or by Newton's method without. It is applied as far as elements are admissible and,
     /// without friction, forces along it do not turn round. After an error nothing is applied; if the tangent is
     /// singular, the system has to be built again.
-    pub(super) fn update(&mut self, friction: f64) -> Result<Update, StepFailure> {
+    pub(super) fn update(&mut self, friction: f64) -> Result<Update<D>, StepFailure> {
         let begin = Begin {
             place: self.place(),
             forces: self.forces(),
@@ -236,24 +231,22 @@ impl<const D: usize> AtRest<'_, D> {
             part = next;
         }
         let after = self.forces();
+        let left = dot(&after, &change) / slope;
+        let left = if slope > 0.0 { left } else { 0.0 };
         Ok(Update {
             size,
             is_definite,
             part,
             before: hypot(&begin.forces),
             after: hypot(&after),
-            left: if slope > 0.0 {
-                dot(&after, &change) / slope
-            } else {
-                0.0
-            },
+            left,
             begin,
         })
     }
 
     /// Goes on with the iterations of a step against friction whose first one goes too far, `R(q) = μ D (q − q_n)`, until the
     /// force along the step does not turn round. Returns whether that was found.
-    pub(super) fn settle(&mut self, friction: f64, update: &mut Update) -> bool {
+    pub(super) fn settle(&mut self, friction: f64, update: &mut Update<D>) -> bool {
         let begin = &update.begin;
         for _ in 0..SETTLING {
             let (mut right, way) = (self.forces(), self.way_from(&begin.place));
@@ -284,23 +277,25 @@ impl<const D: usize> AtRest<'_, D> {
     }
 
     /// The displacements of moving nodes from a place, m.
-    fn way_from(&self, from: &Place) -> Vec<f64> {
+    fn way_from(&self, from: &Place<D>) -> Vec<f64> {
         let all = self.moved_from(from);
-        let mut moved = Vec::with_capacity(self.first.len());
-        for node in &self.search.solver.nodes {
-            moved.extend_from_slice(&all[node.node * D..][..D]);
-        }
-        moved
+        let nodes = self.search.solver.nodes.iter();
+        nodes
+            .flat_map(|node| all.as_chunks::<D>().0[node.node])
+            .collect()
     }
 
     /// The displacements of all nodes from a place, m.
-    fn moved_from(&self, [from, _]: &Place) -> Vec<f64> {
+    fn moved_from(&self, [from, _]: &Place<D>) -> Vec<f64> {
         let now = self.search.solver.trial.displacements.as_flattened();
-        now.iter().zip(from).map(|(now, from)| now - from).collect()
+        now.iter()
+            .zip(from.as_flattened())
+            .map(|(now, from)| now - from)
+            .collect()
     }
 
     /// The largest motion of an arm since it was at a place, in lengths of the arm there.
-    pub(super) fn turn(&self, from: &Place) -> f64 {
+    pub(super) fn turn(&self, from: &Place<D>) -> f64 {
         largest_turn(D, &self.arms, &self.positions(), &self.moved_from(from))
     }
 
