@@ -64,10 +64,10 @@ pub(super) enum Inertia<const D: usize> {
 impl<const D: usize> Inertia<D> {
     /// Of a body with more than one arm.
     pub(super) fn of_body(moments: Moments<D>) -> Self {
-        if D < 3 {
+        if const { D < 3 } {
             return Self::Single(moments.trace());
         }
-        if D == 3
+        if const { D == 3 }
             && let Some(inverse) = Inverse::of(&moments)
         {
             return Self::Space(inverse);
@@ -78,7 +78,7 @@ impl<const D: usize> Inertia<D> {
     /// Of a body with one arm, given the arm of one of its masses and `Σ m r²`.
     #[inline]
     pub(super) fn of_line(arm: &[f64; D], moment: f64) -> Self {
-        if D < 3 {
+        if const { D < 3 } {
             return Self::Single(moment);
         }
         let far = hypot(arm);

@@ -1,5 +1,6 @@
 //! The stages of a step: stage vectors, their rates, and the integrals of productions.
 
+use super::components::Path;
 use super::tableau::{
     ERROR_3, ERROR_5, ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10,
     ROW_11, STAGES, TIMES, WEIGHTED, WEIGHTS,
@@ -70,6 +71,24 @@ fn combine_inner<const T: usize>(
         past.rates[ROWS[last]] = [[pair[0].rate, pair[1].rate]];
         let [[first, second]] = past.after(h, rows, a);
         *pair = [Inner::new(first), Inner::new(second)];
+    }
+}
+
+/// Initialises the rates of temperatures with the heat that flows along paths. Compiled once and not in each stage.
+#[inline(never)]
+fn conduct(temperatures: &mut [Inner], paths: &mut [Path], weight: Option<usize>) {
+    for path in paths {
+        let [a, b] = path.ends;
+        let [near, far] = [temperatures[a].now, temperatures[b].now];
+        let flow = path.conductance * (far - near);
+        temperatures[a].rate += flow;
+        // A reservoir keeps its temperature.
+        if path.share.is_none() {
+            temperatures[b].rate -= flow;
+        }
+        if let Some(at) = weight {
+            (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
+        }
     }
 }
 
@@ -178,7 +197,8 @@ impl<const D: usize> Explicit<D> {
     ) -> Result<(), StateError> {
         self.stage.weight = weight.map_or(0.0, |at| WEIGHTS[at]);
         if !self.components.paths.is_empty() {
-            self.conduct(weight);
+            let inner = &mut self.stage.inner[self.stage.temperatures..];
+            conduct(inner, &mut self.components.paths, weight);
         }
         for group in &self.groups {
             match from {
@@ -196,26 +216,6 @@ impl<const D: usize> Explicit<D> {
             self.integrate_outside(at);
         }
         Ok(())
-    }
-
-    /// Initialises the rates of temperatures with the heat that flows along paths.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "as above")]
-    fn conduct(&mut self, weight: Option<usize>) {
-        let inner = &mut self.stage.inner[self.stage.temperatures..];
-        for path in &mut self.components.paths {
-            let [a, b] = path.ends;
-            let [near, far] = [inner[a].now, inner[b].now];
-            let flow = path.conductance * (far - near);
-            inner[a].rate += flow;
-            // A reservoir keeps its temperature.
-            if path.share.is_none() {
-                inner[b].rate -= flow;
-            }
-            if let Some(at) = weight {
-                (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
-            }
-        }
     }
 
     /// Finds the rates of the closed state.

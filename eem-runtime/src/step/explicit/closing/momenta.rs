@@ -147,14 +147,17 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn approach_momenta(&mut self, index: usize) -> bool {
         let mut body = self.body(&self.components.all[index]);
-        let is_weak = match &body.inertia {
-            Some(Inertia::Line { along, .. }) => self.leaves_plane(index, along),
-            Some(Inertia::Principal(_)) => true,
-            _ => false,
-        };
-        if is_weak && self.turn_body(index, &body) {
-            self.look_at_motion(index);
-            body = self.body(&self.components.all[index]);
+        // Known when it is compiled, so that rotations are for space only.
+        if const { D > 2 } {
+            let is_weak = match &body.inertia {
+                Some(Inertia::Line { along, .. }) => self.leaves_plane(index, along),
+                Some(Inertia::Principal(_)) => true,
+                _ => false,
+            };
+            if is_weak && self.turn_body(index, &body) {
+                self.look_at_motion(index);
+                body = self.body(&self.components.all[index]);
+            }
         }
         for _ in 0..=MOST_CORRECTIONS {
             let (linear, angular) = self.missing_momenta(index);

@@ -183,7 +183,9 @@ impl<const D: usize> Solver<D> {
                 sums[axis] += weight * force[axis] * motion[axis];
             }
         }
-        sums.into_iter().for_each(|sum| work.add(sum));
+        for sum in sums {
+            work.add(sum);
+        }
     }
 }
 
