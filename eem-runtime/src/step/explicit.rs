@@ -15,6 +15,7 @@ mod attempt;
 mod booking;
 mod closing;
 mod components;
+mod demand;
 mod error;
 mod guard;
 mod inertia;
@@ -45,8 +46,8 @@ use components::Components;
 use memory::{Books, LoadSums, Scratch};
 use prescribed::Prescribed;
 
-pub(crate) use attempt::Demand;
-pub(crate) use saved::SavedExplicit;
+pub(crate) use demand::Demand;
+pub(crate) use memory::SavedExplicit;
 pub(crate) use tableau::{REAL_LIMIT, load_rule, motion_rule};
 
 /// The explicit scheme for a scene.

@@ -22,8 +22,7 @@ mod rigid;
 mod rounding;
 mod shape;
 
-use super::attempt::Demand;
-use super::error::Scales;
+use super::demand::{Demand, Scales};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::element::group::{ClosingView, ComponentEnergy};

@@ -1,5 +1,6 @@
 //! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
 
+use super::demand::Scales;
 use super::stages::{errors, unclosed};
 use super::{Explicit, ExplicitView};
 use crate::algebra::{difference, dot, hypot, length, norm};
@@ -347,15 +348,6 @@ const ROUNDING_SHARE: f64 = 0.1;
 /// An error that rounding explains counts as this one, so that steps grow by a third: what lies below is not seen before they are
 /// too long.
 const HIDDEN: f64 = 1e-4;
-
-/// The magnitudes of positions and momenta.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scales {
-    /// |q|₂ of all masses, m.
-    pub(super) position: f64,
-    /// |p|₂, the largest so far, kg m/s.
-    pub(super) momentum: f64,
-}
 
 /// What errors of a step are measured by.
 pub(super) struct Measure<'a, const D: usize> {

@@ -1,7 +1,7 @@
 //! The energy of a component, and its correction by heat.
 
 use super::super::Explicit;
-use super::super::attempt::Demand;
+use super::super::demand::Demand;
 use super::super::memory::Motion;
 use super::super::origin::Origin;
 use super::{FROZEN, Status};

@@ -1,7 +1,6 @@
 //! Fallback of the closing: a component that moves nearly like a rigid body is rotated rigidly.
 
-use super::super::attempt::Demand;
-use super::super::error::Scales;
+use super::super::demand::{Demand, Scales};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use crate::algebra::bivector::Bivector;

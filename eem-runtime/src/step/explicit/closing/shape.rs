@@ -1,7 +1,7 @@
 //! Corrections of the energy by motion, by shape and, as a last resort, by entropy.
 
-use super::super::attempt::Demand;
 use super::super::components::{Component, Support};
+use super::super::demand::Demand;
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use super::{MOST_ITERATIONS, Status};
