@@ -37,7 +37,7 @@ impl<const D: usize> Explicit<D> {
             let [near, far] = &path.temperatures;
             let ([flow, production], shift) =
                 PathRates::new(path.conductance, [near, far]).guarded(h);
-            if !shift.is_none() {
+            if shift != 0.0 {
                 for (end, temperatures) in [(a, [near, far]), (b, [far, near])] {
                     if stage.is_held(end) {
                         let thermostat = &mut stage.thermostats[end];

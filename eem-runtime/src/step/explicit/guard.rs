@@ -17,25 +17,9 @@ pub(super) struct PathRates {
     productions: PerWeight,
 }
 
-/// By how much of the way from the usual weights to the positive ones the guard has gone: zero where it did nothing.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Shift(f64);
-
-impl Shift {
-    fn none() -> Self {
-        Self(0.0)
-    }
-
-    /// Whether the guard did nothing.
-    #[inline]
-    pub(super) fn is_none(self) -> bool {
-        self.0 == 0.0
-    }
-
-    /// The change of the integral of some rates.
-    pub(super) fn of(self, rates: &PerWeight) -> f64 {
-        self.0 * (integral(&POSITIVE_WEIGHTS, rates) - integral(&WEIGHTS, rates))
-    }
+/// The change of the integral of some rates by a shift from the usual weights towards the positive ones.
+pub(super) fn shifted(shift: f64, rates: &PerWeight) -> f64 {
+    shift * (integral(&POSITIVE_WEIGHTS, rates) - integral(&WEIGHTS, rates))
 }
 
 /// `Σ w x`.
@@ -67,14 +51,15 @@ impl PathRates {
         Self { flows, productions }
     }
 
-    /// The flow and the guarded production in a step of the size h, J/K, and how far the guard has shifted weights.
+    /// The flow and the guarded production in a step of the size h, J/K, and by how much of the way from the usual weights to
+    /// the positive ones the guard has shifted them: zero where it did nothing.
     #[inline]
-    pub(super) fn guarded(&self, h: f64) -> ([f64; 2], Shift) {
+    pub(super) fn guarded(&self, h: f64) -> ([f64; 2], f64) {
         let usual = self.integrals(&WEIGHTS);
         let (counting, shift) = if usual[1] < 0.0 {
             mixed(usual, self.integrals(&POSITIVE_WEIGHTS))
         } else {
-            (usual, Shift::none())
+            (usual, 0.0)
         };
         ([h * counting[0], h * counting[1]], shift)
     }
@@ -90,13 +75,13 @@ impl PathRates {
 
 /// Flow and a negative production, combined with the positive sums so that the production becomes zero.
 #[cold]
-fn mixed([flow, production]: [f64; 2], positive: [f64; 2]) -> ([f64; 2], Shift) {
+fn mixed([flow, production]: [f64; 2], positive: [f64; 2]) -> ([f64; 2], f64) {
     // φ with Π + φ (Π⁺ − Π) = 0
     let all = positive[1] - production;
     let has_positive = positive[1] > 0.0;
     let share = if has_positive { -production / all } else { 1.0 };
     let mixed = flow + share * (positive[0] - flow);
-    ([mixed, 0.0], Shift(share))
+    ([mixed, 0.0], share)
 }
 
 /// The guarded production of a dashpot, J/K, or its heat, J.
@@ -124,11 +109,8 @@ mod tests {
         let path = path([[300.0, 310.0]; 8]);
         let ([flow, production], shift) = path.guarded(1.0);
         let [usual, _] = sums(&path);
-        assert!(shift.is_none());
-        assert_eq!(
-            [flow, production].map(f64::to_bits),
-            usual.map(f64::to_bits)
-        );
+        let found = [flow, production, shift].map(f64::to_bits);
+        assert_eq!(found, [usual[0], usual[1], 0.0].map(f64::to_bits));
         assert!((flow - 10.0 / 300.0).abs() < 1e-16);
     }
 
@@ -141,7 +123,7 @@ mod tests {
         let [usual, positive] = sums(&path);
         assert!(usual[1] < 0.0 && positive[1] > 0.0);
         let ([flow, production], shift) = path.guarded(1.0);
-        let shifted = usual[0] + shift.of(&path.flows);
+        let shifted = usual[0] + shifted(shift, &path.flows);
         assert!((shifted - flow).abs() <= 1e-15 * usual[0].abs());
         assert_eq!(production.to_bits(), 0.0_f64.to_bits());
         // Between the two flows, in proportion to the productions.

@@ -1,7 +1,7 @@
 //! Thermostats: the heat that they give follows from the entropy that they give, `δQ = θ dS`, never from what the energy
 //! lacks. An energy defect of their elements is closed like any other.
 
-use super::guard::{PerWeight, Shift};
+use super::guard::{PerWeight, shifted};
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::group::Thermostat;
@@ -93,7 +93,7 @@ impl<const D: usize> Explicit<D> {
 #[cold]
 pub(super) fn shift_weights(
     thermostat: &mut Thermostat,
-    shift: Shift,
+    shift: f64,
     conductance: f64,
     [own, other]: [&PerWeight; 2],
 ) {
@@ -101,5 +101,5 @@ pub(super) fn shift_weights(
     for (heat, (&own, &other)) in heat.iter_mut().zip(own.iter().zip(other)) {
         *heat = thermostat.excess(own) * conductance * (other - own);
     }
-    thermostat.sum += shift.of(&heat);
+    thermostat.sum += shifted(shift, &heat);
 }
