@@ -99,8 +99,17 @@ impl<const D: usize> Tangents<D> {
         }
         let columns = directions.iter_mut().map(|direction| &mut direction.right);
         system.solve_each(columns)?;
+        let per = 2.0 / view.step;
         for direction in &mut *directions {
-            self.move_on(view.step, direction);
+            let Direction {
+                old, new, right, ..
+            } = direction;
+            // q¹ and v¹ = (2/h) Δq − v⁰ of masses.
+            for of in &self.equations.moving {
+                let (at, moved) = (of.coordinate, right[of.unknown][0]);
+                new.positions[at] = old.positions[at] + moved;
+                new.velocities[at] = per * moved - old.velocities[at];
+            }
         }
         for group in &*groups {
             group.follow(directions);
@@ -162,19 +171,6 @@ impl<const D: usize> Tangents<D> {
         masses.find_momenta(D, &self.velocities, &mut self.momenta);
         for of in &self.equations.moving {
             right[of.unknown][0] += self.momenta[of.coordinate];
-        }
-    }
-
-    /// Sets `q¹` and `v¹ = (2/h) Δq − v⁰` of masses.
-    fn move_on(&self, step: f64, direction: &mut Direction) {
-        let Direction {
-            old, new, right, ..
-        } = direction;
-        let per = 2.0 / step;
-        for of in &self.equations.moving {
-            let (at, moved) = (of.coordinate, right[of.unknown][0]);
-            new.positions[at] = old.positions[at] + moved;
-            new.velocities[at] = per * moved - old.velocities[at];
         }
     }
 

@@ -131,8 +131,9 @@ impl<const D: usize> Explicit<D> {
         for (slot, theta) in next.temperatures.iter_mut().enumerate() {
             *theta = self.stage.theta(slot);
         }
-        if self.stage.has_thermostats {
-            self.conclude_thermostats(next);
+        for held in &self.prescribed.held {
+            let balance = &self.scratch.held[held.slot];
+            next.book_thermostat(balance.heat, balance.given);
         }
     }
 }

@@ -24,15 +24,6 @@ impl<const D: usize> Explicit<D> {
         }
     }
 
-    /// Gives moved anchors their velocities at the start of a step.
-    pub(super) fn start_anchors(&mut self) {
-        for moved in &self.prescribed.moved {
-            for &place in &moved.places {
-                self.stage.places[place].rates[0] = moved.velocities[0];
-            }
-        }
-    }
-
     /// Begins the integrals of a step at its start, and keeps the rates of anchors.
     pub(super) fn begin_outside(&mut self) {
         copy_loads(&mut self.start_loads, &self.loads);

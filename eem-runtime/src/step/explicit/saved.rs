@@ -1,9 +1,8 @@
 //! Checkpoints of an explicit scheme.
 
 use super::Explicit;
-use super::memory::{Books, SavedExplicit};
+use super::memory::SavedExplicit;
 use crate::element::state::State;
-use eem_material::number::compensated::Sum;
 
 impl<const D: usize> Explicit<D> {
     /// Everything besides the state that the next step depends on.
@@ -26,11 +25,15 @@ impl<const D: usize> Explicit<D> {
             rates.fill(0.0);
             loads.fill(0.0);
         }
+        let mut targets = Vec::new();
+        for target in &mut books.targets {
+            target.each_mut(&mut |sum| targets.push(*sum));
+        }
         SavedExplicit {
             is_new: !self.is_ready,
             state: state.digest(),
             is_motion_first: self.is_motion_first,
-            targets: sums_of(&mut books),
+            targets,
             shares: books.shares,
             largest_momentum: books.largest_momentum,
             residue: books.residue,
@@ -70,12 +73,4 @@ impl<const D: usize> Explicit<D> {
             *own = *load;
         }
     }
-}
-
-fn sums_of<const D: usize>(books: &mut Books<D>) -> Vec<Sum> {
-    let mut sums = Vec::new();
-    for target in &mut books.targets {
-        target.each_mut(&mut |sum| sums.push(*sum));
-    }
-    sums
 }

@@ -74,8 +74,12 @@ fn combine_inner<const T: usize>(
     }
 }
 
-/// Initialises the rates of temperatures with the heat that flows along paths. Compiled once and not in each stage.
-#[inline(never)]
+/// Initialises the rates of temperatures with the heat that flows along paths.
+#[inline(always)]
+#[expect(
+    clippy::inline_always,
+    reason = "the weight is a constant of the caller"
+)]
 fn conduct(temperatures: &mut [Inner], paths: &mut [Path], weight: Option<usize>) {
     for path in paths {
         let [a, b] = path.ends;

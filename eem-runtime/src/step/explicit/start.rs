@@ -94,7 +94,11 @@ impl<const D: usize> Explicit<D> {
     /// Finds rates and targets.
     #[cold]
     fn prepare(&mut self, view: &ExplicitView<'_, D>) -> Result<(), StepFailure> {
-        self.start_anchors();
+        for moved in &self.prescribed.moved {
+            for &place in &moved.places {
+                self.stage.places[place].rates[0] = moved.velocities[0];
+            }
+        }
         self.evaluate_loads(view, view.state.time.value)?;
         self.find_rates(From::Model, None)?;
         self.set_targets(view.state);

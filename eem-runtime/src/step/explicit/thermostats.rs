@@ -78,14 +78,6 @@ impl<const D: usize> Explicit<D> {
             balance.heat = heat;
         }
     }
-
-    /// Books what thermostats have given, once the state is closed.
-    pub(super) fn conclude_thermostats(&self, next: &mut State) {
-        for held in &self.prescribed.held {
-            let balance = &self.scratch.held[held.slot];
-            next.book_thermostat(balance.heat, balance.given);
-        }
-    }
 }
 
 /// Weighs the heat that a held element receives along a path like the flow of its entropy, after the guard has shifted

@@ -88,7 +88,7 @@ impl<const D: usize> Search<'_, D> {
             return Conclusion::Found;
         }
         progress.note_rejected(self.solver.final_residual);
-        let is_settled = progress.has_stopped() && certificate.is_lawful();
+        let is_settled = progress.stuck > 0 && certificate.is_lawful();
         if !is_settled && !progress.is_over() {
             return Conclusion::Open;
         }
@@ -109,11 +109,10 @@ impl<const D: usize> Search<'_, D> {
 
     /// Evaluates the tangent for another iteration, at a trial where only responses have been evaluated.
     #[cold]
-    fn linearize_again(&mut self) -> Result<(), StepFailure> {
+    fn linearize_again(&mut self) -> Result<(), StateError> {
         self.solver.factors.renew();
         self.solver.balance(self.view);
-        self.evaluate(true)?;
-        Ok(())
+        self.evaluate(true)
     }
 
     /// Solves the system of an iteration and applies its solution. Returns the largest scaled update.
@@ -238,7 +237,7 @@ struct Progress {
     /// The last update, and the smallest so far.
     last: f64,
     smallest: f64,
-    /// Consecutive updates that did not fall.
+    /// Consecutive updates that did not fall: rounding stops the iteration.
     stuck: u32,
     /// Rejected states at rounding level since the residual last fell, and that residual, N s.
     retries: u32,
@@ -303,11 +302,6 @@ impl Progress {
         } else {
             self.retries += 1;
         }
-    }
-
-    /// Whether rounding stops the iteration.
-    fn has_stopped(&self) -> bool {
-        self.stuck > 0
     }
 
     /// Whether all extra iterations are used up.

@@ -135,15 +135,17 @@ impl<const D: usize> Past<D> {
         let [last, before, next] = TURNS[self.turn];
         let forces = &mut self.forces[node];
         let (last, before) = (forces[last], forces[before]);
+        let mut errors = self.errors_after;
         for (axis, component) in forces[next].iter_mut().enumerate() {
             let force = *component * per_step;
             let change = force - last[axis];
             let misses = [force, change, change - (last[axis] - before[axis])];
-            for (error, miss) in self.errors_after.iter_mut().zip(misses) {
+            for (error, miss) in errors.iter_mut().zip(misses) {
                 *error += (miss * per_mass) * (miss * per_mass);
             }
             *component = force;
         }
+        self.errors_after = errors;
     }
 
     /// The internal variables before the last step, for a step of this size; `None` before the first one, or if not

@@ -18,12 +18,6 @@ const OWN_ROUNDINGS: f64 = 2.0;
 /// Corrections of momenta after the first one.
 const MOST_CORRECTIONS: usize = 3;
 
-/// Rotations of a body in a closing. In four dimensions and more, several planes may be without inertia, and principal
-/// axes are known to ε over the gap of their moments, so that the correction of one plane spoils another.
-const fn most_turns<const D: usize>() -> usize {
-    if D < 4 { 1 } else { 3 }
-}
-
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rigid<const D: usize> {
@@ -136,7 +130,9 @@ impl<const D: usize> Explicit<D> {
         }
         // The energy is summed with the corrected momenta.
         self.sum_motion(index, Motion::add_momenta);
-        for _ in 0..most_turns::<D>() {
+        // In four dimensions and more, several planes may be without inertia, and principal axes are known to ε over the gap of
+        // their moments, so that the correction of one plane spoils another.
+        for _ in 0..if D < 4 { 1 } else { 3 } {
             if self.approach_momenta(index) {
                 return;
             }

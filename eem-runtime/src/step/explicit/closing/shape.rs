@@ -64,8 +64,15 @@ impl<const D: usize> Explicit<D> {
         if means.motion > 0.0 && (is_rest || (is_small && moves)) {
             let x = defect / means.motion;
             let part = x / (1.0 + (1.0 + x).sqrt());
-            self.scale_motion(index, &means.rigid, part);
-            self.scratch.progress[index].is_closed = true;
+            // p += a p_int
+            for place in self.components.all[index].masses.clone() {
+                let own = self.inner_momentum(place, &means.rigid);
+                add(&mut self.stage.places[place].now[1], part, &own);
+            }
+            self.look_at_motion(index);
+            let progress = &mut self.scratch.progress[index];
+            progress.moved += part.abs();
+            progress.is_closed = true;
             return Status::Closed;
         }
         if is_small && iterations < MOST_ITERATIONS && iterations <= SHAPE_ITERATIONS {
@@ -104,19 +111,10 @@ impl<const D: usize> Explicit<D> {
             shape += dot(&force, &force) * per_mass;
         }
         means.all = means.motion + means.motion + h * h * shape;
-        means.all += h * self.creeping_power(index) + self.exchange(component, h);
+        let dashpots = self.components.dashpots_of(index);
+        let creep = dashpots.fold(0.0, |sum, dashpot| sum + self.scratch.creep[dashpot][1]);
+        means.all += h * creep + self.exchange(component, h);
         means
-    }
-
-    /// `Σ g²/η`, W.
-    fn creeping_power(&self, index: usize) -> f64 {
-        let mut sum = 0.0;
-        for (creep, dashpot) in self.scratch.creep.iter().zip(&self.components.dashpots) {
-            if dashpot.component == index {
-                sum += creep[1];
-            }
-        }
-        sum
     }
 
     /// `Σ 2hκ(Δθ)²/(θ_a + θ_b)` of the paths without a thermostat at an end, J.
@@ -134,8 +132,8 @@ impl<const D: usize> Explicit<D> {
         sum
     }
 
-    fn meets_thermostat(&self, [a, b]: [usize; 2]) -> bool {
-        self.stage.is_held(a) || self.stage.is_held(b)
+    fn meets_thermostat(&self, ends: [usize; 2]) -> bool {
+        ends.into_iter().any(|end| self.stage.is_held(end))
     }
 
     /// The momentum of a mass relative to the rigid motion.
@@ -160,16 +158,6 @@ impl<const D: usize> Explicit<D> {
         force
     }
 
-    /// `p += a p_int`.
-    fn scale_motion(&mut self, index: usize, rigid: &Rigid<D>, part: f64) {
-        self.scratch.progress[index].moved += part.abs();
-        for place in self.components.all[index].masses.clone() {
-            let own = self.inner_momentum(place, rigid);
-            add(&mut self.stage.places[place].now[1], part, &own);
-        }
-        self.look_at_motion(index);
-    }
-
     /// Moves positions, viscous stretches and heat along the gradient of the energy.
     fn shift(
         &mut self,
@@ -182,8 +170,7 @@ impl<const D: usize> Explicit<D> {
         let progress = &mut self.scratch.progress[index];
         progress.moved += share.abs();
         progress.has_shifted = true;
-        let masses = self.components.all[index].masses.clone();
-        for at in masses.clone() {
+        for at in self.components.all[index].masses.clone() {
             let own = self.inner_momentum(at, &means.rigid);
             let force = self.inner_force(at, means);
             let place = &mut self.stage.places[at];

@@ -35,10 +35,10 @@ impl<const D: usize> Solver<D> {
         }
         for (moving, node) in self.nodes.iter().enumerate() {
             let at = node.node;
-            let (displacement, rest) = (&self.trial.displacements[at], &self.trial.carries[at]);
+            let [displacement, rest] = node.moved(&self.trial);
+            let found = self.past.impulse(at);
             if takes_increments {
                 let [impulse, terms] = (self.coupling).impulse((moving, node), &self.trial);
-                let found = self.past.impulse(at);
                 let residual = difference(&impulse, found);
                 largest.see_all(&residual);
                 if is_exact {
@@ -53,7 +53,7 @@ impl<const D: usize> Solver<D> {
                 }
                 *found = impulse;
             }
-            let impulse = &*self.past.impulse(at);
+            let impulse = &*found;
             let speeds = node.speeds(view, &self.trial, twice_per_step);
             let moved = NodeStep::new((view.state, at), speeds, displacement, impulse);
             let load = has_load.then(|| self.rockets.add_to(view.loads.total_force(at), [0, at]));

@@ -23,12 +23,6 @@ fn weighted(dimension: usize, x: &[f64], sizes: &[f64]) -> Vec<f64> {
     x.map(|(row, x)| x * sizes[row / dimension]).collect()
 }
 
-/// A vector in units of its largest entry.
-fn in_units_of_largest(x: &[f64]) -> Vec<f64> {
-    let most = largest(x);
-    x.iter().map(|x| x / most).collect()
-}
-
 /// Quasi-random numbers, a vector with a component along every motion.
 fn mixed(rows: usize) -> Vec<f64> {
     (1..=compact(rows))
@@ -66,7 +60,8 @@ impl<const D: usize> AtRest<'_, D> {
             let found = self.solution();
             // (K + shift D) y = D x gives 1/(λ + shift) = xᵀ D y / xᵀ D x.
             relative = dot(&right, &x) / dot(&right, &found) - shift;
-            x = in_units_of_largest(&found);
+            let most = largest(&found);
+            x = found.iter().map(|x| x / most).collect();
         }
         let stiffness = relative * (dot(&weighted(D, &x, &sizes), &x) / LONG) / dot(&x, &x);
         let nodes = self.search.solver.nodes.iter();
