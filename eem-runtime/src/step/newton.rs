@@ -167,7 +167,7 @@ pub(crate) fn is_last(update: f64, before: Option<f64>, tolerance: f64) -> bool 
 }
 
 /// The largest magnitude of many numbers, NaN unless all of them are finite.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Largest {
     largest: f64,
     /// Of all magnitudes: it propagates a NaN, which a comparison loses.
@@ -175,14 +175,6 @@ pub(crate) struct Largest {
 }
 
 impl Largest {
-    #[inline]
-    pub(crate) fn none() -> Self {
-        Self {
-            largest: 0.0,
-            sum: 0.0,
-        }
-    }
-
     #[inline]
     pub(crate) fn see(&mut self, value: f64) {
         let size = value.abs();
@@ -281,7 +273,7 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_the_largest_wherever_it_comes() {
         let largest = |values: [f64; 3]| {
-            let mut largest = Largest::none();
+            let mut largest = Largest::default();
             for value in values {
                 largest.see(value);
             }

@@ -18,7 +18,7 @@ impl<const D: usize> Search<'_, D> {
     pub(super) fn correct(&mut self) -> f64 {
         let (values, right, solution) = self.solver.tangent.renew();
         let trial = &mut self.solver.trial;
-        let mut largest = Largest::none();
+        let mut largest = Largest::default();
         for node in &self.solver.nodes {
             let at = node.in_trial;
             let change = node.rows(solution);
@@ -83,7 +83,7 @@ impl<const D: usize> Solver<D> {
     /// The largest entry of R.
     #[inline]
     pub(super) fn residual(&self) -> f64 {
-        let mut largest = Largest::none();
+        let mut largest = Largest::default();
         for node in &self.nodes {
             for &row in node.rows(self.tangent.right()) {
                 largest.see(row);

@@ -27,7 +27,7 @@ impl<const D: usize> Solver<D> {
         let has_load = view.loads.has_total_force() || !self.rockets.are_none();
         let is_exact = self.scheme.is_exact();
         let takes_increments = self.scheme.closing() == Closing::Increments;
-        let mut largest = Largest::none();
+        let mut largest = Largest::default();
         self.past.remember();
         if !self.coupling.is_none() {
             let nodes = (self.nodes.as_slice(), &self.trial);

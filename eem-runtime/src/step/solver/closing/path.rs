@@ -39,7 +39,7 @@ impl<const D: usize> Solver<D> {
         (motion, tally): (&mut Motion<D>, &mut Tally),
     ) {
         let inertias = self.inertias(view);
-        let mut largest = Largest::none();
+        let mut largest = Largest::default();
         for (set, weights) in stages.rule.positions.iter().enumerate() {
             let nodes = self.range_of_set(set);
             let of_set = (&self.nodes[nodes.clone()], &self.trial);
