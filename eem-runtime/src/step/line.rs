@@ -1,6 +1,6 @@
 //! The line along which a rocket pushes.
 
-use crate::algebra::vector;
+use crate::algebra::{dot, vector};
 
 /// A line between two nodes at a time of a step.
 #[derive(Clone, Copy, Debug)]
@@ -14,8 +14,7 @@ pub(super) struct Line<const D: usize> {
 impl<const D: usize> Line<D> {
     /// Along an arm r.
     pub(super) fn along(arm: &[f64; D]) -> Self {
-        let square = arm.iter().fold(0.0, |sum, &r| sum + r * r);
-        let length = square.sqrt();
+        let length = dot(arm, arm).sqrt();
         Self {
             direction: vector(|axis| arm[axis] / length),
             length,

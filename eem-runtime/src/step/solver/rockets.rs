@@ -6,15 +6,14 @@
 //! ```
 
 use crate::algebra::system::LinearSystem;
-use crate::algebra::{scaled, vector};
+use crate::algebra::{add, hypot, scaled, vector};
 use crate::element::error::StateError;
 use crate::element::group::{Sites, StepView, Trial, points};
 use crate::element::impulse::Impulses;
 use crate::element::loads::{Push, PushLine, StepLoads};
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::step::line::Line;
-use eem_material::number::compact::compact;
-use eem_material::number::scalar::{Scalar, is_positive};
+use eem_material::number::scalar::is_positive;
 
 /// The rockets of a scene.
 #[derive(Debug)]
@@ -22,8 +21,8 @@ pub(super) struct Rockets<const D: usize> {
     all: Vec<Rocket<D>>,
     /// The stages of the scheme; without stages, rockets push along their line in the middle of the step.
     rule: Option<&'static Tableau>,
-    /// The forces last found at a trial, per coordinate, stage after stage, N; empty without rockets.
-    forces: Vec<f64>,
+    /// The forces last found at a trial, per stage and node, N; no nodes without rockets.
+    forces: Vec<Vec<[f64; D]>>,
 }
 
 /// A rocket, with the indices of its rows and matrix entries.
@@ -31,10 +30,10 @@ pub(super) struct Rockets<const D: usize> {
 struct Rocket<const D: usize> {
     line: PushLine,
     /// The first row of the node that it pushes in each set of unknowns.
-    rows: [u32; MOST_SETS],
+    rows: [usize; MOST_SETS],
     /// The tangent entries in the rows of that node and the columns of tail and head, by set of the rows, set of the
     /// columns, tail or head, row and column.
-    places: [[[[[u32; D]; D]; 2]; MOST_SETS]; MOST_SETS],
+    places: [[[[[usize; D]; D]; 2]; MOST_SETS]; MOST_SETS],
 }
 
 impl<const D: usize> Rockets<D> {
@@ -59,24 +58,23 @@ impl<const D: usize> Rockets<D> {
             for (rows, columns) in (0..sets * sets).map(|pair| (pair / sets, pair % sets)) {
                 let sites = sites.of_sets([rows, columns]);
                 if rows == columns {
-                    rocket.rows[rows] = compact(sites.row(unknown(node.index, 0)));
+                    rocket.rows[rows] = sites.row(unknown(node.index, 0));
                 }
                 for (places, end) in rocket.places[rows][columns].iter_mut().zip([tail, head]) {
                     for (row, places) in places.iter_mut().enumerate() {
                         let row = unknown(node.index, row);
-                        *places =
-                            vector(|column| compact(sites.place(row, unknown(end.index, column))));
+                        *places = vector(|column| sites.place(row, unknown(end.index, column)));
                     }
                 }
             }
             all.push(rocket);
         }
         let stages = rule.map_or(1, Tableau::stages);
-        let coordinates = if all.is_empty() { 0 } else { nodes * D };
+        let nodes = if all.is_empty() { 0 } else { nodes };
         Self {
             all,
             rule,
-            forces: vec![0.0; stages * coordinates],
+            forces: vec![vec![[0.0; D]; nodes]; stages],
         }
     }
 
@@ -85,21 +83,13 @@ impl<const D: usize> Rockets<D> {
         self.all.is_empty()
     }
 
-    /// The forces at a stage, per node, N.
-    fn of_stage(&self, stage: usize) -> &[[f64; D]] {
-        let stages = self.rule.map_or(1, Tableau::stages);
-        let forces = self.forces.as_chunks::<D>().0;
-        let nodes = forces.len() / stages;
-        &forces[stage * nodes..][..nodes]
-    }
-
     /// Adds the forces of rockets last found at a stage to a load on a node, N.
     #[inline]
     pub(super) fn add_to(&self, load: [f64; D], [stage, node]: [usize; 2]) -> [f64; D] {
         if self.are_none() {
             return load;
         }
-        let force = &self.of_stage(stage)[node];
+        let force = &self.forces[stage][node];
         vector(|axis| load[axis] + force[axis])
     }
 
@@ -123,11 +113,8 @@ impl<const D: usize> Rockets<D> {
         trial: &Trial<D>,
         mut system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        self.forces.fill(0.0);
-        let stages = self.rule.map_or(1, Tableau::stages);
-        let forces = self.forces.as_chunks_mut::<D>().0;
-        let nodes = forces.len() / stages;
-        for (stage, forces) in forces.chunks_mut(nodes).enumerate() {
+        for (stage, forces) in self.forces.iter_mut().enumerate() {
+            forces.fill([0.0; D]);
             let (loads, share) = match self.rule {
                 None if view.phase.is_at_rest() => (view.loads, 1.0),
                 None => (view.loads, 0.5),
@@ -136,9 +123,7 @@ impl<const D: usize> Rockets<D> {
             for (rocket, &Push { thrust, .. }) in self.all.iter().zip(&loads.pushes) {
                 let line = rocket.line_at(view, trial.displacements_of_set(stage), share)?;
                 let node = rocket.line.node.index;
-                for (sum, n) in forces[node].iter_mut().zip(line.direction) {
-                    *sum += thrust * n;
-                }
+                add(&mut forces[node], thrust, &line.direction);
                 let Some(system) = system.as_deref_mut() else {
                     continue;
                 };
@@ -162,13 +147,10 @@ impl<const D: usize> Rockets<D> {
         impulses: &mut Impulses<'_, D>,
         magnitudes: &mut [f64],
     ) {
-        if self.are_none() {
-            return;
-        }
-        for (node, force) in self.of_stage(stage).iter().enumerate() {
-            for (impulse, &force) in impulses.of(node).iter_mut().zip(force) {
-                *impulse += step * force;
-                if let Some(magnitude) = magnitudes.get_mut(node) {
+        for (node, force) in self.forces[stage].iter().enumerate() {
+            add(impulses.of(node), step, force);
+            if let Some(magnitude) = magnitudes.get_mut(node) {
+                for force in force {
                     *magnitude += (step * force).abs();
                 }
             }
@@ -193,12 +175,11 @@ impl<const D: usize> Rocket<D> {
         });
         let line = Line::along(&arm);
         if !is_positive(line.length) {
-            let length = arm.iter().fold(0.0, |length, &r| Scalar::hypot(length, r));
             return Err(StateError::NoDirection {
                 node,
                 tail,
                 head,
-                value: length,
+                value: hypot(&arm),
             });
         }
         Ok(line)
@@ -215,11 +196,11 @@ impl<const D: usize> Rocket<D> {
         let (values, right) = system.parts();
         let places = &self.places[rows][columns];
         for axis in 0..D {
-            right[self.rows[rows] as usize + axis][0] += impulse[axis];
+            right[self.rows[rows] + axis][0] += impulse[axis];
             for column in 0..D {
                 let [tail, head] = [places[0][axis][column], places[1][axis][column]];
-                values[tail as usize] += turning[axis][column];
-                values[head as usize] -= turning[axis][column];
+                values[tail] += turning[axis][column];
+                values[head] -= turning[axis][column];
             }
         }
     }

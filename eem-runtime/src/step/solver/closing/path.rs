@@ -93,7 +93,9 @@ impl<const D: usize> Solver<D> {
                 Some(_) => (view.step, state.velocities.point::<D>(node)),
             };
             let (flight, mut rest) = (scaled(mobility, rate), scaled(mobility, carry));
-            self.add_gained(index, displacements, &mut rest);
+            for (&weight, change) in displacements.iter().zip(self.changes(index)) {
+                add(&mut rest, weight, &change);
+            }
             let coupled = self.coupling.found(index).zip(stages.changes.get(node));
             let (impulse, speeds) = if let Some((&[impulse, _], &change)) = coupled {
                 let [&old, _] = state.velocities.point::<D>(node);
@@ -101,7 +103,7 @@ impl<const D: usize> Solver<D> {
                 (next.velocities).advance_point(node, &state.velocities, [&change, &none]);
                 (impulse, Speeds::Given { old, change })
             } else {
-                let gained = self.gained(index, impulses);
+                let gained = combined(impulses, self.changes(index));
                 let impulse = scaled(moving.mass * view.per_step, &gained);
                 (impulse, Speeds::OfMass(moving.per_mass))
             };
@@ -121,27 +123,17 @@ impl<const D: usize> Solver<D> {
         Ok(())
     }
 
-    /// `Σ_j weights_j w_j` of the moving node with this index, m.
-    fn gained(&self, index: usize, weights: &[f64]) -> [f64; D] {
-        let mut gained = [0.0; D];
-        self.add_gained(index, weights, &mut gained);
-        gained
-    }
-
-    /// Adds it to a vector.
-    fn add_gained(&self, index: usize, weights: &[f64], gained: &mut [f64; D]) {
-        for (set, &weight) in weights.iter().enumerate() {
-            let change = self.nodes_of_set(set)[index].change(&self.trial);
-            add(gained, weight, &change);
-        }
+    /// `w_j` of the moving node with this index at all stages, m.
+    fn changes(&self, index: usize) -> impl Iterator<Item = [f64; D]> + '_ {
+        let sets = 0..self.sets.len();
+        sets.map(move |set| self.nodes_of_set(set)[index].change(&self.trial))
     }
 
     /// `Σ_j |weights_j w_j|/h` of the moving node with this index, m/s.
     #[cold]
     fn terms_of_gain(&self, index: usize, weights: &[f64], per_step: f64) -> [f64; D] {
         let mut terms = [0.0; D];
-        for (set, &weight) in weights.iter().enumerate() {
-            let change = self.nodes_of_set(set)[index].change(&self.trial);
+        for (&weight, change) in weights.iter().zip(self.changes(index)) {
             for axis in 0..D {
                 terms[axis] += (weight * change[axis]).abs() * per_step;
             }
@@ -156,7 +148,8 @@ impl<const D: usize> Solver<D> {
         }
         for index in 0..self.moving() {
             let node = self.nodes[index].node;
-            stages.changes[node] = scaled(view.per_step, &self.gained(index, weights));
+            let gained = combined(weights, self.changes(index));
+            stages.changes[node] = scaled(view.per_step, &gained);
         }
         let nodes = &self.nodes[..self.moving()];
         self.coupling.find_impulses_of_step(nodes, &stages.changes);
@@ -271,8 +264,7 @@ impl<const D: usize> Solver<D> {
         let masses = self.nodes_of_set(0);
         let mut beyond = [[0.0; D]; MOST_STAGES];
         if let Ok(index) = masses.binary_search_by_key(&node, |mass| mass.node) {
-            for (set, beyond) in beyond.iter_mut().enumerate().take(self.sets.len()) {
-                let change = self.nodes_of_set(set)[index].change(&self.trial);
+            for (beyond, change) in beyond.iter_mut().zip(self.changes(index)) {
                 *beyond = scaled(view.per_step, &change);
             }
         }
