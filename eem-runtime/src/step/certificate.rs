@@ -129,29 +129,24 @@ pub(crate) struct Certificate {
     pub(crate) is_balanced: bool,
 }
 
-/// The change of the internal energy in a step, from values at both ends.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Internal {
-    /// `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, J.
-    change: f64,
-    /// The magnitude of its terms at both ends, J.
-    magnitude: f64,
-    /// `Σ (|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|)` of each end, or the known part of it, J.
-    terms: [f64; 2],
-    /// The part of `terms` that is neither in `magnitude` nor in the amplitude of forces, J.
-    excess: f64,
-}
-
-impl Internal {
+impl Certificate {
+    /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states.
     #[inline]
-    pub(crate) fn new(reservoirs: &[f64], [old, next]: [&State; 2]) -> Self {
+    pub(crate) fn new<const D: usize>(
+        motion: &Motion<D>,
+        tally: &Tally,
+        reservoirs: &[f64],
+        [old, next]: [&State; 2],
+    ) -> Self {
+        // `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, the magnitude of its terms at both ends, and what of the terms of the energies at
+        // each end is neither in that nor in the amplitude of forces.
         let [mut change, mut magnitude, mut excess] = [0.0; 3];
-        let mut terms = [0.0; 2];
+        let mut ends = [0.0; 2];
         for (old, new) in old.energies.iter().zip(&next.energies) {
             change += new.value - old.value;
             magnitude += old.magnitude + new.magnitude;
-            terms[0] += old.terms;
-            terms[1] += new.terms;
+            ends[0] += old.terms;
+            ends[1] += new.terms;
             excess += old.excess + new.excess;
         }
         for (index, &theta) in reservoirs.iter().enumerate() {
@@ -160,28 +155,12 @@ impl Internal {
         }
         let heat = next.heat.change(old.heat);
         change += next.dissipated.change(old.dissipated) - heat;
-        Self {
-            change,
-            magnitude: magnitude + heat.abs(),
-            terms,
-            excess,
-        }
-    }
-}
-
-impl Certificate {
-    /// The certificate from the motion of the nodes, the balances of the elements and the energies of the stored states.
-    #[inline]
-    pub(crate) fn new<const D: usize>(
-        motion: &Motion<D>,
-        tally: &Tally,
-        internal: &Internal,
-    ) -> Self {
         let mut energy = motion.energy;
-        energy.add(internal.change);
+        energy.add(change);
         // Below the smallest normal number, rounding is that of this number.
         let least = f64::MIN_POSITIVE;
-        let terms = motion.kinetic + motion.works + tally.heat + internal.magnitude + least;
+        let internal = magnitude + heat.abs();
+        let terms = motion.kinetic + motion.works + tally.heat + internal + least;
         let rounding = ROUNDINGS * f64::EPSILON;
         let defect = energy.value();
         let has_produced = tally.least < f64::MAX;
@@ -189,9 +168,9 @@ impl Certificate {
         let moments = motion.moments + motion.farthest * tally.impulse + least;
         Self {
             defect,
-            bound: rounding * (terms + tally.forces + internal.excess) + motion.residual_work.abs(),
+            bound: rounding * (terms + tally.forces + excess) + motion.residual_work.abs(),
             motion: motion.kinetic,
-            terms: internal.terms,
+            terms: ends,
             judged: [defect, rounding * (terms + tally.forces)],
             residual_work: motion.residual_work,
             production: tally.production,

@@ -1,6 +1,5 @@
 //! The stages of a step: stage vectors, their rates, and the integrals of productions.
 
-use super::components::Path;
 use super::tableau::{
     ERROR_3, ERROR_5, ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10,
     ROW_11, STAGES, TIMES, WEIGHTED, WEIGHTS,
@@ -27,13 +26,6 @@ const WEIGHT_OF: [Option<usize>; STAGES] = {
     }
     all
 };
-
-/// Whether rates are evaluated, or taken from the closing of the elements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum From {
-    Model,
-    Closing,
-}
 
 /// `Σ E k` of both estimates.
 #[inline]
@@ -71,28 +63,6 @@ fn combine_inner<const T: usize>(
         past.rates[ROWS[last]] = [[pair[0].rate, pair[1].rate]];
         let [[first, second]] = past.after(h, rows, a);
         *pair = [Inner::new(first), Inner::new(second)];
-    }
-}
-
-/// Initialises the rates of temperatures with the heat that flows along paths.
-#[inline(always)]
-#[expect(
-    clippy::inline_always,
-    reason = "the weight is a constant of the caller"
-)]
-fn conduct(temperatures: &mut [Inner], paths: &mut [Path], weight: Option<usize>) {
-    for path in paths {
-        let [a, b] = path.ends;
-        let [near, far] = [temperatures[a].now, temperatures[b].now];
-        let flow = path.conductance * (far - near);
-        temperatures[a].rate += flow;
-        // A reservoir keeps its temperature.
-        if path.share.is_none() {
-            temperatures[b].rate -= flow;
-        }
-        if let Some(at) = weight {
-            (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
-        }
     }
 }
 
@@ -136,8 +106,7 @@ impl<const D: usize> Explicit<D> {
         if self.is_driven {
             self.drive(view, STAGE)?;
         }
-        self.find_rates(From::Model, WEIGHT_OF[STAGE])?;
-        Ok(())
+        Ok(self.find_rates(WEIGHT_OF[STAGE])?)
     }
 
     /// Stores the rates of the last stage, moves to `y = y⁰ + h Σ a k` with the rates of some rows, and initialises the
@@ -194,23 +163,13 @@ impl<const D: usize> Explicit<D> {
     /// Completes the rates of a stage, and adds its contribution to the integrals of the step.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
-    pub(super) fn find_rates(
-        &mut self,
-        from: From,
-        weight: Option<usize>,
-    ) -> Result<(), StateError> {
+    pub(super) fn find_rates(&mut self, weight: Option<usize>) -> Result<(), StateError> {
         self.stage.weight = weight.map_or(0.0, |at| WEIGHTS[at]);
-        if !self.components.paths.is_empty() {
-            let inner = &mut self.stage.inner[self.stage.temperatures..];
-            conduct(inner, &mut self.components.paths, weight);
-        }
+        self.conduct(weight);
         for group in &self.groups {
-            match from {
-                From::Model => group.rates(&mut self.stage)?,
-                From::Closing => group.finish(&mut self.stage)?,
-            }
+            group.rates(&mut self.stage)?;
         }
-        self.evaluations += u64::from(from == From::Model);
+        self.evaluations += 1;
         if self.is_driven
             && let Some(at) = weight
         {
@@ -220,6 +179,29 @@ impl<const D: usize> Explicit<D> {
             self.integrate_outside(at);
         }
         Ok(())
+    }
+
+    /// Initialises the rates of temperatures with the heat that flows along paths.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as above")]
+    fn conduct(&mut self, weight: Option<usize>) {
+        if self.components.paths.is_empty() {
+            return;
+        }
+        let inner = &mut self.stage.inner[self.stage.temperatures..];
+        for path in &mut self.components.paths {
+            let [a, b] = path.ends;
+            let [near, far] = [inner[a].now, inner[b].now];
+            let flow = path.conductance * (far - near);
+            inner[a].rate += flow;
+            // A reservoir keeps its temperature.
+            if path.share.is_none() {
+                inner[b].rate -= flow;
+            }
+            if let Some(at) = weight {
+                (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
+            }
+        }
     }
 
     /// Finds the rates of the closed state.
@@ -237,6 +219,11 @@ impl<const D: usize> Explicit<D> {
         if self.is_driven {
             self.move_to(STAGES - 1);
         }
-        Ok(self.find_rates(From::Closing, None)?)
+        self.stage.weight = 0.0;
+        self.conduct(None);
+        for group in &self.groups {
+            group.finish(&mut self.stage)?;
+        }
+        Ok(())
     }
 }

@@ -3,7 +3,6 @@
 use super::components::Support;
 use super::memory::Target;
 use super::outside::copy_loads;
-use super::stages::From;
 use super::tableau::WEIGHTS;
 
 use super::{Explicit, ExplicitView};
@@ -100,7 +99,7 @@ impl<const D: usize> Explicit<D> {
             }
         }
         self.evaluate_loads(view, view.state.time.value)?;
-        self.find_rates(From::Model, None)?;
+        self.find_rates(None)?;
         self.set_targets(view.state);
         self.is_ready = true;
         Ok(())

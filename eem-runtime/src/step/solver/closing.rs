@@ -10,7 +10,7 @@ use crate::algebra::{scaled, vector};
 use crate::element::group::{Along, StepView, points};
 use crate::element::state::State;
 use crate::element::tally::{Care, Reevaluation, Tally};
-use crate::step::certificate::{Certificate, Internal, Kept, Motion};
+use crate::step::certificate::{Certificate, Kept, Motion};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Closing;
 use masses::carry;
@@ -79,8 +79,8 @@ impl<const D: usize> Search<'_, D> {
         for group in &mut *self.groups {
             group.close(view, &self.solver.trial, next, &mut tally)?;
         }
-        let internal = Internal::new(&view.conduction.reservoirs, [view.state, next]);
-        self.solver.certificate = Certificate::new(&motion, &tally, &internal);
+        let (reservoirs, ends) = (&view.conduction.reservoirs, [view.state, next]);
+        self.solver.certificate = Certificate::new(&motion, &tally, reservoirs, ends);
         Ok(())
     }
 

@@ -25,13 +25,13 @@ impl<const D: usize> Search<'_, D> {
         let tolerance = target.tolerance(effort.settings.tolerance);
         let tolerance = self.solver.coupling.tolerance(tolerance);
         let mut before = None;
-        let mut purpose = Purpose::Iterate;
+        let mut goes_on = true;
         let mut progress = Progress::new();
         self.solver.factors.renew();
         self.solver.is_given_up = false;
         for left in (0..=max_iterations).rev() {
-            let is_full = self.advance(purpose)?;
-            if is_full && purpose == Purpose::Close {
+            let is_full = self.advance(goes_on)?;
+            if is_full && !goes_on {
                 match self.conclude(target, &mut progress) {
                     Conclusion::Found => {
                         effort.conclude(self.solver.final_residual);
@@ -52,7 +52,6 @@ impl<const D: usize> Search<'_, D> {
                 break;
             }
             let previous = before.replace(update).filter(|_| is_full);
-            purpose = Purpose::Iterate;
             let ends = is_last(update, previous, self.solver.factors.tolerance(tolerance));
             self.solver.factors.judge(update, previous);
             let is_stuck = self.solver.is_stuck(&mut progress, update, previous);
@@ -60,9 +59,7 @@ impl<const D: usize> Search<'_, D> {
                 self.solver.is_given_up = true;
                 break;
             }
-            if is_stuck || ends {
-                purpose = Purpose::Close;
-            }
+            goes_on = !is_stuck && !ends;
         }
         Err(self.solver.not_converged(before))
     }
@@ -126,11 +123,12 @@ impl<const D: usize> Search<'_, D> {
     }
 
     /// Evaluates the elements at the trial state, to which the last correction has been applied, and takes parts of the
-    /// correction back until every element is in an admissible state. Returns whether none was taken back.
+    /// correction back until every element is in an admissible state. Returns whether none was taken back. Unless it `goes_on`, the step is
+    /// to be closed there.
     #[inline]
-    pub(super) fn advance(&mut self, purpose: Purpose) -> Result<bool, StepFailure> {
+    pub(super) fn advance(&mut self, mut goes_on: bool) -> Result<bool, StepFailure> {
         self.solver.obstacle = None;
-        let (mut share, mut goes_on) = (1.0, purpose == Purpose::Iterate);
+        let mut share = 1.0;
         while let Err(error) = self.evaluate(goes_on) {
             share = self.retreat(share, error)?;
             goes_on = true;
@@ -188,15 +186,6 @@ impl<const D: usize> Solver<D> {
             },
         }
     }
-}
-
-/// The purpose of an evaluation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Purpose {
-    /// Another iteration.
-    Iterate,
-    /// Closing the step.
-    Close,
 }
 
 /// Extra iterations after stagnation while the certificate fails; each changes the rounding errors.

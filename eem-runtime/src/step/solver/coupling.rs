@@ -7,7 +7,7 @@
 //! for moving nodes b and moved anchors m. The velocities of m come from its prescribed motion and not from the
 //! positions alone, so that they do not oscillate from step to step.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use super::balance::Balance;
 use crate::algebra::{add, combined, difference, vector};
@@ -19,11 +19,8 @@ use eem_material::number::scalar::Scalar;
 /// The masses that couple nodes of a scene, with the indices of their matrix entries.
 #[derive(Debug)]
 pub(super) struct Coupling<const D: usize> {
-    /// The pairs of moving nodes, set after set.
+    /// The pairs of moving nodes.
     pairs: Vec<CoupledPair<D>>,
-    sets: usize,
-    /// The pairs of a moving node and a moved anchor.
-    driven: Vec<DrivenPair>,
     /// One per moving node that is coupled to moved anchors.
     drives: Vec<Drive<D>>,
     /// `Δp` of the moving nodes, and the magnitude of its terms, N s; empty unless masses couple nodes.
@@ -31,10 +28,12 @@ pub(super) struct Coupling<const D: usize> {
 }
 
 /// `Σ_m M_am Δv_m` of a moving node a that is coupled to moved anchors m, and the magnitude of its terms, N s.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Drive<const D: usize> {
     /// The index of the node among the moving nodes.
     node: usize,
+    /// The anchors with their masses, kg.
+    anchors: Vec<(usize, f64)>,
     /// In the rows of each set of unknowns.
     of_sets: [[[f64; D]; 2]; MOST_SETS],
     /// In the whole step.
@@ -47,83 +46,85 @@ struct CoupledPair<const D: usize> {
     nodes: [usize; 2],
     /// kg.
     mass: f64,
-    /// The entries of the tangent: rows of the first node, then rows of the second.
-    places: [[usize; D]; 2],
-}
-
-/// A moving node, by its index among the moving nodes, and a moved anchor that a mass couples to it.
-#[derive(Clone, Copy, Debug)]
-struct DrivenPair {
-    node: usize,
-    moved: usize,
-    /// kg.
-    mass: f64,
+    /// The entries of the tangent for each set of unknowns: rows of the first node, then rows of the second.
+    places: [[[usize; D]; 2]; MOST_SETS],
 }
 
 impl<const D: usize> Coupling<D> {
-    /// The coupling of a scene with this number of sets of unknowns.
+    /// The coupling of a scene with this number of sets of unknowns, given the moved anchors in ascending order.
     pub(super) fn new(
         masses: &Masses,
         moved: &[usize],
         (sites, sets): (&Sites<'_, D>, usize),
     ) -> Self {
         let unknowns = &sites.layout.nodes;
-        let mut pairs = Vec::with_capacity(sets * masses.pairs().len());
-        for set in 0..sets {
-            let sites = sites.of_sets([set, set]);
-            for pair in masses.pairs() {
-                let [a, b] = pair.nodes();
-                let (Some(a), Some(b)) = (unknowns[a], unknowns[b]) else {
-                    continue;
-                };
-                let place = |row: usize, column: usize| {
+        let mut pairs = Vec::with_capacity(masses.pairs().len());
+        for pair in masses.pairs() {
+            let [Some(a), Some(b)] = pair.nodes().map(|node| unknowns[node]) else {
+                continue;
+            };
+            let mut places = [[[0; D]; 2]; MOST_SETS];
+            for (set, places) in places.iter_mut().enumerate().take(sets) {
+                let sites = sites.of_sets([set, set]);
+                *places = [[a, b], [b, a]].map(|[row, column]| {
                     vector(|axis| sites.place(Some(row + axis), Some(column + axis)))
-                };
-                pairs.push(CoupledPair {
-                    nodes: [a / D, b / D],
-                    mass: pair.mass,
-                    places: [place(a, b), place(b, a)],
                 });
             }
+            pairs.push(CoupledPair {
+                nodes: [a / D, b / D],
+                mass: pair.mass,
+                places,
+            });
         }
-        let driven = driven(D, masses, moved, unknowns);
-        let moving = if pairs.is_empty() && driven.is_empty() {
-            0
-        } else {
-            masses.iter().flatten().count()
-        };
-        let nodes: BTreeSet<_> = driven.iter().map(|pair| pair.node).collect();
+        let mut driven = BTreeMap::<_, Vec<_>>::new();
+        for pair in masses.held() {
+            let [a, b] = pair.nodes();
+            for [node, moves] in [[a, b], [b, a]] {
+                if let Some(first) = unknowns[node]
+                    && moved.binary_search(&moves).is_ok()
+                {
+                    driven
+                        .entry(first / D)
+                        .or_default()
+                        .push((moves, pair.mass));
+                }
+            }
+        }
+        let is_coupled = !pairs.is_empty() || !driven.is_empty();
+        let moving = masses.iter().flatten().count();
         let still = [[0.0; D]; 2];
+        let drives = driven.into_iter().map(|(node, anchors)| Drive {
+            node,
+            anchors,
+            of_sets: [still; MOST_SETS],
+            of_step: still,
+        });
         Self {
             pairs,
-            sets,
-            driven,
-            drives: nodes.into_iter().map(Drive::none).collect(),
-            impulses: vec![still; moving],
+            drives: drives.collect(),
+            impulses: vec![still; if is_coupled { moving } else { 0 }],
         }
     }
 
     /// Finds the impulses of moved anchors on the nodes coupled to them in a step.
     pub(super) fn drive(&mut self, rule: Option<&Tableau>, view: &StepView<'_>) {
         for drive in &mut self.drives {
-            *drive = Drive::none(drive.node);
-        }
-        for pair in self.driven.iter().filter(|_| view.phase.moves()) {
-            let place = (self.drives).binary_search_by_key(&pair.node, |drive| drive.node);
-            let Ok(at) = place else { continue };
-            let drive = &mut self.drives[at];
-            let change = view.change_of_speed::<D>(pair.moved);
-            add_to(&mut drive.of_step, pair.mass, &change);
-            let Some((rule, path)) = rule.and_then(|rule| Some((rule, rule.path?))) else {
-                add_to(&mut drive.of_sets[0], pair.mass, &change);
-                continue;
-            };
-            let changes = changes_at_stages(&path, pair.moved, view);
-            for (set, rates) in rule.rates.iter().enumerate() {
-                let per_time = rule.times[set].recip();
-                for (&rate, change) in rates.iter().zip(&changes) {
-                    let share = pair.mass * (rate * per_time);
-                    add_to(&mut drive.of_sets[set], share, change);
+            let still = [[0.0; D]; 2];
+            (drive.of_sets, drive.of_step) = ([still; MOST_SETS], still);
+            for &(moved, mass) in drive.anchors.iter().filter(|_| view.phase.moves()) {
+                let change = view.change_of_speed::<D>(moved);
+                add_to(&mut drive.of_step, mass, &change);
+                let Some((rule, path)) = rule.and_then(|rule| Some((rule, rule.path?))) else {
+                    add_to(&mut drive.of_sets[0], mass, &change);
+                    continue;
+                };
+                let changes = changes_at_stages(&path, moved, view);
+                for (set, rates) in rule.rates.iter().enumerate() {
+                    let per_time = rule.times[set].recip();
+                    for (&rate, change) in rates.iter().zip(&changes) {
+                        let share = mass * (rate * per_time);
+                        add_to(&mut drive.of_sets[set], share, change);
+                    }
                 }
             }
         }
@@ -153,12 +154,6 @@ impl<const D: usize> Coupling<D> {
         self.is_none() || update <= root * root.sqrt().sqrt()
     }
 
-    /// The pairs of a set of unknowns.
-    fn of_set(&self, set: usize) -> &[CoupledPair<D>] {
-        let count = self.pairs.len() / self.sets;
-        &self.pairs[set * count..][..count]
-    }
-
     /// Adds inertia to residual and tangent of a set at a trial, as a [`Balance`] does on the diagonal.
     pub(super) fn balance(
         &self,
@@ -168,10 +163,10 @@ impl<const D: usize> Coupling<D> {
         values: &mut [f64],
         right: &mut [[f64; 1]],
     ) {
-        for pair in self.of_set(set) {
+        for pair in &self.pairs {
             let [a, b] = pair.nodes;
             let inertia = pair.mass * inertia_per_mass;
-            for &place in pair.places.as_flattened() {
+            for &place in pair.places[set].as_flattened() {
                 values[place] += inertia;
             }
             for [own, other] in [[a, b], [b, a]] {
@@ -230,8 +225,7 @@ impl<const D: usize> Coupling<D> {
                 *entry *= inertia;
             }
         }
-        let count = self.pairs.len() / self.sets;
-        for pair in &self.pairs[..count] {
+        for pair in &self.pairs {
             let [a, b] = pair.nodes;
             let inertia = pair.mass * factor;
             for [own, other] in [[a, b], [b, a]] {
@@ -260,42 +254,6 @@ impl<const D: usize> Coupling<D> {
             return *found;
         }
         node.impulse(node.moved(trial))
-    }
-}
-
-/// The pairs of a moving node and a moved anchor, given the moved anchors in ascending order and the first unknown of each node.
-fn driven(
-    dimension: usize,
-    masses: &Masses,
-    moved: &[usize],
-    unknowns: &[Option<usize>],
-) -> Vec<DrivenPair> {
-    let mut driven = Vec::new();
-    for pair in masses.held() {
-        let [a, b] = pair.nodes();
-        for [node, moves] in [[a, b], [b, a]] {
-            if let Some(first) = unknowns[node]
-                && moved.binary_search(&moves).is_ok()
-            {
-                driven.push(DrivenPair {
-                    node: first / dimension,
-                    moved: moves,
-                    mass: pair.mass,
-                });
-            }
-        }
-    }
-    driven
-}
-
-impl<const D: usize> Drive<D> {
-    fn none(node: usize) -> Self {
-        let still = [[0.0; D]; 2];
-        Self {
-            node,
-            of_sets: [still; MOST_SETS],
-            of_step: still,
-        }
     }
 }
 

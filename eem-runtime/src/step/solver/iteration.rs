@@ -7,7 +7,6 @@ use crate::algebra::scaled;
 use crate::element::group::{Group, StepView};
 use crate::step::error::StepFailure;
 use crate::step::newton::{Effort, Largest};
-use crate::step::solver::converge::Purpose;
 use eem_material::number::compensated::correct;
 use eem_material::number::scalar::Scalar;
 
@@ -129,7 +128,7 @@ impl<const D: usize> Solver<D> {
         let mut before = f64::MAX;
         loop {
             self.balance(view);
-            self.search(groups, view).advance(Purpose::Iterate)?;
+            self.search(groups, view).advance(true)?;
             let residual = self.residual();
             if before <= f64::EPSILON {
                 break;

@@ -13,8 +13,6 @@ pub(super) struct Stages<const D: usize> {
     pub(super) secant: Option<LinearSystem<D>>,
     /// `h` times (loads − forces of the elements), per node and stage, N s.
     pub(super) impulses: Vec<[[f64; D]; MOST_STAGES]>,
-    /// Displacements of all nodes at the end of the step, m.
-    pub(super) ends: Vec<[f64; D]>,
     /// The changes of the velocities of all nodes in the step, m/s; empty unless masses couple nodes.
     pub(super) changes: Vec<[f64; D]>,
 }
@@ -32,7 +30,6 @@ impl<const D: usize> Stages<D> {
             rule,
             secant,
             impulses: vec![[[0.0; D]; MOST_STAGES]; nodes],
-            ends: vec![[0.0; D]; nodes],
             changes: vec![[0.0; D]; coupled],
         }
     }

@@ -45,7 +45,7 @@ impl<const D: usize> Search<'_, D> {
         Ok(())
     }
 
-    /// Finds the impulses of all stages and, except along paths, the displacements at the end of the step.
+    /// Finds the impulses of all stages.
     fn find_stages(&mut self, stages: &mut Stages<D>) -> Result<(), StepFailure> {
         let (rule, view) = (stages.rule, self.view);
         for stage in 0..rule.stages() {
@@ -68,21 +68,6 @@ impl<const D: usize> Search<'_, D> {
                 group.add_impulse(view, &solver.trial, along, &mut impulses, magnitudes);
             }
             (solver.rockets).add_impulses((stage, view.step), &mut impulses, magnitudes);
-        }
-        let momenta = points::<D>(view.state.momenta.values());
-        for mass in self.solver.nodes_of_set(0) {
-            let node = mass.node;
-            stages.ends[node] = match rule.ending {
-                Ending::StageByStage => {
-                    self.solver.trial.displacements_of_set(rule.sets() - 1)[node]
-                }
-                Ending::Forces(weights) => {
-                    let impulse = stages.combined(node, weights);
-                    mass.displacement(view.step, &momenta[node], &impulse)
-                }
-                // `move_along_path` finds the displacements from those of the stages.
-                Ending::Increments { .. } => break,
-            };
         }
         Ok(())
     }
@@ -150,12 +135,20 @@ impl<const D: usize> Solver<D> {
         next: &mut State,
         motion: &mut Motion<D>,
     ) -> Result<(), StepFailure> {
-        let none = [0.0; D];
+        let (rule, momenta) = (stages.rule, points::<D>(view.state.momenta.values()));
+        let last = self.trial.displacements_of_set(rule.sets() - 1);
         for mass in self.nodes_of_set(0) {
             let node = mass.node;
-            let displacement = &stages.ends[node];
-            let impulse = stages.combined(node, stages.rule.weights);
-            move_node(node, [displacement, &none, &impulse], view.state, next)?;
+            let displacement = &match rule.ending {
+                Ending::Forces(weights) => {
+                    let impulse = stages.combined(node, weights);
+                    mass.displacement(view.step, &momenta[node], &impulse)
+                }
+                Ending::StageByStage | Ending::Increments { .. } => last[node],
+            };
+            let impulse = stages.combined(node, rule.weights);
+            let moved = [displacement, &[0.0; D], &impulse];
+            move_node(node, moved, view.state, next)?;
             let load = |stage: usize| view.stages[stage].force(node);
             self.add_work(stages, node, &load, &mut next.work);
             let speeds = Speeds::OfMass(mass.per_mass);
