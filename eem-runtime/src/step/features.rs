@@ -18,9 +18,8 @@ pub(crate) enum Feature {
 }
 
 impl Scheme {
-    /// The features that it can step.
-    const fn features(self) -> &'static [Feature] {
-        use Feature::{ParallelDashpots, Rockets, Solids};
+    /// Whether it can step a feature.
+    pub(crate) const fn steps(self, feature: Feature) -> bool {
         match self {
             Self::EemEntropy
             | Self::EemTemperature
@@ -32,9 +31,9 @@ impl Scheme {
             | Self::Trapezoidal
             | Self::TrapezoidalTemperature
             // Those of the schemes among which it chooses.
-            | Self::Auto => &[Solids, Rockets, ParallelDashpots],
-            Self::Staggered => &[Solids, Rockets],
-            Self::EemExplicit | Self::Variational | Self::Variational4 | Self::Gauss4 => &[],
+            | Self::Auto => true,
+            Self::Staggered => matches!(feature, Feature::Solids | Feature::Rockets),
+            Self::EemExplicit | Self::Variational | Self::Variational4 | Self::Gauss4 => false,
         }
     }
 
@@ -42,10 +41,5 @@ impl Scheme {
     #[cfg(feature = "gradients")]
     pub(crate) const fn has_adjoint(self) -> bool {
         matches!(self, Self::EemEntropy | Self::EemTemperature)
-    }
-
-    /// Whether it can step a feature.
-    pub(crate) fn steps(self, feature: Feature) -> bool {
-        self.features().contains(&feature)
     }
 }

@@ -15,23 +15,17 @@ pub(crate) struct LoadRule {
 impl LoadRule {
     /// Of forces and thrusts; `order` as in the result.
     pub(crate) const fn of_forces(scheme: Scheme, order: Option<f64>) -> Self {
-        let (times, weights) = if let Some(rule) = scheme.tableau() {
-            (rule.times, rule.weights)
-        } else if let Closing::Explicit = scheme.closing() {
-            load_rule()
-        } else {
-            return Self::middle(order);
+        let rule = match (scheme.tableau(), scheme.closing()) {
+            (Some(rule), _) => (rule.times, rule.weights),
+            (None, Closing::Explicit) => load_rule(),
+            (None, _) => return Self::middle(order),
         };
-        Self {
-            times,
-            weights,
-            order,
-        }
+        Self::new(rule, order)
     }
 
     /// Of the displacement of moved anchors, whose integral acts on masses.
     pub(crate) fn of_motions(scheme: Scheme, order: Option<f64>) -> Self {
-        let (times, weights) = match (scheme.tableau(), scheme.closing()) {
+        let rule = match (scheme.tableau(), scheme.closing()) {
             (Some(rule), _) => match rule.path {
                 Some(path) => path.supports.mean.into(),
                 None => (rule.times, rule.weights),
@@ -40,18 +34,18 @@ impl LoadRule {
             // The anchor goes along a straight line.
             (None, _) => (&[0.0, 1.0][..], &[0.5, 0.5][..]),
         };
-        Self {
-            times,
-            weights,
-            order,
-        }
+        Self::new(rule, order)
     }
 
     /// Of ovens: every scheme takes their temperature from the middle.
     pub(crate) const fn middle(order: Option<f64>) -> Self {
+        Self::new((&[0.5], &[1.0]), order)
+    }
+
+    const fn new((times, weights): (&'static [f64], &'static [f64]), order: Option<f64>) -> Self {
         Self {
-            times: &[0.5],
-            weights: &[1.0],
+            times,
+            weights,
             order,
         }
     }

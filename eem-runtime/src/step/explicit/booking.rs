@@ -31,7 +31,7 @@ impl<const D: usize> Explicit<D> {
     fn book_paths(&mut self, h: f64, next: &mut State) {
         let (stage, scratch) = (&mut self.stage, &mut self.scratch);
         let slots = scratch.produced.len();
-        for (path, kept) in self.components.paths.iter().zip(&mut scratch.paths) {
+        for path in &mut self.components.paths {
             let [a, b] = path.ends;
             let progress = &mut scratch.progress[path.component];
             let [near, far] = &path.temperatures;
@@ -45,7 +45,7 @@ impl<const D: usize> Explicit<D> {
                     }
                 }
             }
-            *kept = production;
+            path.production = production;
             progress.production.add(production);
             // The closing does not change production that neither end stores.
             let least = match path.stores {
@@ -101,15 +101,16 @@ impl<const D: usize> Explicit<D> {
                 next.meters.produce(slot, scale * guarded(h * production));
             }
         }
-        for (path, &production) in components.paths.iter().zip(&self.scratch.paths) {
+        for path in &components.paths {
             let progress = progress(path.component);
             let scale = match path.stores {
                 [false, false] => 1.0,
                 _ => progress.factor,
             };
+            let production = scale * path.production;
             match path.share {
-                Some(_) => next.meters.produce(path.ends[0], scale * production),
-                None => next.meters.produce_between(path.ends, scale * production),
+                Some(_) => next.meters.produce(path.ends[0], production),
+                None => next.meters.produce_between(path.ends, production),
             }
             if !progress.is_rigid {
                 let heat = h
@@ -187,7 +188,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     pub(super) fn share_productions(&mut self) {
         let scratch = &mut self.scratch;
-        for (path, &production) in self.components.paths.iter().zip(&scratch.paths) {
+        for path in &self.components.paths {
             let capacity = |at: usize| {
                 let slot = path.stores[at].then_some(path.ends[at]);
                 slot.map_or(0.0, |slot| scratch.capacities[slot][0])
@@ -195,7 +196,7 @@ impl<const D: usize> Explicit<D> {
             let [a, b] = [capacity(0), capacity(1)];
             for (end, capacity) in path.ends.into_iter().zip([a, b]) {
                 if a + b > 0.0 && capacity > 0.0 {
-                    scratch.produced[end] += production * (capacity / (a + b));
+                    scratch.produced[end] += path.production * (capacity / (a + b));
                 }
             }
         }

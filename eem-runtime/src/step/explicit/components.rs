@@ -69,6 +69,8 @@ pub(super) struct Path {
     pub(super) conductance: f64,
     /// The temperatures of both ends at the stages with weights, K.
     pub(super) temperatures: [PerWeight; 2],
+    /// Its production Π in the step, J/K.
+    pub(super) production: f64,
 }
 
 /// The entropy that a reservoir receives from a component.
@@ -303,6 +305,7 @@ impl Components {
                 share,
                 conductance: own.conductance,
                 temperatures: [[1.0; _]; 2],
+                production: 0.0,
             });
         }
     }

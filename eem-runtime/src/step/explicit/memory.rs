@@ -275,8 +275,6 @@ pub(super) struct Scratch<const D: usize> {
     /// The forces of the elements on places, `γ̇` and `g γ̇`, where they are needed, N, m/s and W.
     pub(super) forces: Vec<[f64; D]>,
     pub(super) creep: Vec<[f64; 2]>,
-    /// The production Π of each path of heat, J/K.
-    pub(super) paths: Vec<f64>,
     /// The smallest production of paths of heat between thermostats and reservoirs; `f64::MAX` without any, J/K.
     pub(super) least: f64,
     pub(super) stability: RowSums,
@@ -358,7 +356,6 @@ impl<const D: usize> Scratch<D> {
             held: vec![HeldBalance::default(); thermal],
             forces: vec![[0.0; D]; components.nodes.len()],
             creep: vec![[0.0; 2]; layout.viscous],
-            paths: vec![0.0; components.paths.len()],
             least: f64::MAX,
             stability: RowSums {
                 squares: vec![0.0; nodes],
