@@ -29,15 +29,21 @@ const PARTS: u8 = 4;
 /// A moved anchor is off by `4 ε |t| max|ẋ|`, and the masses that it pulls by the impulse of the stiffness times that.
 #[derive(Clone, Debug)]
 pub(crate) struct LoadRounding {
-    /// Of the impulse on each node, N s.
-    impulses: Vec<f64>,
-    /// Of the position of each node, m, and of those of the anchors that pull it.
-    positions: Vec<f64>,
-    pulls: Vec<f64>,
+    nodes: Vec<NodeRounding>,
     /// Of the temperature of each thermal slot, K.
     temperatures: Vec<f64>,
     /// The thermal slots of prescribed temperatures, in the order of the loads.
     slots: Vec<Option<usize>>,
+}
+
+/// What it explains at a node.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct NodeRounding {
+    /// Of the impulse, N s.
+    pub(crate) impulse: f64,
+    /// Of the position if the node is moved, m, and of those of the anchors that pull it.
+    pub(crate) position: f64,
+    pub(crate) pull: f64,
 }
 
 impl LoadRounding {
@@ -48,21 +54,22 @@ impl LoadRounding {
         slots: Vec<Option<usize>>,
         [nodes, thermal]: [usize; 2],
     ) -> Self {
-        let zeros = |needed: bool, count: usize| vec![0.0; if needed { count } else { 0 }];
         let moves = !loads.motions.is_empty();
         let pushes = moves || !loads.forces.is_empty() || !loads.rockets.is_empty();
+        let (nodes, thermal) = (
+            if pushes { nodes } else { 0 },
+            if slots.is_empty() { 0 } else { thermal },
+        );
         Self {
-            impulses: zeros(pushes, nodes),
-            positions: zeros(moves, nodes),
-            pulls: zeros(moves, nodes),
-            temperatures: zeros(!slots.is_empty(), thermal),
+            nodes: vec![NodeRounding::default(); nodes],
+            temperatures: vec![0.0; thermal],
             slots,
         }
     }
 
     /// Whether there are no loads.
     pub(crate) fn is_none(&self) -> bool {
-        self.impulses.is_empty() && self.temperatures.is_empty()
+        self.nodes.is_empty() && self.temperatures.is_empty()
     }
 
     /// Finds it for a step of the size `span[1]` from the time `span[0]`.
@@ -75,31 +82,20 @@ impl LoadRounding {
         let [start, h] = span;
         let time = TIMES * f64::EPSILON * Scalar::maximum(start.abs(), (start + h).abs());
         let rounding = ROUNDINGS * f64::EPSILON;
-        for all in [
-            &mut self.impulses,
-            &mut self.positions,
-            &mut self.pulls,
-            &mut self.temperatures,
-        ] {
-            all.fill(0.0);
-        }
+        self.nodes.fill(NodeRounding::default());
+        self.temperatures.fill(0.0);
         let mut memory = [[0.0; D]; 2];
         let mut of_vector = |of| terms(&loads.stops, span, &written(of), memory.as_flattened_mut());
         let of_scalar = |of| terms(&loads.stops, span, &written_scalar(of), &mut [0.0; 2]);
-        let impulses = &mut self.impulses;
+        let nodes = &mut self.nodes;
         let mut push = |node: usize, [size, rate]: [f64; 2]| {
             let duration = least.at(node).time_of_impulse(h);
-            impulses[node] += duration * (rounding * size + time * rate);
+            nodes[node].impulse += duration * (rounding * size + time * rate);
         };
         for (node, force) in &loads.forces {
-            let terms = match force.function() {
-                Some(of) => of_vector(of),
-                None => [
-                    length(force.position(start, &[0.0; D], 1.0).as_slice()),
-                    0.0,
-                ],
-            };
-            push(node.index, terms);
+            let constant = || length(force.position(start, &[0.0; D], 1.0).as_slice());
+            let terms = force.function().map(&mut of_vector);
+            push(node.index, terms.unwrap_or_else(|| [constant(), 0.0]));
         }
         for rocket in &loads.rockets {
             push(rocket.line.node.index, of_scalar(&rocket.thrust));
@@ -110,10 +106,11 @@ impl LoadRounding {
             };
             let [_, speed] = of_vector(of);
             let height = time * speed;
-            self.positions[anchor.index] += height;
+            self.nodes[anchor.index].position += height;
             for (mass, stiffness) in least.pulled_by(anchor.index) {
-                self.impulses[mass] += least.at(mass).time_of_impulse(h) * stiffness * height;
-                self.pulls[mass] += height;
+                let impulse = least.at(mass).time_of_impulse(h) * stiffness * height;
+                self.nodes[mass].impulse += impulse;
+                self.nodes[mass].pull += height;
             }
         }
         for ((_, course), slot) in loads.temperatures.iter().zip(&self.slots) {
@@ -124,19 +121,9 @@ impl LoadRounding {
         }
     }
 
-    /// Of the impulse on a node, N s.
-    pub(crate) fn impulse(&self, node: usize) -> f64 {
-        self.impulses.get(node).copied().unwrap_or_default()
-    }
-
-    /// Of the position of a node that is moved, m.
-    pub(crate) fn position(&self, node: usize) -> f64 {
-        self.positions.get(node).copied().unwrap_or_default()
-    }
-
-    /// Of the positions of the anchors that pull a mass, m.
-    pub(crate) fn pull(&self, node: usize) -> f64 {
-        self.pulls.get(node).copied().unwrap_or_default()
+    /// At a node.
+    pub(crate) fn at(&self, node: usize) -> NodeRounding {
+        self.nodes.get(node).copied().unwrap_or_default()
     }
 
     /// Of a prescribed temperature, K.

@@ -364,13 +364,13 @@ impl<'a> Scales<'a> {
     ) -> [f64; 2] {
         let rounding =
             |of: &dyn Fn(&LoadRounding) -> f64| known.map_or(0.0, |(loads, _)| of(loads));
-        let impulse = |node: usize| rounding(&|loads| self.rounding(node) + loads.impulse(node));
+        let impulse = |node: usize| rounding(&|loads| self.rounding(node) + loads.at(node).impulse);
         match unknown {
             Unknown::Position(at) => {
                 let node = at / self.dimension;
                 let moved = rounding(&|loads| {
                     let mobility = self.least.at(node).mobility(self.step.size);
-                    mobility * impulse(node) + loads.position(node)
+                    mobility * impulse(node) + loads.at(node).position
                 });
                 [self.position, moved]
             }

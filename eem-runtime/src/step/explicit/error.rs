@@ -335,7 +335,7 @@ impl<const D: usize> Explicit<D> {
     /// The rounding of the impulse on a mass, N s.
     fn rounding_of(&self, view: &ExplicitView<'_, D>, place: &Place<D>, node: usize) -> f64 {
         let distance = Scalar::maximum(length(&place.past.start[0]), length(place.q()));
-        view.least.at(node).rounding(view.step, distance) + self.rounding.impulse(node)
+        view.least.at(node).rounding(view.step, distance) + self.rounding.at(node).impulse
     }
 }
 

@@ -33,7 +33,7 @@ pub(super) struct Past<const D: usize> {
 const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
 /// The history in a checkpoint. Forces are per coordinate, N; those of anchors are meaningless.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
@@ -49,11 +49,7 @@ pub(crate) struct SavedPast {
 impl SavedPast {
     /// The history of a scheme without a predictor.
     pub(crate) fn none() -> Self {
-        Self {
-            forces: [Vec::new(), Vec::new()],
-            errors: [0.0; 3],
-            internal: Vec::new(),
-        }
+        Self::default()
     }
 }
 

@@ -183,12 +183,12 @@ impl<const D: usize> Explicit<D> {
         let mut sum = 0.0;
         for at in self.components.all[index].masses.clone() {
             let (place, node) = (&self.stage.places[at], self.components.nodes[at]);
-            let impulse = self.rounding.impulse(node);
+            let impulse = self.rounding.at(node).impulse;
             let momenta = length(&place.past.start[1]) + length(place.p()) + impulse;
             sum += impulse * momenta * place.per_mass;
             // The force of the springs is that on the mass less the constant one.
             let force = length(&self.scratch.forces[at]) + length(&place.force);
-            sum += force * self.rounding.pull(node);
+            sum += force * self.rounding.at(node).pull;
         }
         sum
     }
