@@ -84,9 +84,7 @@ impl<const D: usize> Solver<D> {
     pub(super) fn residual(&self) -> f64 {
         let mut largest = Largest::default();
         for node in &self.nodes {
-            for &row in node.rows(self.tangent.right()) {
-                largest.see(row);
-            }
+            largest.see_all(node.rows(self.tangent.right()));
         }
         largest.found()
     }

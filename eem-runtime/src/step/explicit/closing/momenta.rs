@@ -132,7 +132,8 @@ impl<const D: usize> Explicit<D> {
         self.sum_motion(index, Motion::add_momenta);
         // In four dimensions and more, several planes may be without inertia, and principal axes are known to ε over the gap of
         // their moments, so that the correction of one plane spoils another.
-        for _ in 0..if D < 4 { 1 } else { 3 } {
+        let most = if D < 4 { 1 } else { 3 };
+        for _ in 0..most {
             if self.approach_momenta(index) {
                 return;
             }
