@@ -9,7 +9,7 @@
 //! rows of B. Anchors write to a scratch entry behind all others, which no elimination reads.
 //!
 //! The [`Storage`] decides how entries are laid out and solved with. A new solver is a new variant there, with its `new`
-//! (from the pattern), `entries`, `position` and `solve`. Systems of one and two unknowns are solved without it.
+//! (from the pattern), `entries`, `position` and `solve_each`. Systems of one and two unknowns are solved without it.
 
 use core::{iter, mem};
 
