@@ -95,7 +95,7 @@ impl<const D: usize> Explicit<D> {
                 *sum += error * error;
             }
         });
-        let error = combined(sums);
+        let error = estimate_of(sums);
         if !Scheme::EemExplicit.accuracy().holds_back(error) {
             return error;
         }
@@ -123,7 +123,7 @@ impl<const D: usize> Explicit<D> {
             sums[1] += third * third;
         };
         self.each_error::<true>(by, &mut see as See<'_>);
-        let beyond = Scalar::maximum(combined(sums), HIDDEN);
+        let beyond = Scalar::maximum(estimate_of(sums), HIDDEN);
         let masses = &self.stage.places[..self.components.masses];
         for (place, &node) in masses.iter().zip(&self.components.nodes) {
             let [position, momentum] = &place.past.start;
@@ -392,7 +392,7 @@ fn rounding_of_stretch(distance: f64) -> f64 {
 }
 
 /// `e₅²/√(e₅² + 0.01 e₃²)` from the squares.
-fn combined([five, three]: [f64; 2]) -> f64 {
+fn estimate_of([five, three]: [f64; 2]) -> f64 {
     if five <= 0.0 {
         return 0.0;
     }
