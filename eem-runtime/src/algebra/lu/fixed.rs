@@ -149,49 +149,49 @@ fn solve_compiled<const N: usize>(matrix: &mut [f64], b: &mut [f64]) -> Result<(
 #[inline]
 fn eliminate<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) -> Result<(), usize> {
     // Unrolled by hand, as the compiler does not unroll loops in loops: rows stay in registers.
-    eliminate_row::<0, N>(a, b)?;
-    eliminate_row::<1, N>(a, b)?;
-    eliminate_row::<2, N>(a, b)?;
-    eliminate_row::<3, N>(a, b)?;
-    eliminate_row::<4, N>(a, b)?;
-    eliminate_row::<5, N>(a, b)?;
-    eliminate_row::<6, N>(a, b)?;
-    eliminate_row::<7, N>(a, b)?;
-    eliminate_row::<8, N>(a, b)?;
-    eliminate_row::<9, N>(a, b)?;
-    eliminate_row::<10, N>(a, b)?;
-    eliminate_row::<11, N>(a, b)?;
+    eliminate_row(0, a, b)?;
+    eliminate_row(1, a, b)?;
+    eliminate_row(2, a, b)?;
+    eliminate_row(3, a, b)?;
+    eliminate_row(4, a, b)?;
+    eliminate_row(5, a, b)?;
+    eliminate_row(6, a, b)?;
+    eliminate_row(7, a, b)?;
+    eliminate_row(8, a, b)?;
+    eliminate_row(9, a, b)?;
+    eliminate_row(10, a, b)?;
+    eliminate_row(11, a, b)?;
     Ok(())
 }
 
 /// Eliminates the entries of a row before the diagonal, and divides the row by its diagonal entry. If that is no good
 /// pivot, the row does not change, and the error is its index.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "only then rows stay in registers")]
-fn eliminate_row<const AT: usize, const N: usize>(
+#[expect(clippy::inline_always, reason = "only then is the row a constant")]
+fn eliminate_row<const N: usize>(
+    at: usize,
     a: &mut [[f64; N]; N],
     b: &mut [f64; N],
 ) -> Result<(), usize> {
-    // Known when it is compiled, so that nothing is for rows that do not exist.
-    if const { AT >= N } {
+    if at >= N {
         return Ok(());
     }
-    let (mut row, mut right) = (a[AT], b[AT]);
-    for k in 0..AT {
+    let (mut row, mut right) = (a[at], b[at]);
+    for k in 0..at {
         let factor = row[k];
         let first = even(k + 1);
         subtract(&mut row[first..], factor, &a[k][first..]);
         right -= factor * b[k];
     }
-    if !dominates(&row, AT) {
-        return Err(AT);
+    if !dominates(&row, at) {
+        return Err(at);
     }
-    let inverse = row[AT].recip();
-    let first = even(AT + 1);
-    for (entry, &value) in a[AT][first..].iter_mut().zip(&row[first..]) {
+    let inverse = row[at].recip();
+    let first = even(at + 1);
+    for (entry, &value) in a[at][first..].iter_mut().zip(&row[first..]) {
         *entry = value * inverse;
     }
-    b[AT] = right * inverse;
+    b[at] = right * inverse;
     Ok(())
 }
 

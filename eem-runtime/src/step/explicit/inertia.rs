@@ -94,8 +94,8 @@ impl<const D: usize> Inertia<D> {
         match self {
             Self::Single(moment) => momentum.map(0.0, |j| over(j, *moment)),
             Self::Line { along, moment } => {
-                let speed = momentum.turn(along).map(|j| over(j, *moment));
-                Bivector::wedge(along, &speed)
+                let turning = momentum.turn(along);
+                Bivector::wedge(along, &vector(|axis| over(turning[axis], *moment)))
             }
             Self::Space(inverse) => inverse.solve(momentum),
             Self::Principal(principal) => principal.solve(momentum),

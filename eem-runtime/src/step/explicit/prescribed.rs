@@ -155,7 +155,10 @@ fn last_of_each(
     let of = targets
         .enumerate()
         .filter_map(|(load, target)| Some((load, target?)));
-    let last: BTreeMap<_, _> = of.clone().map(|(load, target)| (target, load)).collect();
+    let mut last = BTreeMap::new();
+    for (load, target) in of.clone() {
+        last.insert(target, load);
+    }
     of.filter(move |(load, target)| last.get(target) == Some(load))
 }
 

@@ -66,9 +66,10 @@ impl<const D: usize> Coupling<D> {
             let mut places = [[[0; D]; 2]; MOST_SETS];
             for (set, places) in places.iter_mut().enumerate().take(sets) {
                 let sites = sites.of_sets([set, set]);
-                *places = [[a, b], [b, a]].map(|[row, column]| {
+                let place = |row: usize, column: usize| {
                     vector(|axis| sites.place(Some(row + axis), Some(column + axis)))
-                });
+                };
+                *places = [place(a, b), place(b, a)];
             }
             pairs.push(CoupledPair {
                 nodes: [a / D, b / D],
@@ -190,7 +191,7 @@ impl<const D: usize> Coupling<D> {
     ) {
         self.multiply(nodes, inertia_per_mass, &|node| {
             let [moved, _] = node.moved(trial);
-            [node.change(trial), moved.map(f64::abs)]
+            [node.change(trial), sizes_of(moved)]
         });
         for drive in &self.drives {
             let more = drive.of_sets[set].as_flattened();
@@ -202,7 +203,7 @@ impl<const D: usize> Coupling<D> {
     pub(super) fn find_impulses_of_step(&mut self, nodes: &[Balance<D>], changes: &[[f64; D]]) {
         self.multiply(nodes, 1.0, &|node| {
             let change = changes[node.node];
-            [change, change.map(f64::abs)]
+            [change, sizes_of(&change)]
         });
         for drive in &self.drives {
             let more = drive.of_step.as_flattened();
@@ -260,7 +261,11 @@ impl<const D: usize> Coupling<D> {
 /// Adds the impulse of a mass, kg, whose velocity changes, m/s, and the magnitude of its terms.
 fn add_to<const D: usize>([sum, terms]: &mut [[f64; D]; 2], mass: f64, change: &[f64; D]) {
     add(sum, mass, change);
-    add(terms, mass.abs(), &change.map(f64::abs));
+    add(terms, mass.abs(), &sizes_of(change));
+}
+
+fn sizes_of<const D: usize>(a: &[f64; D]) -> [f64; D] {
+    vector(|axis| a[axis].abs())
 }
 
 /// The change of the velocity of a moved anchor from the old state to each stage, m/s, from its velocities at the

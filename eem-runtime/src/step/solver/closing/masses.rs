@@ -145,8 +145,8 @@ pub(super) fn carry<const D: usize>(
         points::<D>(view.state.velocities.values())[node],
         view.change_of_speed(node),
     ];
-    let [start, end] = [view.state, next].map(|state| points(state.momenta.values())[node]);
-    let impulse = difference(&end, &start);
+    let momentum = |state: &State| points(state.momenta.values())[node];
+    let impulse = difference(&momentum(next), &momentum(view.state));
     let speeds = Speeds::Given { old, change };
     let step = NodeStep::new((view.state, node), speeds, displacement, &impulse);
     motion.see(&step, load, view.step);

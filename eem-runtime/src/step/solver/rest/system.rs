@@ -279,10 +279,11 @@ impl<const D: usize> AtRest<'_, D> {
     /// The displacements of moving nodes from a place, m.
     fn way_from(&self, from: &Place<D>) -> Vec<f64> {
         let all = self.moved_from(from);
-        let nodes = self.search.solver.nodes.iter();
-        nodes
-            .flat_map(|node| all.as_chunks::<D>().0[node.node])
-            .collect()
+        let mut moved = Vec::with_capacity(self.first.len());
+        for node in &self.search.solver.nodes {
+            moved.extend_from_slice(&all[node.node * D..][..D]);
+        }
+        moved
     }
 
     /// The displacements of all nodes from a place, m.
