@@ -202,12 +202,8 @@ impl<const D: usize> Scene<D> {
 
     /// Whether a handle is of this scene; if not, an error is recorded.
     fn expect_own<H: Handle>(&mut self, handle: &H) -> bool {
-        let own = self.lineage.owns(handle);
-        if !own {
-            let handle = handle.to_string();
-            self.refuse(SceneError::ForeignHandle { handle });
-        }
-        own
+        let own = self.lineage.expect(handle);
+        own.map_err(|error| self.refuse(error)).is_ok()
     }
 
     /// The mass matrix. Anchors keep their masses as nodes of solids.

@@ -209,12 +209,6 @@ fn check_element(
     }
 }
 
-impl From<StateError> for SceneError {
-    fn from(error: StateError) -> Self {
-        Self::State(error)
-    }
-}
-
 impl<const D: usize> Scene<D> {
     /// Motions of anchors must begin where the anchors were created.
     fn check_motions(&self, errors: &mut Vec<SceneError>) {

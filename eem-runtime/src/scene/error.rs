@@ -1,7 +1,8 @@
 //! Errors of scenes and rockets.
 
 use crate::element::error::StateError;
-use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
+use crate::element::handle::{Element, Handle, HeatPartner, Node, Reservoir};
+use crate::element::lineage::Lineage;
 use crate::scene::solid_error::SolidError;
 use eem_material::number::readable::Readable;
 use thiserror::Error;
@@ -405,6 +406,23 @@ pub enum SceneError {
     /// The initial state of an element is outside the domain of its model.
     #[error("at the start: {0}")]
     State(StateError),
+}
+
+impl From<StateError> for SceneError {
+    fn from(error: StateError) -> Self {
+        Self::State(error)
+    }
+}
+
+impl Lineage {
+    /// An error unless a handle is valid in the scene.
+    pub(crate) fn expect<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
+        if self.owns(handle) {
+            return Ok(());
+        }
+        let handle = handle.to_string();
+        Err(SceneError::ForeignHandle { handle })
+    }
 }
 
 /// Why a [rocket](crate::Scene::rocket) is rejected.

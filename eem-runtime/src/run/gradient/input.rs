@@ -7,6 +7,7 @@ use nalgebra::SVector;
 
 use crate::element::handle::{Element, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
+use crate::run::gradient::timed::Timed;
 use crate::run::recorder::axis_name;
 use crate::scene::body::Body;
 use crate::scene::loads::{OfTime, ScalarOfTime};
@@ -27,9 +28,6 @@ pub struct Input<const D: usize> {
     pub(crate) named: Option<[String; 2]>,
 }
 
-/// A number as a function of time, s.
-type NumberOfTime = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
-
 /// The kinds of inputs.
 #[derive(Clone)]
 pub(crate) enum InputOf<const D: usize> {
@@ -44,11 +42,10 @@ pub(crate) enum InputOf<const D: usize> {
     Velocity(Node, usize),
     Temperature(Element),
     ViscousStretch(Element, usize),
-    Force(Node, OfTime<D>),
-    Thrust(Node, usize, NumberOfTime),
-    Motion(Node, OfTime<D>),
-    Thermostat(Element, ScalarOfTime),
-    Oven(Reservoir, ScalarOfTime),
+    /// A parameter of a force or a motion.
+    Vector(Timed, OfTime<D>),
+    /// A parameter of a thrust or a temperature.
+    Number(Timed, ScalarOfTime),
 }
 
 impl<const D: usize> Input<D> {
@@ -132,7 +129,7 @@ impl<const D: usize> Input<D> {
         node: Node,
         by: impl Fn(f64) -> V + Send + Sync + 'static,
     ) -> Self {
-        Self::new(InputOf::Force(node, Arc::new(move |t| by(t).into())))
+        Self::vector(Timed::Force(node), by)
     }
 
     /// A parameter of a thrust, given `∂F/∂α`. `rocket` counts the rockets of the node in the order of their creation, from 0.
@@ -141,7 +138,7 @@ impl<const D: usize> Input<D> {
         rocket: usize,
         by: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) -> Self {
-        Self::new(InputOf::Thrust(node, rocket, Arc::new(by)))
+        Self::number(Timed::Thrust(node, rocket), by)
     }
 
     /// A parameter of the position of a moved anchor, given `∂X/∂α`. Next to a solid, its velocity at the start is an input
@@ -150,17 +147,36 @@ impl<const D: usize> Input<D> {
         anchor: Node,
         by: impl Fn(f64) -> V + Send + Sync + 'static,
     ) -> Self {
-        Self::new(InputOf::Motion(anchor, Arc::new(move |t| by(t).into())))
+        Self::vector(Timed::Motion(anchor), by)
     }
 
     /// A parameter of the temperature of a thermostat, given `∂θ/∂α`.
     pub fn thermostat(element: Element, by: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
-        Self::new(InputOf::Thermostat(element, Arc::new(by)))
+        Self::number(Timed::Thermostat(element), by)
     }
 
     /// A parameter of the temperature of an oven, given `∂θ/∂α`.
     pub fn oven(oven: Reservoir, by: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
-        Self::new(InputOf::Oven(oven, Arc::new(by)))
+        Self::number(Timed::Oven(oven), by)
+    }
+
+    fn vector<V: Into<SVector<f64, D>>>(
+        load: Timed,
+        by: impl Fn(f64) -> V + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(InputOf::Vector(load, Arc::new(move |t| by(t).into())))
+    }
+
+    fn number(load: Timed, by: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+        Self::new(InputOf::Number(load, Arc::new(by)))
+    }
+
+    /// The load of which it is a parameter.
+    pub(super) const fn load(&self) -> Option<Timed> {
+        match self.of {
+            InputOf::Vector(load, _) | InputOf::Number(load, _) => Some(load),
+            _ => None,
+        }
     }
 
     /// Gives it a name and a unit, for the columns of results; a parameter of a function of time has no unit otherwise.
@@ -186,20 +202,14 @@ impl<const D: usize> Input<D> {
             InputOf::Density(..) => "density".to_owned(),
             InputOf::Gravity(axis) => format!("gravity {}", axis_name(*axis)),
             InputOf::Conductance(path) => format!("conductance of {path}"),
-            InputOf::Reservoir(reservoir) | InputOf::Oven(reservoir, _) => {
-                format!("temperature of {reservoir}")
-            }
+            InputOf::Reservoir(reservoir) => format!("temperature of {reservoir}"),
             InputOf::Position(node, axis) => format!("position {} of {node}", axis_name(*axis)),
             InputOf::Velocity(node, axis) => format!("velocity {} of {node}", axis_name(*axis)),
-            InputOf::Temperature(element) | InputOf::Thermostat(element, _) => {
-                format!("temperature of {element}")
-            }
+            InputOf::Temperature(element) => format!("temperature of {element}"),
             InputOf::ViscousStretch(element, dashpot) => {
                 format!("viscous stretch {dashpot} of {element}")
             }
-            InputOf::Force(node, _) => format!("force on {node}"),
-            InputOf::Thrust(node, rocket, _) => format!("thrust {rocket} on {node}"),
-            InputOf::Motion(anchor, _) => format!("motion of {anchor}"),
+            InputOf::Vector(load, _) | InputOf::Number(load, _) => load.name(),
         }
     }
 
@@ -215,11 +225,8 @@ impl<const D: usize> Input<D> {
             InputOf::Velocity(..) => "m/s",
             InputOf::Parameter(..)
             | InputOf::ViscousStretch(..)
-            | InputOf::Force(..)
-            | InputOf::Thrust(..)
-            | InputOf::Motion(..)
-            | InputOf::Thermostat(..)
-            | InputOf::Oven(..) => "",
+            | InputOf::Vector(..)
+            | InputOf::Number(..) => "",
         }
     }
 }

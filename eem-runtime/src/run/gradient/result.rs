@@ -8,10 +8,11 @@ use nalgebra::SVector;
 use super::error::GradientError;
 use super::series::Series;
 use super::timed::Timed;
-use crate::element::handle::{Element, Handle, HeatPath, Node, Reservoir};
+use crate::element::handle::{Element, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;
 use crate::element::lineage::Lineage;
+use crate::element::loads::point;
 use crate::run::gradient::units::quotient;
 use crate::run::recorder::axis_name;
 use crate::scene::body::Body;
@@ -46,13 +47,10 @@ pub struct Gradient<const D: usize> {
     /// The time at the start, s, and the loads that are functions of time.
     pub(crate) started: f64,
     pub(crate) timed: Vec<Timed>,
-    /// By thrusts of rockets, and by temperatures of ovens, in the middle of each step.
-    pub(crate) thrusts: Vec<(usize, Series<f64>)>,
-    pub(crate) ovens: Vec<(usize, Series<f64>)>,
-    /// By forces at the middle of each step, by positions of moved anchors and by temperatures of thermostats at its ends.
-    pub(crate) forces: Vec<(usize, Series<SVector<f64, D>>)>,
-    pub(crate) motions: Vec<(usize, Series<SVector<f64, D>>)>,
-    pub(crate) temperatures: Vec<(usize, Series<f64>)>,
+    /// By forces in the middle of each step, and by positions of moved anchors at its ends.
+    pub(crate) vectors: Vec<(Timed, Series<SVector<f64, D>>)>,
+    /// By thrusts of rockets and temperatures of ovens in the middle of each step, and by temperatures of thermostats at its end.
+    pub(crate) numbers: Vec<(Timed, Series<f64>)>,
 }
 
 /// The name of an input, the derivative by it, and its unit.
@@ -107,77 +105,60 @@ impl<const D: usize> Gradient<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn iter(&self) -> impl Iterator<Item = Derivative> + '_ {
-        let paths = self.conductances.iter().enumerate();
-        let paths = paths
-            .map(|(at, &by)| self.named(format!("conductance of path of heat {at}"), by, "W/K"));
-        let reservoirs = self.reservoirs.iter().enumerate();
-        let reservoirs = reservoirs
-            .map(|(at, &by)| self.named(format!("temperature of reservoir {at}"), by, "K"));
-        let gravity = self.gravity.iter().enumerate();
-        let gravity = gravity
-            .map(|(axis, &by)| self.named(format!("gravity {}", axis_name(axis)), by, "m/s²"));
-        self.parameters()
-            .chain(self.own_masses())
-            .chain(gravity)
-            .chain(paths)
-            .chain(reservoirs)
-            .chain(self.at_nodes("position", &self.start.positions, "m"))
-            .chain(self.at_nodes("velocity", &self.start.velocities, "m/s"))
-            .chain(self.of_elements())
+        let mut all = self.parameters();
+        let mut add = |name: String, by: f64, unit: &str| all.push(self.named(name, by, unit));
+        // Masses of solids are no inputs.
+        let of_solids: BTreeSet<usize> = self.pairs.iter().flat_map(|(nodes, _)| *nodes).collect();
+        for node in self.moving.iter().filter(|node| !of_solids.contains(node)) {
+            add(format!("mass of node {node}"), self.masses[*node], "kg");
+        }
+        for (axis, &by) in self.gravity.iter().enumerate() {
+            add(format!("gravity {}", axis_name(axis)), by, "m/s²");
+        }
+        for (path, &by) in self.conductances.iter().enumerate() {
+            add(format!("conductance of path of heat {path}"), by, "W/K");
+        }
+        for (reservoir, &by) in self.reservoirs.iter().enumerate() {
+            add(format!("temperature of reservoir {reservoir}"), by, "K");
+        }
+        let (positions, velocities) = (&self.start.positions, &self.start.velocities);
+        for (what, by, unit) in [
+            ("position", positions, "m"),
+            ("velocity", velocities, "m/s"),
+        ] {
+            for (at, &by) in by.iter().enumerate() {
+                let (node, axis) = (at / D, axis_name(at % D));
+                add(format!("{what} {axis} of node {node}"), by, unit);
+            }
+        }
+        for own in &self.elements {
+            let element = own.element;
+            if let Some(slot) = own.slots.thermal {
+                let by = self.start.temperatures[slot];
+                add(format!("temperature of {element}"), by, "K");
+            }
+            let viscous = &self.start.viscous[own.slots.viscous..][..own.dashpots];
+            for (dashpot, &by) in viscous.iter().enumerate() {
+                let name = format!("viscous stretch {dashpot} of {element}");
+                add(name, by, own.viscous_unit);
+            }
+        }
+        all.into_iter()
     }
 
     fn named(&self, name: String, by: f64, unit: &str) -> Derivative {
         (name, by, quotient(&self.unit, unit))
     }
 
-    fn parameters(&self) -> impl Iterator<Item = Derivative> + '_ {
-        self.elements.iter().flat_map(move |own| {
-            let named = own.names.iter().zip(&own.values).enumerate();
-            named.map(move |(at, (name, &by))| {
+    fn parameters(&self) -> Vec<Derivative> {
+        let mut all = Vec::new();
+        for own in &self.elements {
+            for (at, (name, &by)) in own.names.iter().zip(&own.values).enumerate() {
                 let unit = own.units.get(at).copied().unwrap_or_default();
-                self.named(format!("{name} of {}", own.element), by, unit)
-            })
-        })
-    }
-
-    /// By the masses of nodes that belong to no solid.
-    fn own_masses(&self) -> impl Iterator<Item = Derivative> + '_ {
-        let of_solids: BTreeSet<usize> = self.pairs.iter().flat_map(|(nodes, _)| *nodes).collect();
-        let moving = self
-            .moving
-            .iter()
-            .filter(move |node| !of_solids.contains(node));
-        moving.map(|&node| self.named(format!("mass of node {node}"), self.masses[node], "kg"))
-    }
-
-    /// By the components of vectors at nodes.
-    fn at_nodes<'a>(
-        &'a self,
-        what: &'a str,
-        by: &'a [f64],
-        unit: &'a str,
-    ) -> impl Iterator<Item = Derivative> + 'a {
-        by.iter().enumerate().map(move |(at, &by)| {
-            let (node, axis) = (at / D, axis_name(at % D));
-            self.named(format!("{what} {axis} of node {node}"), by, unit)
-        })
-    }
-
-    /// By temperatures and viscous stretches at the start.
-    fn of_elements(&self) -> impl Iterator<Item = Derivative> + '_ {
-        self.elements.iter().flat_map(move |own| {
-            let slots = own.slots;
-            let temperature = slots.thermal.map(|slot| {
-                let by = self.start.temperatures[slot];
-                self.named(format!("temperature of {}", own.element), by, "K")
-            });
-            let dashpots = (0..own.dashpots).map(move |dashpot| {
-                let by = self.start.viscous[slots.viscous + dashpot];
-                let name = format!("viscous stretch {dashpot} of {}", own.element);
-                self.named(name, by, own.viscous_unit)
-            });
-            temperature.into_iter().chain(dashpots)
-        })
+                all.push(self.named(format!("{name} of {}", own.element), by, unit));
+            }
+        }
+        all
     }
 
     /// The derivative by a parameter of an element, with the name that its struct gives it: `stiffness`, or `mu[2]` in an
@@ -205,8 +186,8 @@ impl<const D: usize> Gradient<D> {
     ///
     /// [`GradientError::Scene`] if the node is of another scene; the same for all below.
     pub fn by_position(&self, node: Node) -> Result<SVector<f64, D>, GradientError> {
-        self.own(&node)?;
-        Ok(vector(&self.start.positions, node))
+        self.scene.expect(&node)?;
+        Ok(point(&self.start.positions, node.index).into())
     }
 
     /// The derivative by the velocity of a node at the start. Of all anchors, only moved ones next to solids have one, that of
@@ -216,8 +197,8 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position).
     pub fn by_velocity(&self, node: Node) -> Result<SVector<f64, D>, GradientError> {
-        self.own(&node)?;
-        Ok(vector(&self.start.velocities, node))
+        self.scene.expect(&node)?;
+        Ok(point(&self.start.velocities, node.index).into())
     }
 
     /// The derivative by a mass, with its velocity kept; zero for an anchor. For solids use
@@ -227,7 +208,7 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position).
     pub fn by_mass(&self, node: Node) -> Result<f64, GradientError> {
-        self.own(&node)?;
+        self.scene.expect(&node)?;
         Ok(self.masses[node.index])
     }
 
@@ -239,7 +220,7 @@ impl<const D: usize> Gradient<D> {
     pub fn by_density<H: Shape<D>>(&self, body: &Body<H, D>) -> Result<f64, GradientError> {
         let mut sum = 0.0;
         for node in body.nodes() {
-            self.own(node)?;
+            self.scene.expect(node)?;
         }
         for (nodes, mass) in body.pair_masses() {
             let pair = self.pairs.binary_search_by_key(&nodes, |&(nodes, _)| nodes);
@@ -292,7 +273,7 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position).
     pub fn by_conductance(&self, path: HeatPath) -> Result<f64, GradientError> {
-        self.own(&path)?;
+        self.scene.expect(&path)?;
         Ok(self.conductances[path.index])
     }
 
@@ -302,7 +283,7 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position).
     pub fn by_reservoir_temperature(&self, reservoir: Reservoir) -> Result<f64, GradientError> {
-        self.own(&reservoir)?;
+        self.scene.expect(&reservoir)?;
         Ok(self.reservoirs[reservoir.index])
     }
 
@@ -319,8 +300,7 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if no force acts on it.
     pub fn by_force(&self, node: Node) -> Result<&Series<SVector<f64, D>>, GradientError> {
-        self.own(&node)?;
-        series(&self.forces, node.index, || format!("{node} has no force"))
+        self.vectors_by(Timed::Force(node))
     }
 
     /// The derivatives by the thrust of a rocket in each step, with the time in its middle, s. `rocket` counts the rockets of the
@@ -330,14 +310,7 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if there is no such rocket.
     pub fn by_thrust(&self, node: Node, rocket: usize) -> Result<&Series<f64>, GradientError> {
-        self.own(&node)?;
-        let mut own = self.thrusts.iter().filter(|(own, _)| *own == node.index);
-        match own.nth(rocket) {
-            Some((_, series)) => Ok(series),
-            None => Err(GradientError::NoSeries {
-                why: format!("{node} has no rocket {rocket}"),
-            }),
-        }
+        self.numbers_by(Timed::Thrust(node, rocket))
     }
 
     /// The derivatives by the temperature of an oven in each step, with the time in its middle, s.
@@ -346,8 +319,7 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if the temperature is not a function of time.
     pub fn by_oven(&self, oven: Reservoir) -> Result<&Series<f64>, GradientError> {
-        self.own(&oven)?;
-        series(&self.ovens, oven.index, || format!("{oven} is not an oven"))
+        self.numbers_by(Timed::Oven(oven))
     }
 
     /// The derivatives by the position of a moved anchor at the ends of all steps, with their times, s. Their sum is
@@ -358,10 +330,7 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] if it is not moved.
     pub fn by_motion(&self, anchor: Node) -> Result<&Series<SVector<f64, D>>, GradientError> {
-        self.own(&anchor)?;
-        series(&self.motions, anchor.index, || {
-            format!("{anchor} is not moved")
-        })
+        self.vectors_by(Timed::Motion(anchor))
     }
 
     /// The derivatives by the temperature that a thermostat reaches at the end of each step, with its time, s.
@@ -370,10 +339,20 @@ impl<const D: usize> Gradient<D> {
     ///
     /// As [`by_position`](Self::by_position); [`GradientError::NoSeries`] without a thermostat.
     pub fn by_thermostat(&self, element: Element) -> Result<&Series<f64>, GradientError> {
-        self.own(&element)?;
-        series(&self.temperatures, element.index(), || {
-            format!("{element} has no thermostat")
-        })
+        self.numbers_by(Timed::Thermostat(element))
+    }
+
+    pub(super) fn vectors_by(
+        &self,
+        load: Timed,
+    ) -> Result<&Series<SVector<f64, D>>, GradientError> {
+        load.expect_in(&self.scene)?;
+        series(&self.vectors, load)
+    }
+
+    pub(super) fn numbers_by(&self, load: Timed) -> Result<&Series<f64>, GradientError> {
+        load.expect_in(&self.scene)?;
+        series(&self.numbers, load)
     }
 
     /// All derivatives: state, masses, gravity, conductances, reservoirs, parameters, sizes of steps.
@@ -389,41 +368,23 @@ impl<const D: usize> Gradient<D> {
         self.start.numbers().chain(others.copied()).collect()
     }
 
-    fn own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
-        if self.scene.owns(handle) {
-            return Ok(());
-        }
-        let handle = handle.to_string();
-        Err(SceneError::ForeignHandle { handle })
-    }
-
     fn of(&self, element: Element) -> Result<&OfElement, GradientError> {
-        self.own(&element)?;
+        self.scene.expect(&element)?;
         Ok(&self.elements[element.index()])
     }
 }
 
-/// The series with this index.
-fn series<T>(
-    all: &[(usize, Series<T>)],
-    index: usize,
-    why: impl FnOnce() -> String,
-) -> Result<&Series<T>, GradientError> {
-    let mut own = all.iter().filter(|(own, _)| *own == index);
-    match own.next() {
-        Some((_, series)) => Ok(series),
-        None => Err(GradientError::NoSeries { why: why() }),
-    }
-}
-
-fn vector<const D: usize>(coordinates: &[f64], node: Node) -> SVector<f64, D> {
-    SVector::from_fn(|axis, _| coordinates[node.index * D + axis])
+/// The series of a load.
+fn series<T>(all: &[(Timed, Series<T>)], load: Timed) -> Result<&Series<T>, GradientError> {
+    let mut own = all.iter().filter(|(own, _)| own.key() == load.key());
+    let (_, series) = own.next().ok_or_else(|| load.missing())?;
+    Ok(series)
 }
 
 impl<const D: usize> fmt::Display for Gradient<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let value = ("value".to_owned(), self.value, self.unit.clone());
-        let lines: Vec<_> = [value].into_iter().chain(self.parameters()).collect();
+        let mut lines = self.parameters();
+        lines.insert(0, ("value".to_owned(), self.value, self.unit.clone()));
         let widest = |of: fn(&Derivative) -> &String| {
             let widths = lines.iter().map(|line| of(line).chars().count());
             widths.max().unwrap_or(0)

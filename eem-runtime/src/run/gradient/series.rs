@@ -61,13 +61,15 @@ impl<const D: usize> Series<SVector<f64, D>> {
         &self,
         by: impl Fn(f64) -> SVector<f64, D>,
     ) -> impl Iterator<Item = (f64, f64)> {
-        self.iter().map(move |(time, derivative)| {
-            let by = by(*time);
-            let products = derivative.iter().zip(by.iter());
-            let product = products.fold(0.0, |sum, (&a, &b)| sum + a * b);
-            (*time, product)
-        })
+        let terms = self.iter();
+        terms.map(move |(time, derivative)| (*time, dot(derivative, &by(*time))))
     }
+}
+
+/// The product of two vectors.
+pub(crate) fn dot<const D: usize>(one: &SVector<f64, D>, other: &SVector<f64, D>) -> f64 {
+    let pairs = one.iter().zip(other);
+    pairs.fold(0.0, |sum, (&a, &b)| sum + a * b)
 }
 
 fn sum(terms: impl Iterator<Item = (f64, f64)>) -> f64 {

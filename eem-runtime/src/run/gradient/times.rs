@@ -67,20 +67,27 @@ impl<const D: usize> Gradient<D> {
     pub fn by_step_size_with(&self, rates: &[Input<D>]) -> Result<Vec<(f64, f64)>, GradientError> {
         let mut moved = Vec::new();
         for &load in &self.timed {
-            let rate = rates.iter().find(|input| load.has(input));
-            let Some(rate) = rate else {
-                return Err(no_derivative(load));
-            };
-            self.add_moved(rate, &mut moved)?;
+            let is_own = |own: Timed| own.key() == load.key();
+            let rate = rates.iter().find(|rate| rate.load().is_some_and(is_own));
+            match rate.map(|rate| &rate.of) {
+                Some(InputOf::Vector(own, of)) => {
+                    moved.extend(self.vectors_by(*own)?.products(&**of));
+                }
+                Some(InputOf::Number(own, of)) => {
+                    moved.extend(self.numbers_by(*own)?.products(&**of));
+                }
+                _ => return Err(no_derivative(load)),
+            }
         }
         moved.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        let starts = [self.started]
-            .into_iter()
-            .chain(self.sizes.iter().map(|&(end, _)| end));
-        let starts: Vec<f64> = starts.collect();
         let mut found = self.sizes.clone();
         let mut later = 0.0;
-        for (&start, (end, by)) in starts.iter().zip(&mut found).rev() {
+        for at in (0..found.len()).rev() {
+            let start = match at.checked_sub(1) {
+                Some(before) => found[before].0,
+                None => self.started,
+            };
+            let (end, by) = &mut found[at];
             while let Some((_, value)) = moved.pop_if(|(time, _)| *end <= *time) {
                 later += value;
             }
@@ -95,27 +102,13 @@ impl<const D: usize> Gradient<D> {
             None => Ok(found),
         }
     }
-
-    /// Adds the derivatives of the objective by shifts in time of the values of a load, with the times of these values.
-    fn add_moved(&self, rate: &Input<D>, moved: &mut Vec<(f64, f64)>) -> Result<(), GradientError> {
-        match &rate.of {
-            InputOf::Force(node, of) => moved.extend(self.by_force(*node)?.products(&**of)),
-            InputOf::Motion(node, of) => moved.extend(self.by_motion(*node)?.products(&**of)),
-            InputOf::Thrust(node, rocket, of) => {
-                moved.extend(self.by_thrust(*node, *rocket)?.products(&**of));
-            }
-            InputOf::Thermostat(element, of) => {
-                moved.extend(self.by_thermostat(*element)?.products(&**of));
-            }
-            InputOf::Oven(oven, of) => moved.extend(self.by_oven(*oven)?.products(&**of)),
-            _ => {}
-        }
-        Ok(())
-    }
 }
 
 #[cold]
 fn no_derivative(load: Timed) -> GradientError {
-    let load = load.to_string();
+    let load = match load {
+        Timed::Thrust(node, _) => format!("the thrust on {node}"),
+        other => format!("the {}", other.name()),
+    };
     GradientError::NoTimeDerivative { load }
 }

@@ -89,14 +89,20 @@ impl<const D: usize> Simulation<D> {
         }
     }
 
+    /// Which nodes are anchors whose motion is given.
+    pub(super) fn are_moved(&self) -> Vec<bool> {
+        let mut are_moved = vec![false; self.masses.len()];
+        for (node, _) in &self.loads.motions {
+            are_moved[node.index] = true;
+        }
+        are_moved
+    }
+
     /// Where masses couple nodes, `p = M v` must hold, and only moved anchors may have a velocity.
     fn audit_velocities(&self, state: &State) -> Result<(), RestoreError> {
         if !state.velocities.values().is_empty() {
-            let mut moves = vec![false; self.masses.len()];
-            for (node, _) in &self.loads.motions {
-                moves[node.index] = true;
-            }
-            for node in self.masses.anchors().filter(|&node| !moves[node]) {
+            let are_moved = self.are_moved();
+            for node in self.masses.anchors().filter(|&node| !are_moved[node]) {
                 for axis in 0..D {
                     if let Some(value) = not_zero(state.velocities.sum(node * D + axis)) {
                         return Err(RestoreError::AnchorVelocity { node, axis, value });

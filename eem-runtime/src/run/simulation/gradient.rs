@@ -1,26 +1,21 @@
 //! The gradient of a run: the adjoint of its steps, from the last to the first.
 
 mod again;
-mod change;
 mod checks;
 mod derivatives;
 mod directions;
-mod forward;
 mod inputs;
 mod seeds;
 mod tangents;
 mod way;
-mod zeros;
 
 use core::mem;
 use core::ops::ControlFlow;
-use std::collections::BTreeSet;
 
 use super::Simulation;
 use super::guard::Guard;
 use super::stepper::Stepper;
 use crate::algebra::system::LinearSystem;
-use crate::element::conduction::Conduction;
 use crate::element::group::{Group, StepView};
 use crate::element::handle::Element;
 use crate::element::layout::Layout;
@@ -31,9 +26,10 @@ use crate::run::gradient::history::History;
 use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::Gradient;
 use crate::run::gradient::snapshots::Record;
-use crate::step::adjoint::{Adjoint, NoAdjoint, PastStep, PerVariable};
-use crate::step::control::norm as norm_of;
+use crate::step::adjoint::{Adjoint, NoAdjoint, PastStep, PerVariable, RocketStep};
+use crate::step::control::length;
 use crate::step::scheme::Scheme;
+use derivatives::Passage;
 use inputs::Made;
 use seeds::Seeds;
 use way::{Way, Weighted, add};
@@ -232,13 +228,10 @@ impl<const D: usize> Simulation<D> {
         if let Some((_, objective)) = objectives.first() {
             found.unit = objective.unit();
         }
-        for (_, series) in found.forces.iter_mut().chain(&mut found.motions) {
+        for (_, series) in &mut found.vectors {
             series.0.reverse();
         }
-        let thrusts = found.thrusts.iter_mut().map(|(_, series)| series);
-        let ovens = found.ovens.iter_mut().map(|(_, series)| series);
-        let temperatures = found.temperatures.iter_mut().map(|(_, series)| series);
-        for series in thrusts.chain(ovens).chain(temperatures) {
+        for (_, series) in &mut found.numbers {
             series.0.reverse();
         }
         found.sizes.reverse();
@@ -292,30 +285,23 @@ impl<const D: usize> Simulation<D> {
 
     /// A way back before its first step.
     fn way_back(&mut self) -> Result<Way<D>, GradientError> {
-        let outline = self.outline();
-        let layout = &outline.layout;
-        let mut found = self.no_gradient(&outline);
-        let costate = mem::replace(&mut found.start, PerVariable::zero(0, layout, 0));
+        let passage = self.passage();
+        let found = self.no_gradient(&passage);
         let mut anchors = Vec::new();
         if self.masses.are_coupled() {
-            let moved = self.loads.motions.iter().map(|(node, _)| node.index);
-            let moved: BTreeSet<usize> = moved.collect();
-            let all = self.masses.anchors();
-            anchors.extend(all.map(|node| (node, moved.contains(&node))));
+            let (all, are_moved) = (self.masses.anchors(), self.are_moved());
+            anchors.extend(all.map(|node| (node, are_moved[node])));
         }
         let Stepper::Newton(newton) = &mut self.stepper else {
             return Err(no_adjoint(self.in_use, self.time()));
         };
         let system = newton.solver.tangent_mut();
         Ok(Way {
-            adjoint: Adjoint::new(layout, &self.masses, system, costate),
+            adjoint: Adjoint::new(&passage.layout, &self.masses, system, found.start.clone()),
             paths: self.conduction.path_ends(),
-            conduction: self.conduction.clone(),
             by_reservoirs: vec![0.0; self.conduction.reservoirs.len()],
             by_speeds: Vec::new(),
-            rockets: Vec::new(),
-            held: self.held(layout),
-            outline,
+            passage,
             anchors,
             by_size: 0.0,
             last: None,
@@ -325,21 +311,18 @@ impl<const D: usize> Simulation<D> {
 
     /// Takes a step back: from the derivatives with respect to its new state to those with respect to its old one.
     fn reverse(&mut self, made: Made<'_>, way: &mut Way<D>) -> Result<(), GradientError> {
-        self.find_loads(made, &mut way.conduction, &mut way.rockets);
+        self.find_loads(made, &mut way.passage);
         for (oven, _) in &self.loads.ovens {
             // An oven keeps no entropy: what it receives is booked as heat after the step.
             way.adjoint.costate.reservoirs[*oven] = 0.0;
         }
         let (adjoint, found) = (&mut way.adjoint, &mut way.found);
-        let loaded = (&way.outline.layout, &way.rockets[..]);
         let see = &mut (|element: Element, values: &[f64]| {
             add(&mut found.elements[element.index()].values, 1.0, values);
         });
-        self.differentiate(
-            made,
-            (&way.conduction, &way.held),
-            |past, groups, system| adjoint.step_back(past, loaded, groups, system, see),
-        )?;
+        self.differentiate(made, &way.passage, |past, loaded, groups, system| {
+            adjoint.step_back(past, loaded, groups, system, see)
+        })?;
         if !way.adjoint.costate.is_finite() {
             let time = made.1[1].time.value;
             return Err(GradientError::NotFinite { time });
@@ -355,9 +338,10 @@ impl<const D: usize> Simulation<D> {
     fn differentiate(
         &mut self,
         (step, [old, new]): Made<'_>,
-        (conduction, held): (&Conduction, &[bool]),
+        passage: &Passage<D>,
         by: impl FnOnce(
             &PastStep<'_>,
+            (&Layout, &[RocketStep<D>]),
             &mut [Box<dyn Group<D>>],
             &mut LinearSystem<1>,
         ) -> Result<(), NoAdjoint>,
@@ -373,13 +357,16 @@ impl<const D: usize> Simulation<D> {
             step,
             per_step: step.recip(),
             state: old,
-            conduction,
+            conduction: &passage.conduction,
             loads: &newton.loads,
             stages: &[],
             masses: &self.masses,
         };
+        let held = &passage.held;
         let past = PastStep { view, new, held };
-        let found = by(&past, &mut newton.groups, newton.solver.tangent_mut());
+        let loaded = (&passage.layout, &passage.rockets[..]);
+        let system = newton.solver.tangent_mut();
+        let found = by(&past, loaded, &mut newton.groups, system);
         found.map_err(|error| match error {
             NoAdjoint::Singular => GradientError::Singular {
                 time: new.time.value,
@@ -410,26 +397,11 @@ impl<const D: usize> Simulation<D> {
 
     /// The effect of a relative change of a state on the objective, at most: `|λ_q||q| + |λ_v||v| + |λ_γ||q| + |λ_θ||θ|`.
     fn effect(&self, costate: &PerVariable, state: &State) -> f64 {
-        let norm = |values: &[f64]| norm_of(values.iter().copied());
-        let masses = self.masses.iter().enumerate();
-        let velocities = masses
-            .flat_map(|(node, mass)| mass.map_or([0.0; D], |mass| state.velocity(node, mass)));
-        let length = norm(state.positions.values());
-        norm(&costate.positions) * length
-            + norm(&costate.velocities) * norm_of(velocities)
-            + norm(&costate.viscous) * length
-            + norm(&costate.temperatures) * norm(&state.temperatures)
-    }
-
-    /// Whether a thermostat prescribes the temperature, by thermal slot.
-    fn held(&self, layout: &Layout) -> Vec<bool> {
-        let mut held = vec![false; layout.thermal];
-        for (element, _) in &self.loads.temperatures {
-            if let Some(slot) = layout.elements[element.index()].thermal {
-                held[slot] = true;
-            }
-        }
-        held
+        let distance = length(state.positions.values());
+        length(&costate.positions) * distance
+            + length(&costate.velocities) * length(&self.velocities_in(state))
+            + length(&costate.viscous) * distance
+            + length(&costate.temperatures) * length(&state.temperatures)
     }
 }
 

@@ -73,7 +73,7 @@ impl<const D: usize> Simulation<D> {
     /// For a foreign handle.
     pub fn position(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
         self.expect_own(&node)?;
-        Ok(vector(self.state.positions.values(), node.index))
+        Ok(point(self.state.positions.values(), node.index).into())
     }
 
     /// The momentum of a node, kg m/s. Zero for an anchor, unless it is a node of a solid.
@@ -83,7 +83,7 @@ impl<const D: usize> Simulation<D> {
     /// For a foreign handle.
     pub fn momentum(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
         self.expect_own(&node)?;
-        Ok(vector(self.state.momenta.values(), node.index))
+        Ok(point(self.state.momenta.values(), node.index).into())
     }
 
     /// The velocity of a node, m/s. Zero for an anchor, unless it is moved in a scene that has solids with
@@ -94,7 +94,7 @@ impl<const D: usize> Simulation<D> {
     /// For a foreign handle.
     pub fn velocity(&self, node: Node) -> Result<SVector<f64, D>, SceneError> {
         self.expect_own(&node)?;
-        Ok(SVector::from(self.velocity_at(node.index)))
+        Ok(self.velocity_at(node.index).into())
     }
 
     fn velocity_at(&self, node: usize) -> [f64; D] {
@@ -461,7 +461,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// The group of an element of this scene, and its index there.
-    fn place(&self, element: Element) -> [usize; 2] {
+    pub(super) fn place(&self, element: Element) -> [usize; 2] {
         self.places[element.index()].map(|number| number as usize)
     }
 
@@ -483,15 +483,6 @@ impl<const D: usize> Simulation<D> {
     }
 
     pub(super) fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
-        if self.scene.owns(handle) {
-            return Ok(());
-        }
-        let handle = handle.to_string();
-        Err(SceneError::ForeignHandle { handle })
+        self.scene.expect(handle)
     }
-}
-
-/// The coordinates of one node.
-fn vector<const D: usize>(coordinates: &[f64], node: usize) -> SVector<f64, D> {
-    SVector::from_column_slice(&coordinates[node * D..(node + 1) * D])
 }

@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use super::change::Change;
-use super::derivatives::Outline;
-use super::forward::Forward;
+use super::derivatives::Passage;
+use super::directions::{Change, Forward};
 use super::seeds::Seeds;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::objective::Objective;
 use crate::run::gradient::result::Gradient;
 use crate::run::gradient::series::Series;
+use crate::run::gradient::timed::Timed;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
 use nalgebra::SVector;
@@ -129,8 +129,8 @@ impl<const D: usize> Simulation<D> {
         objective: &Objective<D>,
     ) -> Result<[f64; 3], GradientError> {
         self.on_history(|run, kept| {
-            let outline = run.outline();
-            let (change, draw) = run.any_change(gradient, &outline)?;
+            let passage = run.passage();
+            let (change, draw) = run.any_change(gradient, &passage)?;
             let objectives = [(1.0, objective)];
             let mut seeds = Seeds::new(kept, &objectives)?.forwards();
             let mut tangent = [0.0];
@@ -144,7 +144,7 @@ impl<const D: usize> Simulation<D> {
                     }
                     Ok(())
                 });
-            run.go_forward(kept, vec![change], see)?;
+            run.go_forward(kept, (passage, vec![change]), see)?;
             Ok([draw.change, tangent[0], draw.magnitude])
         })
     }
@@ -153,7 +153,7 @@ impl<const D: usize> Simulation<D> {
     fn any_change(
         &self,
         gradient: &Gradient<D>,
-        outline: &Outline,
+        passage: &Passage<D>,
     ) -> Result<(Change<D>, Draw), GradientError> {
         if gradient.elements.len() != self.places.len()
             || gradient.masses.len() != self.masses.len()
@@ -166,14 +166,10 @@ impl<const D: usize> Simulation<D> {
             change: 0.0,
             magnitude: 0.0,
         };
-        let mut change = self.no_change(outline);
+        let mut change = self.no_change(passage);
         let state = &self.state;
         let length = size_of(state.positions.values().iter().copied());
-        let masses = self.masses.iter().enumerate();
-        let speed = size_of(
-            masses
-                .flat_map(|(node, mass)| mass.map_or([0.0; D], |mass| state.velocity(node, mass))),
-        );
+        let speed = size_of(self.velocities_in(state));
         let theta = size_of(state.temperatures.iter().copied());
         let entropy = size_of(state.reservoir_entropies.values().iter().copied());
         let (start, by) = (&mut change.start, &gradient.start);
@@ -203,22 +199,18 @@ impl<const D: usize> Simulation<D> {
             }
             change.parameters.push(values);
         }
-        for (node, by) in &gradient.forces {
-            change.forces.push((*node, draw.vectors(by, 1.0)));
+        let size_of_load = |load: Timed| match load {
+            Timed::Force(_) | Timed::Thrust(..) => 1.0,
+            Timed::Motion(_) => length,
+            Timed::Thermostat(_) | Timed::Oven(_) => theta,
+        };
+        for (load, by) in &gradient.vectors {
+            let values = draw.vectors(by, size_of_load(*load));
+            change.vectors.push((*load, values));
         }
-        for (place, (_, by)) in gradient.thrusts.iter().enumerate() {
-            change.thrusts.push((place, draw.values(by, 1.0)));
-        }
-        for (node, by) in &gradient.motions {
-            change.motions.push((*node, draw.vectors(by, length)));
-        }
-        for (element, by) in &gradient.temperatures {
-            if let Some(slot) = outline.layout.elements[*element].thermal {
-                change.temperatures.push((slot, draw.values(by, theta)));
-            }
-        }
-        for (oven, by) in &gradient.ovens {
-            change.ovens.push((*oven, draw.values(by, theta)));
+        for (load, by) in &gradient.numbers {
+            let values = draw.values(by, size_of_load(*load));
+            change.numbers.push((*load, values));
         }
         Ok((change, draw))
     }

@@ -1,14 +1,18 @@
 //! The derivatives of a quantity by a state and, at that state, by the inputs.
 
+use crate::element::conduction::Conduction;
 use crate::element::group::ElementGeneric;
-use crate::element::handle::{Element, Node};
+use crate::element::handle::Node;
 use crate::element::layout::Layout;
+use crate::element::loads::point;
 use crate::element::masses::MassPair;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
+use crate::run::gradient::series::dot;
 use crate::run::recorder::Quantity;
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
+use crate::step::adjoint::RocketStep;
 use nalgebra::SVector;
 
 /// What a quantity depends on: coordinates, slots of a state and reservoirs, and inputs.
@@ -22,7 +26,7 @@ pub(super) enum Of<'a> {
     Entropy(usize),
     /// The mass of a node.
     Mass(usize),
-    /// The mass of a pair of nodes, by its index in [`Outline::pairs`].
+    /// The mass of a pair of nodes, by its index in [`Passage::pairs`].
     Pair(usize),
     /// A component of gravity.
     Gravity(usize),
@@ -35,8 +39,8 @@ pub(super) enum Of<'a> {
 /// A function that receives derivatives.
 type See<'a> = dyn FnMut(Of<'_>, f64) + 'a;
 
-/// Properties of the scene to which derivatives in all states refer.
-pub(super) struct Outline {
+/// The scene on a way through a history.
+pub(super) struct Passage<const D: usize> {
     pub(super) layout: Layout,
     /// Sums of the rows of the mass matrix, kg.
     pub(super) sums: Vec<f64>,
@@ -44,18 +48,34 @@ pub(super) struct Outline {
     pub(super) pairs: Vec<[usize; 2]>,
     /// The heat that elements without a temperature have lost until the end, J.
     lost_heat: f64,
+    /// Whether a thermostat prescribes the temperature, by thermal slot.
+    pub(super) held: Vec<bool>,
+    /// The conduction, with the temperatures of ovens in the present step.
+    pub(super) conduction: Conduction,
+    /// The rockets in the present step.
+    pub(super) rockets: Vec<RocketStep<D>>,
 }
 
 impl<const D: usize> Simulation<D> {
-    pub(super) fn outline(&self) -> Outline {
+    pub(super) fn passage(&self) -> Passage<D> {
+        let layout = self.numbering();
+        let mut held = vec![false; layout.thermal];
+        for (element, _) in &self.loads.temperatures {
+            if let Some(slot) = self.slots(*element).thermal {
+                held[slot] = true;
+            }
+        }
         let pairs = self.masses.pairs().iter().chain(self.masses.held());
         let mut pairs: Vec<_> = pairs.map(MassPair::nodes).collect();
         pairs.sort_unstable();
-        Outline {
-            layout: self.numbering(),
+        Passage {
+            layout,
             sums: self.masses.weights().into_owned(),
             pairs,
             lost_heat: self.state.dissipated.value,
+            held,
+            conduction: self.conduction.clone(),
+            rockets: Vec::new(),
         }
     }
 
@@ -64,11 +84,10 @@ impl<const D: usize> Simulation<D> {
         &mut self,
         (state, weight): (&State, f64),
         (quantity, component): (&Quantity<D>, usize),
-        outline: &Outline,
+        passage: &Passage<D>,
         see: &mut See<'_>,
     ) -> Result<(), GradientError> {
         let at = |node: &Node| node.index * D + component;
-        let slots = |element: &Element| outline.layout.elements[element.index()];
         match quantity {
             Quantity::Position(node) => see(Of::Position(at(node)), weight),
             Quantity::Velocity(node) if self.masses.get(node.index).is_some() => {
@@ -82,26 +101,24 @@ impl<const D: usize> Simulation<D> {
                 }
             }
             Quantity::Stretch(element) => {
-                let [group, place] = self.places[element.index()].map(|index| index as usize);
+                let [group, place] = self.place(*element);
                 let &[a, b] = self.stepper.elements(group).nodes(place) else {
                     return Err(no_derivative(quantity));
                 };
-                let positions = state.positions.values();
-                let arm: SVector<f64, D> = SVector::from_fn(|axis, _| {
-                    positions[b as usize * D + axis] - positions[a as usize * D + axis]
-                });
-                let length = arm.iter().fold(0.0, |sum, &x| sum + x * x).sqrt();
+                let [a, b] = [a, b].map(|node| node as usize);
+                let arm = position::<D>(state, b) - position(state, a);
+                let length = dot(&arm, &arm).sqrt();
                 for axis in 0..D {
                     let entry = weight * arm[axis] / length;
-                    see(Of::Position(b as usize * D + axis), entry);
-                    see(Of::Position(a as usize * D + axis), -entry);
+                    see(Of::Position(b * D + axis), entry);
+                    see(Of::Position(a * D + axis), -entry);
                 }
             }
             Quantity::ViscousStretch(element, dashpot) => {
-                see(Of::Viscous(slots(element).viscous + dashpot), weight);
+                see(Of::Viscous(self.slots(*element).viscous + dashpot), weight);
             }
             Quantity::Temperature(element) => {
-                if let Some(slot) = slots(element).thermal {
+                if let Some(slot) = self.slots(*element).thermal {
                     see(Of::Temperature(slot), weight);
                 }
             }
@@ -109,14 +126,14 @@ impl<const D: usize> Simulation<D> {
             Quantity::ReservoirHeat(reservoir) => {
                 self.see_heat((state, weight), reservoir.index, see);
             }
-            Quantity::KineticEnergy => self.see_kinetic((state, weight), outline, see),
+            Quantity::KineticEnergy => self.see_kinetic((state, weight), passage, see),
             Quantity::TotalEnergy => {
-                if outline.lost_heat != 0.0 {
-                    let heat = outline.lost_heat;
+                if passage.lost_heat != 0.0 {
+                    let heat = passage.lost_heat;
                     return Err(GradientError::LostHeat { heat });
                 }
-                self.see_kinetic((state, weight), outline, see);
-                self.see_potential((state, weight), outline, see);
+                self.see_kinetic((state, weight), passage, see);
+                self.see_potential((state, weight), passage, see);
                 self.see_internal((state, weight), see);
                 for index in 0..self.conduction.reservoirs.len() {
                     self.see_heat((state, weight), index, see);
@@ -145,7 +162,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// `½ vᵀ M v`.
-    fn see_kinetic(&self, (state, weight): (&State, f64), outline: &Outline, see: &mut See<'_>) {
+    fn see_kinetic(&self, (state, weight): (&State, f64), passage: &Passage<D>, see: &mut See<'_>) {
         let momenta = state.momenta.values();
         for (node, mass) in self.masses.iter().enumerate() {
             let Some(mass) = mass else { continue };
@@ -164,7 +181,7 @@ impl<const D: usize> Simulation<D> {
             }
         }
         let velocity = |node: usize| SVector::from(state.velocity::<D>(node, 1.0));
-        for (place, &[i, j]) in outline.pairs.iter().enumerate() {
+        for (place, &[i, j]) in passage.pairs.iter().enumerate() {
             let share = if i == j { 0.5 } else { 1.0 };
             let by = share * dot(&velocity(i), &velocity(j));
             see(Of::Pair(place), weight * by);
@@ -172,23 +189,30 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// `−Σ m g·q`, with the sums of the rows of the mass matrix.
-    fn see_potential(&self, (state, weight): (&State, f64), outline: &Outline, see: &mut See<'_>) {
-        let positions = state.positions.values();
-        let place = |node: usize| SVector::<f64, D>::from_fn(|axis, _| positions[node * D + axis]);
+    fn see_potential(
+        &self,
+        (state, weight): (&State, f64),
+        passage: &Passage<D>,
+        see: &mut See<'_>,
+    ) {
         let gravity = self.loads.gravity;
-        for (node, &sum) in outline.sums.iter().enumerate() {
-            for (axis, at) in (node * D..(node + 1) * D).enumerate() {
-                see(Of::Position(at), -(weight * sum * gravity[axis]));
-                see(Of::Gravity(axis), -(positions[at] * (weight * sum)));
+        for (node, &sum) in passage.sums.iter().enumerate() {
+            let position = position(state, node);
+            for axis in 0..D {
+                see(
+                    Of::Position(node * D + axis),
+                    -(weight * sum * gravity[axis]),
+                );
+                see(Of::Gravity(axis), -(position[axis] * (weight * sum)));
             }
             if self.masses.get(node).is_some() {
-                see(Of::Mass(node), -(weight * dot(&gravity, &place(node))));
+                see(Of::Mass(node), -(weight * dot(&gravity, &position)));
             }
         }
-        for (at, &[i, j]) in outline.pairs.iter().enumerate() {
-            let mut own = place(i);
+        for (at, &[i, j]) in passage.pairs.iter().enumerate() {
+            let mut own = position(state, i);
             if i != j {
-                own += place(j);
+                own += position(state, j);
             }
             see(Of::Pair(at), -(weight * dot(&gravity, &own)));
         }
@@ -241,8 +265,7 @@ fn no_derivative<const D: usize>(quantity: &Quantity<D>) -> GradientError {
     GradientError::NoDerivative { quantity }
 }
 
-/// The product of two vectors.
-pub(super) fn dot<const D: usize>(one: &SVector<f64, D>, other: &SVector<f64, D>) -> f64 {
-    let pairs = one.iter().zip(other);
-    pairs.fold(0.0, |sum, (&a, &b)| sum + a * b)
+/// The position of a node in a state.
+fn position<const D: usize>(state: &State, node: usize) -> SVector<f64, D> {
+    point(state.positions.values(), node).into()
 }

@@ -1,16 +1,90 @@
 //! Directions in which inputs change: from the inputs that users name to what changes in a step.
 
-use super::change::Change;
-use super::derivatives::Outline;
-use super::forward::Forward;
+use super::derivatives::{Of, Passage};
 use super::inputs::{CUBIC, Made};
-use crate::element::handle::{Element, Handle};
+use crate::element::handle::Element;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::input::{Input, InputOf};
+use crate::run::gradient::timed::Timed;
 use crate::run::simulation::Simulation;
-use crate::scene::error::SceneError;
-use crate::step::adjoint::{Direction, HeatChange, PerVariable};
+use crate::scene::loads::{OfTime, ScalarOfTime};
+use crate::step::adjoint::{Direction, HeatChange, PerVariable, Tangents};
 use nalgebra::SVector;
+
+/// The changes of all inputs along which a run is differentiated. A list is empty if no input of its kind changes.
+pub(super) struct Change<const D: usize> {
+    /// The state at the start, without functions of time.
+    pub(super) start: PerVariable,
+    pub(super) parameters: Vec<Vec<f64>>,
+    pub(super) masses: Vec<f64>,
+    pub(super) pairs: Vec<f64>,
+    pub(super) gravity: SVector<f64, D>,
+    pub(super) heat: HeatChange,
+    /// Forces and motions, and thrusts and temperatures, as functions of time.
+    pub(super) vectors: Vec<(Timed, OfTime<D>)>,
+    pub(super) numbers: Vec<(Timed, ScalarOfTime)>,
+}
+
+/// The way forward through a history.
+pub(super) struct Forward<const D: usize> {
+    pub(super) passage: Passage<D>,
+    pub(super) anchors: Vec<usize>,
+    /// The directions: all their inputs, their heat in the present step, and the changes of the state.
+    pub(super) changes: Vec<Change<D>>,
+    pub(super) heats: Vec<HeatChange>,
+    pub(super) directions: Vec<Direction>,
+    pub(super) tangents: Tangents<D>,
+}
+
+impl<const D: usize> Change<D> {
+    /// The change of the state at the start, including that of prescribed motions at this time.
+    pub(super) fn start_at(&self, time: f64) -> PerVariable {
+        let mut start = self.start.clone();
+        for (anchor, by) in self.motions() {
+            add_at(&mut start.positions, anchor, by(time));
+        }
+        start
+    }
+
+    /// The changes of the positions of anchors, by node.
+    fn motions(&self) -> impl Iterator<Item = (usize, &OfTime<D>)> {
+        self.vectors.iter().filter_map(|(load, by)| match load {
+            Timed::Motion(anchor) => Some((anchor.index, by)),
+            _ => None,
+        })
+    }
+}
+
+/// Adds a vector to that of a node.
+fn add_at<const D: usize>(all: &mut [f64], node: usize, by: SVector<f64, D>) {
+    for (own, by) in all[node * D..][..D].iter_mut().zip(&by) {
+        *own += by;
+    }
+}
+
+/// The derivative `by`, taken with respect to `of`, times the change of `of` in a direction.
+pub(super) fn along<const D: usize>(
+    (change, state): (&Change<D>, &PerVariable),
+    of: Of<'_>,
+    by: f64,
+) -> f64 {
+    let input = |all: &[f64], at: usize| all.get(at).copied().unwrap_or(0.0);
+    by * (match of {
+        Of::Position(at) => state.positions[at],
+        Of::Velocity(at) => state.velocities[at],
+        Of::Viscous(slot) => state.viscous[slot],
+        Of::Temperature(slot) => state.temperatures[slot],
+        Of::Entropy(index) => state.reservoirs[index],
+        Of::Mass(node) => input(&change.masses, node),
+        Of::Pair(place) => input(&change.pairs, place),
+        Of::Gravity(axis) => change.gravity[axis],
+        Of::Reservoir(index) => input(&change.heat.reservoirs, index),
+        Of::Parameters(element, values) => {
+            let own = change.parameters.get(element).into_iter().flatten();
+            own.zip(values).fold(0.0, |sum, (&a, &b)| sum + a * b)
+        }
+    })
+}
 
 /// A list of zeros, with a one at this place.
 fn one_of(count: usize, place: usize) -> Vec<f64> {
@@ -23,10 +97,10 @@ fn one_of(count: usize, place: usize) -> Vec<f64> {
 
 impl<const D: usize> Simulation<D> {
     /// The change in which no input changes.
-    pub(super) fn no_change(&self, outline: &Outline) -> Change<D> {
+    pub(super) fn no_change(&self, passage: &Passage<D>) -> Change<D> {
         let reservoirs = self.conduction.reservoirs.len();
         Change {
-            start: PerVariable::zero(self.masses.len() * D, &outline.layout, reservoirs),
+            start: PerVariable::zero(self.masses.len() * D, &passage.layout, reservoirs),
             parameters: Vec::new(),
             masses: Vec::new(),
             pairs: Vec::new(),
@@ -35,11 +109,8 @@ impl<const D: usize> Simulation<D> {
                 conductances: Vec::new(),
                 reservoirs: Vec::new(),
             },
-            forces: Vec::new(),
-            thrusts: Vec::new(),
-            motions: Vec::new(),
-            temperatures: Vec::new(),
-            ovens: Vec::new(),
+            vectors: Vec::new(),
+            numbers: Vec::new(),
         }
     }
 
@@ -47,21 +118,20 @@ impl<const D: usize> Simulation<D> {
     pub(super) fn change_by(
         &self,
         input: &Input<D>,
-        outline: &Outline,
+        passage: &Passage<D>,
     ) -> Result<Change<D>, GradientError> {
-        let mut change = self.no_change(outline);
-        let component = |what: String, component: usize, components: usize| {
-            let error = GradientError::Component {
-                quantity: what,
+        let mut change = self.no_change(passage);
+        let expect = |quantity: String, component: usize, components: usize| {
+            if component < components {
+                return Ok(());
+            }
+            Err(GradientError::Component {
+                quantity,
                 component,
                 components,
-            };
-            if component < components {
-                Ok(())
-            } else {
-                Err(error)
-            }
+            })
         };
+        let reservoirs = self.conduction.reservoirs.len();
         match &input.of {
             InputOf::Parameter(elements, name) => {
                 change.parameters = vec![Vec::new(); self.places.len()];
@@ -70,15 +140,15 @@ impl<const D: usize> Simulation<D> {
                 }
             }
             InputOf::Mass(node) => {
-                self.expect(node)?;
+                self.expect_own(node)?;
                 change.masses = one_of(self.masses.len(), node.index);
             }
             InputOf::Density(node, masses) => {
-                self.expect(node)?;
+                self.expect_own(node)?;
                 change.masses = vec![0.0; self.masses.len()];
-                change.pairs = vec![0.0; outline.pairs.len()];
+                change.pairs = vec![0.0; passage.pairs.len()];
                 for &([i, j], mass) in masses {
-                    if let Ok(place) = outline.pairs.binary_search(&[i, j]) {
+                    if let Ok(place) = passage.pairs.binary_search(&[i, j]) {
                         change.pairs[place] += mass;
                     }
                     if i == j {
@@ -87,143 +157,85 @@ impl<const D: usize> Simulation<D> {
                 }
             }
             &InputOf::Gravity(axis) => {
-                component("gravity".to_owned(), axis, D)?;
+                expect("gravity".to_owned(), axis, D)?;
                 change.gravity[axis] = 1.0;
             }
             InputOf::Conductance(path) => {
-                self.expect(path)?;
+                self.expect_own(path)?;
                 let paths = self.conduction.path_ends().len();
                 change.heat.conductances = one_of(paths, path.index);
             }
             InputOf::Reservoir(reservoir) => {
-                self.expect(reservoir)?;
-                let reservoirs = self.conduction.reservoirs.len();
+                self.expect_own(reservoir)?;
                 change.heat.reservoirs = one_of(reservoirs, reservoir.index);
             }
             &InputOf::Position(node, axis) => {
-                self.expect(&node)?;
-                component(format!("the position of {node}"), axis, D)?;
+                self.expect_own(&node)?;
+                expect(format!("the position of {node}"), axis, D)?;
                 change.start.positions[node.index * D + axis] = 1.0;
             }
             &InputOf::Velocity(node, axis) => {
-                self.expect(&node)?;
-                component(format!("the velocity of {node}"), axis, D)?;
+                self.expect_own(&node)?;
+                expect(format!("the velocity of {node}"), axis, D)?;
                 change.start.velocities[node.index * D + axis] = 1.0;
                 self.drop_velocities(&mut change);
             }
             &InputOf::Temperature(element) => {
-                let slot = self.slot_of(element, outline)?;
+                let slot = self.thermal_slot(element)?;
                 change.start.temperatures[slot] = 1.0;
             }
             &InputOf::ViscousStretch(element, dashpot) => {
-                self.expect(&element)?;
-                let [group, _] = self.places[element.index()];
-                let dashpots = self.shapes[group as usize].dashpots;
-                component(
-                    format!("the viscous stretch of {element}"),
-                    dashpot,
-                    dashpots,
-                )?;
-                let first = outline.layout.elements[element.index()].viscous;
+                self.expect_own(&element)?;
+                let dashpots = self.shape(element).dashpots;
+                let quantity = format!("the viscous stretch of {element}");
+                expect(quantity, dashpot, dashpots)?;
+                let first = self.slots(element).viscous;
                 change.start.viscous[first + dashpot] = 1.0;
             }
-            of => self.change_of_function(of, outline, &mut change)?,
+            InputOf::Vector(load, by) => {
+                self.expect_load(*load)?;
+                change.vectors.push((*load, by.clone()));
+            }
+            InputOf::Number(load, by) => {
+                self.expect_load(*load)?;
+                if let Timed::Oven(_) = load {
+                    change.heat.reservoirs = vec![0.0; reservoirs];
+                }
+                change.numbers.push((*load, by.clone()));
+            }
         }
         Ok(change)
     }
 
-    /// Adds to `change` that a parameter of a function of time changes by one.
-    fn change_of_function(
-        &self,
-        of: &InputOf<D>,
-        outline: &Outline,
-        change: &mut Change<D>,
-    ) -> Result<(), GradientError> {
-        let none = |why: String| Err(GradientError::NoSeries { why });
-        match of {
-            InputOf::Force(node, by) => {
-                self.expect(node)?;
-                if !self
-                    .loads
-                    .forces
-                    .iter()
-                    .any(|(own, _)| own.index == node.index)
-                {
-                    return none(format!("{node} has no force"));
-                }
-                change.forces.push((node.index, by.clone()));
-            }
-            InputOf::Thrust(node, rocket, by) => {
-                self.expect(node)?;
-                let rockets = self.loads.rockets.iter().enumerate();
-                let mut own = rockets.filter(|(_, own)| own.line.node.index == node.index);
-                let Some((place, _)) = own.nth(*rocket) else {
-                    return none(format!("{node} has no rocket {rocket}"));
-                };
-                change.thrusts.push((place, by.clone()));
-            }
-            InputOf::Motion(node, by) => {
-                self.expect(node)?;
-                if !self.is_moved(node.index) {
-                    return none(format!("{node} is not moved"));
-                }
-                change.motions.push((node.index, by.clone()));
-            }
-            InputOf::Thermostat(element, by) => {
-                let slot = self.slot_of(*element, outline)?;
-                let mut held = self.loads.temperatures.iter();
-                if !held.any(|(own, _)| own.index() == element.index()) {
-                    return none(format!("{element} has no thermostat"));
-                }
-                change.temperatures.push((slot, by.clone()));
-            }
-            InputOf::Oven(oven, by) => {
-                self.expect(oven)?;
-                if !self.is_oven(oven.index) {
-                    return none(format!("{oven} is not an oven"));
-                }
-                let reservoirs = self.conduction.reservoirs.len();
-                change.heat.reservoirs = vec![0.0; reservoirs];
-                change.ovens.push((oven.index, by.clone()));
-            }
-            _ => {}
+    /// An error unless the scene has this load.
+    fn expect_load(&self, load: Timed) -> Result<(), GradientError> {
+        load.expect_in(&self.scene)?;
+        if let Timed::Thermostat(element) = load {
+            self.thermal_slot(element)?;
         }
-        Ok(())
-    }
-
-    fn is_moved(&self, node: usize) -> bool {
-        let mut motions = self.loads.motions.iter();
-        motions.any(|(own, _)| own.index == node)
+        let all = self.timed_loads();
+        if all.iter().any(|(own, _)| own.key() == load.key()) {
+            Ok(())
+        } else {
+            Err(load.missing())
+        }
     }
 
     /// Drops changes of initial velocities that anchors do not have: only moved ones that masses couple with other nodes have one.
     pub(super) fn drop_velocities(&self, change: &mut Change<D>) {
+        let are_moved = self.are_moved();
         for node in self.masses.anchors() {
-            if !(self.masses.are_coupled() && self.is_moved(node)) {
+            if !(self.masses.are_coupled() && are_moved[node]) {
                 change.start.velocities[node * D..][..D].fill(0.0);
             }
         }
     }
 
-    fn expect<H: Handle>(&self, handle: &H) -> Result<(), GradientError> {
-        if self.scene.owns(handle) {
-            return Ok(());
-        }
-        let handle = handle.to_string();
-        Err(SceneError::ForeignHandle { handle }.into())
-    }
-
-    fn slot_of(&self, element: Element, outline: &Outline) -> Result<usize, GradientError> {
-        self.expect(&element)?;
-        let slot = outline.layout.elements[element.index()].thermal;
-        slot.ok_or_else(|| SceneError::NotThermal { element }.into())
-    }
-
     /// The changes of the parameters of an element if one of them changes by one.
     fn parameter_of(&self, element: Element, name: &str) -> Result<Vec<f64>, GradientError> {
-        self.expect(&element)?;
-        let [group, _] = self.places[element.index()];
-        let group = self.stepper.elements(group as usize);
+        self.expect_own(&element)?;
+        let [group, _] = self.place(element);
+        let group = self.stepper.elements(group);
         let known = group.parameters();
         let Some(place) = known.iter().position(|own| *own == name) else {
             return Err(GradientError::no_parameter(&element, name, known));
@@ -240,21 +252,20 @@ impl<const D: usize> Simulation<D> {
         if let Some([_, unit]) = &input.named {
             return unit.clone();
         }
-        let group_of = |element: &Element| self.places[element.index()][0] as usize;
-        match &input.of {
-            InputOf::Parameter(elements, name) => {
-                let group = elements
-                    .first()
-                    .map(|own| self.stepper.elements(group_of(own)));
-                let found = group.and_then(|group| {
-                    let place = group.parameters().iter().position(|own| *own == name)?;
-                    group.parameter_units().get(place)
-                });
-                found.copied().unwrap_or_default().to_owned()
+        let group_of =
+            |element: &Element| self.scene.owns(element).then(|| self.place(*element)[0]);
+        let unit = match &input.of {
+            InputOf::Parameter(elements, name) => elements.first().and_then(|element| {
+                let group = self.stepper.elements(group_of(element)?);
+                let place = group.parameters().iter().position(|own| *own == name)?;
+                group.parameter_units().get(place).copied()
+            }),
+            InputOf::ViscousStretch(element, _) => {
+                group_of(element).map(|group| self.viscous_unit(group))
             }
-            InputOf::ViscousStretch(element, _) => self.viscous_unit(group_of(element)).to_owned(),
-            _ => input.unit().to_owned(),
-        }
+            _ => Some(input.unit()),
+        };
+        unit.unwrap_or_default().to_owned()
     }
 
     /// The unit of the viscous stretches of a group.
@@ -270,6 +281,7 @@ impl<const D: usize> Simulation<D> {
     pub(super) fn enter(&self, made: Made<'_>, way: &mut Forward<D>) {
         let (h, [old, new]) = made;
         let middle = old.time.value + 0.5 * h;
+        let passage = &way.passage;
         let all = way.changes.iter().zip(&mut way.directions);
         for ((change, direction), heat) in all.zip(&mut way.heats) {
             direction.right.fill([0.0]);
@@ -281,35 +293,44 @@ impl<const D: usize> Simulation<D> {
             for &node in &way.anchors {
                 to.velocities[node * D..][..D].fill(0.0);
             }
-            self.move_anchors(made, change, direction);
-            for (slot, _) in way.held.iter().enumerate().filter(|(_, is_held)| **is_held) {
-                direction.new.temperatures[slot] = 0.0;
-            }
-            for (slot, by) in &change.temperatures {
-                direction.new.temperatures[*slot] += by(new.time.value);
+            self.move_anchors(made, change, to);
+            for (slot, is_held) in passage.held.iter().enumerate() {
+                if *is_held {
+                    to.temperatures[slot] = 0.0;
+                }
             }
             heat.clone_from(&change.heat);
-            for (oven, by) in &change.ovens {
-                heat.reservoirs[*oven] += by(middle);
-            }
-            let rows = &way.outline.layout.nodes;
             let mut push = |node: usize, force: SVector<f64, D>| {
-                if let Some(row) = rows[node] {
-                    for axis in 0..D {
-                        direction.right[row + axis][0] += force[axis];
-                    }
+                if let Some(row) = passage.layout.nodes[node] {
+                    add_at(direction.right[row..].as_flattened_mut(), 0, force);
                 }
             };
-            for (node, by) in &change.forces {
-                push(*node, by(middle) * h);
+            for (load, by) in &change.vectors {
+                if let Timed::Force(node) = load {
+                    push(node.index, by(middle) * h);
+                }
             }
-            for (place, by) in &change.thrusts {
-                let along: SVector<f64, D> = way.rockets[*place].direction.into();
-                let node = self.loads.rockets[*place].line.node.index;
-                push(node, along * (h * by(middle)));
+            for (load, by) in &change.numbers {
+                match *load {
+                    Timed::Thrust(node, number) => {
+                        let own = self.loads.rockets.iter().zip(&passage.rockets);
+                        let mut own = own.filter(|(rocket, _)| rocket.line.node == node);
+                        if let Some((_, rocket)) = own.nth(number) {
+                            let along: SVector<f64, D> = rocket.direction.into();
+                            push(node.index, along * (h * by(middle)));
+                        }
+                    }
+                    Timed::Thermostat(element) => {
+                        if let Some(slot) = self.slots(element).thermal {
+                            direction.new.temperatures[slot] += by(new.time.value);
+                        }
+                    }
+                    Timed::Oven(oven) => heat.reservoirs[oven.index] += by(middle),
+                    Timed::Force(_) | Timed::Motion(_) => {}
+                }
             }
             if change.gravity.iter().any(|&axis| axis != 0.0) {
-                for (node, &sum) in way.outline.sums.iter().enumerate() {
+                for (node, &sum) in passage.sums.iter().enumerate() {
                     push(node, change.gravity * (h * sum));
                 }
             }
@@ -318,7 +339,7 @@ impl<const D: usize> Simulation<D> {
                     push(node, self.pushed(made, node, mass) * -by);
                 }
             }
-            for (&[i, j], &by) in way.outline.pairs.iter().zip(&change.pairs) {
+            for (&[i, j], &by) in passage.pairs.iter().zip(&change.pairs) {
                 push(i, self.pushed(made, j, 1.0) * -by);
                 push(j, self.pushed(made, i, 1.0) * -by);
             }
@@ -326,18 +347,13 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Sets the changes of new positions and velocities for anchors whose motion changes.
-    fn move_anchors(
-        &self,
-        (h, [old, new]): Made<'_>,
-        change: &Change<D>,
-        direction: &mut Direction,
-    ) {
-        for (node, _) in &change.motions {
-            let own = *node * D..(*node + 1) * D;
-            direction.new.positions[own.clone()].copy_from_slice(&change.start.positions[own]);
+    fn move_anchors(&self, (h, [old, new]): Made<'_>, change: &Change<D>, to: &mut PerVariable) {
+        for (node, _) in change.motions() {
+            let own = node * D..(node + 1) * D;
+            to.positions[own.clone()].copy_from_slice(&change.start.positions[own]);
         }
         let start = old.time.value;
-        for (node, by) in &change.motions {
+        for (node, by) in change.motions() {
             let end = by(new.time.value);
             let mut speed = SVector::<f64, D>::from_element(0.0);
             if self.masses.are_coupled() {
@@ -346,10 +362,8 @@ impl<const D: usize> Simulation<D> {
                     speed += (end - by(at)) * (0.5 * weight / h);
                 }
             }
-            for (axis, at) in (*node * D..).take(D).enumerate() {
-                direction.new.positions[at] += end[axis];
-                direction.new.velocities[at] += speed[axis];
-            }
+            add_at(&mut to.positions, node, end);
+            add_at(&mut to.velocities, node, speed);
         }
     }
 }

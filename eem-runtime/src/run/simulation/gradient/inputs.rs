@@ -1,10 +1,13 @@
 //! The derivatives of a step by its inputs, from the weights of its equations.
 
 use super::super::Simulation;
-use super::derivatives::dot;
+use super::derivatives::Passage;
 use super::way::Way;
-use crate::element::conduction::{Conduction, Partner};
+use crate::element::conduction::Partner;
+use crate::element::loads::point;
 use crate::element::state::State;
+use crate::run::gradient::series::dot;
+use crate::run::gradient::timed::Timed;
 use crate::scene::loads::Course;
 use crate::step::adjoint::RocketStep;
 use nalgebra::SVector;
@@ -17,26 +20,22 @@ pub(super) type Made<'a> = (f64, [&'a State; 2]);
 pub(super) const CUBIC: [(f64, f64); 3] = [(2.0, 18.0), (1.0, -9.0), (0.0, 2.0)];
 
 fn vector<const D: usize>(values: &[f64], node: usize) -> SVector<f64, D> {
-    SVector::from_fn(|axis, _| values[node * D + axis])
+    point(values, node).into()
 }
 
 impl<const D: usize> Simulation<D> {
     /// Finds the rockets of a step and the temperatures of ovens in it.
-    pub(super) fn find_loads(
-        &self,
-        (h, [old, new]): Made<'_>,
-        conduction: &mut Conduction,
-        rockets: &mut Vec<RocketStep<D>>,
-    ) {
+    pub(super) fn find_loads(&self, (h, [old, new]): Made<'_>, passage: &mut Passage<D>) {
         let middle = old.time.value + 0.5 * h;
         for (index, temperature) in &self.loads.ovens {
-            conduction.reservoirs[*index] = temperature(middle);
+            passage.conduction.reservoirs[*index] = temperature(middle);
         }
-        rockets.clear();
-        rockets.extend(self.loads.rockets.iter().map(|rocket| {
+        passage.rockets.clear();
+        for rocket in &self.loads.rockets {
             let impulse = h * (rocket.thrust)(middle);
-            RocketStep::new(rocket.line, impulse, [old, new])
-        }));
+            let rocket = RocketStep::new(rocket.line, impulse, [old, new]);
+            passage.rockets.push(rocket);
+        }
     }
 
     /// Finds the derivatives by the velocities of moved anchors at the end of a step, and drops those by the old velocities of
@@ -69,7 +68,7 @@ impl<const D: usize> Simulation<D> {
             let Some(mass) = mass else { continue };
             let weight = vector::<D>(&weights.motion, node);
             found.masses[node] -= dot(&weight, &self.pushed(made, node, mass));
-            found.gravity += weight * (h * way.outline.sums[node]);
+            found.gravity += weight * (h * way.passage.sums[node]);
         }
         for ([i, j], by) in &mut found.pairs {
             let [w_i, w_j] = [*i, *j].map(|node| vector::<D>(&weights.motion, node));
@@ -79,13 +78,13 @@ impl<const D: usize> Simulation<D> {
         let theta = &weights.temperatures;
         let per_theta = |slot: usize| weights.entropies[slot] / theta[slot];
         let by_new = &way.adjoint.after.reservoirs;
-        let of_heat = |at: usize| by_new[at] / way.conduction.reservoirs[at];
+        let of_heat = |at: usize| by_new[at] / way.passage.conduction.reservoirs[at];
         let by_reservoirs = &mut way.by_reservoirs;
         by_reservoirs.fill(0.0);
         for (slot, &own) in theta.iter().enumerate() {
-            for link in way.conduction.links(slot) {
+            for link in way.passage.conduction.links(slot) {
                 if let Partner::Reservoir(at) = link.partner {
-                    let outer = way.conduction.reservoirs[at];
+                    let outer = way.passage.conduction.reservoirs[at];
                     by_reservoirs[at] +=
                         h * link.conductance * (per_theta(slot) - of_heat(at) * own / outer);
                 }
@@ -95,8 +94,10 @@ impl<const D: usize> Simulation<D> {
             *sum += by;
         }
         let middle = old.time.value + 0.5 * h;
-        for (reservoir, series) in &mut found.ovens {
-            series.0.push((middle, by_reservoirs[*reservoir]));
+        for (load, series) in &mut found.numbers {
+            if let Timed::Oven(oven) = load {
+                series.0.push((middle, by_reservoirs[oven.index]));
+            }
         }
         for (sum, &(slot, partner)) in found.conductances.iter_mut().zip(&way.paths) {
             *sum += match partner {
@@ -104,7 +105,7 @@ impl<const D: usize> Simulation<D> {
                     h * (theta[other] - theta[slot]) * (per_theta(slot) - per_theta(other))
                 }
                 Partner::Reservoir(at) => {
-                    let outer = way.conduction.reservoirs[at];
+                    let outer = way.passage.conduction.reservoirs[at];
                     h * (outer - theta[slot]) * (per_theta(slot) - of_heat(at))
                 }
             };
@@ -116,23 +117,37 @@ impl<const D: usize> Simulation<D> {
         let (start, end) = (old.time.value, new.time.value);
         let middle = start + 0.5 * h;
         let (weights, found) = (&way.adjoint.weights, &mut way.found);
-        for (node, series) in &mut found.forces {
-            series
-                .0
-                .push((middle, vector::<D>(&weights.motion, *node) * h));
+        let mut rockets = way.passage.rockets.iter();
+        for (load, series) in &mut found.numbers {
+            match load {
+                Timed::Thrust(node, _) => {
+                    let weight = vector::<D>(&weights.motion, node.index);
+                    if let Some(rocket) = rockets.next() {
+                        let by = dot(&weight, &rocket.direction.into());
+                        series.0.push((middle, by * h));
+                    }
+                }
+                Timed::Thermostat(element) => {
+                    if let Some(slot) = self.slots(*element).thermal {
+                        series.0.push((end, weights.held[slot]));
+                    }
+                }
+                _ => {}
+            }
         }
-        let pushes = self.loads.rockets.iter().zip(&way.rockets);
-        for ((_, series), (rocket, own)) in found.thrusts.iter_mut().zip(pushes) {
-            let weight = vector::<D>(&weights.motion, rocket.line.node.index);
-            series
-                .0
-                .push((middle, dot(&weight, &own.direction.into()) * h));
-        }
-        for (node, series) in &mut found.motions {
+        for (load, series) in &mut found.vectors {
+            let Timed::Motion(anchor) = load else {
+                if let Timed::Force(node) = load {
+                    let weight = vector::<D>(&weights.motion, node.index);
+                    series.0.push((middle, weight * h));
+                }
+                continue;
+            };
+            let node = anchor.index;
             let [mut by_old, mut by_new] =
-                [0, 1].map(|side| vector::<D>(&weights.anchors[side], *node));
+                [0, 1].map(|side| vector::<D>(&weights.anchors[side], node));
             let at_end = series.len().checked_sub(1);
-            if let Some((_, by)) = way.by_speeds.iter().find(|(own, _)| own == node) {
+            if let Some((_, by)) = way.by_speeds.iter().find(|(own, _)| *own == node) {
                 for (thirds, weight) in CUBIC {
                     let own = by * (0.5 * weight / h);
                     by_new += own;
@@ -148,11 +163,6 @@ impl<const D: usize> Simulation<D> {
                 series.0[at_end].1 += by_new;
             }
             series.0.push((start, by_old));
-        }
-        for (element, series) in &mut found.temperatures {
-            if let Some(slot) = way.outline.layout.elements[*element].thermal {
-                series.0.push((end, weights.held[slot]));
-            }
         }
     }
 
@@ -197,9 +207,9 @@ impl<const D: usize> Simulation<D> {
             }
         }
         for (slot, &own) in weights.temperatures.iter().enumerate() {
-            for link in way.conduction.links(slot) {
+            for link in way.passage.conduction.links(slot) {
                 if let Partner::Reservoir(at) = link.partner {
-                    let outer = way.conduction.reservoirs[at];
+                    let outer = way.passage.conduction.reservoirs[at];
                     let of_heat = by_new.reservoirs[at] / outer;
                     terms.add(of_heat * link.conductance * (own - outer));
                 }

@@ -4,10 +4,12 @@ use core::mem;
 
 use super::derivatives::Of;
 use super::way::{Way, Weighted, add_to};
+use crate::element::loads::point;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::objective::{Term, When};
 use crate::run::gradient::snapshots::Record;
+use crate::run::gradient::timed::Timed;
 use crate::run::recorder::Quantity;
 use crate::run::simulation::Simulation;
 use crate::run::simulation::stepper::Stepper;
@@ -173,12 +175,13 @@ impl<const D: usize> Simulation<D> {
         (kept, seeds): (&Record, &mut Seeds<'_, D>),
         way: &mut Way<D>,
     ) -> Result<(), GradientError> {
-        let place = |costate: &PerVariable, node: usize| {
-            SVector::<f64, D>::from_fn(|axis, _| costate.positions[node * D + axis])
+        let place = |costate: &PerVariable, load: &Timed| match load {
+            Timed::Motion(anchor) => Some(point::<D>(&costate.positions, anchor.index)),
+            _ => None,
         };
-        let motions = way.found.motions.iter();
-        let before: Vec<_> = motions
-            .map(|&(node, _)| place(&way.adjoint.costate, node))
+        let vectors = way.found.vectors.iter();
+        let before: Vec<_> = vectors
+            .map(|(load, _)| place(&way.adjoint.costate, load))
             .collect();
         way.by_size = seeds.time;
         let mut sum = 0.0;
@@ -202,7 +205,7 @@ impl<const D: usize> Simulation<D> {
                 sum += weighed.own;
             }
             let Way {
-                outline,
+                passage,
                 adjoint,
                 found,
                 ..
@@ -210,13 +213,16 @@ impl<const D: usize> Simulation<D> {
             let see = &mut (|of: Of<'_>, by| add_to((&mut *adjoint, found), of, by));
             // Also with weight zero: a quantity without derivatives is an error, whatever its value.
             let weight = weighed.weight;
-            self.see_derivatives((state, weight), asked.of(), outline, see)?;
+            self.see_derivatives((state, weight), asked.of(), passage, see)?;
         }
         seeds.value += sum;
         let time = state.time.value;
         let (costate, found) = (&way.adjoint.costate, &mut way.found);
-        for ((node, series), before) in found.motions.iter_mut().zip(before) {
-            let own = place(costate, *node) - before;
+        for ((load, series), before) in found.vectors.iter_mut().zip(before) {
+            let (Some(before), Some(after)) = (before, place(costate, load)) else {
+                continue;
+            };
+            let own = SVector::from(after) - SVector::from(before);
             match series.0.last_mut() {
                 Some((_, last)) => *last += own,
                 None => series.0.push((time, own)),

@@ -3,9 +3,8 @@
 use core::mem;
 use std::borrow::Cow;
 
-use super::change::{Change, along};
-use super::derivatives::Of;
-use super::forward::Forward;
+use super::derivatives::{Of, Passage};
+use super::directions::{Change, Forward, along};
 use super::inputs::Made;
 use super::no_adjoint;
 use crate::element::state::State;
@@ -84,8 +83,8 @@ impl<const D: usize> Simulation<D> {
             asked.push(quantity);
         }
         self.on_history(|run, kept| {
-            let outline = run.outline();
-            let changes = inputs.iter().map(|input| run.change_by(input, &outline));
+            let passage = run.passage();
+            let changes = inputs.iter().map(|input| run.change_by(input, &passage));
             let changes = changes.collect::<Result<_, _>>()?;
             let mut sums = vec![0.0; inputs.len()];
             let see = &mut (|run: &mut Self, at: (usize, &mut State), way: &Forward<D>| {
@@ -105,7 +104,7 @@ impl<const D: usize> Simulation<D> {
                 }
                 Ok(())
             });
-            run.go_forward(kept, changes, see)
+            run.go_forward(kept, (passage, changes), see)
         })?;
         Ok(Sensitivities {
             columns,
@@ -127,31 +126,31 @@ impl<const D: usize> Simulation<D> {
                 *sum += along((change, &direction.old), of, by);
             }
         });
-        self.see_derivatives(weighted, of, &way.outline, see)
+        self.see_derivatives(weighted, of, &way.passage, see)
     }
 
     /// Goes through a history from its first state on, with the changes of its states in some directions.
     pub(super) fn go_forward(
         &mut self,
         kept: &Record,
-        changes: Vec<Change<D>>,
+        (passage, changes): (Passage<D>, Vec<Change<D>>),
         see: &mut Visit<'_, D>,
     ) -> Result<(), GradientError> {
         let last = State::clone(&self.state);
         let mut ends = [(); 2].map(|()| last.clone());
+        let Some(mut here) = kept.at(0).cloned() else {
+            return Err(GradientError::NoHistory);
+        };
+        match kept.all() {
+            Some(all) => all.load::<D>(0, &self.masses, &mut ends[1]),
+            None => ends[1].clone_from(&here.state),
+        }
+        let mut way = self.way_forward(&ends[1], passage, changes)?;
+        see(self, (0, &mut ends[1]), &way)?;
         if let Some(all) = kept.all() {
-            all.load::<D>(0, &self.masses, &mut ends[1]);
-            let mut way = self.way_forward(&ends[1], changes)?;
-            see(self, (0, &mut ends[1]), &way)?;
             return self.follow(kept, (0, all), &mut ends, &mut way, see);
         }
         let mut from = 0;
-        let Some(mut here) = kept.at(from).cloned() else {
-            return Err(GradientError::NoHistory);
-        };
-        ends[1] = here.state.clone();
-        let mut way = self.way_forward(&ends[1], changes)?;
-        see(self, (0, &mut ends[1]), &way)?;
         while from < kept.len() {
             self.return_to_state(&here);
             let to = kept.len().min(from + kept.block());
@@ -190,15 +189,14 @@ impl<const D: usize> Simulation<D> {
     fn way_forward(
         &mut self,
         start: &State,
+        passage: Passage<D>,
         changes: Vec<Change<D>>,
     ) -> Result<Forward<D>, GradientError> {
-        let outline = self.outline();
-        let held = self.held(&outline.layout);
         let Stepper::Newton(newton) = &mut self.stepper else {
             return Err(no_adjoint(self.in_use, self.time()));
         };
         let system = newton.solver.tangent_mut();
-        let tangents = Tangents::new(&outline.layout, &self.masses, &self.conduction, system);
+        let tangents = Tangents::new(&passage.layout, &self.masses, &self.conduction, system);
         let directions = changes.iter().map(|change| {
             let heat = &change.heat;
             let is_warmed = !(heat.conductances.is_empty() && heat.reservoirs.is_empty());
@@ -210,10 +208,7 @@ impl<const D: usize> Simulation<D> {
             directions: directions.collect(),
             heats: changes.iter().map(|change| change.heat.clone()).collect(),
             anchors: self.masses.anchors().collect(),
-            conduction: self.conduction.clone(),
-            rockets: Vec::new(),
-            held,
-            outline,
+            passage,
             changes,
             tangents,
         })
@@ -221,17 +216,13 @@ impl<const D: usize> Simulation<D> {
 
     /// Takes a step: from the changes of its old state to those of its new one.
     fn push(&mut self, made: Made<'_>, way: &mut Forward<D>) -> Result<(), GradientError> {
-        self.find_loads(made, &mut way.conduction, &mut way.rockets);
+        self.find_loads(made, &mut way.passage);
         self.enter(made, way);
         let (tangents, directions) = (&mut way.tangents, &mut way.directions);
-        let loaded = (&way.outline.layout, &way.rockets[..]);
-        self.differentiate(
-            made,
-            (&way.conduction, &way.held),
-            |past, groups, system| {
-                tangents.step_forward(past, loaded, groups, system, (directions, &way.heats))
-            },
-        )?;
+        let heats = &way.heats;
+        self.differentiate(made, &way.passage, |past, loaded, groups, system| {
+            tangents.step_forward(past, loaded, groups, system, (directions, heats))
+        })?;
         let time = made.1[1].time.value;
         for direction in &mut way.directions {
             for (oven, _) in &self.loads.ovens {
