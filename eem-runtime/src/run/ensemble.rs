@@ -8,7 +8,6 @@ use core::fmt;
 use core::ops::ControlFlow;
 
 use crate::run::simulation::Simulation;
-use crate::run::simulation::spare::Spare;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
@@ -149,18 +148,18 @@ impl Ensemble<'_> {
         I: Sync,
         T: Send,
     {
-        let member = |spare: &mut Option<Spare<D>>, input: &I| {
+        let member = |used: &mut Option<Simulation<D>>, input: &I| {
             let (scene, handles) = build(input);
-            let run = Simulation::with_spare(scene, self.scheme, self.step, spare.take());
+            let run = Simulation::in_memory_of(used.take(), scene, self.scheme, self.step);
             let mut run = run.map_err(SceneError::from)?;
             run.set_newton_settings(self.newton)?;
             let result = observe(&mut run, handles, input);
-            *spare = run.into_spare();
+            *used = run.is_reusable().then_some(run);
             result
         };
         let progress = Progress::new(self.watch, inputs.len());
-        threads::map(self.threads, inputs, |spare, index, input| {
-            let result = progress.follow(1, || member(spare, input));
+        threads::map(self.threads, inputs, |used, index, input| {
+            let result = progress.follow(1, || member(used, input));
             let result = result.unwrap_or(Err(MemberFailure::Stopped));
             let member = index;
             result.map_err(|failure| MemberError { member, failure })

@@ -246,7 +246,7 @@ impl<const D: usize> Scene<D> {
         }
         // Temperatures are no unknowns.
         let layout = self.layout();
-        let state = initial_state(self, &layout, None);
+        let state = initial_state(self, &layout, None, None);
         let mut state = state.map_err(|errors| EquilibriumError::Scene { errors })?;
         let heat = if settings.balances_heat {
             heat::balance(self, &layout, &mut state.temperatures)?

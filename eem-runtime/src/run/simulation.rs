@@ -35,7 +35,7 @@ mod halves;
 pub(crate) mod linearize;
 mod memory;
 mod ovens;
-pub(crate) mod spare;
+mod spare;
 pub(crate) mod start;
 mod stepper;
 mod unseen;
@@ -62,16 +62,17 @@ use crate::scene::loads::Loads;
 use crate::scene::refused::RefusedScene;
 use crate::step::control::{LeastScales, Tolerance, length};
 use crate::step::error::{StepError, StepFailure};
+use crate::step::explicit::Site;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use crate::step::timed::TimedLoad;
-use check::{Needs, check_all, check_tolerance};
+use check::{Needs, check_step, check_tolerance};
+use eem_material::number::compact::compact;
 use memory::{Automatic, Control, Unresolved};
-use spare::{Basis, Spare};
-use start::{Begin, find_entropies};
-use stepper::{Parts, Stepper};
+use start::{find_entropies, initial_state};
+use stepper::{Memory, Stepper};
 
 /// A run: a scene, a scheme and the present state.
 ///
@@ -155,54 +156,74 @@ impl<const D: usize> fmt::Debug for Simulation<D> {
 }
 
 impl<const D: usize> Simulation<D> {
-    /// A simulation of a scene, which uses what an earlier one has left if that fits.
+    /// A simulation of a scene with steps of this size, s, or by a tolerance, in the memory of an earlier one if that fits.
     fn begin(
         mut scene: Scene<D>,
         scheme: Scheme,
-        begin: Begin,
-        spare: Option<Spare<D>>,
+        (step, tolerance): (f64, Option<Tolerance>),
+        used: Option<Self>,
     ) -> Result<Self, RefusedScene<D>> {
         let needs = Needs::of(&scene);
         let in_use = needs.first(scheme);
-        let mut errors = check_all(&scene, (in_use, needs), begin.step());
-        if let Begin::WithTolerance(tolerance) = &begin {
-            errors.extend(check_tolerance(tolerance, (scheme, in_use)).err());
-        }
+        let mut errors = scene.check();
+        errors.extend(needs.check(in_use).err());
+        errors.extend(check_step(step).err());
+        let checked = tolerance.map_or(Ok(()), |own| check_tolerance(&own, (scheme, in_use)));
+        errors.extend(checked.err());
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
-        let run = Self::take(&mut scene, (scheme, in_use, needs), begin, spare);
-        run.map_err(|errors| RefusedScene::new(scene, errors))
+        let mut run = match Self::take(&mut scene, (scheme, in_use, needs), step, used) {
+            Ok(run) => run,
+            Err(errors) => return Err(RefusedScene::new(scene, errors)),
+        };
+        if let Some(tolerance) = &tolerance {
+            run.find_first_step(tolerance);
+        }
+        let default = (scheme == Scheme::Auto).then(Tolerance::default);
+        run.set_control(tolerance.or(default).map(Self::new_control));
+        Ok(run)
     }
 
-    /// A simulation with the contents of a scene, unless its initial state is invalid.
+    /// A simulation with the contents of a scene, without step control, unless its initial state is invalid.
     fn take(
         scene: &mut Scene<D>,
         (scheme, in_use, needs): (Scheme, Scheme, Needs),
-        begin: Begin,
-        spare: Option<Spare<D>>,
+        step: f64,
+        used: Option<Self>,
     ) -> Result<Self, Vec<SceneError>> {
-        let step = begin.step();
         let ((mut layout, conduction), ends) = (scene.numbering(), scene.ends());
-        let basis = Basis::new(scene, in_use, (&layout, &conduction), step, spare)?;
-        let mut state = basis.state;
         let masses = scene.masses();
-        state.follow_velocities(D, &masses);
-        let parts = Parts {
-            scheme: in_use,
+        let site = Site {
             masses: &masses,
             elements: &ends,
             layout: &layout,
             conduction: &conduction,
             loads: &scene.loads,
         };
-        let memory = parts.memory(basis.newton, scene.memory_limit);
-        let memory = memory.map_err(|error| vec![error.into()])?;
+        let begin = |old| initial_state(scene, &layout, Some(step), old);
+        let (places, shapes, effort, memory, mut state, next);
+        if let Some(used) = used.filter(|used| used.fits(scene, in_use, &conduction))
+            && let Stepper::Newton(newton) = used.stepper
+        {
+            (places, shapes, effort) = (used.places, used.shapes, used.effort.renewed());
+            (state, next) = (begin(Some(used.state))?, Some(used.next));
+            memory = Memory::Used(newton);
+        } else {
+            let all = scene.elements.iter();
+            places = all.map(|own| [own.group, own.place].map(compact)).collect();
+            shapes = scene.groups.iter().map(|group| group.shape()).collect();
+            (effort, state, next) = (Effort::new(), begin(None)?, None);
+            let systems = Memory::new(in_use, site, scene.memory_limit);
+            memory = systems.map_err(|error| vec![error.into()])?;
+        }
+        state.follow_velocities(D, &masses);
         let groups = mem::take(&mut scene.groups);
         let (nodes, pairs) = (&mut scene.nodes, &mut scene.pairs);
         let entries = &mut scene.elements;
+        let parts = (in_use, site);
         let stepper = Stepper::new(groups, memory, parts, &mut state, |state, elements| {
-            let found = find_entropies(elements, state, parts);
+            let found = find_entropies(elements, state, site);
             // The entries of the scene are large, and now contained in masses, state and groups.
             found.map(|()| drop((mem::take(nodes), mem::take(pairs), mem::take(entries))))
         });
@@ -210,31 +231,37 @@ impl<const D: usize> Simulation<D> {
             scene.groups = groups;
             errors
         })?;
+        let next = match next {
+            None => state.clone(),
+            Some(mut next) => {
+                next.copy_all_from(&state);
+                next
+            }
+        };
         let loads = mem::replace(&mut scene.loads, Loads::none());
         layout.forget_places();
         let moved = loads.moved_in_time();
-        let around = (&masses, &conduction);
         let gravity = length(loads.gravity.as_slice());
         let before = (&*state, gravity, &moved[..]);
-        let least = LeastScales::new(stepper.all(), around, before);
-        let mut run = Self {
+        let least = LeastScales::new(stepper.all(), (&masses, &conduction), before);
+        Ok(Self {
             scene: scene.lineage.clone(),
             scheme,
             in_use,
             automatic: Automatic::new(needs, scene.memory_limit),
             step,
             masses,
-            places: basis.places,
-            shapes: basis.shapes,
+            places,
+            shapes,
             layout,
             conduction,
             has_loads: !loads.are_none(),
             loads,
             least,
             stepper,
-            effort: basis.effort,
+            effort,
             control: None,
-            next: spare::copy(&state, basis.next),
+            next,
             state,
             has_stepped: false,
             start: scene.start,
@@ -248,18 +275,7 @@ impl<const D: usize> Simulation<D> {
             corrections: Corrections::none(),
             unresolved: Unresolved::none(),
             report: StepReport::none(),
-        };
-        match begin {
-            Begin::WithTolerance(tolerance) => {
-                run.find_first_step(&tolerance);
-                run.set_control(Some(Self::new_control(tolerance)));
-            }
-            Begin::WithStep(_) if scheme == Scheme::Auto => {
-                run.set_control(Some(Self::new_control(Tolerance::default())));
-            }
-            Begin::WithStep(_) => {}
-        }
-        Ok(run)
+        })
     }
 
     /// The error of a step of this size, with the iterations so far.

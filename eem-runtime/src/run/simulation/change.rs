@@ -6,7 +6,7 @@ use core::fmt;
 
 use super::Simulation;
 use super::compiled::Functions;
-use super::stepper::{Parts, Stepper};
+use super::stepper::{Memory, Stepper};
 use crate::algebra::memory::TooLarge;
 use crate::element::ends::Ends;
 use crate::element::layout::{Layout, Shape};
@@ -14,6 +14,7 @@ use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
 use crate::step::automatic::SchemeSelection;
 use crate::step::control::{Controller, Tolerance};
+use crate::step::explicit::Site;
 use crate::step::scheme::Scheme;
 
 impl<const D: usize> Simulation<D> {
@@ -90,18 +91,18 @@ impl<const D: usize> Simulation<D> {
     pub(super) fn use_scheme_here(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
         let (layout, ends) = (self.numbering(), self.ends());
         let automatic = &mut self.automatic;
-        let parts = Parts {
-            scheme,
+        let site = Site {
             masses: &self.masses,
             elements: &ends,
             layout: &layout,
             conduction: &self.conduction,
             loads: &self.loads,
         };
-        let memory = parts.memory(None, automatic.memory_limit)?;
+        let memory = Memory::new(scheme, site, automatic.memory_limit)?;
         automatic.evaluations += self.stepper.evaluations();
         let elements = self.stepper.take_elements();
         let state = &mut self.state;
+        let parts = (scheme, site);
         let Ok(stepper) = Stepper::new(elements, memory, parts, state, |state, elements| {
             // As after a restart: each scheme evaluates energies in its own way.
             for group in elements {

@@ -77,18 +77,6 @@ impl Needs {
     }
 }
 
-/// All errors of a scene, the scheme for it and the step.
-pub(super) fn check_all<const D: usize>(
-    scene: &Scene<D>,
-    (scheme, needs): (Scheme, Needs),
-    step: f64,
-) -> Vec<SceneError> {
-    let mut errors = scene.check();
-    errors.extend(needs.check(scheme).err());
-    errors.extend(check_step(step).err());
-    errors
-}
-
 /// The shortest step, s: its square, which the equations of a step contain, is the least normal number, 2⁻¹⁰²².
 pub(super) const SHORTEST: f64 = f64::from_bits((1023 - 511) << 52);
 

@@ -6,9 +6,6 @@
 //! used.
 
 use super::event::Event;
-use super::spare::Spare;
-use super::start::Begin;
-use super::stepper::Stepper;
 use super::{Simulation, StepResult};
 use crate::algebra::memory::TooLarge;
 #[cfg(not(test))]
@@ -58,50 +55,17 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn new(scene: Scene<D>, scheme: Scheme, step: f64) -> Result<Self, RefusedScene<D>> {
-        Self::with_spare(scene, scheme, step, None)
+        Self::in_memory_of(None, scene, scheme, step)
     }
 
-    /// The same, with what an earlier run has left.
-    pub(crate) fn with_spare(
+    /// The same, in the memory of an earlier run if that fits.
+    pub(crate) fn in_memory_of(
+        used: Option<Self>,
         scene: Scene<D>,
         scheme: Scheme,
         step: f64,
-        spare: Option<Spare<D>>,
     ) -> Result<Self, RefusedScene<D>> {
-        (Functions::get().new)(scene, scheme, Begin::WithStep(step), spare)
-    }
-
-    /// What the next run can begin with, if its scene is small and has neither solids nor loads but gravity.
-    pub(crate) fn into_spare(self) -> Option<Spare<D>> {
-        let Self {
-            in_use: scheme,
-            masses,
-            conduction,
-            loads,
-            places,
-            shapes,
-            stepper: Stepper::Newton(newton),
-            effort,
-            state,
-            next,
-            ..
-        } = self
-        else {
-            return None;
-        };
-        let is_small = newton.solver.is_renewable() && !masses.are_coupled();
-        (is_small && loads.are_at_most_weight()).then(|| Spare {
-            scheme,
-            has_weight: loads.have_weight(),
-            masses,
-            conduction,
-            places,
-            shapes,
-            newton,
-            effort,
-            state,
-            next,
-        })
+        (Functions::get().new)(scene, scheme, (step, None), used)
     }
 
     /// Checks a scene and prepares it for steps that a tolerance [controls](Self::control_steps). The first step follows from
@@ -137,7 +101,8 @@ impl<const D: usize> Simulation<D> {
         scheme: Scheme,
         tolerance: Tolerance,
     ) -> Result<Self, RefusedScene<D>> {
-        (Functions::get().new)(scene, scheme, Begin::WithTolerance(tolerance), None)
+        // The first step is found in the scene; 1 s until then.
+        (Functions::get().new)(scene, scheme, (1.0, Some(tolerance)), None)
     }
 
     /// Makes one step of the present size, or of the size that [step control](Self::control_steps) chooses.
@@ -193,12 +158,17 @@ impl<const D: usize> Simulation<D> {
 type EndAtEvent<const D: usize> =
     fn(&mut Simulation<D>, &mut [Event<'_, D>], StepReport, f64) -> StepResult;
 
-/// A simulation, or why its scene is rejected.
-type NewResult<const D: usize> = Result<Simulation<D>, RefusedScene<D>>;
+/// See [`begin`](Simulation::begin).
+type New<const D: usize> = fn(
+    Scene<D>,
+    Scheme,
+    (f64, Option<Tolerance>),
+    Option<Simulation<D>>,
+) -> Result<Simulation<D>, RefusedScene<D>>;
 
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize> {
-    new: fn(Scene<D>, Scheme, Begin, Option<Spare<D>>) -> NewResult<D>,
+    new: New<D>,
     advance: fn(&mut Simulation<D>, Aim) -> StepResult,
     pub(super) end_at_event: EndAtEvent<D>,
     pub(super) undo: fn(&mut Simulation<D>),

@@ -2,7 +2,6 @@
 
 use nalgebra::SVector;
 
-use super::stepper::Parts;
 use crate::algebra::vector;
 use crate::element::group::Elements;
 use crate::element::layout::Layout;
@@ -14,94 +13,52 @@ use crate::scene::entry::NodeEntry;
 use crate::scene::error::SceneError;
 use crate::scene::loads::{Course, Loads, Written, written};
 use crate::scene::solid_error::SolidError;
-use crate::step::control::Tolerance;
+use crate::step::explicit::Site;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
 
-/// What a run begins with.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Begin {
-    /// A step, s: constant, or the first one that step control tries.
-    WithStep(f64),
-    /// A tolerance, from which the first step follows.
-    WithTolerance(Tolerance),
-}
-
-impl Begin {
-    /// The step, s; 1 s before it is found.
-    pub(super) fn step(&self) -> f64 {
-        match self {
-            Self::WithStep(step) => *step,
-            Self::WithTolerance(_) => 1.0,
-        }
-    }
-}
-
-/// The initial state, without entropies: with velocities if the first step, s, is given, else at rest. Errors for motions
-/// without an initial velocity.
+/// The initial state, without entropies, in the memory of one with as many entries if there is some: with velocities if the first
+/// step, s, is given, else at rest. Errors for motions without an initial velocity.
 pub(crate) fn initial_state<const D: usize>(
     scene: &Scene<D>,
     layout: &Layout,
     step: Option<f64>,
-) -> Result<State, Vec<SceneError>> {
+    used: Option<Box<State>>,
+) -> Result<Box<State>, Vec<SceneError>> {
     let coordinates = scene.nodes.len() * D;
     let is_coupled = !scene.pairs.is_empty();
     let zeros = |count| Compensated::new(vec![0.0; count]);
     let zero = Sum::new(0.0);
-    let mut state = State {
-        time: zero,
-        positions: zeros(coordinates),
-        momenta: zeros(coordinates),
-        velocities: zeros(if is_coupled { coordinates } else { 0 }),
-        viscous: zeros(layout.viscous),
-        entropies: zeros(layout.thermal),
-        temperatures: vec![0.0; layout.thermal],
-        energies: vec![Energy::zero(); scene.elements.len()],
-        reservoir_entropies: zeros(scene.reservoirs.len()),
-        work: zero,
-        heat: zero,
-        thermostat_entropy: zero,
-        dissipated: zero,
-        meters: Meters::default(),
-    };
-    write_initial_state(scene, layout, step, &mut state)?;
-    Ok(state)
-}
-
-/// Writes the initial state over another one with as many entries.
-pub(super) fn write_initial_state<const D: usize>(
-    scene: &Scene<D>,
-    layout: &Layout,
-    step: Option<f64>,
-    state: &mut State,
-) -> Result<(), Vec<SceneError>> {
-    let State {
-        time,
-        positions,
-        momenta,
-        velocities,
-        viscous,
-        entropies,
-        temperatures,
-        energies,
-        reservoir_entropies,
-        work,
-        heat,
-        thermostat_entropy,
-        dissipated,
-        meters,
-    } = state;
+    let mut state = used.unwrap_or_else(|| {
+        Box::new(State {
+            time: zero,
+            positions: zeros(coordinates),
+            momenta: zeros(coordinates),
+            velocities: zeros(if is_coupled { coordinates } else { 0 }),
+            viscous: zeros(layout.viscous),
+            entropies: zeros(layout.thermal),
+            temperatures: vec![0.0; layout.thermal],
+            energies: vec![Energy::zero(); scene.elements.len()],
+            reservoir_entropies: zeros(scene.reservoirs.len()),
+            work: zero,
+            heat: zero,
+            thermostat_entropy: zero,
+            dissipated: zero,
+            meters: Meters::default(),
+        })
+    });
     let (moves, still) = (step.is_some(), SVector::from([0.0; D]));
+    let positions = &mut state.positions;
     positions.write(|all| write_points(all, scene, |node| node.position));
-    momenta.write(|all| {
+    state.momenta.write(|all| {
         write_points(all, scene, |node| {
             let momentum = node.start_momentum(node.mass.unwrap_or(0.0));
             if moves { momentum } else { still }
         });
     });
     let mut errors = Vec::new();
-    if !scene.pairs.is_empty() {
-        velocities.write(|all| {
+    if is_coupled {
+        state.velocities.write(|all| {
             write_points(all, scene, |node| match node.mass.filter(|_| moves) {
                 Some(_) => node.velocity,
                 None => still,
@@ -114,25 +71,24 @@ pub(super) fn write_initial_state<const D: usize>(
     if !errors.is_empty() {
         return Err(errors);
     }
-    viscous.write(|all| all.fill(0.0));
-    temperatures.fill(0.0);
+    state.viscous.write(|all| all.fill(0.0));
+    state.temperatures.fill(0.0);
     for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
         for &(dashpot, stretch) in &entry.viscous_stretches {
-            viscous.set(slots.viscous + dashpot, stretch);
+            state.viscous.set(slots.viscous + dashpot, stretch);
         }
         if let (Some(slot), Some(temperature)) = (slots.thermal, entry.temperature) {
-            temperatures[slot] = temperature;
+            state.temperatures[slot] = temperature;
         }
     }
-    entropies.write(|all| all.fill(0.0));
-    energies.fill(Energy::zero());
-    reservoir_entropies.write(|all| all.fill(0.0));
-    *time = Sum::new(scene.start);
-    for sum in [work, heat, thermostat_entropy, dissipated] {
-        *sum = Sum::new(0.0);
-    }
-    *meters = Meters::default();
-    Ok(())
+    state.entropies.write(|all| all.fill(0.0));
+    state.energies.fill(Energy::zero());
+    state.reservoir_entropies.write(|all| all.fill(0.0));
+    state.time = Sum::new(scene.start);
+    (state.work, state.heat) = (zero, zero);
+    (state.thermostat_entropy, state.dissipated) = (zero, zero);
+    state.meters = Meters::default();
+    Ok(state)
 }
 
 /// Writes a vector for each node of a scene.
@@ -187,16 +143,16 @@ fn find_speed(motion: Written<'_>, [start, step]: [f64; 2], speeds: &mut [f64]) 
 pub(super) fn find_entropies<const D: usize>(
     elements: &mut [&mut dyn Elements<D>],
     state: &mut State,
-    parts: Parts<'_, D>,
+    site: Site<'_, D>,
 ) -> Result<(), Vec<SceneError>> {
     let mut errors = Vec::new();
     for group in &mut *elements {
         group.initialize(state, &mut |error| errors.push(SceneError::State(error)));
     }
     if errors.is_empty() {
-        let (reservoirs, gravity) = (&parts.conduction.reservoirs, &parts.loads.gravity);
+        let (reservoirs, gravity) = (&site.conduction.reservoirs, &site.loads.gravity);
         let mut groups = elements.iter().map(|group| &**group);
-        let ledger = Ledger::of(state, parts.masses, &mut groups, reservoirs, gravity);
+        let ledger = Ledger::of(state, site.masses, &mut groups, reservoirs, gravity);
         let infinite = ledger.infinite_entry();
         errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
             quantity,

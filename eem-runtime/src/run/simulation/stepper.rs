@@ -3,10 +3,7 @@
 use core::mem;
 
 use crate::algebra::memory::{MemoryLimit, TooLarge};
-use crate::element::conduction::Conduction;
-use crate::element::ends::Ends;
 use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
-use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
@@ -50,31 +47,17 @@ pub(super) enum Memory<const D: usize> {
     Used(Box<Newton<D>>),
 }
 
-/// The parts of a scene from which a stepper is made, besides its groups.
-#[derive(Clone, Copy)]
-pub(super) struct Parts<'a, const D: usize> {
-    pub(super) scheme: Scheme,
-    pub(super) masses: &'a Masses,
-    pub(super) elements: &'a Ends,
-    pub(super) layout: &'a Layout,
-    pub(super) conduction: &'a Conduction,
-    pub(super) loads: &'a Loads<D>,
-}
-
-impl<const D: usize> Parts<'_, D> {
-    /// Memory for a solver: used one, if there is some, or the linear systems of the scheme.
-    pub(super) fn memory(
-        &self,
-        used: Option<Box<Newton<D>>>,
+impl<const D: usize> Memory<D> {
+    /// The linear systems of a scheme for a scene.
+    pub(super) fn new(
+        scheme: Scheme,
+        site: Site<'_, D>,
         limit: MemoryLimit,
-    ) -> Result<Memory<D>, TooLarge> {
-        if let Some(newton) = used {
-            return Ok(Memory::Used(newton));
-        }
-        let elements = (self.elements, self.layout);
-        let rockets = self.loads.rocket_lines();
-        let systems = Systems::new(self.scheme, elements, self.conduction, &rockets, limit)?;
-        Ok(Memory::New(systems))
+    ) -> Result<Self, TooLarge> {
+        let elements = (site.elements, site.layout);
+        let rockets = site.loads.rocket_lines();
+        let systems = Systems::new(scheme, elements, site.conduction, &rockets, limit)?;
+        Ok(Self::New(systems))
     }
 }
 
@@ -84,16 +67,16 @@ impl<const D: usize> Stepper<D> {
     pub(super) fn new<E>(
         elements: Models<D>,
         memory: Memory<D>,
-        parts: Parts<'_, D>,
+        (scheme, site): (Scheme, Site<'_, D>),
         state: &mut State,
         begin: impl FnOnce(&mut State, &mut [&mut dyn Elements<D>]) -> Result<(), E>,
     ) -> Result<Self, (E, Models<D>)> {
         let placed = Placed {
-            nodes: parts.elements,
-            layout: parts.layout,
+            nodes: site.elements,
+            layout: site.layout,
         };
         let elements = elements.into_iter();
-        if parts.scheme.closing() == Closing::Explicit {
+        if scheme.closing() == Closing::Explicit {
             let groups = elements.map(|elements| elements.build_explicit(placed));
             let mut groups: Vec<_> = groups.collect();
             let all = groups.iter_mut().map(|group| group.elements_mut());
@@ -101,16 +84,9 @@ impl<const D: usize> Stepper<D> {
                 let groups = groups.into_iter();
                 return Err((error, groups.map(ExplicitGroup::into_loose).collect()));
             }
-            let site = Site {
-                masses: parts.masses,
-                elements: parts.elements,
-                layout: parts.layout,
-                conduction: parts.conduction,
-                loads: parts.loads,
-            };
             return Ok(Self::Explicit(Box::new(Explicit::new(groups, site))));
         }
-        let by = parts.scheme.conjugates();
+        let by = scheme.conjugates();
         let groups = elements.map(|elements| elements.build(by, placed));
         let mut groups: Vec<_> = groups.collect();
         let all = groups.iter_mut().map(|group| group.elements_mut());
@@ -118,7 +94,8 @@ impl<const D: usize> Stepper<D> {
             let groups = groups.into_iter();
             return Err((error, groups.map(Group::into_loose).collect()));
         }
-        Ok(Self::Newton(Newton::new(groups, memory, parts, state)))
+        let newton = Newton::new(groups, memory, (scheme, site), state);
+        Ok(Self::Newton(newton))
     }
 
     /// Takes the elements out of the stepper, which cannot step afterwards.
@@ -211,19 +188,19 @@ impl<const D: usize> Newton<D> {
     fn new(
         groups: Vec<Box<dyn Group<D>>>,
         memory: Memory<D>,
-        parts: Parts<'_, D>,
+        (scheme, site): (Scheme, Site<'_, D>),
         state: &State,
     ) -> Box<Self> {
-        let (masses, layout, conduction) = (parts.masses, parts.layout, parts.conduction);
+        let (masses, layout, conduction) = (site.masses, site.layout, site.conduction);
         let (coordinates, is_coupled) = (masses.len() * D, masses.are_coupled());
-        let no_loads = || StepLoads::new(coordinates, layout, parts.loads, is_coupled);
-        let count = parts.scheme.tableau().map_or(0, Tableau::stages);
+        let no_loads = || StepLoads::new(coordinates, layout, site.loads, is_coupled);
+        let count = scheme.tableau().map_or(0, Tableau::stages);
         let (loads, stages) = (no_loads(), (0..count).map(|_| no_loads()).collect());
-        let intermediate = parts.scheme.is_split().then(|| state.clone());
+        let intermediate = scheme.is_split().then(|| state.clone());
         let mut newton = match memory {
             Memory::New(systems) => Box::new(Self {
                 groups,
-                solver: Solver::new(parts.scheme, systems, masses, layout, conduction, &loads),
+                solver: Solver::new(scheme, systems, masses, layout, conduction, &loads),
                 loads,
                 stages,
                 intermediate,
