@@ -36,16 +36,16 @@
 //! | compile springs of other shapes with this crate | `element/group/springs.rs`; `tabled.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs` |
 //! | add a shape of cell | `shape.rs` in `eem-mesh` |
-//! | change solids and their checks | `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `cell.rs` in `scene`; meshes: `eem-mesh` |
+//! | change solids and their checks | `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `solid.rs` in `scene`; meshes: `eem-mesh` |
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
 //! | let a controller set something else | `run/simulation/controller.rs`; `Course` in `scene/loads.rs`; `SavedLoads` in `run/checkpoint.rs` |
-//! | change ovens | `run/simulation/ovens.rs` |
+//! | change ovens | `run/simulation/attempt.rs` |
 //! | change the scheme in the middle of a run | `run/simulation/change.rs`; what not every scheme can step: the table in `step/features.rs`, its errors in `check.rs` there |
 //! | measure what elements do in a step | `element/meters.rs`, where balances book; `run/simulation/meters.rs`, `run/recorder/quantity.rs` |
 //! | add something to checkpoints | `run/checkpoint`: `entries.rs` for rules and digests, `lines.rs` for files |
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
-//! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
+//! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/resume.rs`, `element/group/audit.rs`; messages in each `error.rs` |
 //! | find states at rest differently | `step/solver/rest.rs`; `run/equilibrium`: settings, thermal balance, names of free motions |
 //! | differentiate other quantities, or by other inputs | `run/gradient`, `run/simulation/gradient`, by inputs in `inputs.rs` (adjoint) and `directions.rs` (tangents); memory: `run/gradient/snapshots.rs`; equations of a step: `step/adjoint.rs`, `pull_back.rs` and `push_forward.rs` in `element/group` |
 //! | run many scenes at once | `run/ensemble` |
@@ -82,21 +82,24 @@ pub use element::kinematics;
 pub use element::kinematics::{SolidState, Strain, StrainEnergy};
 pub use run::checkpoint::{Checkpoint, FormatError, LoadError, RestoreError};
 pub use run::ensemble::{Ensemble, MemberError, MemberFailure};
-pub use run::equilibrium::error::EquilibriumError;
-pub use run::equilibrium::motion::{FreeMotion, MotionKind};
+pub use run::equilibrium::motion::{EquilibriumError, FreeMotion, MotionKind};
 pub use run::equilibrium::{Equilibrium, EquilibriumReport};
 #[cfg(feature = "gradients")]
 pub use run::gradient::{
-    error::GradientError, history::History, input::Input, objective::Objective, result::Gradient,
-    sensitivities::Sensitivities, series::Series,
+    error::GradientError,
+    history::History,
+    input::Input,
+    objective::Objective,
+    result::Gradient,
+    series::{Sensitivities, Series},
 };
 pub use run::ledger::Ledger;
 pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
 pub use run::simulation::Simulation;
+pub use run::simulation::attempt::StepTangent;
 pub use run::simulation::change::RefusedChange;
 pub use run::simulation::event::Event;
 pub use run::simulation::generic::Generic;
-pub use run::simulation::linearize::StepTangent;
 pub use run::simulation::run::RunEnd;
 pub use run::simulation::warning::Warning;
 #[cfg(feature = "vtk")]

@@ -13,11 +13,9 @@ mod body_heat;
 
 pub(crate) mod body;
 pub(crate) mod bulk;
-mod cell;
 mod check;
 pub(crate) mod entry;
 pub(crate) mod error;
-mod joints;
 pub(crate) mod loads;
 pub(crate) mod refused;
 pub(crate) mod solid;

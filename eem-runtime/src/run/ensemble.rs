@@ -1,21 +1,18 @@
 //! Ensembles: many independent runs in one call, on all cores.
 
-mod error;
-mod progress;
-mod threads;
-
+use core::error::Error;
 use core::fmt;
 use core::ops::ControlFlow;
+use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
+use crate::step::error::StepError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
-
-pub use error::{MemberError, MemberFailure};
-
-use progress::{Progress, Watch};
+use thiserror::Error;
 
 /// Many independent runs: parameter sweeps, random initial states.
 ///
@@ -158,11 +155,149 @@ impl Ensemble<'_> {
             result
         };
         let progress = Progress::new(self.watch, inputs.len());
-        threads::map(self.threads, inputs, |used, index, input| {
+        map(self.threads, inputs, |used, index, input| {
             let result = progress.follow(1, || member(used, input));
             let result = result.unwrap_or(Err(MemberFailure::Stopped));
             let member = index;
             result.map_err(|failure| MemberError { member, failure })
         })
     }
+}
+
+/// A member of an ensemble without a result.
+#[derive(Debug, Error)]
+#[error("member {member}: {failure}")]
+pub struct MemberError {
+    /// The index of its input, from 0.
+    pub member: usize,
+    /// Why it has no result. It is part of the message, so it is not the `source`.
+    pub failure: MemberFailure,
+}
+
+/// Why a member of an ensemble has no result.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MemberFailure {
+    /// The scene, the step or the settings are rejected, or a requested quantity does not exist.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A step failed.
+    #[error(transparent)]
+    Step(Box<StepError>),
+    /// The ensemble was stopped before the member began.
+    #[error("the ensemble was stopped before it began")]
+    Stopped,
+    /// An error of the caller.
+    #[error(transparent)]
+    Other(Box<dyn Error + Send + Sync>),
+}
+
+impl From<StepError> for MemberFailure {
+    fn from(error: StepError) -> Self {
+        Self::Step(Box::new(error))
+    }
+}
+
+impl MemberFailure {
+    /// A failure from any error or text of the caller.
+    ///
+    /// ```
+    /// use eem::MemberFailure;
+    ///
+    /// assert_eq!(MemberFailure::other("too hot").to_string(), "too hot");
+    /// ```
+    pub fn other(error: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+/// Called with the numbers of finished and of all members.
+type Watch<'w> = Box<dyn FnMut(usize, usize) -> ControlFlow<()> + Send + 'w>;
+
+/// The progress of one ensemble, shared by its threads.
+struct Progress<'w> {
+    total: usize,
+    stopped: AtomicBool,
+    done: Option<Mutex<(usize, Watch<'w>)>>,
+}
+
+impl<'w> Progress<'w> {
+    fn new(watch: Option<Watch<'w>>, total: usize) -> Self {
+        Self {
+            total,
+            stopped: AtomicBool::new(false),
+            done: watch.map(|watch| Mutex::new((0, watch))),
+        }
+    }
+
+    /// Runs `count` members and reports each; `None` if the ensemble was stopped before.
+    fn follow<T>(&self, count: usize, members: impl FnOnce() -> T) -> Option<T> {
+        if self.stopped.load(Ordering::Relaxed) {
+            return None;
+        }
+        let results = members();
+        (0..count).for_each(|_| self.report());
+        Some(results)
+    }
+
+    fn report(&self) {
+        if let Some(done) = &self.done {
+            // A panic in `watch` ends the ensemble; until then the count is right.
+            let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+            let (count, watch) = &mut *done;
+            *count += 1;
+            if watch(*count, self.total).is_break() {
+                self.stopped.store(true, Ordering::Relaxed);
+            }
+        }
+    }
+}
+
+/// `f(w, i, &inputs[i])` for all `i`, on this number of threads, each of which keeps a `w` of its own; 0 means those of the
+/// present pool.
+///
+/// If the system refuses the threads, the calling one does all the work.
+fn map<I: Sync, W: Default, T: Send>(
+    threads: usize,
+    inputs: &[I],
+    f: impl Fn(&mut W, usize, &I) -> T + Sync,
+) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    // Each thread takes one input after the other: one may take a thousand times as long as another.
+    let work = || {
+        let mut own = W::default();
+        let indices = core::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+        let taken = indices.map_while(|index| Some((index, inputs.get(index)?)));
+        let found = taken.map(|(index, input)| (index, f(&mut own, index, input)));
+        found.collect::<Vec<_>>()
+    };
+    let mut found = on_each(threads, inputs.len(), work);
+    found.sort_by_key(|&(index, _)| index);
+    found.into_iter().map(|(_, result)| result).collect()
+}
+
+/// What `work` returns on each of these threads; it is called at most `most` times.
+#[cfg(feature = "parallel")]
+fn on_each<T: Send>(threads: usize, most: usize, work: impl Fn() -> Vec<T> + Sync) -> Vec<T> {
+    use rayon::iter::{IndexedParallelIterator, ParallelIterator, repeat_n};
+
+    let on_pool = || {
+        let threads = rayon::current_num_threads().min(most);
+        let each = repeat_n((), threads).with_max_len(1);
+        each.flat_map_iter(|()| work()).collect()
+    };
+    match threads {
+        0 => on_pool(),
+        1 => work(),
+        _ => match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            Ok(pool) => pool.install(on_pool),
+            Err(_) => work(),
+        },
+    }
+}
+
+/// Without threads.
+#[cfg(not(feature = "parallel"))]
+fn on_each<T>(_threads: usize, _most: usize, work: impl Fn() -> Vec<T>) -> Vec<T> {
+    work()
 }

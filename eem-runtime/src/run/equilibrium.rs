@@ -1,6 +1,5 @@
 //! Loaded states at rest, to start runs from.
 
-pub(crate) mod error;
 mod heat;
 pub(crate) mod motion;
 
@@ -26,8 +25,7 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::Solver;
 use crate::step::solver::rest::{AtRest, LONG, Softest};
 use crate::step::systems::Systems;
-use error::EquilibriumError;
-use motion::{FreeMotion, LIKENESS, Moved};
+use motion::{EquilibriumError, FreeMotion, LIKENESS, Moved};
 
 /// How to find a loaded state at rest, see [`Scene::equilibrium`].
 ///

@@ -12,8 +12,6 @@ mod inspect;
 
 mod control;
 
-mod settings;
-
 pub(crate) mod change;
 
 mod controller;
@@ -25,22 +23,18 @@ mod gradient;
 
 mod resume;
 
-mod attempt;
-mod audit;
+pub(crate) mod attempt;
 mod automatic;
 mod check;
 pub(crate) mod generic;
 mod guard;
 mod halves;
-pub(crate) mod linearize;
 mod memory;
-mod ovens;
 mod spare;
 pub(crate) mod start;
 mod stepper;
 mod unseen;
 pub(crate) mod warning;
-mod worst;
 
 use core::fmt;
 use core::mem;

@@ -7,7 +7,7 @@
 //! At rest nothing is dissipated, and conductances do not depend on the deformation, so that temperatures follow from the
 //! paths of heat alone.
 
-use super::error::EquilibriumError;
+use super::motion::EquilibriumError;
 use crate::algebra::memory::MemoryLimit;
 use crate::algebra::pattern::Pattern;
 use crate::algebra::system::LinearSystem;

@@ -3,8 +3,6 @@
 use core::fmt;
 use std::collections::BTreeSet;
 
-use nalgebra::SVector;
-
 use super::error::GradientError;
 use super::series::Series;
 use super::timed::Timed;
@@ -13,12 +11,12 @@ use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;
 use crate::element::lineage::Lineage;
 use crate::element::loads::point;
-use crate::run::gradient::units::quotient;
 use crate::run::recorder::axis_name;
 use crate::scene::body::Body;
 use crate::scene::error::SceneError;
 use crate::step::adjoint::PerVariable;
 use eem_material::number::scalar::Scalar;
+use nalgebra::SVector;
 
 /// The value of an [`Objective`](crate::Objective) and its derivatives with respect to all inputs of a run, each in the unit of
 /// the objective over that of the input.
@@ -404,5 +402,52 @@ impl<const D: usize> fmt::Display for Gradient<D> {
             )?;
         }
         Ok(())
+    }
+}
+
+/// The unit of the derivative of a number by another, given their units; empty where one of them is unknown. The unit of a
+/// number without unit is `1`.
+///
+/// It is the quotient as it stands: `m/(N/m)` and not `m²/N`.
+pub(crate) fn quotient(of: &str, by: &str) -> String {
+    match (of, by) {
+        ("", _) | (_, "") => String::new(),
+        (of, "1") => of.to_owned(),
+        (of, by) if of == by => "1".to_owned(),
+        (of, by) => format!(
+            "{}/{}",
+            grouped(of, &['/']),
+            grouped(by, &['/', ' ', '*', '·'])
+        ),
+    }
+}
+
+/// A unit in parentheses if it has one of these signs.
+fn grouped(unit: &str, signs: &[char]) -> String {
+    if unit.contains(signs) {
+        format!("({unit})")
+    } else {
+        unit.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quotient;
+
+    #[test]
+    fn quotients_can_be_read_one_way() {
+        for (of, by, expected) in [
+            ("K", "N m", "K/(N m)"),
+            ("m", "N/m", "m/(N/m)"),
+            ("J/K", "kg", "(J/K)/kg"),
+            ("m", "m", "1"),
+            ("m", "1", "m"),
+            ("1", "kg", "1/kg"),
+            ("", "kg", ""),
+            ("m", "", ""),
+        ] {
+            assert_eq!(quotient(of, by), expected);
+        }
     }
 }

@@ -1,15 +1,17 @@
-//! One step of a given size by the scheme in use.
+//! One step of a given size by the scheme in use, and the system that it solves.
 
 use core::mem;
 
 use super::check::SHORTEST;
 use super::stepper::{Newton, Stepper};
 use super::{Simulation, StepResult, Tried};
+use crate::element::group::StepView;
 use crate::element::phase::Phase;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
 use crate::step::outcome::{Attempt, Outcome};
+use eem_material::number::scalar::is_positive;
 
 /// How often a step is halved in search of a size that succeeds.
 const HALVINGS: usize = 10;
@@ -17,7 +19,7 @@ const HALVINGS: usize = 10;
 /// The data shared by all elements during a step of a size; borrows only the fields that it names.
 macro_rules! view {
     ($simulation:ident, $step:expr, $phase:expr, $state:expr, [$loads:expr, $stages:expr]) => {
-        crate::element::group::StepView {
+        StepView {
             phase: $phase,
             step: $step,
             per_step: $step.recip(),
@@ -29,7 +31,6 @@ macro_rules! view {
         }
     };
 }
-pub(super) use view;
 
 /// The start of an explicit step of a size; borrows only the fields that it names.
 macro_rules! explicit_view {
@@ -193,5 +194,125 @@ impl<const D: usize> Simulation<D> {
         }
         self.return_to_snapshot(&before);
         error
+    }
+
+    /// Sets the temperatures of ovens to those in the middle of a step of this size.
+    #[cold]
+    pub(super) fn heat_ovens(&mut self, size: f64) -> Result<(), StepFailure> {
+        for (index, temperature) in &self.loads.ovens {
+            let time = self.state.time.value + 0.5 * size;
+            let theta = temperature(time);
+            if !is_positive(theta) {
+                return Err(StepFailure::Oven {
+                    reservoir: *index,
+                    value: theta,
+                    time,
+                });
+            }
+            self.conduction.reservoirs[*index] = theta;
+        }
+        Ok(())
+    }
+
+    /// Books what ovens have given in the last step: the heat `−θ Δσ` and the entropy `−Δσ`.
+    #[cold]
+    pub(super) fn book_ovens(&mut self) {
+        let state = &mut self.state;
+        for &(index, _) in &self.loads.ovens {
+            let received = state.reservoir_entropies.sum(index);
+            state.reservoir_entropies.set(index, 0.0);
+            let theta = self.conduction.reservoirs[index];
+            state.heat.add(-theta * received.value);
+            state.heat.add(-theta * received.carry);
+            state.thermostat_entropy.add(received.value);
+            state.thermostat_entropy.add(received.carry);
+        }
+        // The explicit scheme has stored energies of reservoirs, and rates at their old temperatures.
+        self.forget_loads();
+    }
+
+    /// The temperature of a reservoir now, K.
+    pub(super) fn reservoir_now(&self, index: usize) -> f64 {
+        let mut ovens = self.loads.ovens.iter();
+        let oven = ovens.find(|(own, _)| *own == index);
+        oven.map_or(self.conduction.reservoirs[index], |(_, temperature)| {
+            temperature(self.state.time.value)
+        })
+    }
+
+    /// The temperatures of all reservoirs at the start, K.
+    pub(super) fn reservoirs_at_start(&self) -> Vec<f64> {
+        let mut temperatures = self.conduction.reservoirs.clone();
+        for (index, temperature) in &self.loads.ovens {
+            temperatures[*index] = temperature(self.start);
+        }
+        temperatures
+    }
+}
+
+/// Residual and tangent of a step at a trial state.
+///
+/// Internal variables are eliminated: their own equations determine them at the trial state, and the tangent is the
+/// total derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepTangent {
+    /// `R(u)`: momentum balances in N s, then `Θ − θ*` in K for elements that conduct heat to
+    /// other elements.
+    pub residual: Vec<f64>,
+    /// `∂R/∂u`, row-major, square.
+    pub tangent: Vec<f64>,
+}
+
+impl<const D: usize> Simulation<D> {
+    /// Residual and tangent of the next step at given unknowns.
+    ///
+    /// ```text
+    /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F(u),      u = (q¹ − q⁰ of the masses, Θ of elements that conduct heat to others)
+    /// ```
+    ///
+    /// in the order of creation; their number is [`unknowns`](Self::unknowns). For [`Scheme::Variational4`] the
+    /// unknowns are those of the middle and then those of the end, `(q_m − q⁰, Θ_0, q¹ − q⁰, Θ_1)`, and
+    ///
+    /// ```text
+    /// R_m = (2m/h)(q_m − q⁰) − p⁰ + (h/12)(2F_0 + F_m),   R_1 = (m/h)(q¹ − q⁰) − p⁰ + (h/6)(F_0 + 2F_m)
+    /// ```
+    ///
+    /// The tangent is exact to rounding: it does not come from differences.
+    ///
+    /// [`Scheme::Variational4`]: crate::Scheme::Variational4
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`] if an element has no admissible state there, or if the number of unknowns is wrong
+    /// ([`StepFailure::Unknowns`]).
+    pub fn linearize(&mut self, unknowns: &[f64]) -> Result<StepTangent, StepError> {
+        // The elements are evaluated elsewhere than at the ends of their last step.
+        self.has_stepped = false;
+        self.effort.restart();
+        let found = self.find_tangent(unknowns);
+        found.map_err(|failure| self.failed(self.step, failure))
+    }
+
+    fn find_tangent(&mut self, unknowns: &[f64]) -> Result<StepTangent, StepFailure> {
+        let (given, expected) = (unknowns.len(), self.unknowns());
+        if given != expected {
+            return Err(StepFailure::Unknowns { given, expected });
+        }
+        self.evaluate_loads(self.step)?;
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            // An explicit scheme solves no system.
+            let (residual, tangent) = (Vec::new(), Vec::new());
+            return Ok(StepTangent { residual, tangent });
+        };
+        let Newton {
+            groups,
+            solver,
+            loads,
+            stages,
+            ..
+        } = &mut **newton;
+        let view = view!(self, self.step, Phase::Whole, &self.state, [loads, stages]);
+        let (residual, tangent) = solver.linearize(groups, &view, unknowns, &mut self.effort)?;
+        Ok(StepTangent { residual, tangent })
     }
 }

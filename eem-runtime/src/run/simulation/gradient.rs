@@ -1,13 +1,11 @@
 //! The gradient of a run: the adjoint of its steps, from the last to the first.
 
-mod again;
 mod checks;
 mod derivatives;
 mod directions;
 mod inputs;
 mod seeds;
 mod tangents;
-mod way;
 
 use core::mem;
 use core::ops::ControlFlow;
@@ -30,9 +28,8 @@ use crate::step::adjoint::{Adjoint, NoAdjoint, PastStep, PerVariable, RocketStep
 use crate::step::control::length;
 use crate::step::scheme::Scheme;
 use derivatives::Passage;
-use inputs::Made;
+use inputs::{Made, Way, Weighted, add};
 use seeds::Seeds;
-use way::{Way, Weighted, add};
 
 /// # Gradients
 impl<const D: usize> Simulation<D> {

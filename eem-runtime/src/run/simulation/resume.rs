@@ -1,12 +1,18 @@
-//! Saving and restoring checkpoints.
+//! Saving and restoring checkpoints: whether the scene can have a saved state at its time.
 
 use super::Simulation;
 use super::compiled::Functions;
 use super::memory::Unresolved;
+use crate::element::conduction::Partner;
 use crate::element::state::State;
-use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, SavedEnergies};
+use crate::run::checkpoint::{Checkpoint, Numbers, Outline, RestoreError, SavedEnergies};
+use crate::run::ledger::Ledger;
+use crate::scene::loads::{Course, MOTION_ROUNDINGS, extent};
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Closing;
+use eem_material::number::compensated::Sum;
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Scalar;
 
 impl<const D: usize> Simulation<D> {
     /// The present state with everything the next steps depend on.
@@ -132,4 +138,220 @@ impl<const D: usize> Simulation<D> {
         self.restore_choice(checkpoint.choice);
         Ok(())
     }
+}
+
+/// How far from the time of a state a function of time may have been evaluated for it, in ε of that time.
+///
+/// A step evaluates functions at `t + h` without the compensation of t: one ε, with the rounding of the sum. The compensated
+/// sum of t and h is another ε, and a run moves its last time to the end time by at most two more.
+const TIME_ROUNDINGS: f64 = 4.0;
+
+impl<const D: usize> Simulation<D> {
+    /// Digests of the numbers of the scene.
+    pub(super) fn numbers(&self) -> Numbers {
+        let of_list = |numbers: &[f64]| {
+            Digest::of(|digest| numbers.iter().for_each(|&number| digest.number(number)))
+        };
+        Numbers {
+            materials: Digest::of(|digest| {
+                for group in self.stepper.all() {
+                    group.digest(digest);
+                }
+            }),
+            masses: Digest::of(|digest| {
+                for mass in self.masses.iter() {
+                    digest.number(mass.unwrap_or(0.0));
+                }
+                for pair in self.masses.pairs().iter().chain(self.masses.held()) {
+                    let [first, second] = pair.nodes();
+                    digest.count(first);
+                    digest.count(second);
+                    digest.number(pair.mass);
+                }
+            }),
+            conductances: Digest::of(|digest| self.digest_conductances(digest)),
+            reservoirs: of_list(&self.reservoirs_at_start()),
+            gravity: of_list(self.loads.gravity.as_slice()),
+        }
+    }
+
+    fn digest_conductances(&self, digest: &mut Digest) {
+        for slot in 0..self.state.temperatures.len() {
+            for link in self.conduction.links(slot) {
+                let (kind, index) = match link.partner {
+                    Partner::Slot(slot) => (0, slot),
+                    Partner::Reservoir(reservoir) => (1, reservoir),
+                };
+                for count in [slot, kind, index] {
+                    digest.count(count);
+                }
+                digest.number(link.conductance);
+            }
+        }
+    }
+
+    /// An error unless the scene can be in a state, whose numbers are finite, after a step of this size, s.
+    pub(super) fn audit(&self, state: &State, step: f64) -> Result<(), RestoreError> {
+        if state.time.value < self.start {
+            return Err(RestoreError::Value {
+                quantity: "time",
+                value: state.time.value,
+                required: "not before the start of the scene",
+            });
+        }
+        self.audit_meters(&state.meters)?;
+        self.audit_anchors(state, step)?;
+        self.audit_velocities(state)?;
+        self.audit_thermostats(state)?;
+        for group in self.stepper.all() {
+            group.audit(state)?;
+        }
+        let reservoirs = &self.conduction.reservoirs;
+        let (mut groups, gravity) = (self.stepper.all(), &self.loads.gravity);
+        let ledger = Ledger::of(state, &self.masses, &mut groups, reservoirs, gravity);
+        match ledger.infinite_entry() {
+            None => Ok(()),
+            Some((quantity, value, unit)) => Err(RestoreError::Total {
+                quantity,
+                value,
+                unit,
+            }),
+        }
+    }
+
+    /// Which nodes are anchors whose motion is given.
+    pub(super) fn are_moved(&self) -> Vec<bool> {
+        let mut are_moved = vec![false; self.masses.len()];
+        for (node, _) in &self.loads.motions {
+            are_moved[node.index] = true;
+        }
+        are_moved
+    }
+
+    /// Where masses couple nodes, `p = M v` must hold, and only moved anchors may have a velocity.
+    fn audit_velocities(&self, state: &State) -> Result<(), RestoreError> {
+        if !state.velocities.values().is_empty() {
+            let are_moved = self.are_moved();
+            for node in self.masses.anchors().filter(|&node| !are_moved[node]) {
+                for axis in 0..D {
+                    if let Some(value) = not_zero(state.velocities.sum(node * D + axis)) {
+                        return Err(RestoreError::AnchorVelocity { node, axis, value });
+                    }
+                }
+            }
+        }
+        let mut expected = state.clone();
+        expected.follow_velocities(D, &self.masses);
+        expect_momenta(state.momenta.values(), expected.momenta.values())
+    }
+
+    /// Anchors must be where they were created or where their motion puts them, and have no momentum but that of solids.
+    fn audit_anchors(&self, state: &State, step: f64) -> Result<(), RestoreError> {
+        let scale = extent(state.positions.values());
+        let (time, created) = (state.time.value, self.state.positions.values());
+        let begin = Scalar::maximum(time - step, self.start);
+        let mut motions = vec![None; self.masses.len()];
+        for (node, motion) in &self.loads.motions {
+            motions[node.index] = Some(motion);
+        }
+        for node in self.masses.anchors() {
+            let home = self.homes.get(&node);
+            for axis in 0..D {
+                let at = node * D + axis;
+                let momentum = not_zero(state.momenta.sum(at));
+                if let Some(value) = momentum.filter(|_| !self.masses.are_coupled()) {
+                    return Err(RestoreError::AnchorMomentum { node, axis, value });
+                }
+                let Sum { value, carry } = state.positions.sum(at);
+                let created = home.map_or(created[at], |home| home[axis]);
+                let (is_right, expected) = match motions[node] {
+                    // The position depends on what controllers have set before.
+                    Some(Course::Set(_)) => continue,
+                    Some(Course::Function(by)) => {
+                        let by = |time: f64| by(time)[axis];
+                        (follows(&by, value, [time, begin], scale), by(time))
+                    }
+                    Some(Course::Constant(_)) | None => {
+                        #[expect(clippy::float_cmp, reason = "nothing has moved it")]
+                        let is_at_home = value == created && carry == 0.0;
+                        (is_at_home, created)
+                    }
+                };
+                if !is_right {
+                    return Err(RestoreError::Anchor {
+                        node,
+                        axis,
+                        checkpoint: value + carry,
+                        simulation: expected,
+                        time,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Elements with thermostats must have the prescribed temperatures.
+    fn audit_thermostats(&self, state: &State) -> Result<(), RestoreError> {
+        let time = state.time.value;
+        for (element, temperature) in &self.loads.temperatures {
+            let Some(slot) = self.slots(*element).thermal else {
+                continue;
+            };
+            let own = state.temperatures[slot];
+            let Course::Function(temperature) = temperature else {
+                continue;
+            };
+            if !follows(&**temperature, own, [time; 2], own) {
+                return Err(RestoreError::Thermostat {
+                    element: *element,
+                    checkpoint: own,
+                    simulation: temperature(time),
+                    time,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An error unless momenta are those of the velocities.
+fn expect_momenta(momenta: &[f64], expected: &[f64]) -> Result<(), RestoreError> {
+    #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
+    let different = momenta.iter().zip(expected).find(|(a, b)| a != b);
+    match different {
+        None => Ok(()),
+        Some((value, _)) => Err(RestoreError::Value {
+            quantity: "momenta",
+            value: *value,
+            required: "those of the velocities, p = M v",
+        }),
+    }
+}
+
+/// A sum, unless it and its compensation are zero.
+fn not_zero(Sum { value, carry }: Sum) -> Option<f64> {
+    let is_zero = value == 0.0 && carry == 0.0;
+    (!is_zero).then_some(value + carry)
+}
+
+/// Whether a value of this scale is that of a function at a time, to the rounding of both.
+///
+/// The function may have been evaluated a few roundings before or after the time. Its values there are compared only if
+/// its value at the time does not explain the value. The scale of a position includes the function at the beginning of
+/// the step, because the step added the difference.
+fn follows(function: &dyn Fn(f64) -> f64, value: f64, [time, begin]: [f64; 2], scale: f64) -> bool {
+    let now = function(time);
+    let roundings = MOTION_ROUNDINGS * f64::EPSILON;
+    let bound = roundings * Scalar::maximum(scale, now.abs());
+    if (value - now).abs() <= bound {
+        return true;
+    }
+    let distance = TIME_ROUNDINGS * f64::EPSILON * time;
+    let ends = [time - distance, time + distance].map(function);
+    let begin = function(begin);
+    let bound = Scalar::maximum(bound, roundings * begin.abs());
+    let low = ends.into_iter().fold(now, Scalar::minimum) - bound;
+    let high = ends.into_iter().fold(now, Scalar::maximum) + bound;
+    (low..=high).contains(&value)
 }

@@ -177,9 +177,7 @@ impl<const D: usize> Simulation<D> {
         self.state.time = Sum::new(end);
         self.report.time = end;
     }
-}
 
-impl<const D: usize> Simulation<D> {
     /// Runs to the last of these times, s, with the same steps as [`run_until`](Self::run_until), and calls
     /// `observer` at each of them.
     ///

@@ -6,8 +6,7 @@
 
 use core::ops::ControlFlow;
 
-use super::bracket::Bracket;
-use super::{Event, Simulation};
+use super::{Bracket, Event, Simulation};
 use crate::run::simulation::StepResult;
 use crate::run::simulation::compiled::{Aim, Functions};
 use crate::run::simulation::guard::or_restore;

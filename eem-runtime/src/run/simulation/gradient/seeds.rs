@@ -3,7 +3,7 @@
 use core::mem;
 
 use super::derivatives::Of;
-use super::way::{Way, Weighted, add_to};
+use super::inputs::{Way, Weighted, add_to};
 use crate::element::loads::point;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
