@@ -37,13 +37,9 @@ pub(crate) use fingerprint::{Numbers, Outline};
 /// part of other files, whose format must preserve every bit of a number; `serde_json` does with its feature `float_roundtrip`.
 ///
 /// ```
-/// use eem::{Scene, Scheme, Simulation};
+/// use eem::prelude::*;
 ///
-/// let build = |scheme, step| {
-///     let mut scene = Scene::<2>::new();
-///     scene.anchor([0.0, 0.0]);
-///     Simulation::new(scene, scheme, step)
-/// };
+/// let build = |scheme, step| Simulation::new(Scene::<2>::new(), scheme, step);
 /// let mut run = build(Scheme::EemEntropy, 0.1)?;
 /// run.step()?;
 /// let saved = run.checkpoint();
@@ -52,9 +48,7 @@ pub(crate) use fingerprint::{Numbers, Outline};
 /// later.restore(&saved)?;
 /// later.step()?;
 /// assert_eq!((later.time(), later.step_size()), (0.2, 0.1));
-///
-/// let mut other = build(Scheme::Midpoint, 0.1)?;
-/// assert!(other.restore(&saved).is_err());
+/// assert!(build(Scheme::Midpoint, 0.1)?.restore(&saved).is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]

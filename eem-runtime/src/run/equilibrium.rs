@@ -38,10 +38,9 @@ use motion::{EquilibriumError, FreeMotion, LIKENESS, Moved};
 ///     theta_ref: 300.0, a: 0.0, mu: 40.0, eta: 20.0,
 /// };
 /// let mut scene = Scene::<1>::new();
-/// let wall = scene.anchor([0.0]);
-/// let mass = scene.mass(1.0, [1.0], [0.0]);
-/// let element = scene.spring(damper, [wall, mass]);
-/// scene.set_temperature(element, 300.0);
+/// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [0.0])];
+/// let damper = scene.spring(damper, ends);
+/// scene.set_temperature(damper, 300.0);
 /// // The force of the spring alone, 100 J ln λ/λ, and with 40 N/m (λ − 1) of the branch, at λ = 1.1 m.
 /// let spring = 100.0 * 1.1_f64.ln() / 1.1;
 /// for (settings, load) in [
@@ -49,10 +48,10 @@ use motion::{EquilibriumError, FreeMotion, LIKENESS, Moved};
 ///     (Equilibrium::new().held(), spring + 4.0),
 /// ] {
 ///     let mut scene = scene.clone();
-///     scene.dead_load(mass, [load]);
+///     scene.dead_load(ends[1], [load]);
 ///     scene.equilibrium(settings)?;
 ///     let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-///     assert!((run.stretch(element)? - 1.1).abs() < 1e-14);
+///     assert!((run.stretch(damper)? - 1.1).abs() < 1e-14);
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -213,17 +212,15 @@ impl<const D: usize> Scene<D> {
     /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<2>::new();
-    /// let hook = scene.anchor([0.0, 0.0]);
-    /// let weight = scene.mass(2.0, [0.0, -1.0], [0.0, 0.0]);
-    /// scene.spring(Hooke { stiffness: 100.0, natural_length: 1.0 }, [hook, weight]);
+    /// let ends = [scene.anchor([0.0, 0.0]), scene.mass(2.0, [0.0, -1.0], [0.0, 0.0])];
+    /// scene.spring(Hooke { stiffness: 100.0, natural_length: 1.0 }, ends);
     /// scene.set_gravity([0.0, -10.0]);
-    /// let report = scene.equilibrium(Equilibrium::new())?;
-    /// assert!(report.residual < 1e-12);
+    /// assert!(scene.equilibrium(Equilibrium::new())?.residual < 1e-12);
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// // 20 N stretch it by 0.2 m, and there it stays.
     /// run.step()?;
-    /// assert!((run.position(weight)?[1] + 1.2).abs() < 1e-14);
+    /// assert!((run.position(ends[1])?[1] + 1.2).abs() < 1e-14);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn equilibrium(

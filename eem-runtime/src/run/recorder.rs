@@ -28,22 +28,14 @@ const TIME: &str = "time";
 /// with the number of rows; [`reserve`](Self::reserve) reserves it in advance.
 ///
 /// ```
-/// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
+/// use eem::prelude::*;
 ///
 /// let mut scene = Scene::<2>::new();
 /// let pivot = scene.anchor([3.0, 4.0]);
 /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
-///
-/// let mut recorder = Recorder::new(
-///     &run,
-///     [
-///         ("q", Quantity::Position(pivot)),
-///         ("distance", Quantity::custom(move |run: &Simulation<2>| {
-///             run.position(pivot).map_or(f64::NAN, |q| q.norm())
-///         })),
-///     ],
-/// )?
-/// .every(2);
+/// let distance = move |run: &Simulation<2>| run.position(pivot).map_or(f64::NAN, |q| q.norm());
+/// let quantities = [("q", Quantity::Position(pivot)), ("distance", Quantity::custom(distance))];
+/// let mut recorder = Recorder::new(&run, quantities)?.every(2);
 /// run.run_until_with(1.0, |run, report| recorder.observe(run, report))?;
 ///
 /// let names: Vec<_> = recorder.columns().iter().map(|column| column.name()).collect();

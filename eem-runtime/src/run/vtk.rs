@@ -29,14 +29,12 @@ use file::Grid;
 ///
 /// ```no_run
 /// use eem::prelude::*;
-/// use eem::VtkSeries;
 ///
 /// let mut scene = Scene::<2>::new();
 /// scene.mass(1.0, [0.0, 0.0], [1.0, 0.0]);
 /// let mut series = VtkSeries::new(&scene, "out", "flight");
 /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-/// series.write(&run)?;
-/// for second in 1..=10 {
+/// for second in 0..=10 {
 ///     run.run_until(f64::from(second))?;
 ///     series.write(&run)?;
 /// }
@@ -81,11 +79,9 @@ impl<const D: usize> VtkSeries<D> {
     ///
     /// ```
     /// use eem::prelude::*;
-    /// use eem::VtkSeries;
     ///
     /// let folder = std::env::temp_dir().join("eem of two series");
-    /// let mut scene = Scene::<2>::new();
-    /// scene.mass(1.0, [0.0, 0.0], [1.0, 0.0]);
+    /// let scene = Scene::<2>::new();
     /// let mut series = [(); 2].map(|()| VtkSeries::new(&scene, &folder, "flight"));
     /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// series[0].write(&run)?;

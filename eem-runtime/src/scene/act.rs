@@ -66,16 +66,13 @@ impl<const D: usize> Scene<D> {
     ///
     /// // A rod of 2 m that is pushed at its end, along itself.
     /// let mut scene = Scene::<2>::new();
-    /// let tail = scene.mass(1.0, [0.0, 0.0], [0.0, 0.0]);
-    /// let head = scene.mass(1.0, [0.0, 2.0], [0.0, 0.0]);
-    /// scene.spring(Hooke { stiffness: 1e4, natural_length: 2.0 }, [tail, head]);
-    /// scene.rocket(tail, [tail, head], |_| 3.0);
+    /// let ends = [[0.0, 0.0], [0.0, 2.0]].map(|place| scene.mass(1.0, place, [0.0, 0.0]));
+    /// scene.spring(Hooke { stiffness: 1e4, natural_length: 2.0 }, ends);
+    /// scene.rocket(ends[0], ends, |_| 3.0);
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.run_until(1.0)?;
-    /// let ledger = run.ledger();
-    /// assert!((ledger.linear_momentum[1] - 3.0).abs() < 1e-14);
-    /// assert!((ledger.energy - ledger.work).abs() < 1e-13 * ledger.work);
+    /// assert!((run.ledger().linear_momentum[1] - 3.0).abs() < 1e-14);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn rocket(
@@ -240,9 +237,8 @@ impl<const D: usize> Scene<D> {
     ///     stiffness: 5.0, coupling: 1.0, capacity: 2.0, natural_length: 1.0, theta_ref: 300.0,
     /// };
     /// let mut scene = Scene::<1>::new();
-    /// let wall = scene.anchor([0.0]);
-    /// let mass = scene.mass(1.0, [1.1], [0.0]);
-    /// let wire = scene.spring(wire, [wall, mass]);
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    /// let wire = scene.spring(wire, ends);
     /// scene.hold_temperature(wire, 310.0);
     /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01)?;
     /// run.run_until(1.0)?;
@@ -283,7 +279,6 @@ impl<const D: usize> Scene<D> {
     /// direction does not follow the body. The ledger counts its work. It has no effect on fixed nodes.
     ///
     /// ```
-    /// use eem::kinematics::Hex8;
     /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
     ///
@@ -291,8 +286,7 @@ impl<const D: usize> Scene<D> {
     /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let beam = scene.solid(steel, &mesh, &Bulk::new(10.0));
-    /// let end = mesh.face(|[x, ..]| x >= 2.0)?;
-    /// scene.traction(&beam, &end, |t| [0.0, 0.0, 5.0 * t]);
+    /// scene.traction(&beam, &mesh.face(|[x, ..]| x >= 2.0)?, |t| [0.0, 0.0, 5.0 * t]);
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.step()?;
@@ -319,7 +313,6 @@ impl<const D: usize> Scene<D> {
     /// fixed nodes. For weight use [`set_gravity`](Self::set_gravity).
     ///
     /// ```
-    /// use eem::kinematics::Quad8;
     /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
     ///
@@ -331,9 +324,8 @@ impl<const D: usize> Scene<D> {
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.step()?;
-    /// // 3 N on 1 m³ for 0.1 s, on all of its 10 kg alike.
+    /// // 3 N on 1 m³ for 0.1 s.
     /// assert!((run.ledger().linear_momentum[0] - 0.3).abs() < 1e-15);
-    /// assert!((run.velocity(plate.nodes()[0])?[0] - 0.03).abs() < 1e-14);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn body_force<H: Shape<D>>(

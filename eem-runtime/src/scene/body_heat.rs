@@ -24,12 +24,10 @@ impl<const D: usize> Scene<D> {
     /// solids doubles the conductance.
     ///
     /// ```
-    /// use eem::kinematics::Hex8;
     /// use eem::materials::ThermoelasticSolid;
     /// use eem::prelude::*;
     ///
-    /// let rubber = ThermoelasticSolid::RUBBER;
-    /// let solid = ThermoelasticSolid { softening: 0.0, expansion: 0.0, ..rubber };
+    /// let solid = ThermoelasticSolid { softening: 0.0, expansion: 0.0, ..ThermoelasticSolid::RUBBER };
     /// let mut scene = Scene::<3>::new();
     /// let warm = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
     /// let cold = warm.translated([1.0, 0.0, 0.0])?;
@@ -37,9 +35,8 @@ impl<const D: usize> Scene<D> {
     /// let bulk = Bulk::new(10.0).conductivity(10.0).joined_to(&warm, 1e-9);
     /// let cold = scene.solid(solid, &cold, &bulk);
     /// scene.conduct_between(&warm, &cold);
-    /// for (body, theta) in [(&warm, 310.0), (&cold, 290.0)] {
-    ///     body.points().iter().for_each(|&point| scene.set_temperature(point, theta));
-    /// }
+    /// scene.set_temperatures(&warm, 310.0);
+    /// scene.set_temperatures(&cold, 290.0);
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 1e-5)?;
     /// run.step()?;
@@ -97,15 +94,13 @@ impl<const D: usize> Scene<D> {
     /// The solid needs a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
     ///
     /// ```
-    /// use eem::kinematics::Hex8;
     /// use eem::materials::ThermoelasticSolid;
     /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<3>::new();
     /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
-    /// let bulk = Bulk::new(10.0).conductivity(10.0);
-    /// let body = scene.solid(ThermoelasticSolid::RUBBER, &mesh, &bulk);
-    /// body.points().iter().for_each(|&point| scene.set_temperature(point, 300.0));
+    /// let body = scene.solid(ThermoelasticSolid::RUBBER, &mesh, &Bulk::new(10.0).conductivity(10.0));
+    /// scene.set_temperatures(&body, 300.0);
     /// let (air, water) = (scene.reservoir(320.0), scene.reservoir(320.0));
     /// scene.exchange(&body, &mesh.face(|[x, ..]| x >= 1.0)?, air, 5.0);
     /// scene.wall(&body, &mesh.face(|[x, ..]| x <= 0.0)?, water);

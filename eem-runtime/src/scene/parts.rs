@@ -141,8 +141,6 @@ impl<const D: usize> Scene<D> {
     /// // θ̇ = (4/2) (θ_oven − θ), so that θ − 300 = 10 t − 5 (1 − e⁻²ᵗ)
     /// let exact = 310.0 - 5.0 * (1.0 - (-2.0_f64).exp());
     /// assert!((run.temperature(wire)? - exact).abs() < 1e-3);
-    /// let ledger = run.ledger();
-    /// assert!((ledger.heat - 2.0 * (run.temperature(wire)? - 300.0)).abs() < 1e-11);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn oven(&mut self, temperature: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Reservoir {
@@ -157,28 +155,24 @@ impl<const D: usize> Scene<D> {
     /// Conductances of several calls for the same two partners add, in either order of the partners.
     ///
     /// ```
+    /// use eem::materials::ThermoelasticSpring;
     /// use eem::prelude::*;
     ///
-    /// #[derive(FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
-    ///     0.5 * k * (lambda - 1.0).powi(2) + c * (theta - theta * ln(theta / 300.0))
-    /// })]
-    /// struct Warm { k: f64, c: f64 }
-    ///
-    /// let heat = |conductances: &[f64]| {
-    ///     let mut scene = Scene::<1>::new();
-    ///     let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
-    ///     let spring = scene.spring(Warm { k: 1.0, c: 1.0 }, ends);
-    ///     scene.set_temperature(spring, 350.0);
-    ///     let air = scene.reservoir(300.0);
-    ///     for &conductance in conductances {
-    ///         scene.conduct(spring, air, conductance);
-    ///     }
-    ///     let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-    ///     run.step()?;
-    ///     Ok::<f64, Box<dyn std::error::Error>>(run.reservoir_heat(air)?)
+    /// let wire = ThermoelasticSpring {
+    ///     stiffness: 5.0, coupling: 0.0, capacity: 2.0, natural_length: 1.0, theta_ref: 300.0,
     /// };
-    /// assert!((heat(&[1.5, 0.5])? - heat(&[2.0])?).abs() < 1e-12);
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
+    /// let wire = scene.spring(wire, ends);
+    /// scene.set_temperature(wire, 350.0);
+    /// let air = scene.reservoir(300.0);
+    /// for conductance in [1.5, 0.5] {
+    ///     scene.conduct(wire, air, conductance);
+    /// }
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 1e-4)?;
+    /// run.step()?;
+    /// // 2 W/K at 50 K
+    /// assert!((run.reservoir_heat(air)? - 0.01).abs() < 1e-6);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn conduct(
@@ -236,15 +230,11 @@ impl<const D: usize> Scene<D> {
     ///
     /// ```
     /// use eem::TooLarge;
-    /// use eem::materials::Hooke;
     /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<2>::new();
-    /// let mut last = scene.anchor([0.0, 0.0]);
     /// for index in 1..=100 {
-    ///     let next = scene.mass(1.0, [f64::from(index), 0.0], [0.0, 0.0]);
-    ///     scene.spring(Hooke { stiffness: 1.0, natural_length: 1.0 }, [last, next]);
-    ///     last = next;
+    ///     scene.mass(1.0, [f64::from(index), 0.0], [0.0, 0.0]);
     /// }
     /// scene.limit_memory(1_000);
     /// let refused = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();

@@ -60,17 +60,13 @@ impl Scene<2> {
     /// let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
     /// let nodes = corners.map(|corner| scene.node(corner, [-corner[1], corner[0]]));
     /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
-    /// let section = Section { density: 10.0, thickness: 1.0 };
-    /// scene.quadrilateral(steel, nodes, section);
+    /// scene.quadrilateral(steel, nodes, Section { density: 10.0, thickness: 1.0 });
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// let before = run.ledger();
     /// assert!((before.kinetic_energy - 0.5 * 20.0 * 5.0 / 3.0).abs() < 1e-12);
-    /// for _ in 0..10 {
-    ///     run.step()?;
-    /// }
-    /// let after = run.ledger();
-    /// assert!((after.balance - before.balance).abs() < 1e-13 * before.energy);
+    /// run.run_until(1.0)?;
+    /// assert!((run.ledger().balance - before.balance).abs() < 1e-13 * before.energy);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[expect(clippy::needless_pass_by_value, reason = "as for a spring")]
@@ -104,7 +100,6 @@ impl<const D: usize> Scene<D> {
     /// [`SolidError::NoViscousStrain`].
     ///
     /// ```
-    /// use eem::kinematics::Hex8;
     /// use eem::prelude::*;
     ///
     /// #[derive(Clone, FreeEnergy)]
@@ -114,13 +109,11 @@ impl<const D: usize> Scene<D> {
     ///
     /// let mut scene = Scene::<3>::new();
     /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
-    /// let block = scene.solid(Fluid, &mesh, &Bulk::new(10.0));
-    /// let point = block.points()[0];
+    /// let point = scene.solid(Fluid, &mesh, &Bulk::new(10.0)).points()[0];
     /// scene.set_viscous_strain(point, [[0.4, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.0]]);
     /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// let strain = run.viscous_strain(point)?;
-    /// assert!((strain[(0, 0)] - 0.2_f64).abs() < 1e-15 && (strain[(2, 2)] + 0.2).abs() < 1e-15);
-    /// assert!((strain[(1, 0)] - 0.1).abs() < 1e-15);
+    /// assert!((strain[(0, 0)] - 0.2_f64).abs() < 1e-15 && (strain[(1, 0)] - 0.1).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_viscous_strain(&mut self, point: Element, strain: [[f64; 3]; 3]) {

@@ -14,15 +14,13 @@ use nalgebra::SVector;
 ///
 /// let mut scene = Scene::<1>::new();
 /// let stone = scene.mass(2.0, [0.0], [0.0]);
-/// let amplitude = 3.0;
-/// scene.force(stone, move |t| [amplitude * t.sin()]);
+/// scene.force(stone, |t: f64| [3.0 * t.sin()]);
 /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.001)?;
 /// run.keep_history(History::default());
 /// run.run_until(1.0)?;
 ///
 /// // m v = a (1 − cos t)
-/// let speed = Objective::at_end(Quantity::Velocity(stone));
-/// let gradient = run.gradient(&speed)?;
+/// let gradient = run.gradient(&Objective::at_end(Quantity::Velocity(stone)))?;
 /// let by_amplitude = gradient.by_force(stone)?.contract(|t| [t.sin()]);
 /// assert!((by_amplitude - (1.0 - 1.0_f64.cos()) / 2.0).abs() < 1e-7);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

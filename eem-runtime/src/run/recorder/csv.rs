@@ -16,7 +16,7 @@ impl<const D: usize> Recorder<D> {
     /// Those of the writer.
     ///
     /// ```
-    /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
+    /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<1>::new();
     /// let pivot = scene.anchor([0.1]);
@@ -42,13 +42,11 @@ impl<const D: usize> Recorder<D> {
     /// ```
     /// use eem::prelude::*;
     ///
-    /// let mut scene = Scene::<1>::new();
-    /// let pivot = scene.anchor([0.1]);
-    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
-    /// let recorder = Recorder::new(&run, [("q", Quantity::Position(pivot))])?;
+    /// let run = Simulation::new(Scene::<1>::new(), Scheme::EemEntropy, 0.25)?;
+    /// let recorder = Recorder::new(&run, [("E", Quantity::TotalEnergy)])?;
     /// let path = std::env::temp_dir().join(format!("rows-{}.csv", std::process::id()));
     /// recorder.save_csv(&path)?;
-    /// assert!(std::fs::read_to_string(&path)?.starts_with("time (s),q_x (m)\n"));
+    /// assert!(std::fs::read_to_string(&path)?.starts_with("time (s),E (J)\n0.0000000000000000e0,"));
     /// # std::fs::remove_file(path)?;
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -67,24 +65,18 @@ impl<const D: usize> Recorder<D> {
     /// Those of the writer.
     ///
     /// ```
-    /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
+    /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<1>::new();
     /// let mass = scene.mass(1.0, [0.5], [2.0]);
-    /// let mut run = Simulation::new(scene.clone(), Scheme::EemEntropy, 0.25)?;
-    /// let recorder = |run: &Simulation<1>| Recorder::new(run, [("q", Quantity::Position(mass))]);
-    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
     /// let mut text = Vec::new();
-    /// let mut rows = recorder(&run)?;
-    /// run.run_until_with(0.5, |run, report| rows.observe(run, report))?;
-    /// rows.write_csv(&mut text)?;
-    /// let saved = run.checkpoint();
-    ///
-    /// let mut resumed = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
-    /// resumed.restore(&saved)?;
-    /// let mut rows = recorder(&resumed)?;
-    /// resumed.run_until_with(1.0, |run, report| rows.observe(run, report))?;
-    /// rows.append_csv(&mut text)?;
+    /// for end in [0.5, 1.0] {
+    ///     let mut rows = Recorder::new(&run, [("q", Quantity::Position(mass))])?;
+    ///     let is_first = run.time() == 0.0;
+    ///     run.run_until_with(end, |run, report| rows.observe(run, report))?;
+    ///     if is_first { rows.write_csv(&mut text)? } else { rows.append_csv(&mut text)? }
+    /// }
     /// assert_eq!(text.iter().filter(|&&byte| byte == b'\n').count(), 1 + 5);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -14,17 +14,12 @@ use eem_material::number::compensated::Sum;
 /// A vector takes a column per component. The angular momentum is a single column in the plane.
 ///
 /// ```
-/// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
+/// use eem::prelude::*;
 ///
-/// let mut scene = Scene::<3>::new();
-/// scene.anchor([0.0; 3]);
-/// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-/// let quantities = [
-///     ("L", Quantity::AngularMomentum),
-///     ("kinetic", Quantity::Ledger(|ledger| ledger.kinetic_energy)),
-/// ];
-/// let recorder = Recorder::new(&run, quantities)?;
-/// assert_eq!(recorder.columns().len(), 5); // time, L_x, L_y, L_z, kinetic
+/// let run = Simulation::new(Scene::<3>::new(), Scheme::EemEntropy, 0.1)?;
+/// let work = Quantity::Ledger(|ledger| ledger.work);
+/// let recorder = Recorder::new(&run, [("L", Quantity::AngularMomentum), ("work", work)])?;
+/// assert_eq!(recorder.columns().len(), 5); // time, L_x, L_y, L_z, work
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -124,7 +119,7 @@ impl<const D: usize> Quantity<D> {
     /// A function of the simulation with a unit for the header of its column.
     ///
     /// ```
-    /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
+    /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<1>::new();
     /// scene.mass(2.0, [0.0], [3.0]);
@@ -147,28 +142,19 @@ impl<const D: usize> Quantity<D> {
     /// [elements of a model](Simulation::elements_of).
     ///
     /// ```
+    /// use eem::materials::Hooke;
     /// use eem::prelude::*;
     ///
-    /// #[derive(Clone, FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch, gamma: Viscous| {
-    ///     0.5 * k * (lambda - 1).powi(2) + 0.5 * mu * (lambda - 1 - gamma).powi(2)
-    /// })]
-    /// #[viscosity(gamma = eta)]
-    /// struct Maxwell { k: f64, mu: f64, eta: f64 }
-    ///
     /// let mut scene = Scene::<1>::new();
-    /// let nodes = [scene.anchor([0.0]), scene.mass(1.0, [1.2], [0.0]), scene.mass(1.0, [2.1], [0.0])];
-    /// let damper = Maxwell { k: 4.0, mu: 10.0, eta: 2.0 };
+    /// let nodes = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0]), scene.mass(1.0, [2.0], [0.0])];
     /// for ends in nodes.windows(2) {
-    ///     scene.spring(damper.clone(), [ends[0], ends[1]]);
+    ///     scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, [ends[0], ends[1]]);
     /// }
-    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-    /// let heat = Quantity::sum(run.elements_of("Maxwell").map(Quantity::Dissipation));
-    /// let mut recorder = Recorder::new(&run, [("heat", heat)])?;
-    /// run.run_until_with(1.0, |run, report| recorder.observe(run, report))?;
-    /// // One value per step; their sum is all heat that has left the scene.
-    /// let sum: f64 = recorder.column("heat").unwrap_or_default().iter().sum();
-    /// assert!((sum - run.ledger().lost_heat).abs() < 1e-15);
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// let energy = Quantity::sum(run.elements_of("Hooke").map(Quantity::InternalEnergy));
+    /// let recorder = Recorder::new(&run, [("energy", energy)])?;
+    /// // ½ k Δλ² each
+    /// assert_eq!(recorder.column("energy"), Some([1.0].as_slice()));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn sum(quantities: impl IntoIterator<Item = Self>) -> Self {

@@ -78,22 +78,20 @@ impl<const D: usize> Simulation<D> {
     /// As [`new`](Self::new) and [`control_steps`](Self::control_steps), together with the scene.
     ///
     /// ```
-    /// use eem::Tolerance;
     /// use eem::materials::Hooke;
     /// use eem::prelude::*;
     ///
     /// // At rest, pushed by 5 t² N.
     /// let mut scene = Scene::<1>::new();
     /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [0.0])];
-    /// let mass = ends[1];
     /// scene.spring(Hooke { stiffness: 100.0, natural_length: 1.0 }, ends);
-    /// scene.force(mass, |t| [5.0 * t * t]);
+    /// scene.force(ends[1], |t| [5.0 * t * t]);
     /// let mut run = Simulation::with_tolerance(scene, Scheme::EemEntropy4, Tolerance::new(1e-6))?;
     /// run.run_until(2.0)?;
     ///
     /// // x = 5 (t² − 2 (1 − cos ωt)/ω²)/k
     /// let exact = 1.0 + 0.05 * (4.0 - 0.02 * (1.0 - 20.0_f64.cos()));
-    /// assert!((run.position(mass)?[0] - exact).abs() < 1e-6);
+    /// assert!((run.position(ends[1])?[0] - exact).abs() < 1e-6);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn with_tolerance(

@@ -37,20 +37,17 @@ impl<const D: usize> Simulation<D> {
     /// time is invalid, or the tolerance below what the scheme can reach; [`SceneError::FixedSteps`] for the variational schemes.
     ///
     /// ```
-    /// use eem::Tolerance;
     /// use eem::materials::Hooke;
     /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<1>::new();
-    /// let wall = scene.anchor([0.0]);
-    /// let mass = scene.mass(1.0, [1.1], [0.0]);
-    /// scene.spring(Hooke { stiffness: 1.0, natural_length: 1.0 }, [wall, mass]);
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    /// scene.spring(Hooke { stiffness: 1.0, natural_length: 1.0 }, ends);
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.control_steps(Tolerance::new(1e-6))?;
     /// run.run_until(5.0)?;
-    ///
     /// let exact = 1.0 + 0.1 * 5.0_f64.cos();
-    /// assert!((run.position(mass)?[0] - exact).abs() < 5e-6);
+    /// assert!((run.position(ends[1])?[0] - exact).abs() < 5e-6);
     /// assert!(run.step_statistics().is_some_and(|steps| steps.accepted > 100));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

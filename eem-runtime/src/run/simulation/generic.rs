@@ -263,9 +263,9 @@ impl<const D: usize> Simulation<D> {
     /// let wire = scene.spring(Wire, nodes);
     /// scene.set_temperature(wire, 300.0);
     /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01)?;
-    /// let form = run.generic_in_temperature();
     /// // z = (q, p, θ): ṗ has the part (∂s/∂θ)⁻¹ ∂s/∂λ ∂E/∂θ with ∂s/∂θ = c/θ.
-    /// assert!((form.reversible[(1, 2)] - 3.0 * 300.0 / 2.0).abs() < 1e-9);
+    /// let entry = run.generic_in_temperature().reversible[(1, 2)];
+    /// assert!((entry - 3.0 * 300.0 / 2.0).abs() < 1e-9);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn generic_in_temperature(&mut self) -> Generic {

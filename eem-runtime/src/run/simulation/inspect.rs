@@ -131,7 +131,6 @@ impl<const D: usize> Simulation<D> {
     /// For a foreign handle; [`SolidError::NotASolid`] for a spring.
     ///
     /// ```
-    /// use eem::kinematics::Quad4;
     /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
     ///
@@ -147,7 +146,6 @@ impl<const D: usize> Simulation<D> {
     /// let state = run.solid_state(plate.points()[0])?;
     /// assert!((state.strain[(0, 0)] - 1.5).abs() < 1e-14);
     /// assert!((state.stress[(0, 0)] - 12_000.0).abs() < 1e-10);
-    /// assert!((state.stress[(2, 2)] - 1_500.0).abs() < 1e-10);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn solid_state(&self, point: Element) -> Result<SolidState, SceneError> {
@@ -194,22 +192,20 @@ impl<const D: usize> Simulation<D> {
     /// For a foreign handle; [`SceneError::NotThermal`] if the element has no temperature.
     ///
     /// ```
+    /// use eem::materials::ThermoelasticSpring;
     /// use eem::prelude::*;
     ///
-    /// #[derive(FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
-    ///     0.5 * k * (lambda - 1.0).powi(2) + c * (theta - theta * ln(theta / 300.0))
-    /// })]
-    /// struct Warm { k: f64, c: f64 }
-    ///
+    /// let wire = ThermoelasticSpring {
+    ///     stiffness: 5.0, coupling: 0.0, capacity: 2.0, natural_length: 1.0, theta_ref: 300.0,
+    /// };
     /// let mut scene = Scene::<1>::new();
     /// let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
-    /// let spring = scene.spring(Warm { k: 1.0, c: 1.0 }, ends);
-    /// scene.set_temperature(spring, 400.0);
+    /// let wire = scene.spring(wire, ends);
+    /// scene.set_temperature(wire, 400.0);
     /// let air = scene.reservoir(300.0);
-    /// scene.conduct(spring, air, 12.0);
+    /// scene.conduct(wire, air, 12.0);
     /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-    /// assert!((run.entropy_production(spring)? - 1.0).abs() < 1e-15);
+    /// assert!((run.entropy_production(wire)? - 1.0).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn entropy_production(&self, element: Element) -> Result<f64, SceneError> {
@@ -259,7 +255,6 @@ impl<const D: usize> Simulation<D> {
     /// `ViscousStrain`.
     ///
     /// ```
-    /// use eem::kinematics::Quad4;
     /// use eem::prelude::*;
     ///
     /// #[derive(Clone, FreeEnergy)]
@@ -377,12 +372,11 @@ impl<const D: usize> Simulation<D> {
     /// ```
     /// use eem::prelude::*;
     ///
-    /// let mut scene: Scene<1> = Scene::new();
-    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [1.0])];
-    /// scene.spring(eem::materials::Hooke { stiffness: 1.0, natural_length: 1.0 }, ends);
+    /// let mut scene = Scene::<1>::new();
+    /// scene.mass(1.0, [1.0], [1.0]);
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.step()?;
-    /// assert!(run.evaluations() >= 2);
+    /// assert!(run.evaluations() >= 1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]

@@ -18,16 +18,13 @@ impl<const D: usize> Simulation<D> {
     /// The present state with everything the next steps depend on.
     ///
     /// ```
-    /// use eem::{Scene, Scheme, Simulation};
+    /// use eem::prelude::*;
     ///
-    /// let mut scene = Scene::<2>::new();
-    /// scene.anchor([0.0, 0.0]);
-    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// let mut run = Simulation::new(Scene::<2>::new(), Scheme::EemEntropy, 0.1)?;
     /// run.step()?;
     /// let saved = run.checkpoint();
     /// run.set_step_size(0.5)?;
     /// run.step()?;
-    /// assert_eq!((run.time(), run.step_size()), (0.6, 0.5));
     /// run.restore(&saved)?;
     /// assert_eq!((run.time(), run.step_size()), (0.1, 0.1));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -36,12 +36,9 @@ impl<const D: usize> Simulation<D> {
     /// [`StepFailure::EventError`] if it fails, with the simulation as it was before the step that led there.
     ///
     /// ```
-    /// use eem::{Event, RunEnd, Scene, Scheme, Simulation};
+    /// use eem::prelude::*;
     ///
-    /// let mut scene = Scene::<2>::new();
-    /// scene.anchor([0.0, 0.0]);
-    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.5)?;
-    ///
+    /// let mut run = Simulation::new(Scene::<2>::new(), Scheme::EemEntropy, 0.5)?;
     /// let noon = Event::falling(|run: &Simulation<2>| Ok(run.time().cos())).within(1e-9);
     /// assert_eq!(run.run_until_event(9.0, &mut [noon])?, RunEnd::Event(0));
     /// let late = run.time() - core::f64::consts::FRAC_PI_2;

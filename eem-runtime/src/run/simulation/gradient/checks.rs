@@ -96,7 +96,6 @@ impl<const D: usize> Simulation<D> {
     ///
     /// let mut scene = Scene::<1>::new();
     /// let stone = scene.mass(2.0, [0.0], [3.0]);
-    /// scene.set_gravity([-9.81]);
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01)?;
     /// run.keep_history(History::default());
     /// run.run_until(1.0)?;

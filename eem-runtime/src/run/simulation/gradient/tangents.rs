@@ -50,13 +50,11 @@ impl<const D: usize> Simulation<D> {
     /// run.run_until(1.0)?;
     ///
     /// // q = 3t + a t³/6m with a = 4 N/s
-    /// let slope = Input::force(stone, |t| [t]).named("a", "N/s");
-    /// let inputs = [Input::mass(stone), slope, Input::velocity(stone, 0)];
+    /// let inputs = [Input::mass(stone), Input::force(stone, |t| [t]).named("a", "N/s")];
     /// let table = run.sensitivities(&inputs, [("q", Quantity::Position(stone))])?;
-    /// let names: Vec<String> = table.columns().iter().map(|column| column.head()).collect();
-    /// let expected = ["time (s)", "q_x by mass of node 0 (m/kg)", "q_x by a (m/(N/s))", "q_x by velocity x of node 0 (m/(m/s))"];
-    /// assert_eq!(names, expected);
-    /// for (input, by) in [-1.0 / 6.0, 1.0 / 12.0, 1.0].into_iter().enumerate() {
+    /// let heads: Vec<String> = table.columns().iter().map(|column| column.head()).collect();
+    /// assert_eq!(heads, ["time (s)", "q_x by mass of node 0 (m/kg)", "q_x by a (m/(N/s))"]);
+    /// for (input, by) in [-1.0 / 6.0, 1.0 / 12.0].into_iter().enumerate() {
     ///     let last = table.of(0, input).and_then(|column| column.last());
     ///     assert!(last.is_some_and(|last| (last - by).abs() < 1e-5));
     /// }
