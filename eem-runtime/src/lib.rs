@@ -36,7 +36,7 @@
 //! | compile springs of other shapes with this crate | `element/group/springs.rs`; `tabled.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs` |
 //! | add a shape of cell | `shape.rs` in `eem-mesh` |
-//! | change solids and their checks | `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `solid.rs` in `scene`; meshes: `eem-mesh` |
+//! | change solids and their checks | `bulk.rs`, `meshed_solid.rs`, `body_heat.rs`, `solid.rs` in `scene`; meshes: `eem-mesh` |
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
 //! | let a controller set something else | `run/simulation/controller.rs`; `Course` in `scene/loads.rs`; `SavedLoads` in `run/checkpoint.rs` |
 //! | change ovens | `run/simulation/attempt.rs` |
@@ -88,8 +88,7 @@ pub use run::equilibrium::{Equilibrium, EquilibriumReport};
 pub use run::gradient::{
     error::GradientError,
     history::History,
-    input::Input,
-    objective::Objective,
+    input::{Input, Objective},
     result::Gradient,
     series::{Sensitivities, Series},
 };
@@ -105,8 +104,7 @@ pub use run::simulation::warning::Warning;
 #[cfg(feature = "vtk")]
 pub use run::vtk::VtkSeries;
 pub use scene::Scene;
-pub use scene::body::Body;
-pub use scene::bulk::Bulk;
+pub use scene::bulk::{Body, Bulk};
 pub use scene::error::RocketError;
 pub use scene::error::SceneError;
 pub use scene::refused::RefusedScene;

@@ -11,7 +11,6 @@ mod act;
 
 mod body_heat;
 
-pub(crate) mod body;
 pub(crate) mod bulk;
 mod check;
 pub(crate) mod entry;

@@ -3,7 +3,6 @@
 mod entries;
 pub(crate) mod error;
 mod file;
-mod fingerprint;
 mod lines;
 #[cfg(feature = "serde")]
 mod scheme_name;
@@ -18,8 +17,9 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
 use eem_material::number::digest::Digest;
 
+pub(crate) use entries::{Numbers, Outline};
+pub(crate) use error::expect_count;
 pub use error::{FormatError, LoadError, RestoreError};
-pub(crate) use fingerprint::{Numbers, Outline};
 
 /// A saved state of a [`Simulation`](crate::Simulation), to resume it later: values with their compensated rounding,
 /// time, step size and settings.

@@ -3,9 +3,7 @@
 pub(crate) mod error;
 pub(crate) mod history;
 pub(crate) mod input;
-pub(crate) mod objective;
 pub(crate) mod result;
 pub(crate) mod series;
 pub(crate) mod snapshots;
-pub(crate) mod timed;
 pub(crate) mod times;

@@ -6,7 +6,6 @@ mod compiled;
 pub(crate) mod run;
 
 pub(crate) mod event;
-mod flight;
 
 mod inspect;
 
@@ -27,10 +26,8 @@ pub(crate) mod attempt;
 mod automatic;
 mod check;
 pub(crate) mod generic;
-mod guard;
 mod halves;
 mod memory;
-mod spare;
 pub(crate) mod start;
 mod stepper;
 mod unseen;

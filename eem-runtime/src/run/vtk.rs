@@ -1,7 +1,6 @@
 //! States of a run as files for ParaView.
 
 mod cell;
-mod file;
 
 use core::error::Error;
 use std::collections::BTreeSet;
@@ -14,8 +13,7 @@ use crate::element::handle::Node;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use cell::{Cell, DATA, cells};
-use file::Grid;
+use cell::{Cell, DATA, Grid, cells, list};
 
 /// Writes states of a run for ParaView: one `.vtu` file per time, and a `.pvd` file that lists them. Open the
 /// latter.
@@ -106,7 +104,7 @@ impl<const D: usize> VtkSeries<D> {
         fs::write(&file, grid.to_xml()).map_err(at(&file))?;
         self.times.push(run.time());
         let steps = self.times.iter().enumerate();
-        let list = file::list(steps.map(|(index, &time)| (time, self.file_of(index))));
+        let list = list(steps.map(|(index, &time)| (time, self.file_of(index))));
         let file = self.list_file();
         fs::write(&file, list).map_err(at(&file))
     }

@@ -9,7 +9,7 @@ use super::entry::infinite;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::Shape;
 use crate::element::loads::PushLine;
-use crate::scene::body::Body;
+use crate::scene::bulk::Body;
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::{Course, Rocket};
 use crate::scene::solid_error::SolidError;

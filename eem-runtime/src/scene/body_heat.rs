@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Scene;
 use crate::element::handle::Reservoir;
 use crate::element::kinematics::Shape;
-use crate::scene::body::Body;
+use crate::scene::bulk::Body;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
 use eem_material::number::scalar::is_positive;

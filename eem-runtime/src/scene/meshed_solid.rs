@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Points, Shape, StrainEnergy};
-use crate::scene::body::Body;
+use crate::scene::bulk::Body;
 use crate::scene::bulk::{Bulk, Shared, joined};
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;

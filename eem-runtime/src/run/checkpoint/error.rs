@@ -320,7 +320,7 @@ impl From<StateError> for RestoreError {
 }
 
 /// An error unless two counts agree.
-pub(super) fn expect_count(
+pub(crate) fn expect_count(
     quantity: &'static str,
     checkpoint: usize,
     simulation: usize,

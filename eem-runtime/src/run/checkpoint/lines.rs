@@ -1,6 +1,6 @@
 //! The lines of a file with a checkpoint. Each function writes the part `own`, or reads it if `own` is `None`.
 
-use super::fingerprint::{ElementOutline, Numbers, Outline};
+use super::entries::{ElementOutline, Numbers, Outline};
 use super::text::{Read, Text};
 use super::{Checkpoint, SavedChoice, SavedControl, SavedEnergies, SavedLoads};
 use crate::algebra::memory::TooLarge;

@@ -4,15 +4,15 @@ use core::fmt;
 use std::collections::BTreeSet;
 
 use super::error::GradientError;
+use super::input::Timed;
 use super::series::Series;
-use super::timed::Timed;
 use crate::element::handle::{Element, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;
 use crate::element::lineage::Lineage;
 use crate::element::loads::point;
 use crate::run::recorder::axis_name;
-use crate::scene::body::Body;
+use crate::scene::bulk::Body;
 use crate::scene::error::SceneError;
 use crate::step::adjoint::PerVariable;
 use eem_material::number::scalar::Scalar;

@@ -1,9 +1,9 @@
 //! Derivatives by sizes of steps and by the time at the end, also where loads depend on time.
 
 use super::error::GradientError;
+use super::input::Timed;
 use super::input::{Input, InputOf};
 use super::result::Gradient;
-use super::timed::Timed;
 
 impl<const D: usize> Gradient<D> {
     /// The derivatives by the sizes of the steps, with the times at their ends, s. Where a step ends at the jump of a load, the

@@ -6,8 +6,10 @@
 //! used.
 
 use super::event::Event;
+use super::stepper::Stepper;
 use super::{Simulation, StepResult};
 use crate::algebra::memory::TooLarge;
+use crate::element::conduction::Conduction;
 #[cfg(not(test))]
 use crate::element::group::springs::of_dimension;
 use crate::run::checkpoint::{Checkpoint, RestoreError};
@@ -19,6 +21,7 @@ use crate::step::control::Tolerance;
 use crate::step::error::StepError;
 use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
+use eem_material::number::compact::compact;
 
 /// The kind of a step.
 #[derive(Clone, Copy, Debug)]
@@ -207,5 +210,39 @@ impl<const D: usize> Functions<D> {
             return of_dimension(D, [&LINE, &PLANE, &SPACE]);
         }
         const { &Self::HERE }
+    }
+}
+
+impl<const D: usize> Simulation<D> {
+    /// Whether another run can begin in the memory of this one: its scene is small and has neither solids nor loads but gravity.
+    pub(crate) fn is_reusable(&self) -> bool {
+        let Stepper::Newton(newton) = &self.stepper else {
+            return false;
+        };
+        let is_small = newton.solver.is_renewable() && !self.masses.are_coupled();
+        is_small && self.loads.are_at_most_weight()
+    }
+
+    /// Whether a scene with these paths of heat, stepped by this scheme, differs from that of this run in numbers only.
+    pub(super) fn fits(&self, scene: &Scene<D>, scheme: Scheme, conduction: &Conduction) -> bool {
+        let masses = scene.nodes.iter().map(|node| node.mass.is_some());
+        let shapes = scene.groups.iter().map(|group| group.shape());
+        let mut elements = scene.elements.iter().zip(&self.places);
+        scheme == self.in_use
+            && scene.pairs.is_empty()
+            && scene.loads.are_at_most_weight()
+            && scene.loads.have_weight() == self.loads.have_weight()
+            && masses.eq(self.masses.iter().map(|mass| mass.is_some()))
+            && shapes.eq(self.shapes.iter().copied())
+            && scene.elements.len() == self.places.len()
+            && elements.all(|(entry, &[group, place])| {
+                let nodes = self.stepper.elements(group as usize).nodes(place as usize);
+                [entry.group, entry.place].map(compact) == [group, place]
+                    && nodes
+                        .iter()
+                        .copied()
+                        .eq(entry.nodes.iter().map(|&node| compact(node)))
+            })
+            && conduction.joins_like(&self.conduction)
     }
 }

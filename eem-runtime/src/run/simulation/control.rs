@@ -4,7 +4,7 @@ use core::mem;
 
 use super::check::{check_step, check_tolerance};
 use super::compiled::Functions;
-use super::guard::Guard;
+use super::memory::Guard;
 use super::memory::{Control, History, SMALLEST, Snapshot};
 use super::start::find_speeds;
 use super::stepper::Stepper;

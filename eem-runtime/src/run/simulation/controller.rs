@@ -3,8 +3,8 @@
 use super::Simulation;
 use super::stepper::Stepper;
 use crate::element::error::StateError;
-use crate::element::group::points;
 use crate::element::handle::{Element, Node};
+use crate::element::loads::point;
 use crate::run::checkpoint::{RestoreError, SavedLoads};
 use crate::scene::entry::infinite;
 use crate::scene::error::SceneError;
@@ -50,10 +50,7 @@ impl<const D: usize> Simulation<D> {
             return Err(SceneError::DeadLoad { node, axis, value });
         }
         let had_none = self.loads.forces.is_empty();
-        let is_new = set(&mut self.loads.forces, node, force.into());
-        let Some(is_new) = is_new else {
-            return Err(Self::given(&node, "force"));
-        };
+        let is_new = set(&mut self.loads.forces, node, force.into(), "force")?;
         let rebuilt = self.reload(is_new && had_none);
         rebuilt.inspect_err(|_| {
             self.loads.forces.pop();
@@ -90,10 +87,7 @@ impl<const D: usize> Simulation<D> {
             let node = anchor;
             return Err(SceneError::Velocity { node, axis, value });
         }
-        let is_new = set(&mut self.loads.motions, anchor, velocity.into());
-        let Some(is_new) = is_new else {
-            return Err(Self::given(&anchor, "motion"));
-        };
+        let is_new = set(&mut self.loads.motions, anchor, velocity.into(), "motion")?;
         let rebuilt = self.reload(is_new);
         rebuilt.inspect_err(|_| {
             self.loads.motions.pop();
@@ -104,8 +98,7 @@ impl<const D: usize> Simulation<D> {
 
     /// Remembers where an anchor is before it is moved for the first time.
     fn note_home(&mut self, anchor: usize) {
-        let positions = points::<D>(self.state.positions.values());
-        let home = positions[anchor];
+        let home = point(self.state.positions.values(), anchor);
         self.homes.entry(anchor).or_insert(home);
     }
 
@@ -149,19 +142,11 @@ impl<const D: usize> Simulation<D> {
         let mut all = self.loads.temperatures.iter_mut();
         match all.find(|(own, _)| *own == element) {
             Some((_, Course::Set(own))) => *own = temperature,
-            Some(_) => return Err(Self::given(&element, "temperature")),
-            None => {
-                return Err(SceneError::NoThermostat { element });
-            }
+            Some(_) => return Err(given(&element, "temperature")),
+            None => return Err(SceneError::NoThermostat { element }),
         }
         self.forget_loads();
         Ok(())
-    }
-
-    /// The error of setting a load that the scene already has as a function of time or as a constant.
-    fn given(handle: &dyn ToString, quantity: &'static str) -> SceneError {
-        let handle = handle.to_string();
-        SceneError::GivenLoad { handle, quantity }
     }
 
     /// An error unless a node is of this scene, and a mass or an anchor as required.
@@ -233,25 +218,30 @@ impl<const D: usize> Simulation<D> {
         if old.held != saved.held || saved.held.len() != saved.temperatures.len() {
             return Err(RestoreError::Loads);
         }
-        let forces = saved.forces.as_chunks::<D>().0;
-        let velocities = saved.velocities.as_chunks::<D>().0;
-        let is_valid = |nodes: &[usize], values: &[[f64; D]], mass: bool| {
+        let kinds = [
+            (&saved.forced, saved.forces.as_chunks::<D>().0, true),
+            (&saved.moved, saved.velocities.as_chunks::<D>().0, false),
+        ];
+        for (nodes, values, mass) in kinds {
             let masses = &self.masses;
             let is_one = |&node: &usize| node < masses.len() && masses.get(node).is_some() == mass;
-            let all = values.as_flattened().iter();
-            nodes.len() == values.len()
-                && nodes.iter().all(is_one)
-                && all.copied().all(f64::is_finite)
-        };
-        if !is_valid(&saved.forced, forces, true)
-            || !is_valid(&saved.moved, velocities, false)
-            || !saved.temperatures.iter().all(|&theta| is_positive(theta))
-        {
+            let are_finite = values.as_flattened().iter().all(|value| value.is_finite());
+            if nodes.len() != values.len() || !nodes.iter().all(is_one) || !are_finite {
+                return Err(RestoreError::Loads);
+            }
+        }
+        if !saved.temperatures.iter().all(|&theta| is_positive(theta)) {
             return Err(RestoreError::Loads);
         }
-        let node = |index: usize| self.scene.node(index);
-        replace_set(&mut loads.forces, &node, (&saved.forced, forces));
-        replace_set(&mut loads.motions, &node, (&saved.moved, velocities));
+        for (all, (nodes, values, _)) in [&mut loads.forces, &mut loads.motions]
+            .into_iter()
+            .zip(kinds)
+        {
+            all.retain(|(_, course)| !matches!(course, Course::Set(_)));
+            for (&index, &value) in nodes.iter().zip(values) {
+                all.push((self.scene.node(index), Course::Set(value.into())));
+            }
+        }
         let mut temperatures = saved.temperatures.iter();
         for (_, own) in &mut loads.temperatures {
             if let (Course::Set(own), Some(saved)) = (own, temperatures.next()) {
@@ -266,18 +256,6 @@ impl<const D: usize> Simulation<D> {
     }
 }
 
-/// Replaces the courses that controllers have set by others, given the indices of their nodes.
-fn replace_set<const D: usize>(
-    all: &mut Vec<(Node, VectorCourse<D>)>,
-    node: &dyn Fn(usize) -> Node,
-    (nodes, values): (&[usize], &[[f64; D]]),
-) {
-    all.retain(|(_, course)| !matches!(course, Course::Set(_)));
-    for (&index, value) in nodes.iter().zip(values) {
-        all.push((node(index), Course::Set((*value).into())));
-    }
-}
-
 /// The values that controllers have set.
 fn set_ones<const D: usize>(
     all: &[(Node, VectorCourse<D>)],
@@ -288,22 +266,26 @@ fn set_ones<const D: usize>(
     })
 }
 
-/// Sets the value of a node. True if the node had none before; `None` if the scene gives its value.
+/// Sets the value of a node. True if the node had none before; an error if the scene gives its value.
 fn set<const D: usize>(
     all: &mut Vec<(Node, VectorCourse<D>)>,
     node: Node,
     value: SVector<f64, D>,
-) -> Option<bool> {
-    let mut own = all.iter_mut().filter(|(own, _)| *own == node);
-    match own.next() {
-        Some((_, Course::Set(own))) => {
-            *own = value;
-            Some(false)
-        }
-        Some(_) => None,
+    quantity: &'static str,
+) -> Result<bool, SceneError> {
+    match all.iter_mut().find(|(own, _)| *own == node) {
+        Some((_, Course::Set(own))) => *own = value,
+        Some(_) => return Err(given(&node, quantity)),
         None => {
             all.push((node, Course::Set(value)));
-            Some(true)
+            return Ok(true);
         }
     }
+    Ok(false)
+}
+
+/// The error of setting a load that the scene already has as a function of time or as a constant.
+fn given(handle: &dyn ToString, quantity: &'static str) -> SceneError {
+    let handle = handle.to_string();
+    SceneError::GivenLoad { handle, quantity }
 }

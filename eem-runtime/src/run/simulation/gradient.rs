@@ -11,7 +11,7 @@ use core::mem;
 use core::ops::ControlFlow;
 
 use super::Simulation;
-use super::guard::Guard;
+use super::memory::Guard;
 use super::stepper::Stepper;
 use crate::algebra::system::LinearSystem;
 use crate::element::group::{Group, StepView};
@@ -21,7 +21,7 @@ use crate::element::phase::Phase;
 use crate::element::state::State;
 use crate::run::gradient::error::GradientError;
 use crate::run::gradient::history::History;
-use crate::run::gradient::objective::Objective;
+use crate::run::gradient::input::Objective;
 use crate::run::gradient::result::Gradient;
 use crate::run::gradient::snapshots::Record;
 use crate::step::adjoint::{Adjoint, NoAdjoint, PastStep, PerVariable, RocketStep};

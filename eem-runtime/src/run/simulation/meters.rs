@@ -5,7 +5,7 @@ use core::sync::atomic::Ordering;
 use super::Simulation;
 use crate::element::handle::{Element, HeatPath};
 use crate::element::meters::{Meters, total};
-use crate::run::checkpoint::RestoreError;
+use crate::run::checkpoint::{RestoreError, expect_count};
 use crate::scene::error::SceneError;
 use eem_material::number::compensated::Sum;
 
@@ -39,7 +39,7 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn meter_heat(&mut self) {
-        self.wants_meters.store(true, Ordering::Relaxed);
+        self.request_meters();
         self.begin_meters();
     }
 
@@ -51,14 +51,7 @@ impl<const D: usize> Simulation<D> {
     /// Begins the sums if they are wanted and have not begun.
     #[inline]
     pub(super) fn begin_meters(&mut self) {
-        if self.wants_meters.load(Ordering::Relaxed) {
-            self.ensure_meters();
-        }
-    }
-
-    #[cold]
-    fn ensure_meters(&mut self) {
-        if !self.state.meters.are_on {
+        if self.wants_meters.load(Ordering::Relaxed) && !self.state.meters.are_on {
             self.state.meters = Meters::new(self.meter_counts());
         }
     }
@@ -77,28 +70,20 @@ impl<const D: usize> Simulation<D> {
             [0; 3]
         };
         let names = ["heat of dashpots", "entropy production", "conducted heat"];
-        let pairs = names
+        let mut counts = names
             .into_iter()
             .zip(meters.counts().into_iter().zip(expected));
-        for (quantity, (checkpoint, simulation)) in pairs {
-            if checkpoint != simulation {
-                return Err(RestoreError::Count {
-                    quantity,
-                    checkpoint,
-                    simulation,
-                });
-            }
-        }
-        Ok(())
+        counts.try_for_each(|(quantity, (own, other))| expect_count(quantity, own, other))
     }
 
-    /// The sums, if the scheme closes its balances, by which they are defined.
-    fn meters(&self) -> Result<&Meters, SceneError> {
+    /// A sum, zero before the sums began, if the scheme closes its balances, by which it is defined.
+    fn meter(&self, sum: impl FnOnce(&Meters) -> Sum) -> Result<Sum, SceneError> {
         if !self.in_use.is_exact() {
             let scheme = self.in_use.name();
             return Err(SceneError::NotMetered { scheme });
         }
-        Ok(&self.state.meters)
+        let meters = Some(&self.state.meters).filter(|meters| meters.are_on);
+        Ok(meters.map_or(Sum::new(0.0), sum))
     }
 
     /// The heat that the dashpots of an element have dissipated since the sums began, J; zero before.
@@ -114,15 +99,12 @@ impl<const D: usize> Simulation<D> {
 
     pub(crate) fn dissipation_sum(&self, element: Element) -> Result<Sum, SceneError> {
         self.expect_own(&element)?;
-        let meters = self.meters()?;
-        if !meters.are_on {
-            return Ok(Sum::new(0.0));
-        }
-        let first = self.slots(element).viscous;
-        let in_series = first..first + self.shape(element).dashpots;
-        let in_parallel = self.layout.viscous + element.index();
-        let all = in_series.chain([in_parallel]);
-        Ok(total(all.map(|dashpot| meters.dissipated.sum(dashpot))))
+        self.meter(|meters| {
+            let first = self.slots(element).viscous;
+            let in_series = first..first + self.shape(element).dashpots;
+            let all = in_series.chain([self.layout.viscous + element.index()]);
+            total(all.map(|dashpot| meters.dissipated.sum(dashpot)))
+        })
     }
 
     /// The heat that one dashpot (from 0) of an element has dissipated since the sums began, J; zero before. The dashpots in
@@ -155,9 +137,7 @@ impl<const D: usize> Simulation<D> {
         } else {
             self.layout.viscous + element.index()
         };
-        let meters = self.meters()?;
-        let sum = meters.are_on.then(|| meters.dissipated.sum(index));
-        Ok(sum.unwrap_or(Sum::new(0.0)))
+        self.meter(|meters| meters.dissipated.sum(index))
     }
 
     /// The entropy that an element has produced since the sums began, J/K; zero before: that of its dashpots, of its paths of
@@ -172,9 +152,7 @@ impl<const D: usize> Simulation<D> {
 
     pub(crate) fn produced_sum(&self, element: Element) -> Result<Sum, SceneError> {
         let slot = self.thermal_slot(element)?;
-        let meters = self.meters()?;
-        let sum = meters.are_on.then(|| meters.produced.sum(slot));
-        Ok(sum.unwrap_or(Sum::new(0.0)))
+        self.meter(|meters| meters.produced.sum(slot))
     }
 
     /// The heat that a path has brought to the element with which it was [made](crate::Scene::conduct), from its partner, since
@@ -189,19 +167,14 @@ impl<const D: usize> Simulation<D> {
 
     pub(crate) fn conducted_sum(&self, path: HeatPath) -> Result<Sum, SceneError> {
         self.expect_own(&path)?;
-        let meters = self.meters()?;
-        if !meters.are_on {
-            return Ok(Sum::new(0.0));
-        }
-        let (link, is_second) = self.conduction.path(path.index);
-        let Sum { value, carry } = meters.conducted.sum(link);
-        Ok(if is_second {
+        self.meter(|meters| {
+            let (link, is_second) = self.conduction.path(path.index);
+            let Sum { value, carry } = meters.conducted.sum(link);
+            let sign = if is_second { -1.0 } else { 1.0 };
             Sum {
-                value: -value,
-                carry: -carry,
+                value: sign * value,
+                carry: sign * carry,
             }
-        } else {
-            Sum { value, carry }
         })
     }
 }

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use super::Simulation;
 use super::compiled::Aim;
-use super::guard::Guard;
+use super::memory::Guard;
 use super::memory::SMALLEST;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;

@@ -9,7 +9,7 @@ use core::ops::ControlFlow;
 use super::{Bracket, Event, Simulation};
 use crate::run::simulation::StepResult;
 use crate::run::simulation::compiled::{Aim, Functions};
-use crate::run::simulation::guard::or_restore;
+use crate::run::simulation::memory::or_restore;
 use crate::run::simulation::run::RunEnd;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;

@@ -16,7 +16,7 @@ use crate::run::gradient::series::Sensitivities;
 use crate::run::gradient::snapshots::{Record, Snapshot};
 use crate::run::recorder::{Column, Quantity};
 use crate::run::simulation::Simulation;
-use crate::run::simulation::guard::Guard;
+use crate::run::simulation::memory::Guard;
 use crate::run::simulation::stepper::Stepper;
 use crate::step::adjoint::Tangents;
 use eem_material::number::compensated::Sum;
