@@ -161,6 +161,20 @@ pub(crate) struct SavedControl {
     pub(crate) largest: f64,
 }
 
+impl SavedControl {
+    /// The history before the first step.
+    pub(crate) fn new(tolerance: Tolerance) -> Self {
+        Self {
+            tolerance,
+            controller: Controller::new(),
+            statistics: StepStatistics::default(),
+            largest_momentum: 0.0,
+            smallest: 0.0,
+            largest: f64::MAX,
+        }
+    }
+}
+
 /// The scheme in use by `Scheme::Auto`, and the history of its selection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(

@@ -148,12 +148,27 @@ impl Ensemble<'_> {
             *used = run.is_reusable().then_some(run);
             result
         };
-        let progress = Progress::new(self.watch, inputs.len());
+        let stopped = AtomicBool::new(false);
+        let done = self.watch.map(|watch| Mutex::new((0, watch)));
         map(self.threads, inputs, |used, index, input| {
-            let result = progress.follow(1, || member(used, input));
-            let result = result.unwrap_or(Err(MemberFailure::Stopped));
-            let member = index;
-            result.map_err(|failure| MemberError { member, failure })
+            let failed = |failure| MemberError {
+                member: index,
+                failure,
+            };
+            if stopped.load(Ordering::Relaxed) {
+                return Err(failed(MemberFailure::Stopped));
+            }
+            let result = member(used, input);
+            if let Some(done) = &done {
+                // A panic in `watch` ends the ensemble; until then the count is right.
+                let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+                let (count, watch) = &mut *done;
+                *count += 1;
+                if watch(*count, inputs.len()).is_break() {
+                    stopped.store(true, Ordering::Relaxed);
+                }
+            }
+            result.map_err(failed)
         })
     }
 }
@@ -207,45 +222,6 @@ impl MemberFailure {
 
 /// Called with the numbers of finished and of all members.
 type Watch<'w> = Box<dyn FnMut(usize, usize) -> ControlFlow<()> + Send + 'w>;
-
-/// The progress of one ensemble, shared by its threads.
-struct Progress<'w> {
-    total: usize,
-    stopped: AtomicBool,
-    done: Option<Mutex<(usize, Watch<'w>)>>,
-}
-
-impl<'w> Progress<'w> {
-    fn new(watch: Option<Watch<'w>>, total: usize) -> Self {
-        Self {
-            total,
-            stopped: AtomicBool::new(false),
-            done: watch.map(|watch| Mutex::new((0, watch))),
-        }
-    }
-
-    /// Runs `count` members and reports each; `None` if the ensemble was stopped before.
-    fn follow<T>(&self, count: usize, members: impl FnOnce() -> T) -> Option<T> {
-        if self.stopped.load(Ordering::Relaxed) {
-            return None;
-        }
-        let results = members();
-        (0..count).for_each(|_| self.report());
-        Some(results)
-    }
-
-    fn report(&self) {
-        if let Some(done) = &self.done {
-            // A panic in `watch` ends the ensemble; until then the count is right.
-            let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-            let (count, watch) = &mut *done;
-            *count += 1;
-            if watch(*count, self.total).is_break() {
-                self.stopped.store(true, Ordering::Relaxed);
-            }
-        }
-    }
-}
 
 /// `f(w, i, &inputs[i])` for all `i`, on this number of threads, each of which keeps a `w` of its own; 0 means those of the
 /// present pool.

@@ -43,6 +43,7 @@ use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
+use crate::run::checkpoint::SavedControl;
 #[cfg(feature = "gradients")]
 use crate::run::gradient::history::Watch;
 #[cfg(feature = "gradients")]
@@ -172,7 +173,7 @@ impl<const D: usize> Simulation<D> {
             run.find_first_step(tolerance);
         }
         let default = (scheme == Scheme::Auto).then(Tolerance::default);
-        run.set_control(tolerance.or(default).map(Self::new_control));
+        run.set_control(tolerance.or(default).map(SavedControl::new));
         Ok(run)
     }
 

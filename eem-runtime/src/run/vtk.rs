@@ -13,7 +13,7 @@ use crate::element::handle::Node;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use cell::{Cell, DATA, Grid, cells, list};
+use cell::{Cell, DATA, Xml, cells, list};
 
 /// Writes states of a run for ParaView: one `.vtu` file per time, and a `.pvd` file that lists them. Open the
 /// latter.
@@ -26,6 +26,7 @@ use cell::{Cell, DATA, Grid, cells, list};
 /// have at most three dimensions. Values have all their digits.
 ///
 /// ```no_run
+/// use eem::VtkSeries;
 /// use eem::prelude::*;
 ///
 /// let mut scene = Scene::<2>::new();
@@ -76,6 +77,7 @@ impl<const D: usize> VtkSeries<D> {
     /// Writes the present state and updates the list of times.
     ///
     /// ```
+    /// use eem::VtkSeries;
     /// use eem::prelude::*;
     ///
     /// let folder = std::env::temp_dir().join("eem of two series");
@@ -97,11 +99,11 @@ impl<const D: usize> VtkSeries<D> {
     /// another series of this program has written files with this name to the folder.
     pub fn write(&mut self, run: &Simulation<D>) -> io::Result<()> {
         self.check(run)?;
-        let grid = self.grid(run).map_err(invalid)?;
+        let text = self.text(run).map_err(invalid)?;
         fs::create_dir_all(&self.folder).map_err(at(&self.folder))?;
         self.claim()?;
         let file = self.folder.join(self.file_of(self.times.len()));
-        fs::write(&file, grid.to_xml()).map_err(at(&file))?;
+        fs::write(&file, text).map_err(at(&file))?;
         self.times.push(run.time());
         let steps = self.times.iter().enumerate();
         let list = list(steps.map(|(index, &time)| (time, self.file_of(index))));
@@ -155,18 +157,25 @@ impl<const D: usize> VtkSeries<D> {
         format!("{}_{index:05}.vtu", self.name)
     }
 
-    /// The grid with all values of a state.
-    fn grid(&self, run: &Simulation<D>) -> Result<Grid, SceneError> {
-        let mut grid = Grid::new(self.cells.iter().map(|cell| (cell.kind, &cell.nodes[..])));
-        let mut moved = Vec::with_capacity(self.nodes.len());
-        let mut velocities = Vec::with_capacity(self.nodes.len());
+    /// The text of a `.vtu` with all values of a state.
+    fn text(&self, run: &Simulation<D>) -> Result<String, SceneError> {
+        let mut xml = Xml::new("UnstructuredGrid");
+        let (nodes, cells) = (self.nodes.len(), self.cells.len());
+        xml.line("<UnstructuredGrid>");
+        xml.line(&format!(
+            "<Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{cells}\">"
+        ));
+        let [mut positions, mut moved, mut velocities] = [const { Vec::new() }; 3];
         for (&node, reference) in self.nodes.iter().zip(&self.reference) {
             let position = in_space(run.position(node)?.as_slice());
             velocities.push(in_space(run.velocity(node)?.as_slice()));
             moved.push([0, 1, 2].map(|axis| position[axis] - reference[axis]));
-            grid.points.push(position);
+            positions.push(position);
         }
-        grid.vectors = vec![("displacement", moved), ("velocity", velocities)];
+        xml.line("<PointData>");
+        xml.numbers("displacement", 3, moved.as_flattened());
+        xml.numbers("velocity", 3, velocities.as_flattened());
+        xml.line("</PointData>\n<CellData>");
         let mut columns = [const { Vec::new() }; DATA.len()];
         for cell in &self.cells {
             cell.append(run, &mut columns)?;
@@ -174,10 +183,22 @@ impl<const D: usize> VtkSeries<D> {
         for ((name, components), values) in DATA.into_iter().zip(columns) {
             let is_known = |value: &f64| !value.is_nan();
             if components == 1 || values.iter().step_by(components).any(is_known) {
-                grid.cell_data.push((name, components, values));
+                xml.numbers(name, components, &values);
             }
         }
-        Ok(grid)
+        xml.line("</CellData>\n<Points>");
+        xml.numbers("position", 3, positions.as_flattened());
+        xml.line("</Points>\n<Cells>");
+        let connectivity = self.cells.iter().flat_map(|cell| &cell.nodes);
+        xml.array("Int64", "connectivity", 1, connectivity);
+        let ends = self.cells.iter().scan(0, |end, cell| {
+            *end += cell.nodes.len();
+            Some(*end)
+        });
+        xml.array("Int64", "offsets", 1, ends);
+        xml.array("UInt8", "types", 1, self.cells.iter().map(|cell| cell.kind));
+        xml.line("</Cells>\n</Piece>\n</UnstructuredGrid>");
+        Ok(xml.end())
     }
 }
 

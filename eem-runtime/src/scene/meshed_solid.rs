@@ -9,7 +9,6 @@ use crate::scene::bulk::Body;
 use crate::scene::bulk::{Bulk, Shared, joined};
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
-use crate::scene::solid::CellProperties;
 use crate::scene::solid_error::SolidError;
 use eem_material::free_energy::FreeEnergy;
 use eem_mesh::{Mesh, per_node};
@@ -58,18 +57,11 @@ impl<const D: usize> Scene<D> {
     {
         let first = self.next_element(&model);
         let nodes = self.nodes_of_mesh(mesh, bulk, first);
-        let mut properties = CellProperties {
-            density: bulk.density,
-            thickness: bulk.thickness,
-            fibres: &bulk.fibres,
-            lumped: bulk.lumped,
-            is_invalid: false,
-        };
         // One error for the solid, not one per cell.
-        if let Err(error) = properties.measures(model.strains(), first) {
+        let measures = bulk.measures(model.strains(), first).map_err(|error| {
             self.refuse(error);
-            properties.is_invalid = true;
-        }
+            None
+        });
         let conductivity = bulk.conductivity.filter(|_| M::THERMAL);
         if conductivity.is_some() != bulk.conductivity.is_some() {
             self.refuse(SolidError::NoTemperature { element: first });
@@ -77,7 +69,7 @@ impl<const D: usize> Scene<D> {
         let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
         for cell in mesh.cells() {
             let named = per_node::<H, _, D>(|at| nodes[cell[at]]);
-            points.extend(self.push_cell::<H, M, N>(&model, &named, properties));
+            points.extend(self.push_cell::<H, M, N>(&model, &named, bulk, measures.clone()));
         }
         let body = Body {
             mesh: mesh.clone(),

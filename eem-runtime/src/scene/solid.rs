@@ -6,6 +6,7 @@ use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{
     Measure, Points, Quad4, QuadraticStrain, Shape, SolidPoint, Strain, StrainEnergy,
 };
+use crate::scene::bulk::Bulk;
 use crate::scene::check::check_position;
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
@@ -79,15 +80,10 @@ impl Scene<2> {
     where
         M: FreeEnergy<f64> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let Section { density, thickness } = section;
-        let properties = CellProperties {
-            density,
-            thickness,
-            fibres: &[],
-            lumped: false,
-            is_invalid: false,
-        };
-        self.push_cell::<Quad4, M, N>(&model, &nodes, properties)
+        let bulk = Bulk::new(section.density).thickness(section.thickness);
+        let first = self.next_element(&model);
+        let measures = bulk.measures(model.strains(), first).map_err(Some);
+        self.push_cell::<Quad4, M, N>(&model, &nodes, &bulk, measures)
     }
 }
 
@@ -156,20 +152,8 @@ fn invalid_shear(element: Element, strain: &[[f64; 3]; 3], is_plane: bool) -> Op
     })
 }
 
-/// The properties of a cell besides its material and nodes.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CellProperties<'a, const D: usize> {
-    /// ρ, kg/m³.
-    pub(super) density: f64,
-    /// Thickness in the plane, m; one in space.
-    pub(super) thickness: f64,
-    /// The directions of the fibres.
-    pub(super) fibres: &'a [[f64; D]],
-    /// Whether the mass is lumped, so that it does not couple nodes.
-    pub(super) lumped: bool,
-    /// Whether the solid is invalid; an error is then already recorded.
-    pub(super) is_invalid: bool,
-}
+/// The measures of a material; an error that may already be recorded if a solid is invalid.
+type Measures<const N: usize, const D: usize> = Result<[Measure<D>; N], Option<SolidError>>;
 
 /// Explicit schemes refuse scenes with solids.
 fn no_explicit<const D: usize>(_: Box<dyn Loose<D>>, _: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
@@ -177,12 +161,14 @@ fn no_explicit<const D: usize>(_: Box<dyn Loose<D>>, _: Placed<'_>) -> Box<dyn E
 }
 
 impl<const D: usize> Scene<D> {
-    /// Adds a cell in the present positions of its nodes; returns its points. Errors are recorded for `Simulation::new`.
+    /// Adds a cell in the present positions of its nodes; returns its points. Errors are recorded for `Simulation::new`; those of
+    /// measures are, if they are `None`.
     pub(super) fn push_cell<H, M, const N: usize>(
         &mut self,
         model: &M,
         nodes: &H::PerNode<Node>,
-        properties: CellProperties<'_, D>,
+        bulk: &Bulk<D>,
+        measures: Measures<N, D>,
     ) -> H::PerPoint<Element>
     where
         H: Shape<D>,
@@ -190,22 +176,22 @@ impl<const D: usize> Scene<D> {
     {
         let first = self.next_element(model);
         let points = H::PerPoint::from_fn(|point| first.after(point));
-        let (group, place) =
-            match self.expect_cell::<H, N>(nodes, (model.strains(), properties), points.as_ref()) {
-                Ok(cell) => {
-                    let parts = H::PerPoint::from_fn(|at| {
-                        let point = cell.as_ref()[at];
-                        let energy = PointEnergy::new(model.at_point(), point.volume());
-                        (energy, point)
-                    });
-                    self.push_parts::<_, SolidPoint<H, N, D>>(first, parts)
-                }
-                // The handles must be valid until the scene is checked.
-                Err(errors) => {
-                    self.errors.extend(errors);
-                    (INVALID, 0)
-                }
-            };
+        let (group, place) = match self.expect_cell::<H, N>(nodes, bulk, measures, points.as_ref())
+        {
+            Ok(cell) => {
+                let parts = H::PerPoint::from_fn(|at| {
+                    let point = cell.as_ref()[at];
+                    let energy = PointEnergy::new(model.at_point(), point.volume());
+                    (energy, point)
+                });
+                self.push_parts::<_, SolidPoint<H, N, D>>(first, parts)
+            }
+            // The handles must be valid until the scene is checked.
+            Err(errors) => {
+                self.errors.extend(errors);
+                (INVALID, 0)
+            }
+        };
         for point in 0..points.as_ref().len() {
             self.push_element(nodes.as_ref(), [group, place + point]);
         }
@@ -230,7 +216,8 @@ impl<const D: usize> Scene<D> {
     fn expect_cell<H: Shape<D>, const N: usize>(
         &mut self,
         nodes: &H::PerNode<Node>,
-        (strains, properties): ([Strain; N], CellProperties<'_, D>),
+        bulk: &Bulk<D>,
+        measures: Measures<N, D>,
         points: &[Element],
     ) -> Result<H::PerPoint<SolidPoint<H, N, D>>, Option<SceneError>> {
         for node in nodes.as_ref() {
@@ -239,15 +226,10 @@ impl<const D: usize> Scene<D> {
             }
             check_position(*node, &self.nodes[node.index])?;
         }
-        if properties.is_invalid {
-            return Err(None);
-        }
-        let measures = properties
-            .measures(strains, points[0])
-            .map_err(SceneError::from)?;
+        let measures = measures.map_err(|error| error.map(SceneError::from))?;
         let position = |at: usize| self.nodes[nodes[at].index].position.into();
         let reference = per_node::<H, _, D>(position);
-        let cell = SolidPoint::<H, N, D>::points(&reference, properties.thickness, measures);
+        let cell = SolidPoint::<H, N, D>::points(&reference, bulk.thickness, measures);
         let cell = cell.map_err(|(point, size)| {
             SceneError::Solid(SolidError::InsideOut {
                 element: points[point],
@@ -260,7 +242,7 @@ impl<const D: usize> Scene<D> {
                 },
             })
         })?;
-        self.add_masses::<H>(nodes.as_ref(), &reference, properties);
+        self.add_masses::<H>(nodes.as_ref(), &reference, bulk);
         Ok(cell)
     }
 
@@ -269,11 +251,11 @@ impl<const D: usize> Scene<D> {
         &mut self,
         nodes: &[Node],
         reference: &H::PerNode<[f64; D]>,
-        properties: CellProperties<'_, D>,
+        bulk: &Bulk<D>,
     ) {
-        let mut masses =
-            integrals::masses::<H, D>(reference, properties.density * properties.thickness);
-        if properties.lumped {
+        let per_area = bulk.density * bulk.thickness;
+        let mut masses = integrals::masses::<H, D>(reference, per_area);
+        if bulk.lumped {
             integrals::lump::<H, D>(&mut masses);
         }
         for (a, row) in masses.as_ref().iter().enumerate() {
@@ -293,7 +275,7 @@ impl<const D: usize> Scene<D> {
     }
 }
 
-impl<const D: usize> CellProperties<'_, D> {
+impl<const D: usize> Bulk<D> {
     /// The measures of a material along the fibres; an error if the solid with this first point is invalid.
     pub(super) fn measures<const N: usize>(
         &self,
@@ -319,6 +301,6 @@ impl<const D: usize> CellProperties<'_, D> {
                 given,
             });
         }
-        Measure::along(strains, self.fibres).ok_or(SolidError::Fibre { element })
+        Measure::along(strains, &self.fibres).ok_or(SolidError::Fibre { element })
     }
 }

@@ -78,17 +78,13 @@ impl<const D: usize> Simulation<D> {
             return Err(failed);
         };
         let before = self.scheme_at_work();
-        for scheme in CANDIDATES {
-            if scheme == own
-                || !self.is_candidate(scheme, control)
-                || !self.switches_to(scheme, control)
-            {
-                continue;
-            }
-            self.step = usual;
-            if let Ok(report) = self.counted_step(control, end) {
-                self.record_switch(control, usual);
-                return Ok(report);
+        for scheme in CANDIDATES.into_iter().filter(|&scheme| scheme != own) {
+            if self.is_candidate(scheme, control) && self.switches_to(scheme, control) {
+                self.step = usual;
+                if let Ok(report) = self.counted_step(control, end) {
+                    self.record_switch(control, usual);
+                    return Ok(report);
+                }
             }
         }
         self.return_to_scheme(&before, control);
@@ -170,11 +166,10 @@ impl<const D: usize> Simulation<D> {
         }
         let (tolerance, unknowns) = (&control.memory.tolerance, self.layout.unknowns);
         let suits = |scheme: Scheme| self.is_candidate(scheme, control);
-        let selection = &self.automatic.selection;
-        let scheme = selection.next_in_turn(self.in_use, (tolerance, unknowns), &suits)?;
-        let (schemes, relative) = ([self.in_use, scheme], tolerance.relative);
+        let (own, selection) = (self.in_use, &self.automatic.selection);
+        let scheme = selection.next_in_turn(own, (tolerance, unknowns), &suits)?;
         let selection = &mut self.automatic.selection;
-        let size = selection.implicit_trial(schemes, unknowns, relative)?;
+        let size = selection.implicit_trial([own, scheme], unknowns, tolerance.relative)?;
         Some((scheme, size))
     }
 
@@ -223,10 +218,9 @@ impl<const D: usize> Simulation<D> {
         }
         // The errors of earlier steps mean nothing for another scheme.
         control.memory.controller = Controller::new();
-        // The step goes on to look at loads.
-        let horizon = control.horizon;
         *control = Control {
-            horizon,
+            // The step goes on to look at loads.
+            horizon: control.horizon,
             ..self.control_of(control.memory)
         };
         true
@@ -275,12 +269,12 @@ impl<const D: usize> Simulation<D> {
             let is_choice = CANDIDATES.contains(&scheme) || scheme.is_damped();
             is_choice && self.automatic.needs.allows(scheme)
         };
-        match saved.filter(|saved| !suits(saved.scheme) || !suits(saved.previous)) {
-            Some(saved) => Err(RestoreError::Scheme {
-                checkpoint: saved.scheme,
+        match saved {
+            Some(own) if !(suits(own.scheme) && suits(own.previous)) => Err(RestoreError::Scheme {
+                checkpoint: own.scheme,
                 simulation: self.scheme,
             }),
-            None => Ok(saved),
+            saved => Ok(saved),
         }
     }
 

@@ -5,6 +5,7 @@ use core::error::Error;
 use core::fmt;
 
 use super::Simulation;
+use super::check::check_tolerance;
 use super::compiled::Functions;
 use super::stepper::{Memory, Stepper};
 use crate::algebra::memory::TooLarge;
@@ -64,11 +65,13 @@ impl<const D: usize> Simulation<D> {
                 controller: Controller::new(),
                 ..control.memory
             }),
-            None if scheme == Scheme::Auto => Some(Self::new_control(Tolerance::default())),
+            None if scheme == Scheme::Auto => Some(SavedControl::new(Tolerance::default())),
             None => None,
         };
         self.automatic.needs.check(in_use)?;
-        Self::check_control(control, (scheme, in_use))?;
+        if let Some(control) = &control {
+            check_tolerance(&control.tolerance, (scheme, in_use))?;
+        }
         self.automatic.is_motion_first = self.is_motion_first();
         if in_use != self.in_use {
             self.use_scheme(in_use)?;

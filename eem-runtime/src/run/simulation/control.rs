@@ -12,7 +12,7 @@ use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
-use crate::step::control::{AFTER_FAILURE, Controller, StepStatistics, Tolerance, length};
+use crate::step::control::{AFTER_FAILURE, StepStatistics, Tolerance, length};
 use crate::step::error::{StepError, StepFailure, StepLimit};
 use crate::step::explicit::Demand;
 use crate::step::newton::NewtonSettings;
@@ -52,24 +52,24 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn control_steps(&mut self, tolerance: Tolerance) -> Result<(), SceneError> {
-        let memory = Some(Self::new_control(tolerance));
-        let first = self.automatic.needs.first(self.scheme);
-        let is_damped = self.scheme == Scheme::Auto && self.in_use.is_damped();
-        let in_use = if is_damped { first } else { self.in_use };
-        Self::check_control(memory, (self.scheme, in_use))?;
-        if is_damped {
-            // With a tolerance, errors of conduction and dashpots are seen.
-            self.use_scheme(first)?;
+        // With a tolerance, errors of conduction and dashpots are seen.
+        let in_use = if self.scheme == Scheme::Auto && self.in_use.is_damped() {
+            self.automatic.needs.first(self.scheme)
+        } else {
+            self.in_use
+        };
+        check_tolerance(&tolerance, (self.scheme, in_use))?;
+        if in_use != self.in_use {
+            self.use_scheme(in_use)?;
         }
-        self.set_control(memory);
+        self.set_control(Some(SavedControl::new(tolerance)));
         Ok(())
     }
 
     /// Finds the first step for a tolerance, and the velocities of moved anchors within it.
     pub(super) fn find_first_step(&mut self, tolerance: &Tolerance) {
-        let step = self
-            .least
-            .first_step(tolerance.relative, self.in_use.accuracy());
+        let accuracy = self.in_use.accuracy();
+        let step = self.least.first_step(tolerance.relative, accuracy);
         // Longer than the rounding of the time.
         let least = SMALLEST * f64::EPSILON * self.start.abs();
         self.step = Scalar::maximum(step, least);
@@ -77,33 +77,10 @@ impl<const D: usize> Simulation<D> {
         // Those of a longer step have been found.
         let span = [self.start, self.step];
         if self.masses.are_coupled() && find_speeds(&self.loads, span, &mut velocities).is_empty() {
-            let all = &mut self.state.velocities;
-            all.write(|all| all.copy_from_slice(&velocities));
+            let write = |all: &mut [f64]| all.copy_from_slice(&velocities);
+            self.state.velocities.write(write);
             self.state.follow_velocities(D, &self.masses);
         }
-    }
-
-    /// The history of step control before the first step.
-    pub(super) fn new_control(tolerance: Tolerance) -> SavedControl {
-        SavedControl {
-            tolerance,
-            controller: Controller::new(),
-            statistics: StepStatistics::default(),
-            largest_momentum: 0.0,
-            smallest: 0.0,
-            largest: f64::MAX,
-        }
-    }
-
-    /// An error unless steps of a scheme, and of the one that it uses first, can be controlled with this tolerance.
-    pub(super) fn check_control(
-        memory: Option<SavedControl>,
-        (scheme, in_use): (Scheme, Scheme),
-    ) -> Result<(), SceneError> {
-        let Some(memory) = memory else {
-            return Ok(());
-        };
-        check_tolerance(&memory.tolerance, (scheme, in_use))
     }
 
     /// Continues step control from its history; `None` switches it off.
@@ -163,14 +140,11 @@ impl<const D: usize> Simulation<D> {
                 control.memory.largest = largest;
                 Ok(())
             }
-            control => {
-                let is_controlled = control.is_some();
-                Err(SceneError::StepLimits {
-                    smallest,
-                    largest,
-                    is_controlled,
-                })
-            }
+            control => Err(SceneError::StepLimits {
+                smallest,
+                largest,
+                is_controlled: control.is_some(),
+            }),
         }
     }
 
@@ -193,16 +167,15 @@ impl<const D: usize> Simulation<D> {
     /// One step by the scheme in use, not beyond `end`, of an accurate size; by another scheme if that is allowed and
     /// cheaper.
     pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> StepResult {
-        let horizon = end;
-        let end = self.stop_before(end);
         // A step in the scheme goes to a time within one that has looked.
-        let looks = may_switch;
+        let horizon = may_switch.then_some(end);
+        let end = self.stop_before(end);
         let may_switch = may_switch && self.may_change_scheme();
         let history = self.history();
         let found = self.with_control(|run, control| match control {
             None => run.step_by(run.step),
             Some(control) => {
-                control.horizon = looks.then_some(horizon);
+                control.horizon = horizon;
                 if may_switch {
                     run.step_of_choice(control, end)
                 } else {
@@ -235,9 +208,9 @@ impl<const D: usize> Simulation<D> {
         let usual = self.step;
         loop {
             let memory = &control.memory;
-            self.step =
-                Scalar::minimum(Scalar::maximum(self.step, memory.smallest), memory.largest);
-            let full = self.step;
+            let least = Scalar::maximum(self.step, memory.smallest);
+            let full = Scalar::minimum(least, memory.largest);
+            self.step = full;
             let arriving = self.size_towards(end, full);
             let size = arriving.unwrap_or(full);
             let (next, limit) = match self.attempt(control, size) {
@@ -257,17 +230,15 @@ impl<const D: usize> Simulation<D> {
                 Ok(Tried::Rejected(error)) => {
                     control.memory.statistics.rejected_by_error += 1;
                     let next = size * control.accuracy.left_after(error);
-                    let worst = None;
-                    (next, StepLimit::Error { error, worst })
+                    (next, StepLimit::Error { error, worst: None })
                 }
                 Ok(Tried::Unseen(load)) => (AFTER_PASSING * size, StepLimit::Load { load }),
                 Err(error) => {
-                    let statistics = &mut control.memory.statistics;
-                    if !statistics.note_failure(&error.failure) {
+                    if !control.memory.statistics.note_failure(&error.failure) {
                         return Err(error);
                     }
-                    let next = AFTER_FAILURE * size;
-                    (next, StepLimit::Failure(Box::new(error.failure)))
+                    let limit = StepLimit::Failure(Box::new(error.failure));
+                    (AFTER_FAILURE * size, limit)
                 }
             };
             let smallest = control.smallest(self.time(), usual);

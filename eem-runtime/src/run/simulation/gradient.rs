@@ -63,13 +63,16 @@ impl<const D: usize> Simulation<D> {
     /// ends. Nothing has changed then.
     ///
     /// ```
-    /// use eem::materials::Hooke;
     /// use eem::prelude::*;
     /// use eem::{History, Objective};
     ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - 1.0).powi(2))]
+    /// struct Spring { stiffness: f64 }
+    ///
     /// let mut scene = Scene::<1>::new();
     /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
-    /// let spring = scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, ends);
+    /// let spring = scene.spring(Spring { stiffness: 4.0 }, ends);
     /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.001)?;
     /// run.keep_history(History::default());
     /// run.run_until(1.0)?;

@@ -1,6 +1,7 @@
 //! Saving and restoring checkpoints: whether the scene can have a saved state at its time.
 
 use super::Simulation;
+use super::check::check_tolerance;
 use super::compiled::Functions;
 use super::memory::Unresolved;
 use crate::element::conduction::Partner;
@@ -110,7 +111,9 @@ impl<const D: usize> Simulation<D> {
     fn restore_in_scheme(&mut self, checkpoint: &Checkpoint) -> Result<(), RestoreError> {
         checkpoint.check(&self.checkpoint_here())?;
         self.audit(&checkpoint.state, checkpoint.step)?;
-        Self::check_control(checkpoint.control, (self.scheme, self.in_use))?;
+        if let Some(control) = &checkpoint.control {
+            check_tolerance(&control.tolerance, (self.scheme, self.in_use))?;
+        }
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);
