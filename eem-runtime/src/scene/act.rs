@@ -259,14 +259,8 @@ impl<const D: usize> Scene<D> {
             return false;
         }
         let is_mass = self.nodes[node.index].mass.is_some();
-        if is_mass != mass {
-            self.refuse(SceneError::WrongKind {
-                node,
-                quantity,
-                kind: if is_mass { "a mass" } else { "an anchor" },
-            });
-        }
-        is_mass == mass
+        let found = SceneError::expect_kind(node, [is_mass, mass], quantity);
+        found.map_err(|error| self.refuse(error)).is_ok()
     }
 }
 

@@ -182,12 +182,8 @@ fn check_element(
     errors: &mut Vec<SceneError>,
 ) {
     for &(dashpot, stretch) in &entry.viscous_stretches {
-        if dashpot >= shape.dashpots {
-            errors.push(SceneError::NoSuchDashpot {
-                element,
-                dashpot,
-                dashpots: shape.dashpots,
-            });
+        if let Err(error) = SceneError::expect_dashpot(element, dashpot, shape.dashpots) {
+            errors.push(error);
         } else if !stretch.is_finite() {
             let error = StateError::ViscousStretch {
                 element,

@@ -408,6 +408,40 @@ pub enum SceneError {
     State(StateError),
 }
 
+impl SceneError {
+    /// An error unless an element has a dashpot with this number, from 0.
+    pub(crate) fn expect_dashpot(
+        element: Element,
+        dashpot: usize,
+        dashpots: usize,
+    ) -> Result<(), Self> {
+        if dashpot < dashpots {
+            return Ok(());
+        }
+        Err(Self::NoSuchDashpot {
+            element,
+            dashpot,
+            dashpots,
+        })
+    }
+
+    /// An error unless a node is a mass or an anchor, as required for a quantity.
+    pub(crate) fn expect_kind(
+        node: Node,
+        [is_mass, required]: [bool; 2],
+        quantity: &'static str,
+    ) -> Result<(), Self> {
+        if is_mass == required {
+            return Ok(());
+        }
+        Err(Self::WrongKind {
+            node,
+            quantity,
+            kind: if is_mass { "a mass" } else { "an anchor" },
+        })
+    }
+}
+
 impl From<StateError> for SceneError {
     fn from(error: StateError) -> Self {
         Self::State(error)

@@ -99,14 +99,10 @@ impl<const D: usize> Scene<D> {
             let entry = &mut self.elements[element.index()];
             let shape = self.groups.get(entry.group).map(|group| group.shape());
             let shape = shape.filter(|shape| shape.viscous_strain > 0);
-            let dashpots = shape.map(|shape| shape.scalar_dashpots());
-            match dashpots.filter(|&dashpots| dashpot >= dashpots) {
-                None => entry.viscous_stretches.push((dashpot, stretch)),
-                Some(dashpots) => self.refuse(SceneError::NoSuchDashpot {
-                    element,
-                    dashpot,
-                    dashpots,
-                }),
+            let dashpots = shape.map_or(usize::MAX, |shape| shape.scalar_dashpots());
+            match SceneError::expect_dashpot(element, dashpot, dashpots) {
+                Ok(()) => entry.viscous_stretches.push((dashpot, stretch)),
+                Err(error) => self.refuse(error),
             }
         }
     }

@@ -192,6 +192,22 @@ pub enum GradientError {
 }
 
 impl GradientError {
+    /// An error unless a quantity has this component.
+    pub(crate) fn expect_component(
+        quantity: impl FnOnce() -> String,
+        component: usize,
+        components: usize,
+    ) -> Result<(), Self> {
+        if component < components {
+            return Ok(());
+        }
+        Err(Self::Component {
+            quantity: quantity(),
+            component,
+            components,
+        })
+    }
+
     /// The error that an element has no such parameter; a material of a text without derivatives has no parameters at all.
     pub(crate) fn no_parameter(element: &Element, name: &str, known: &[&'static str]) -> Self {
         let model = element.model();

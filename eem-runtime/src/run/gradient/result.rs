@@ -255,13 +255,8 @@ impl<const D: usize> Gradient<D> {
         dashpot: usize,
     ) -> Result<f64, GradientError> {
         let own = self.of(element)?;
-        if dashpot >= own.dashpots {
-            return Err(GradientError::Component {
-                quantity: format!("the viscous stretch of {element}"),
-                component: dashpot,
-                components: own.dashpots,
-            });
-        }
+        let quantity = || format!("the viscous stretch of {element}");
+        GradientError::expect_component(quantity, dashpot, own.dashpots)?;
         Ok(self.start.viscous[own.slots.viscous + dashpot])
     }
 

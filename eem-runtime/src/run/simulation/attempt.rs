@@ -3,7 +3,7 @@
 use core::mem;
 
 use super::check::SHORTEST;
-use super::stepper::{Newton, Stepper};
+use super::stepper::Stepper;
 use super::{Simulation, StepResult, Tried};
 use crate::element::group::StepView;
 use crate::element::phase::Phase;
@@ -144,14 +144,9 @@ impl<const D: usize> Simulation<D> {
                 return explicit.step(&explicit_view!(self, size), demand, next);
             }
         };
-        let Newton {
-            groups,
-            solver,
-            loads,
-            stages,
-            intermediate,
-        } = newton;
-        let Some(intermediate) = intermediate else {
+        let (groups, solver) = (&mut newton.groups, &mut newton.solver);
+        let (loads, stages) = (&newton.loads, &newton.stages);
+        let Some(intermediate) = &mut newton.intermediate else {
             let view = view!(self, size, Phase::Whole, &self.state, [loads, stages]);
             return Ok(Attempt::made(solver.solve(groups, &view, effort, next)?));
         };
@@ -304,13 +299,8 @@ impl<const D: usize> Simulation<D> {
             let (residual, tangent) = (Vec::new(), Vec::new());
             return Ok(StepTangent { residual, tangent });
         };
-        let Newton {
-            groups,
-            solver,
-            loads,
-            stages,
-            ..
-        } = &mut **newton;
+        let (groups, solver) = (&mut newton.groups, &mut newton.solver);
+        let (loads, stages) = (&newton.loads, &newton.stages);
         let view = view!(self, self.step, Phase::Whole, &self.state, [loads, stages]);
         let (residual, tangent) = solver.linearize(groups, &view, unknowns, &mut self.effort)?;
         Ok(StepTangent { residual, tangent })

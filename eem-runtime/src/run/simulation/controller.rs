@@ -158,14 +158,7 @@ impl<const D: usize> Simulation<D> {
     ) -> Result<(), SceneError> {
         self.expect_own(&node)?;
         let is_mass = self.masses.get(node.index).is_some();
-        if is_mass == mass {
-            return Ok(());
-        }
-        Err(SceneError::WrongKind {
-            node,
-            quantity,
-            kind: if is_mass { "a mass" } else { "an anchor" },
-        })
+        SceneError::expect_kind(node, [is_mass, mass], quantity)
     }
 
     /// Prepares steps with the present loads, of which some are new.

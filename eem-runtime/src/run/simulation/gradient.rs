@@ -210,10 +210,9 @@ impl<const D: usize> Simulation<D> {
         kept: &mut Record,
         objectives: Weighted<'_, D>,
     ) -> Result<Gradient<D>, GradientError> {
-        let Way {
-            mut found, adjoint, ..
-        } = self.go_back(kept, objectives, usize::MAX)?;
-        found.start = adjoint.costate;
+        let way = self.go_back(kept, objectives, usize::MAX)?;
+        let mut found = way.found;
+        found.start = way.adjoint.costate;
         if let Some((_, objective)) = objectives.first() {
             found.unit = objective.unit();
         }

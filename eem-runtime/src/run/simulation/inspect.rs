@@ -235,13 +235,7 @@ impl<const D: usize> Simulation<D> {
     pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<f64, SceneError> {
         self.expect_own(&element)?;
         let dashpots = self.shape(element).scalar_dashpots();
-        if dashpot >= dashpots {
-            return Err(SceneError::NoSuchDashpot {
-                element,
-                dashpot,
-                dashpots,
-            });
-        }
+        SceneError::expect_dashpot(element, dashpot, dashpots)?;
         let first = self.slots(element).viscous;
         Ok(self.state.viscous.values()[first + dashpot])
     }

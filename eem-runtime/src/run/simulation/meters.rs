@@ -125,13 +125,7 @@ impl<const D: usize> Simulation<D> {
         self.expect_own(&element)?;
         let shape = self.shape(element);
         let dashpots = shape.dashpots + usize::from(shape.drag);
-        if dashpot >= dashpots {
-            return Err(SceneError::NoSuchDashpot {
-                element,
-                dashpot,
-                dashpots,
-            });
-        }
+        SceneError::expect_dashpot(element, dashpot, dashpots)?;
         let index = if dashpot < shape.dashpots {
             self.slots(element).viscous + dashpot
         } else {

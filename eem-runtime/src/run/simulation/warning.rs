@@ -89,22 +89,17 @@ impl<const D: usize> Simulation<D> {
     /// ```
     #[must_use]
     pub fn warning(&self) -> Option<Warning> {
-        let Unresolved {
-            steps,
-            largest,
-            scheme,
-            ..
-        } = self.unresolved;
-        if steps == 0 || self.control.is_some() {
+        let seen = self.unresolved;
+        if seen.steps == 0 || self.control.is_some() {
             return None;
         }
         let (relaxation, element) = self.fastest_relaxation()?;
         Some(Warning::Unresolved {
             element,
             relaxation,
-            step: largest,
-            steps,
-            scheme,
+            step: seen.largest,
+            steps: seen.steps,
+            scheme: seen.scheme,
         })
     }
 

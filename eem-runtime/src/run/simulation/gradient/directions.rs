@@ -121,16 +121,6 @@ impl<const D: usize> Simulation<D> {
         passage: &Passage<D>,
     ) -> Result<Change<D>, GradientError> {
         let mut change = self.no_change(passage);
-        let expect = |quantity: String, component: usize, components: usize| {
-            if component < components {
-                return Ok(());
-            }
-            Err(GradientError::Component {
-                quantity,
-                component,
-                components,
-            })
-        };
         let reservoirs = self.conduction.reservoirs.len();
         match &input.of {
             InputOf::Parameter(elements, name) => {
@@ -157,7 +147,7 @@ impl<const D: usize> Simulation<D> {
                 }
             }
             &InputOf::Gravity(axis) => {
-                expect("gravity".to_owned(), axis, D)?;
+                GradientError::expect_component(|| "gravity".to_owned(), axis, D)?;
                 change.gravity[axis] = 1.0;
             }
             InputOf::Conductance(path) => {
@@ -171,12 +161,14 @@ impl<const D: usize> Simulation<D> {
             }
             &InputOf::Position(node, axis) => {
                 self.expect_own(&node)?;
-                expect(format!("the position of {node}"), axis, D)?;
+                let quantity = || format!("the position of {node}");
+                GradientError::expect_component(quantity, axis, D)?;
                 change.start.positions[node.index * D + axis] = 1.0;
             }
             &InputOf::Velocity(node, axis) => {
                 self.expect_own(&node)?;
-                expect(format!("the velocity of {node}"), axis, D)?;
+                let quantity = || format!("the velocity of {node}");
+                GradientError::expect_component(quantity, axis, D)?;
                 change.start.velocities[node.index * D + axis] = 1.0;
                 self.drop_velocities(&mut change);
             }
@@ -187,8 +179,8 @@ impl<const D: usize> Simulation<D> {
             &InputOf::ViscousStretch(element, dashpot) => {
                 self.expect_own(&element)?;
                 let dashpots = self.shape(element).dashpots;
-                let quantity = format!("the viscous stretch of {element}");
-                expect(quantity, dashpot, dashpots)?;
+                let quantity = || format!("the viscous stretch of {element}");
+                GradientError::expect_component(quantity, dashpot, dashpots)?;
                 let first = self.slots(element).viscous;
                 change.start.viscous[first + dashpot] = 1.0;
             }
@@ -285,9 +277,7 @@ impl<const D: usize> Simulation<D> {
         let all = way.changes.iter().zip(&mut way.directions);
         for ((change, direction), heat) in all.zip(&mut way.heats) {
             direction.right.fill([0.0]);
-            let Direction {
-                old: from, new: to, ..
-            } = direction;
+            let (from, to) = (&direction.old, &mut direction.new);
             to.positions.copy_from_slice(&from.positions);
             to.reservoirs.copy_from_slice(&from.reservoirs);
             for &node in &way.anchors {

@@ -101,14 +101,9 @@ impl<const D: usize> Simulation<D> {
         mem::swap(&mut *self.state, state);
         let values = values?;
         let component = term.component;
-        values.get(component).copied().ok_or_else(|| {
-            let quantity = term.quantity.kind();
-            GradientError::Component {
-                quantity,
-                component,
-                components: values.len(),
-            }
-        })
+        let quantity = || term.quantity.kind();
+        GradientError::expect_component(quantity, component, values.len())?;
+        Ok(values[component])
     }
 
     /// Finds entropies and energies of a state from its temperatures.
@@ -204,16 +199,11 @@ impl<const D: usize> Simulation<D> {
             if asked.is_first {
                 sum += weighed.own;
             }
-            let Way {
-                passage,
-                adjoint,
-                found,
-                ..
-            } = way;
+            let (adjoint, found) = (&mut way.adjoint, &mut way.found);
             let see = &mut (|of: Of<'_>, by| add_to((&mut *adjoint, found), of, by));
             // Also with weight zero: a quantity without derivatives is an error, whatever its value.
             let weight = weighed.weight;
-            self.see_derivatives((state, weight), asked.of(), passage, see)?;
+            self.see_derivatives((state, weight), asked.of(), &way.passage, see)?;
         }
         seeds.value += sum;
         let time = state.time.value;
