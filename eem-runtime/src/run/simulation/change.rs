@@ -121,8 +121,7 @@ impl<const D: usize> Simulation<D> {
     /// The numbering of the unknowns and state variables, as the scene had it.
     pub(super) fn numbering(&self) -> Layout {
         let mut is_mass = self.masses.iter().map(|mass| mass.is_some());
-        let places = self.places.iter();
-        let mut shapes = places.map(|&[group, _]| self.shapes[group as usize]);
+        let mut shapes = self.all_elements().map(|(shape, ..)| shape);
         let is_mass: &mut dyn Iterator<Item = bool> = &mut is_mass;
         let shapes: &mut dyn Iterator<Item = Shape> = &mut shapes;
         let mut layout = Layout::new(D, is_mass, shapes);
@@ -133,9 +132,8 @@ impl<const D: usize> Simulation<D> {
     /// The nodes of all elements.
     pub(super) fn ends(&self) -> Ends {
         let mut ends = Ends::none();
-        for &[group, place] in &self.places {
-            let elements = self.stepper.elements(group as usize);
-            ends.push(elements.nodes(place as usize).iter().copied());
+        for (_, elements, place) in self.all_elements() {
+            ends.push(elements.nodes(place).iter().copied());
         }
         ends
     }

@@ -61,7 +61,7 @@ impl<const D: usize> Simulation<D> {
         Self::in_memory_of(None, scene, scheme, step)
     }
 
-    /// The same, in the memory of an earlier run if that fits.
+    /// The same, in the memory of an earlier run if that fits. Numbers are written anew, so that the bits are the same.
     pub(crate) fn in_memory_of(
         used: Option<Self>,
         scene: Scene<D>,

@@ -22,6 +22,7 @@ use super::stepper::Stepper;
 use super::{Simulation, StepResult, Tried};
 use crate::algebra::vector;
 use crate::element::group::points;
+use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::step::control::{Kinds, LoadRounding, Scales, Unknown, length, norm};
 use crate::step::error::{StepError, WorstError};
@@ -133,10 +134,8 @@ impl<const D: usize> Simulation<D> {
     #[must_use]
     pub fn viscous_strains(&self) -> Vec<bool> {
         let mut are_strains = vec![false; self.layout.viscous];
-        for &[group, place] in &self.places {
-            let shape = self.shapes[group as usize];
-            let elements = self.stepper.elements(group as usize);
-            let first = elements.slots(place as usize).viscous;
+        for (shape, elements, place) in self.all_elements() {
+            let first = elements.slots(place).viscous;
             are_strains[first..first + shape.dashpots].fill(!shape.is_spring);
         }
         are_strains
@@ -168,7 +167,7 @@ impl<const D: usize> Simulation<D> {
             }
             (None, Stepper::Newton(_)) => return None,
         };
-        let kind = match unknown {
+        let (quantity, unit, setting) = match unknown {
             Unknown::Position(_) => ("position", "m", "`with_position`"),
             Unknown::Momentum(_) => ("momentum", "kg m/s", "`with_momentum`"),
             Unknown::Viscous(index) if self.viscous_strains()[index] => {
@@ -181,9 +180,11 @@ impl<const D: usize> Simulation<D> {
             Unknown::Position(index) | Unknown::Momentum(index) => {
                 format!("{} along axis {}", self.scene.node(index / D), index % D)
             }
-            Unknown::Viscous(_) | Unknown::Temperature(_) => self.element_of(unknown)?,
+            Unknown::Viscous(index) => self.element_with(|own, dashpots| {
+                (own.viscous..own.viscous + dashpots).contains(&index)
+            })?,
+            Unknown::Temperature(slot) => self.element_with(|own, _| own.thermal == Some(slot))?,
         };
-        let (quantity, unit, setting) = kind;
         Some(WorstError {
             of: format!("the {quantity} of {place}"),
             unit,
@@ -193,21 +194,26 @@ impl<const D: usize> Simulation<D> {
         })
     }
 
-    /// The element with an internal variable.
-    fn element_of(&self, unknown: Unknown) -> Option<String> {
-        self.places.iter().find_map(|&[group, place]| {
-            let elements = self.stepper.elements(group as usize);
-            let slots = elements.slots(place as usize);
-            let own = slots.viscous..slots.viscous + self.shapes[group as usize].dashpots;
-            let is_it = match unknown {
-                Unknown::Viscous(index) => own.contains(&index),
-                Unknown::Temperature(slot) => slots.thermal == Some(slot),
-                Unknown::Position(_) | Unknown::Momentum(_) => false,
-            };
-            is_it.then(|| elements.handle(place as usize).to_string())
-        })
+    /// The first element whose slots and number of dashpots satisfy a condition.
+    fn element_with(&self, is_it: impl Fn(Slots, usize) -> bool) -> Option<String> {
+        let mut all = self.all_elements();
+        let found =
+            all.find(|(shape, elements, place)| is_it(elements.slots(*place), shape.dashpots));
+        found.map(|(_, elements, place)| elements.handle(place).to_string())
     }
 }
+
+// Flights: steps to another branch of solutions, which the estimate from two halves does not see.
+//
+// The equations of a step that is long beside a vibration have several solutions. Where all is at rest but for a velocity v that the
+// tolerance does not see, and `h v` exceeds the way to a mirror image of the scene, such as r⁰ → −r⁰ of a spring, a flight to it is one:
+// lengths and energies are the same, and forces along `r⁰ + r¹` do not stop it. The whole step and one of its halves may take it together,
+// so that their ends agree.
+//
+// Then the other half moves next to nothing. A scheme of order p follows polynomials of the degree p, of which `1/(2ᵖ − 1)` of the way in
+// the second half is made in the first, if they begin at rest; so less than that tells a flight from a motion. Under loads the mirror
+// image is not at rest, and the other half may end the fall to it. What has flown along its own line has passed its other end, which
+// tells, too. Where vibrations are resolved, the estimate sees it, and a mass may fly through its anchor.
 
 /// The least way of one end of an element from the other that may be a flight, in units of their distance: that to a mirror image in a
 /// line at 7° to a spring. A motion that turns round in the middle of one half makes no way there and `(h Ω)²/4` of its amplitude in
@@ -230,11 +236,8 @@ impl<const D: usize> Simulation<D> {
             let arm = |at: &[[f64; D]]| vector::<f64, D>(|axis| at[b][axis] - at[a][axis]);
             is_flight([&arm(start), &arm(middle), &arm(end)], share, least)
         };
-        let mut elements = self.places.iter();
-        let may_fly = elements.any(|&[group, place]| {
-            let elements = self.stepper.elements(group as usize);
-            arms(elements.nodes(place as usize)).any(flies)
-        });
+        let mut all = self.all_elements();
+        let may_fly = all.any(|(_, elements, place)| arms(elements.nodes(place)).any(flies));
         let mobility = |node: usize| self.masses.get(node).map_or(0.0, f64::recip);
         may_fly
             && self.stepper.all().any(|group| {

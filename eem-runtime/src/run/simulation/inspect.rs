@@ -6,7 +6,7 @@ use super::Simulation;
 use super::compiled::Functions;
 use super::stepper::Stepper;
 use crate::element::conduction::Partner;
-use crate::element::group::ElementView;
+use crate::element::group::{ElementView, Elements};
 use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
 use crate::element::layout::{Shape, Slots};
@@ -429,12 +429,17 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn elements_of(&self, model: &str) -> impl Iterator<Item = Element> {
-        let places = self.places.iter();
-        let elements = places.map(|&[group, place]| {
-            let elements = self.stepper.elements(group as usize);
-            elements.handle(place as usize)
-        });
-        elements.filter(move |element| element.model() == model)
+        let all = self.all_elements();
+        let all = all.map(|(_, elements, place)| elements.handle(place));
+        all.filter(move |element| element.model() == model)
+    }
+
+    /// All elements in the order of creation: the capabilities of their group, the group, and their index there.
+    pub(super) fn all_elements(&self) -> impl Iterator<Item = (Shape, &dyn Elements<D>, usize)> {
+        self.places.iter().map(|&[group, place]| {
+            let [group, place] = [group, place].map(|number| number as usize);
+            (self.shapes[group], self.stepper.elements(group), place)
+        })
     }
 
     /// The numbers of nodes and elements.

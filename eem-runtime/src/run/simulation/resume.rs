@@ -37,8 +37,7 @@ impl<const D: usize> Simulation<D> {
 
     pub(super) fn checkpoint_here(&self) -> Checkpoint {
         let (past, explicit) = self.stepper.past(&self.state);
-        let shapes = self.places.iter();
-        let mut shapes = shapes.map(|&[group, _]| self.shapes[group as usize]);
+        let mut shapes = self.all_elements().map(|(shape, ..)| shape);
         let reservoirs = self.conduction.reservoirs.len();
         Checkpoint {
             scheme: self.scheme,

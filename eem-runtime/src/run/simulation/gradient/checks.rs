@@ -186,13 +186,12 @@ impl<const D: usize> Simulation<D> {
         change.gravity = gradient.gravity.map(|by| draw.of(by, gravity));
         change.heat.conductances = draw.all(&gradient.conductances, 1.0);
         change.heat.reservoirs = draw.all(&gradient.reservoirs, theta);
-        for (own, &[group, place]) in gradient.elements.iter().zip(&self.places) {
-            let group = self.stepper.elements(group as usize);
+        for (own, (_, group, place)) in gradient.elements.iter().zip(self.all_elements()) {
             let mut values = Vec::new();
             if group.has_parameter_derivatives() {
                 let all = own.values.iter().enumerate();
                 values.extend(all.map(|(index, &by)| {
-                    let size = size_of([group.parameter(place as usize, index)]);
+                    let size = size_of([group.parameter(place, index)]);
                     draw.of(by, size)
                 }));
             }

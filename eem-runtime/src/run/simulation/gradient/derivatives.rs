@@ -3,7 +3,7 @@
 use crate::element::conduction::Conduction;
 use crate::element::group::ElementGeneric;
 use crate::element::handle::Node;
-use crate::element::layout::Layout;
+use crate::element::layout::{Layout, Shape};
 use crate::element::loads::point;
 use crate::element::masses::MassPair;
 use crate::element::state::State;
@@ -268,4 +268,13 @@ fn no_derivative<const D: usize>(quantity: &Quantity<D>) -> GradientError {
 /// The position of a node in a state.
 fn position<const D: usize>(state: &State, node: usize) -> SVector<f64, D> {
     point(state.positions.values(), node).into()
+}
+
+/// The unit of the viscous stretches of elements with these capabilities.
+pub(super) const fn viscous_unit(shape: &Shape) -> &'static str {
+    if shape.viscous_unit.is_empty() {
+        "1"
+    } else {
+        shape.viscous_unit
+    }
 }

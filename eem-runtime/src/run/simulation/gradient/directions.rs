@@ -1,6 +1,6 @@
 //! Directions in which inputs change: from the inputs that users name to what changes in a step.
 
-use super::derivatives::{Of, Passage};
+use super::derivatives::{Of, Passage, viscous_unit};
 use super::inputs::{CUBIC, Made};
 use crate::element::handle::Element;
 use crate::run::gradient::error::GradientError;
@@ -244,28 +244,20 @@ impl<const D: usize> Simulation<D> {
         if let Some([_, unit]) = &input.named {
             return unit.clone();
         }
-        let group_of =
-            |element: &Element| self.scene.owns(element).then(|| self.place(*element)[0]);
+        let own = |element: &Element| self.scene.owns(element);
         let unit = match &input.of {
-            InputOf::Parameter(elements, name) => elements.first().and_then(|element| {
-                let group = self.stepper.elements(group_of(element)?);
+            InputOf::Parameter(elements, name) => elements.first().and_then(|&element| {
+                let [group, _] = own(&element).then(|| self.place(element))?;
+                let group = self.stepper.elements(group);
                 let place = group.parameters().iter().position(|own| *own == name)?;
                 group.parameter_units().get(place).copied()
             }),
-            InputOf::ViscousStretch(element, _) => {
-                group_of(element).map(|group| self.viscous_unit(group))
+            &InputOf::ViscousStretch(element, _) => {
+                own(&element).then(|| viscous_unit(&self.shape(element)))
             }
             _ => Some(input.unit()),
         };
         unit.unwrap_or_default().to_owned()
-    }
-
-    /// The unit of the viscous stretches of a group.
-    pub(super) fn viscous_unit(&self, group: usize) -> &'static str {
-        match self.shapes[group].viscous_unit {
-            "" => "1",
-            unit => unit,
-        }
     }
 
     /// Sets what changes in a step from outside: the new state of anchors and of prescribed temperatures, the conduction of heat,

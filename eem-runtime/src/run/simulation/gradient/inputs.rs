@@ -1,6 +1,6 @@
 //! The derivatives of a step by its inputs, from the weights of its equations.
 
-use super::derivatives::{Of, Passage};
+use super::derivatives::{Of, Passage, viscous_unit};
 use crate::element::conduction::Partner;
 use crate::element::loads::point;
 use crate::element::state::State;
@@ -276,18 +276,14 @@ impl<const D: usize> Simulation<D> {
     pub(super) fn no_gradient(&self, passage: &Passage<D>) -> Gradient<D> {
         let nodes = self.masses.len();
         let reservoirs = self.conduction.reservoirs.len();
-        let elements = self.places.iter().map(|&[group, at]| {
-            let of_group = self.stepper.elements(group as usize);
-            let names = of_group.parameters();
-            OfElement {
-                element: of_group.handle(at as usize),
-                slots: of_group.slots(at as usize),
-                dashpots: self.shapes[group as usize].dashpots,
-                names,
-                units: of_group.parameter_units(),
-                viscous_unit: self.viscous_unit(group as usize),
-                values: vec![0.0; names.len()],
-            }
+        let elements = self.all_elements().map(|(shape, group, place)| OfElement {
+            element: group.handle(place),
+            slots: group.slots(place),
+            dashpots: shape.dashpots,
+            names: group.parameters(),
+            units: group.parameter_units(),
+            viscous_unit: viscous_unit(&shape),
+            values: vec![0.0; group.parameters().len()],
         });
         let (mut vectors, mut numbers, mut timed) = (Vec::new(), Vec::new(), Vec::new());
         for (load, is_function) in self.timed_loads() {
