@@ -6,7 +6,6 @@ mod file;
 mod lines;
 #[cfg(feature = "serde")]
 mod scheme_name;
-mod text;
 
 use crate::element::state::{Energy, State};
 use crate::step::automatic::SchemeSelection;
@@ -75,7 +74,7 @@ pub struct Checkpoint {
     pub(crate) choice: Option<SavedChoice>,
     pub(crate) state: State,
     pub(crate) energies: SavedEnergies,
-    #[cfg_attr(feature = "serde", serde(default = "SavedLoads::none"))]
+    #[cfg_attr(feature = "serde", serde(default = "SavedLoads::default"))]
     pub(crate) loads: SavedLoads,
     pub(crate) past: SavedPast,
     /// For explicit schemes, which otherwise start again from the state.
@@ -89,7 +88,7 @@ pub struct Checkpoint {
 }
 
 /// What controllers have set: indices of nodes and elements, and their values in N, m/s and K, component by component.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
@@ -102,20 +101,6 @@ pub(crate) struct SavedLoads {
     pub(crate) velocities: Vec<f64>,
     pub(crate) held: Vec<usize>,
     pub(crate) temperatures: Vec<f64>,
-}
-
-impl SavedLoads {
-    /// No values.
-    pub(crate) const fn none() -> Self {
-        Self {
-            forced: Vec::new(),
-            forces: Vec::new(),
-            moved: Vec::new(),
-            velocities: Vec::new(),
-            held: Vec::new(),
-            temperatures: Vec::new(),
-        }
-    }
 }
 
 /// The energies of the elements as the last step evaluated them. Evaluated again, they would differ by rounding, which

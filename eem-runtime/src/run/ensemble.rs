@@ -129,16 +129,12 @@ impl Ensemble<'_> {
     ///
     /// If a closure panics: the panic continues in the caller once all threads have finished their present members.
     /// Members that had not begun may be left out, and all results are lost.
-    pub fn run<const D: usize, I, H, T>(
+    pub fn run<const D: usize, I: Sync, H, T: Send>(
         self,
         inputs: &[I],
         build: impl Fn(&I) -> (Scene<D>, H) + Sync,
         observe: impl Fn(&mut Simulation<D>, H, &I) -> Result<T, MemberFailure> + Sync,
-    ) -> Vec<Result<T, MemberError>>
-    where
-        I: Sync,
-        T: Send,
-    {
+    ) -> Vec<Result<T, MemberError>> {
         let member = |used: &mut Option<Simulation<D>>, input: &I| {
             let (scene, handles) = build(input);
             let run = Simulation::in_memory_of(used.take(), scene, self.scheme, self.step);

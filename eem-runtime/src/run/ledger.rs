@@ -151,17 +151,12 @@ impl<const D: usize> Ledger<D> {
             ("energy", self.energy, "J"),
             ("entropy", self.entropy, "J/K"),
         ];
-        let infinite = energies
-            .into_iter()
-            .find(|(_, value, _)| !value.is_finite());
-        let momentum = |name, components: &[f64], unit| {
-            let component = components.iter().find(|component| !component.is_finite());
-            component.map(|component| (name, *component, unit))
-        };
-        let (linear, angular) = (&self.linear_momentum, &self.angular_momentum);
-        infinite
-            .or_else(|| momentum("linear momentum", linear.as_slice(), "kg m/s"))
-            .or_else(|| momentum("angular momentum", angular.as_slice(), "kg m²/s"))
+        let linear = self.linear_momentum.iter();
+        let linear = linear.map(|&value| ("linear momentum", value, "kg m/s"));
+        let angular = self.angular_momentum.iter();
+        let angular = angular.map(|&value| ("angular momentum", value, "kg m²/s"));
+        let mut all = energies.into_iter().chain(linear).chain(angular);
+        all.find(|(_, value, _)| !value.is_finite())
     }
 }
 

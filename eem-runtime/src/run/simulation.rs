@@ -24,7 +24,6 @@ mod resume;
 
 pub(crate) mod attempt;
 mod automatic;
-mod check;
 pub(crate) mod generic;
 mod halves;
 mod memory;
@@ -60,10 +59,9 @@ use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use crate::step::timed::TimedLoad;
-use check::{Needs, check_step, check_tolerance};
 use eem_material::number::compact::compact;
 use memory::{Automatic, Control, Unresolved};
-use start::{find_entropies, initial_state};
+use start::{Needs, check_step, check_tolerance, find_entropies, initial_state};
 use stepper::{Memory, Stepper};
 
 /// A run: a scene, a scheme and the present state.

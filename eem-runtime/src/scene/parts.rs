@@ -38,10 +38,7 @@ impl<const D: usize> Scene<D> {
     ///
     /// Springs of different materials can be mixed in a scene. A material with a temperature needs
     /// [`set_temperature`](Self::set_temperature). Viscous stretches are zero at first.
-    pub fn spring<M>(&mut self, model: M, nodes: [Node; 2]) -> Element
-    where
-        M: Material,
-    {
+    pub fn spring<M: Material>(&mut self, model: M, nodes: [Node; 2]) -> Element {
         const {
             assert!(
                 M::MEASURES == 1 && !M::PER_VOLUME,

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use super::Checkpoint;
 use super::error::{RestoreError, expect_count};
-use super::text::flat;
+use super::file::flat;
 use crate::element::layout::Shape;
 use crate::element::masses::Masses;
 use eem_material::number::compensated::{Compensated, Sum};

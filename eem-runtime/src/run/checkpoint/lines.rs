@@ -1,7 +1,7 @@
 //! The lines of a file with a checkpoint. Each function writes the part `own`, or reads it if `own` is `None`.
 
 use super::entries::{ElementOutline, Numbers, Outline};
-use super::text::{Read, Text};
+use super::file::{Read, Text};
 use super::{Checkpoint, SavedChoice, SavedControl, SavedEnergies, SavedLoads};
 use crate::algebra::memory::TooLarge;
 use crate::element::meters::Meters;

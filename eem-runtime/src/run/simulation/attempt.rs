@@ -2,7 +2,7 @@
 
 use core::mem;
 
-use super::check::SHORTEST;
+use super::start::SHORTEST;
 use super::stepper::Stepper;
 use super::{Simulation, StepResult, Tried};
 use crate::element::group::StepView;

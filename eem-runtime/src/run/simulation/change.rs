@@ -5,8 +5,8 @@ use core::error::Error;
 use core::fmt;
 
 use super::Simulation;
-use super::check::check_tolerance;
 use super::compiled::Functions;
+use super::start::check_tolerance;
 use super::stepper::{Memory, Stepper};
 use crate::algebra::memory::TooLarge;
 use crate::element::ends::Ends;

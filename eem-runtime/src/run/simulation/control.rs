@@ -2,11 +2,11 @@
 
 use core::mem;
 
-use super::check::{check_step, check_tolerance};
 use super::compiled::Functions;
 use super::memory::Guard;
 use super::memory::{Control, History, SMALLEST, Snapshot};
 use super::start::find_speeds;
+use super::start::{check_step, check_tolerance};
 use super::stepper::Stepper;
 use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;

@@ -184,7 +184,7 @@ impl<const D: usize> Simulation<D> {
 
     /// All that controllers have set.
     pub(super) fn saved_loads(&self) -> SavedLoads {
-        let mut saved = SavedLoads::none();
+        let mut saved = SavedLoads::default();
         for (node, force) in set_ones(&self.loads.forces) {
             saved.forced.push(node.index);
             saved.forces.extend(force.iter());

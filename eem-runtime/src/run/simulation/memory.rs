@@ -1,6 +1,6 @@
 //! Histories and work arrays of step control and of the choice of a scheme, and guards that restore a value after a failure.
 
-use super::check::{Needs, SHORTEST};
+use super::start::{Needs, SHORTEST};
 use crate::algebra::memory::MemoryLimit;
 use crate::element::state::State;
 use crate::run::checkpoint::{SavedChoice, SavedControl};

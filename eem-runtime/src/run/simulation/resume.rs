@@ -1,9 +1,9 @@
 //! Saving and restoring checkpoints: whether the scene can have a saved state at its time.
 
 use super::Simulation;
-use super::check::check_tolerance;
 use super::compiled::Functions;
 use super::memory::Unresolved;
+use super::start::check_tolerance;
 use crate::element::conduction::Partner;
 use crate::element::state::State;
 use crate::run::checkpoint::{Checkpoint, Numbers, Outline, RestoreError, SavedEnergies};
