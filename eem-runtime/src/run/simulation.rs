@@ -125,10 +125,13 @@ pub struct Simulation<const D: usize> {
 /// The report of a step, or why it failed.
 type StepResult = Result<StepReport, StepError>;
 
+/// A step that was made, whose report is in the simulation, or why it failed.
+type Made = Result<(), StepError>;
+
 /// A step that was tried.
 enum Tried {
     /// It succeeded.
-    Made(StepReport),
+    Made,
     /// Its error, in units of the tolerance, is too large; nothing has changed.
     Rejected(f64),
     /// It was not made, because it would pass over this load.

@@ -4,7 +4,7 @@ use core::mem;
 
 use super::start::SHORTEST;
 use super::stepper::Stepper;
-use super::{Simulation, StepResult, Tried};
+use super::{Made, Simulation, Tried};
 use crate::element::group::StepView;
 use crate::element::phase::Phase;
 use crate::step::error::{StepError, StepFailure};
@@ -56,22 +56,21 @@ impl<const D: usize> Simulation<D> {
             return Ok(Tried::Rejected(error));
         };
         self.go_to_next(size, error, &outcome);
-        Ok(Tried::Made(self.report))
+        Ok(Tried::Made)
     }
 
     /// One step of this size, whatever its error.
-    pub(super) fn step_by(&mut self, size: f64) -> StepResult {
-        self.make_step(size)?;
-        Ok(self.report)
+    pub(super) fn step_by(&mut self, size: f64) -> Made {
+        self.make_step(size)
     }
 
-    /// The same; the report stays in the simulation.
+    /// The same, without a call.
     #[inline(always)]
     #[expect(
         clippy::inline_always,
         reason = "a step of one spring copies nothing twice"
     )]
-    pub(super) fn make_step(&mut self, size: f64) -> Result<(), StepError> {
+    pub(super) fn make_step(&mut self, size: f64) -> Made {
         match self.find_next(size, Demand::None) {
             Ok(Attempt {
                 error,

@@ -3,14 +3,13 @@
 use super::attempt::explicit_view;
 use super::memory::Control;
 use super::stepper::Stepper;
-use super::{Simulation, StepResult, Tried};
+use super::{Made, Simulation, Tried};
 use crate::element::state::Energy;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict};
 use crate::step::control::Controller;
 use crate::step::error::StepFailure;
 use crate::step::explicit::{REAL_LIMIT, SavedExplicit};
-use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::SavedPast;
 use eem_material::number::scalar::Scalar;
@@ -28,15 +27,15 @@ pub(super) struct SchemeAtWork {
 
 impl<const D: usize> Simulation<D> {
     /// An accurate step by the scheme that is likely to be the cheapest; the state is unchanged if there is none.
-    pub(super) fn step_of_choice(&mut self, control: &mut Control, end: f64) -> StepResult {
+    pub(super) fn step_of_choice(&mut self, control: &mut Control, end: f64) -> Made {
         self.judge_trial(control);
         if self.in_use.closing() == Closing::Explicit {
             self.measure_stability(control);
         } else {
             self.try_explicit(control);
         }
-        if let Some(report) = self.try_implicit(control, end) {
-            return Ok(report);
+        if self.try_implicit(control, end).is_some() {
+            return Ok(());
         }
         self.step_by_some_scheme(control, end)
     }
@@ -68,11 +67,10 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// A step of the present scheme, or of another one if it finds none.
-    fn step_by_some_scheme(&mut self, control: &mut Control, end: f64) -> StepResult {
+    fn step_by_some_scheme(&mut self, control: &mut Control, end: f64) -> Made {
         let (own, usual) = (self.in_use, self.step);
-        let mut failed = match self.counted_step(control, end) {
-            Ok(report) => return Ok(report),
-            Err(error) => error,
+        let Err(mut failed) = self.counted_step(control, end) else {
+            return Ok(());
         };
         let StepFailure::TooSmall { too_large, .. } = &mut failed.failure else {
             return Err(failed);
@@ -81,9 +79,9 @@ impl<const D: usize> Simulation<D> {
         for scheme in CANDIDATES.into_iter().filter(|&scheme| scheme != own) {
             if self.is_candidate(scheme, control) && self.switches_to(scheme, control) {
                 self.step = usual;
-                if let Ok(report) = self.counted_step(control, end) {
+                if self.counted_step(control, end).is_ok() {
                     self.record_switch(control, usual);
-                    return Ok(report);
+                    return Ok(());
                 }
             }
         }
@@ -99,10 +97,10 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// A step of the present scheme, whose effort is counted.
-    fn counted_step(&mut self, control: &mut Control, end: f64) -> StepResult {
+    fn counted_step(&mut self, control: &mut Control, end: f64) -> Made {
         let before = self.stepper.evaluations();
         let found = self.find_accurate_step(control, end);
-        let time = found.as_ref().map_or(0.0, |report| report.step);
+        let time = if found.is_ok() { self.report.step } else { 0.0 };
         self.count(before, time);
         found
     }
@@ -126,7 +124,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// One step of another implicit scheme, if a trial is due and the step is accurate.
-    fn try_implicit(&mut self, control: &mut Control, end: f64) -> Option<StepReport> {
+    fn try_implicit(&mut self, control: &mut Control, end: f64) -> Option<()> {
         let (scheme, size) = self.implicit_trial(control)?;
         if self.size_towards(end, size).is_some() {
             return None;
@@ -135,13 +133,12 @@ impl<const D: usize> Simulation<D> {
         let spent = self.automatic.selection.spent;
         if size <= control.memory.largest && self.switches_to(scheme, control) {
             let tried = self.attempt(control, size);
-            if let Ok(Tried::Made(report)) = tried {
-                self.count(0, report.step);
-                let controller = &mut control.memory.controller;
-                self.step = controller.next(size, report.error, control.accuracy);
+            if let Ok(Tried::Made) = tried {
+                self.count(0, self.report.step);
+                self.find_next_size(control, size);
                 self.accept(control);
                 self.record_switch(control, usual);
-                return Some(report);
+                return Some(());
             }
             self.count(0, 0.0);
             let statistics = &mut control.memory.statistics;

@@ -134,17 +134,13 @@ impl<const D: usize> Simulation<D> {
 
     fn advance_here(&mut self, aim: Aim) -> StepResult {
         self.begin_meters();
-        let made = if self.control.is_none()
-            && let Aim::Towards(end) | Aim::InSchemeTowards(end) = aim
-        {
-            self.step_of_fixed_size(end)
-        } else {
-            let made = match aim {
-                Aim::Towards(end) => self.step_towards(end, true),
-                Aim::InSchemeTowards(end) => self.step_towards(end, false),
-                Aim::Again(size) => self.step_again(size),
-            };
-            made.map(|report| self.report = report)
+        let made = match aim {
+            Aim::Towards(end) | Aim::InSchemeTowards(end) if self.control.is_none() => {
+                self.step_of_fixed_size(end)
+            }
+            Aim::Towards(end) => self.step_towards(end, true),
+            Aim::InSchemeTowards(end) => self.step_towards(end, false),
+            Aim::Again(size) => self.step_again(size),
         };
         self.unresolved.last = 0;
         made?;

@@ -8,7 +8,7 @@ use super::memory::{Control, History, SMALLEST, Snapshot};
 use super::start::find_speeds;
 use super::start::{check_step, check_tolerance};
 use super::stepper::Stepper;
-use super::{Simulation, StepResult, Tried};
+use super::{Made, Simulation, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
@@ -166,7 +166,7 @@ impl<const D: usize> Simulation<D> {
 
     /// One step by the scheme in use, not beyond `end`, of an accurate size; by another scheme if that is allowed and
     /// cheaper.
-    pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> StepResult {
+    pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> Made {
         // A step in the scheme goes to a time within one that has looked.
         let horizon = may_switch.then_some(end);
         let end = self.stop_before(end);
@@ -204,7 +204,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// An accurate step of the scheme in use, not beyond `end`.
-    pub(super) fn find_accurate_step(&mut self, control: &mut Control, end: f64) -> StepResult {
+    pub(super) fn find_accurate_step(&mut self, control: &mut Control, end: f64) -> Made {
         let usual = self.step;
         loop {
             let memory = &control.memory;
@@ -214,18 +214,16 @@ impl<const D: usize> Simulation<D> {
             let arriving = self.size_towards(end, full);
             let size = arriving.unwrap_or(full);
             let (next, limit) = match self.attempt(control, size) {
-                Ok(Tried::Made(mut report)) => {
+                Ok(Tried::Made) => {
                     // A step that the end has shortened says nothing about the next ones.
                     if !(size < full) {
-                        let controller = &mut control.memory.controller;
-                        self.step = controller.next(size, report.error, control.accuracy);
+                        self.find_next_size(control, size);
                     }
                     if arriving.is_some() {
                         self.arrive_at(end);
-                        report.time = end;
                     }
                     self.accept(control);
-                    return Ok(report);
+                    return Ok(());
                 }
                 Ok(Tried::Rejected(error)) => {
                     control.memory.statistics.rejected_by_error += 1;
@@ -248,6 +246,12 @@ impl<const D: usize> Simulation<D> {
             }
             self.step = next;
         }
+    }
+
+    /// Finds the size of the next step from that of the last one and its error.
+    pub(super) fn find_next_size(&mut self, control: &mut Control, size: f64) {
+        let controller = &mut control.memory.controller;
+        self.step = controller.next(size, self.report.error, control.accuracy);
     }
 
     /// The error of a step of the usual size that would have to be smaller than allowed: the last attempt had this size and
@@ -297,7 +301,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Another step from the beginning of the one that was undone, of this size; as accurate as that one if possible.
-    pub(super) fn step_again(&mut self, size: f64) -> StepResult {
+    pub(super) fn step_again(&mut self, size: f64) -> Made {
         self.with_control(|run, control| {
             let Some(control) = control else {
                 return run.step_by(size);
@@ -306,7 +310,7 @@ impl<const D: usize> Simulation<D> {
                 return run.step_in_halves(halves, size);
             }
             match run.try_step(size, Demand::Within(control.memory.tolerance)) {
-                Ok(Tried::Made(report)) => Ok(report),
+                Ok(Tried::Made) => Ok(()),
                 _ => run.step_by(size),
             }
         })

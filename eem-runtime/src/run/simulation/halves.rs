@@ -19,7 +19,7 @@ use super::attempt::explicit_view;
 use super::memory::or_restore;
 use super::memory::{Control, Halves};
 use super::stepper::Stepper;
-use super::{Simulation, StepResult, Tried};
+use super::{Made, Simulation, Tried};
 use crate::algebra::vector;
 use crate::element::group::points;
 use crate::element::layout::Slots;
@@ -59,7 +59,7 @@ impl<const D: usize> Simulation<D> {
         let Some(halves) = &mut control.halves else {
             return self.try_step(size, Demand::Within(memory.tolerance));
         };
-        let mut report = self.step_twice(halves, size)?;
+        self.step_twice(halves, size)?;
         let ends = [&halves.before, &*self.state];
         let accurate = (accuracy, size);
         let least = (memory.largest_momentum, &self.least);
@@ -69,8 +69,8 @@ impl<const D: usize> Simulation<D> {
             return Ok(Tried::Rejected(f64::INFINITY));
         }
         let states = [&halves.whole, &*self.state];
-        report.error = scales.error(states, &halves.kinds, None);
-        if accuracy.holds_back(report.error) {
+        let mut error = scales.error(states, &halves.kinds, None);
+        if accuracy.holds_back(error) {
             let span = [halves.before.time.value, size];
             halves.rounding.find(&self.loads, &self.least, span);
             let beyond = scales.error(states, &halves.kinds, Some(&halves.rounding));
@@ -79,37 +79,41 @@ impl<const D: usize> Simulation<D> {
             let ends = [&*self.next, &*self.state];
             let mut ends = ends.into_iter();
             let rests = ends.all(|state| self.least.all_rest(D, [&halves.before, state]));
-            report.error = if rests {
+            error = if rests {
                 beyond
             } else {
                 self.least.hidden(beyond, size, accurate)
             };
         }
-        if accuracy.accepts(report.error) {
-            return Ok(Tried::Made(report));
+        self.report.error = error;
+        if accuracy.accepts(error) {
+            return Ok(Tried::Made);
         }
         self.return_to(halves);
-        Ok(Tried::Rejected(report.error))
+        Ok(Tried::Rejected(error))
     }
 
     /// A whole step, stored in `halves`, and one in two halves. If one fails, the state is that before both.
-    pub(super) fn step_twice(&mut self, halves: &mut Halves, size: f64) -> StepResult {
+    pub(super) fn step_twice(&mut self, halves: &mut Halves, size: f64) -> Made {
         halves.before.copy_all_from(&self.state);
         self.stepper.save_past_to(&mut halves.past);
-        let whole = self.step_by(size)?;
+        self.step_by(size)?;
+        let iterations = self.report.iterations;
         halves.whole.copy_from(&self.state);
         self.return_to(halves);
-        let mut report = self.step_in_halves(halves, size)?;
-        report.iterations += whole.iterations;
-        Ok(report)
+        self.step_in_halves(halves, size)?;
+        self.report.iterations += iterations;
+        Ok(())
     }
 
     /// Two steps of half a size. If one fails, the state is that before both.
-    pub(super) fn step_in_halves(&mut self, halves: &Halves, size: f64) -> StepResult {
+    pub(super) fn step_in_halves(&mut self, halves: &Halves, size: f64) -> Made {
         let half = 0.5 * size;
-        let first = self.step_by(half)?;
-        let second = or_restore(self, |run| run.return_to(halves), |run| run.step_by(half))?;
-        Ok(first.and(second))
+        self.step_by(half)?;
+        let first = self.report;
+        or_restore(self, |run| run.return_to(halves), |run| run.step_by(half))?;
+        self.report = first.and(self.report);
+        Ok(())
     }
 
     /// Goes back to the beginning of the step for which `halves` was filled.
