@@ -224,6 +224,12 @@ impl<const D: usize> Simulation<D> {
             scene.groups = groups;
             errors
         })?;
+        let loads = mem::replace(&mut scene.loads, Loads::none());
+        layout.forget_places();
+        let moved = loads.moved_in_time();
+        let gravity = length(loads.gravity.as_slice());
+        let before = (&*state, gravity, &moved[..]);
+        let least = LeastScales::new(stepper.all(), (&masses, &conduction), before);
         let next = match next {
             None => state.clone(),
             Some(mut next) => {
@@ -231,12 +237,6 @@ impl<const D: usize> Simulation<D> {
                 next
             }
         };
-        let loads = mem::replace(&mut scene.loads, Loads::none());
-        layout.forget_places();
-        let moved = loads.moved_in_time();
-        let gravity = length(loads.gravity.as_slice());
-        let before = (&*state, gravity, &moved[..]);
-        let least = LeastScales::new(stepper.all(), (&masses, &conduction), before);
         Ok(Self {
             scene: scene.lineage.clone(),
             scheme,
