@@ -19,7 +19,6 @@ use crate::run::simulation::start::initial_state;
 use crate::scene::Scene;
 use crate::scene::entry::ElementEntry;
 use crate::scene::error::SceneError;
-use crate::step::error::StepFailure;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Solver;
@@ -314,7 +313,8 @@ impl<const D: usize> Scene<D> {
         state: &State,
     ) -> Result<(State, EquilibriumReport), EquilibriumError> {
         let (followed, found) = rest.follow(load_steps);
-        let (residual, forces) = (rest.residual(), rest.forces());
+        let ((residual, node), forces) = (rest.residual(), rest.forces());
+        let node = node.map(|node| self.node_at(node));
         if !rest.is_stable()
             && let Some(softest) = rest.softest()
         {
@@ -330,12 +330,15 @@ impl<const D: usize> Scene<D> {
                 });
             }
         }
-        let refuse = |failure| self.not_found(followed, residual, failure);
+        let refuse = |failure| EquilibriumError::NotFound {
+            node,
+            residual,
+            followed,
+            failure: Box::new(failure),
+        };
         found.map_err(refuse)?;
         let mut next = state.clone();
         rest.close(&mut next).map_err(refuse)?;
-        let (residual, node) = residual;
-        let node = node.map(|node| self.node_at(node));
         let effort = rest.effort;
         let report = EquilibriumReport {
             residual,
@@ -363,20 +366,6 @@ impl<const D: usize> Scene<D> {
             node_at: &|node| self.node_at(node),
         };
         moved.name(softest.stiffness)
-    }
-
-    fn not_found(
-        &self,
-        followed: f64,
-        (residual, node): (f64, Option<usize>),
-        failure: StepFailure,
-    ) -> EquilibriumError {
-        EquilibriumError::NotFound {
-            node: node.map(|node| self.node_at(node)),
-            residual,
-            followed,
-            failure: Box::new(failure),
-        }
     }
 
     /// Takes over positions, temperatures and viscous stretches, at rest.

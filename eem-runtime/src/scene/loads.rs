@@ -118,10 +118,6 @@ pub(crate) struct Rocket {
     pub(crate) thrust: Arc<dyn Fn(f64) -> f64 + Send + Sync>,
 }
 
-fn lines(rockets: &[Rocket]) -> Vec<PushLine> {
-    rockets.iter().map(|rocket| rocket.line).collect()
-}
-
 /// All loads of a scene, as given.
 #[derive(Clone)]
 pub(crate) struct Loads<const D: usize> {
@@ -184,7 +180,7 @@ impl<const D: usize> Loads<D> {
 
     /// The lines of all rockets.
     pub(crate) fn rocket_lines(&self) -> Vec<PushLine> {
-        lines(&self.rockets)
+        self.rockets.iter().map(|rocket| rocket.line).collect()
     }
 
     /// Whether forces are functions of time.

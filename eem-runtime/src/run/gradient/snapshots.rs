@@ -76,13 +76,6 @@ impl Limits {
     }
 }
 
-/// The steps that are made again next, from a snapshot up to a state. All their states are kept, or the last one as a snapshot.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Pass {
-    pub(crate) steps: [usize; 2],
-    pub(crate) keeps_all: bool,
-}
-
 /// `(f + r)!/(f! r!)`.
 fn reach(free: usize, passes: usize) -> usize {
     (1..=passes).fold(1, |reach: usize, pass| {
@@ -245,7 +238,8 @@ impl Record {
         if self.is_full || !self.ends_in(old) {
             return false;
         }
-        if !self.is_within_reach(steps) {
+        let most = reach(self.limits.snapshots, MOST_PASSES);
+        if steps > most.saturating_mul(self.limits.fit(steps)) {
             self.is_full = true;
             return false;
         }
@@ -299,19 +293,14 @@ impl Record {
         }
     }
 
-    /// Whether this many steps can be reversed.
-    fn is_within_reach(&self, steps: usize) -> bool {
-        let states = self.limits.fit(steps);
-        steps <= reach(self.limits.snapshots, MOST_PASSES).saturating_mul(states)
-    }
-
     /// An error if a step did not fit.
     pub(crate) fn check(&self) -> Result<(), GradientError> {
-        if !self.is_full {
-            return Ok(());
-        }
         let most = self.len();
-        Err(GradientError::HistoryTooLarge { most })
+        if self.is_full {
+            Err(GradientError::HistoryTooLarge { most })
+        } else {
+            Ok(())
+        }
     }
 
     /// The snapshot with this index.
@@ -325,18 +314,20 @@ impl Record {
         self.passing.push(snapshot);
     }
 
-    /// The next pass on the way back from the state after `end` steps, which is not the first one.
-    pub(crate) fn next_pass(&mut self, end: usize) -> Pass {
+    /// The steps that are made again next, from a snapshot up to a state, on the way back from the state after `end` steps, which is
+    /// not the first one; and whether all their states are kept, or the last one as a snapshot.
+    pub(crate) fn next_pass(&mut self, end: usize) -> ([usize; 2], bool) {
         self.passing.retain(|snapshot| snapshot.index < end);
         let states = self.limits.fit(self.len()).max(1);
         loop {
-            let (from, free) = self.last_before(end);
-            let [start, steps] = [from, end - from];
+            let all = self.snapshots.iter().chain(&self.passing);
+            let before = all.map(|own| own.index).filter(|&index| index < end);
+            let start = before.max().unwrap_or(0);
+            let kept = self.snapshots.len() - 1 + self.passing.len();
+            let free = self.limits.snapshots.saturating_sub(kept);
+            let steps = end - start;
             if steps <= states {
-                return Pass {
-                    steps: [start, end],
-                    keeps_all: true,
-                };
+                return ([start, end], true);
             }
             let mut passes = 1..=MOST_PASSES;
             let within = |passes: usize| reach(free, passes).saturating_mul(states);
@@ -346,36 +337,16 @@ impl Record {
                 let part = within(passes - 1);
                 let least = steps.saturating_sub(reach(free - 1, passes).saturating_mul(states));
                 let first = ((steps - 1) % part + 1).max(least);
-                return Pass {
-                    steps: [start, start + first],
-                    keeps_all: false,
-                };
+                return ([start, start + first], false);
             }
             // Drops snapshots for room: first those behind `end`, no longer needed, then the one at which these steps begin.
             let behind = self.snapshots.last().is_some_and(|last| last.index >= end);
             if !behind && self.snapshots.len() == 1 {
                 // Unreachable: all steps that were kept are within reach.
-                return Pass {
-                    steps: [start, end],
-                    keeps_all: true,
-                };
+                return ([start, end], true);
             }
             self.snapshots.pop();
         }
-    }
-
-    /// The last snapshot before a state, and how many more may be kept.
-    fn last_before(&self, end: usize) -> (usize, usize) {
-        let all = self.snapshots.iter().chain(&self.passing);
-        let last = all
-            .map(|snapshot| snapshot.index)
-            .filter(|&index| index < end)
-            .max();
-        let kept = self.snapshots.len() - 1 + self.passing.len();
-        (
-            last.unwrap_or(0),
-            self.limits.snapshots.saturating_sub(kept),
-        )
     }
 
     /// Drops the snapshots of the way back, which is over.

@@ -233,15 +233,6 @@ impl<const D: usize> Simulation<D> {
             temperature(self.state.time.value)
         })
     }
-
-    /// The temperatures of all reservoirs at the start, K.
-    pub(super) fn reservoirs_at_start(&self) -> Vec<f64> {
-        let mut temperatures = self.conduction.reservoirs.clone();
-        for (index, temperature) in &self.loads.ovens {
-            temperatures[*index] = temperature(self.start);
-        }
-        temperatures
-    }
 }
 
 /// Residual and tangent of a step at a trial state.

@@ -33,7 +33,11 @@ impl<const D: usize> Simulation<D> {
     /// Work arrays for a whole step and for its two halves.
     pub(super) fn new_halves(&self) -> Halves {
         let (past, _) = self.stepper.past(&self.state);
-        let mut slots = Vec::new();
+        let (mut slots, mut are_given) = (Vec::new(), Vec::new());
+        for (node, _) in &self.loads.motions {
+            are_given.resize(self.masses.len() * D, false);
+            are_given[node.index * D..][..D].fill(true);
+        }
         for (element, _) in &self.loads.temperatures {
             slots.push(self.thermal_slot(*element).ok());
         }
@@ -44,7 +48,7 @@ impl<const D: usize> Simulation<D> {
             whole: State::clone(&self.state),
             kinds: Kinds {
                 are_strains: self.viscous_strains(),
-                are_given: self.prescribed_momenta(),
+                are_given,
             },
             rounding: LoadRounding::new(&self.loads, slots, counts),
         }
@@ -121,16 +125,6 @@ impl<const D: usize> Simulation<D> {
         self.has_stepped = false;
         self.state.copy_all_from(&halves.before);
         self.stepper.restore(&halves.past, None);
-    }
-
-    /// Which momenta, by coordinate, are those of moved anchors. Empty without any.
-    fn prescribed_momenta(&self) -> Vec<bool> {
-        let mut are_prescribed = Vec::new();
-        for (node, _) in &self.loads.motions {
-            are_prescribed.resize(self.masses.len() * D, false);
-            are_prescribed[node.index * D..][..D].fill(true);
-        }
-        are_prescribed
     }
 
     /// Which viscous variables are strains of solids.

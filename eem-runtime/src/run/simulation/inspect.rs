@@ -293,12 +293,7 @@ impl<const D: usize> Simulation<D> {
     /// For a foreign handle; [`SceneError::Oven`] for an [oven](crate::Scene::oven), which stores none.
     pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<f64, SceneError> {
         self.expect_own(&reservoir)?;
-        if self
-            .loads
-            .ovens
-            .iter()
-            .any(|(oven, _)| *oven == reservoir.index)
-        {
+        if self.is_oven(reservoir.index) {
             return Err(SceneError::Oven { reservoir });
         }
         Ok(self.state.reservoir_entropies.values()[reservoir.index])
@@ -446,6 +441,11 @@ impl<const D: usize> Simulation<D> {
     #[cfg(feature = "vtk")]
     pub(crate) fn counts(&self) -> [usize; 2] {
         [self.state.positions.values().len() / D, self.places.len()]
+    }
+
+    pub(super) fn is_oven(&self, reservoir: usize) -> bool {
+        let mut ovens = self.loads.ovens.iter();
+        ovens.any(|&(oven, _)| oven == reservoir)
     }
 
     /// The capabilities of an element of this scene.

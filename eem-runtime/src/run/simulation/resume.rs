@@ -51,25 +51,20 @@ impl<const D: usize> Simulation<D> {
                 energies: Vec::new(),
                 ..State::clone(&self.state)
             },
-            energies: self.saved_energies(),
+            energies: SavedEnergies {
+                of: self.state.digest(),
+                // The explicit scheme judges steps by the sums of `SavedExplicit`.
+                list: match self.in_use.closing() {
+                    Closing::Explicit => Vec::new(),
+                    _ => self.state.energies.clone(),
+                },
+            },
             loads: self.saved_loads(),
             past,
             explicit,
             seals: Vec::new(),
         }
         .sealed()
-    }
-
-    /// The energies of the elements. Empty for the explicit scheme, which judges steps by the sums of `SavedExplicit`.
-    fn saved_energies(&self) -> SavedEnergies {
-        let list = match self.in_use.closing() {
-            Closing::Explicit => Vec::new(),
-            _ => self.state.energies.clone(),
-        };
-        SavedEnergies {
-            of: self.state.digest(),
-            list,
-        }
     }
 
     /// Restores a saved state, of this simulation or of one of the same scene in another process. Nodes, elements
@@ -151,6 +146,10 @@ impl<const D: usize> Simulation<D> {
         let of_list = |numbers: &[f64]| {
             Digest::of(|digest| numbers.iter().for_each(|&number| digest.number(number)))
         };
+        let mut reservoirs = self.conduction.reservoirs.clone();
+        for (index, temperature) in &self.loads.ovens {
+            reservoirs[*index] = temperature(self.start);
+        }
         Numbers {
             materials: Digest::of(|digest| {
                 for group in self.stepper.all() {
@@ -168,24 +167,22 @@ impl<const D: usize> Simulation<D> {
                     digest.number(pair.mass);
                 }
             }),
-            conductances: Digest::of(|digest| self.digest_conductances(digest)),
-            reservoirs: of_list(&self.reservoirs_at_start()),
-            gravity: of_list(self.loads.gravity.as_slice()),
-        }
-    }
-
-    fn digest_conductances(&self, digest: &mut Digest) {
-        for slot in 0..self.state.temperatures.len() {
-            for link in self.conduction.links(slot) {
-                let (kind, index) = match link.partner {
-                    Partner::Slot(slot) => (0, slot),
-                    Partner::Reservoir(reservoir) => (1, reservoir),
-                };
-                for count in [slot, kind, index] {
-                    digest.count(count);
+            conductances: Digest::of(|digest| {
+                for slot in 0..self.state.temperatures.len() {
+                    for link in self.conduction.links(slot) {
+                        let (kind, index) = match link.partner {
+                            Partner::Slot(slot) => (0, slot),
+                            Partner::Reservoir(reservoir) => (1, reservoir),
+                        };
+                        for count in [slot, kind, index] {
+                            digest.count(count);
+                        }
+                        digest.number(link.conductance);
+                    }
                 }
-                digest.number(link.conductance);
-            }
+            }),
+            reservoirs: of_list(&reservoirs),
+            gravity: of_list(self.loads.gravity.as_slice()),
         }
     }
 
@@ -241,7 +238,17 @@ impl<const D: usize> Simulation<D> {
         }
         let mut expected = state.clone();
         expected.follow_velocities(D, &self.masses);
-        expect_momenta(state.momenta.values(), expected.momenta.values())
+        let momenta = state.momenta.values().iter();
+        let mut momenta = momenta.zip(expected.momenta.values());
+        #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
+        let different = momenta.find(|(a, b)| a != b);
+        different.map_or(Ok(()), |(&value, _)| {
+            Err(RestoreError::Value {
+                quantity: "momenta",
+                value,
+                required: "those of the velocities, p = M v",
+            })
+        })
     }
 
     /// Anchors must be where they were created or where their motion puts them, and have no momentum but that of solids.
@@ -311,20 +318,6 @@ impl<const D: usize> Simulation<D> {
             }
         }
         Ok(())
-    }
-}
-
-/// An error unless momenta are those of the velocities.
-fn expect_momenta(momenta: &[f64], expected: &[f64]) -> Result<(), RestoreError> {
-    #[expect(clippy::float_cmp, reason = "they are computed in the same way")]
-    let different = momenta.iter().zip(expected).find(|(a, b)| a != b);
-    match different {
-        None => Ok(()),
-        Some((value, _)) => Err(RestoreError::Value {
-            quantity: "momenta",
-            value: *value,
-            required: "those of the velocities, p = M v",
-        }),
     }
 }
 

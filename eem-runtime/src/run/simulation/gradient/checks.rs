@@ -131,7 +131,10 @@ impl<const D: usize> Simulation<D> {
             let passage = run.passage();
             let (change, draw) = run.any_change(gradient, &passage)?;
             let objectives = [(1.0, objective)];
-            let mut seeds = Seeds::new(kept, &objectives)?.forwards();
+            let mut seeds = Seeds::new(kept, &objectives)?;
+            for asked in &mut seeds.terms {
+                asked.moments.reverse();
+            }
             let mut tangent = [0.0];
             let see =
                 &mut (|run: &mut Self, (steps, state): (usize, &mut State), way: &Forward<D>| {

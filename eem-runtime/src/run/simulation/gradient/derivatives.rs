@@ -144,10 +144,6 @@ impl<const D: usize> Simulation<D> {
         Ok(())
     }
 
-    pub(super) fn is_oven(&self, index: usize) -> bool {
-        self.loads.ovens.iter().any(|&(own, _)| own == index)
-    }
-
     /// The heat of a reservoir, `θ_r σ_r`; none for an oven: what it gives is booked as heat after each step.
     fn see_heat(&self, (state, weight): (&State, f64), index: usize, see: &mut See<'_>) {
         if self.is_oven(index) {

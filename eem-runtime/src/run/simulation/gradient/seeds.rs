@@ -41,7 +41,8 @@ pub(super) struct Asked<'a, const D: usize> {
     factor: f64,
     /// Whether the objective is the first one, whose value counts.
     is_first: bool,
-    moments: Vec<Moment>,
+    /// From the last one on, on the way back.
+    pub(super) moments: Vec<Moment>,
 }
 
 impl<'a, const D: usize> Asked<'a, D> {
@@ -53,7 +54,7 @@ impl<'a, const D: usize> Asked<'a, D> {
 
 /// A state at which a quantity counts.
 #[derive(Clone, Copy, Debug)]
-struct Moment {
+pub(super) struct Moment {
     /// The number of steps before it.
     steps: usize,
     /// A datum and its standard deviation.
@@ -79,14 +80,6 @@ impl<'a, const D: usize> Seeds<'a, D> {
             }
         }
         Ok(Self { terms, time, value })
-    }
-
-    /// The same for states from the first one on.
-    pub(super) fn forwards(mut self) -> Self {
-        for asked in &mut self.terms {
-            asked.moments.reverse();
-        }
-        self
     }
 }
 

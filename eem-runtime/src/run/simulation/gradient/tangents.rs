@@ -257,18 +257,17 @@ impl<const D: usize> Simulation<D> {
         kept: &mut Record,
     ) -> Result<Kept, GradientError> {
         loop {
-            let pass = kept.next_pass(end);
-            let [from, to] = pass.steps;
+            let ([from, to], keeps_all) = kept.next_pass(end);
             if let Some(snapshot) = kept.at(from) {
                 self.return_to_state(snapshot);
             }
             let mut states = Kept::new(&self.state, to - from + 1);
             self.make_again([from, to], kept, |state| {
-                if pass.keeps_all {
+                if keeps_all {
                     states.keep(state);
                 }
             })?;
-            if !pass.keeps_all {
+            if !keeps_all {
                 kept.pass(self.snapshot_of(to));
             } else if states.ends_in(last) {
                 return Ok(states);
