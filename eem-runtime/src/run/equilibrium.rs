@@ -264,7 +264,11 @@ impl<const D: usize> Scene<D> {
         let mut loads = StepLoads::new(masses.len() * D, layout, &self.loads, false);
         let evaluated = loads.evaluate_forces_at(&self.loads, &masses, self.start);
         evaluated.map_err(EquilibriumError::Start)?;
-        loads.prescribed = held(&state.temperatures);
+        let held = state.temperatures.iter().map(|&theta| Prescribed {
+            middle: theta,
+            end: theta,
+        });
+        loads.prescribed = held.map(Some).collect();
         // The rows of this scheme are `2 m/h Δq − 2 p⁰ + h F`; at rest only h F is left.
         let scheme = Scheme::Midpoint;
         let (ends, rockets) = (self.ends(), self.loads.rocket_lines());
@@ -387,15 +391,6 @@ impl<const D: usize> Scene<D> {
             entry.viscous_stretches = viscous.iter().copied().enumerate().collect();
         }
     }
-}
-
-/// Temperatures that stay as they are.
-fn held(temperatures: &[f64]) -> Vec<Option<Prescribed>> {
-    let held = |&theta: &f64| {
-        let (middle, end) = (theta, theta);
-        Some(Prescribed { middle, end })
-    };
-    temperatures.iter().map(held).collect()
 }
 
 /// The edges of all elements from their first node to the others, each once, as pairs of nodes.

@@ -181,13 +181,10 @@ impl<const D: usize> Recorder<D> {
             }
             recorder.quantities.push(quantity);
         }
-        match recorder.record(run) {
-            Ok(()) => Ok(recorder),
-            Err(source) => {
-                let name = TIME.to_owned();
-                Err(RecordError::Quantity { name, source })
-            }
-        }
+        let name = TIME.to_owned();
+        let recorded = recorder.record(run);
+        recorded.map_err(|source| RecordError::Quantity { name, source })?;
+        Ok(recorder)
     }
 
     /// Records only every `stride`-th step; 0 counts as 1.

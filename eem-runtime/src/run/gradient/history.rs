@@ -141,33 +141,22 @@ impl Kept {
     pub(crate) fn load<const D: usize>(&self, steps: usize, masses: &Masses, state: &mut State) {
         state.time = Sum::new(self.times[steps]);
         let mut rest = self.numbers_after(steps);
-        let mut next = |count: usize| {
-            let (own, others) = rest.split_at(count);
+        let mut next = |values: &mut [f64]| {
+            let (own, others) = rest.split_at(values.len());
             rest = others;
-            own
+            values.copy_from_slice(own);
         };
-        let positions = next(state.positions.values().len());
-        state
-            .positions
-            .write(|values| values.copy_from_slice(positions));
+        state.positions.write(&mut next);
         let moves = if masses.are_coupled() {
             &mut state.velocities
         } else {
             &mut state.momenta
         };
-        let numbers = next(moves.values().len());
-        moves.write(|values| values.copy_from_slice(numbers));
+        moves.write(&mut next);
+        state.viscous.write(&mut next);
+        next(&mut state.temperatures);
+        state.reservoir_entropies.write(&mut next);
         state.follow_velocities(D, masses);
-        let viscous = next(state.viscous.values().len());
-        state
-            .viscous
-            .write(|values| values.copy_from_slice(viscous));
-        let temperatures = next(state.temperatures.len());
-        state.temperatures.copy_from_slice(temperatures);
-        let sums = next(state.reservoir_entropies.values().len());
-        state
-            .reservoir_entropies
-            .write(|values| values.copy_from_slice(sums));
     }
 }
 

@@ -36,12 +36,8 @@ impl<const D: usize> Simulation<D> {
     #[must_use]
     pub fn generic_state(&self) -> DVector<f64> {
         let state = &self.state;
-        let mut z = Vec::new();
-        for sums in [&state.positions, &state.momenta] {
-            let nodes = self.masses.iter().zip(sums.values().chunks_exact(D));
-            let of_masses = nodes.filter(|(mass, _)| mass.is_some());
-            z.extend(of_masses.flat_map(|(_, values)| values));
-        }
+        let mut z = self.of_masses(&state.positions);
+        z.extend(self.of_masses(&state.momenta));
         for sums in [&state.viscous, &state.entropies, &state.reservoir_entropies] {
             z.extend_from_slice(sums.values());
         }

@@ -19,6 +19,7 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use eem_material::joint::{COMPONENTS, tensor};
+use eem_material::number::compensated::Compensated;
 use eem_material::number::scalar::Scalar;
 
 /// # The present state
@@ -313,22 +314,24 @@ impl<const D: usize> Simulation<D> {
     #[doc(hidden)]
     #[must_use]
     pub fn values(&self) -> [Vec<f64>; 4] {
-        let all = |values: &[f64]| values.to_vec();
-        let of_masses = |values: &[f64]| {
-            let nodes = self.masses.iter().zip(values.chunks_exact(D));
-            let moving = nodes.filter(|(mass, _)| mass.is_some());
-            all(&moving
-                .flat_map(|(_, value)| value)
-                .copied()
-                .collect::<Vec<_>>())
-        };
         let state = &self.state;
         [
-            of_masses(state.positions.values()),
-            of_masses(state.momenta.values()),
-            all(&state.temperatures),
-            all(state.viscous.values()),
+            self.of_masses(&state.positions),
+            self.of_masses(&state.momenta),
+            state.temperatures.clone(),
+            state.viscous.values().to_vec(),
         ]
+    }
+
+    /// The components at all masses, node after node.
+    pub(super) fn of_masses(&self, all: &Compensated) -> Vec<f64> {
+        let mut own = Vec::new();
+        for (mass, values) in self.masses.iter().zip(all.values().chunks_exact(D)) {
+            if mass.is_some() {
+                own.extend_from_slice(values);
+            }
+        }
+        own
     }
 
     /// `|q|₂` of all nodes, anchors included, as errors of positions are relative to, m.

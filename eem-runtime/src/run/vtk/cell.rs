@@ -26,7 +26,7 @@ pub(super) const DATA: [(&str, usize); 11] = [
 ];
 
 /// A node of no element, a spring, or a cell of a solid.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Cell {
     pub(super) nodes: Vec<usize>,
     /// The number of its shape in the format.
@@ -142,10 +142,7 @@ pub(super) fn cells<const D: usize>(scene: &Scene<D>) -> Vec<Cell> {
     cells.extend(alone.map(|node| Cell {
         nodes: vec![node],
         kind: kind(1, D),
-        elements: Vec::new(),
-        is_spring: false,
-        is_thermal: false,
-        has_viscous_strain: false,
+        ..Cell::default()
     }));
     cells
 }

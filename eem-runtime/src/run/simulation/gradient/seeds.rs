@@ -12,7 +12,6 @@ use crate::run::gradient::input::{Term, When};
 use crate::run::gradient::snapshots::Record;
 use crate::run::recorder::Quantity;
 use crate::run::simulation::Simulation;
-use crate::run::simulation::stepper::Stepper;
 use crate::step::adjoint::PerVariable;
 use eem_material::number::scalar::is_positive;
 use nalgebra::SVector;
@@ -52,14 +51,8 @@ impl<'a, const D: usize> Asked<'a, D> {
     }
 }
 
-/// A state at which a quantity counts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Moment {
-    /// The number of steps before it.
-    steps: usize,
-    /// A datum and its standard deviation.
-    record: Option<[f64; 2]>,
-}
+/// A state at which a quantity counts: the number of steps before it, and a datum with its standard deviation.
+type Moment = (usize, Option<[f64; 2]>);
 
 impl<'a, const D: usize> Seeds<'a, D> {
     pub(super) fn new(kept: &Record, objectives: Weighted<'a, D>) -> Result<Self, GradientError> {
@@ -102,14 +95,10 @@ impl<const D: usize> Simulation<D> {
     /// Finds entropies and energies of a state from its temperatures.
     fn find_energies(&mut self, state: &mut State) -> Result<(), GradientError> {
         self.has_stepped = false;
-        let Stepper::Newton(newton) = &mut self.stepper else {
-            return Ok(());
-        };
         let mut refused = None;
-        for group in &mut newton.groups {
-            let elements = group.elements_mut();
+        self.stepper.each_mut(|elements| {
             elements.initialize(state, &mut |error| refused = Some(error));
-        }
+        });
         refused.map_or(Ok(()), |error| Err(error.into()))
     }
 
@@ -141,10 +130,10 @@ impl<const D: usize> Simulation<D> {
                 found.own += share * value;
             }
         }
-        while let Some(moment) = asked.moments.pop_if(|moment| moment.steps == steps) {
+        while let Some((_, record)) = asked.moments.pop_if(|(at, _)| *at == steps) {
             let value = self.value_in(state, term)?;
             counts = true;
-            if let Some([datum, deviation]) = moment.record {
+            if let Some([datum, deviation]) = record {
                 let misfit = (value - datum) / deviation;
                 found.weight += factor * misfit / deviation;
                 found.own += 0.5 * term.factor * misfit * misfit;
@@ -221,9 +210,8 @@ const ROUNDINGS: f64 = 4.0;
 
 /// The states in which a quantity counts, the last one at the end.
 fn moments(kept: &Record, when: &When) -> Result<Vec<Moment>, GradientError> {
-    let at = |steps: usize, record| Moment { steps, record };
     let mut asked: Vec<(f64, Option<[f64; 2]>)> = match when {
-        When::End => return Ok(vec![at(kept.len(), None)]),
+        When::End => return Ok(vec![(kept.len(), None)]),
         When::Integral => return Ok(Vec::new()),
         When::At(time) => vec![(*time, None)],
         When::Misfit(records) => {
@@ -253,7 +241,7 @@ fn moments(kept: &Record, when: &When) -> Result<Vec<Moment>, GradientError> {
             let nearest = near;
             return Err(GradientError::NotAnEndOfStep { time, nearest });
         }
-        found.push(at(steps, record));
+        found.push((steps, record));
     }
     Ok(found)
 }
