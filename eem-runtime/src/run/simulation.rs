@@ -122,9 +122,6 @@ pub struct Simulation<const D: usize> {
     report: StepReport,
 }
 
-/// The report of a step, or why it failed.
-type StepResult = Result<StepReport, StepError>;
-
 /// A step that was made, whose report is in the simulation, or why it failed.
 type Made = Result<(), StepError>;
 

@@ -7,7 +7,7 @@
 
 use super::event::Event;
 use super::stepper::Stepper;
-use super::{Simulation, StepResult};
+use super::{Made, Simulation};
 use crate::algebra::memory::TooLarge;
 use crate::element::conduction::Conduction;
 #[cfg(not(test))]
@@ -124,15 +124,16 @@ impl<const D: usize> Simulation<D> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn step(&mut self) -> Result<StepReport, StepError> {
-        self.advance(Aim::Towards(f64::INFINITY))
+        self.advance(Aim::Towards(f64::INFINITY))?;
+        Ok(self.report)
     }
 
-    /// Makes one step.
-    pub(super) fn advance(&mut self, aim: Aim) -> StepResult {
+    /// Makes one step, whose report is in the simulation.
+    pub(super) fn advance(&mut self, aim: Aim) -> Made {
         (Functions::get().advance)(self, aim)
     }
 
-    fn advance_here(&mut self, aim: Aim) -> StepResult {
+    fn advance_here(&mut self, aim: Aim) -> Made {
         self.begin_meters();
         let made = match aim {
             Aim::Towards(end) | Aim::InSchemeTowards(end) if self.control.is_none() => {
@@ -147,13 +148,12 @@ impl<const D: usize> Simulation<D> {
         if self.report.unresolved > 0 {
             self.note_unresolved();
         }
-        Ok(self.report)
+        Ok(())
     }
 }
 
 /// See [`end_at_event`](Simulation::end_at_event).
-type EndAtEvent<const D: usize> =
-    fn(&mut Simulation<D>, &mut [Event<'_, D>], StepReport, f64) -> StepResult;
+type EndAtEvent<const D: usize> = fn(&mut Simulation<D>, &mut [Event<'_, D>], f64) -> Made;
 
 /// See [`begin`](Simulation::begin).
 type New<const D: usize> = fn(
@@ -166,7 +166,7 @@ type New<const D: usize> = fn(
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize> {
     new: New<D>,
-    advance: fn(&mut Simulation<D>, Aim) -> StepResult,
+    advance: fn(&mut Simulation<D>, Aim) -> Made,
     pub(super) end_at_event: EndAtEvent<D>,
     pub(super) undo: fn(&mut Simulation<D>),
     pub(super) checkpoint: fn(&Simulation<D>) -> Checkpoint,

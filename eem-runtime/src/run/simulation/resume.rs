@@ -15,6 +15,12 @@ use eem_material::number::compensated::Sum;
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::Scalar;
 
+/// How far from the time of a state a function of time may have been evaluated for it, in ε of that time.
+///
+/// A step evaluates functions at `t + h` without the compensation of t: one ε, with the rounding of the sum. The compensated
+/// sum of t and h is another ε, and a run moves its last time to the end time by at most two more.
+const TIME_ROUNDINGS: f64 = 4.0;
+
 impl<const D: usize> Simulation<D> {
     /// The present state with everything the next steps depend on.
     ///
@@ -132,15 +138,7 @@ impl<const D: usize> Simulation<D> {
         self.restore_choice(checkpoint.choice);
         Ok(())
     }
-}
 
-/// How far from the time of a state a function of time may have been evaluated for it, in ε of that time.
-///
-/// A step evaluates functions at `t + h` without the compensation of t: one ε, with the rounding of the sum. The compensated
-/// sum of t and h is another ε, and a run moves its last time to the end time by at most two more.
-const TIME_ROUNDINGS: f64 = 4.0;
-
-impl<const D: usize> Simulation<D> {
     /// Digests of the numbers of the scene.
     pub(super) fn numbers(&self) -> Numbers {
         let of_list = |numbers: &[f64]| {

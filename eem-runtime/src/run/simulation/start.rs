@@ -186,10 +186,8 @@ impl Needs {
     pub(super) fn of<const D: usize>(scene: &Scene<D>) -> Self {
         let group = |index: usize| scene.groups.get(index);
         let has_drag = |index| group(index).is_some_and(|group| group.shape().drag);
-        let drag = scene
-            .elements
-            .iter()
-            .position(|entry| has_drag(entry.group));
+        let mut elements = scene.elements.iter();
+        let drag = elements.position(|entry| has_drag(entry.group));
         let mut groups = scene.groups.iter();
         Self {
             has_solids: groups.any(|group| !group.shape().is_spring),
@@ -226,16 +224,13 @@ impl Needs {
         if let Some(node) = self.rocket.filter(|_| !scheme.steps(Feature::Rockets)) {
             return Err(RocketError::Scheme { scheme: name, node }.into());
         }
-        let drag = self
-            .drag
-            .filter(|_| !scheme.steps(Feature::ParallelDashpots));
-        match drag {
-            Some(element) => Err(SceneError::NoDrag {
+        let steps = scheme.steps(Feature::ParallelDashpots);
+        self.drag.filter(|_| !steps).map_or(Ok(()), |element| {
+            Err(SceneError::NoDrag {
                 scheme: name,
                 element,
-            }),
-            None => Ok(()),
-        }
+            })
+        })
     }
 }
 

@@ -7,7 +7,7 @@
 use core::ops::ControlFlow;
 
 use super::{Bracket, Event, Simulation};
-use crate::run::simulation::StepResult;
+use crate::run::simulation::Made;
 use crate::run::simulation::compiled::{Aim, Functions};
 use crate::run::simulation::memory::or_restore;
 use crate::run::simulation::run::RunEnd;
@@ -95,12 +95,13 @@ impl<const D: usize> Simulation<D> {
         self.begin_search(events)?;
         while self.is_before(end) {
             let before = (!events.is_empty()).then(|| self.history());
-            let mut report = self.advance(Aim::Towards(end))?;
+            self.advance(Aim::Towards(end))?;
             if let Some(before) = before {
                 let restore = |run: &mut Self| run.restore_history(&before);
                 let locate = Functions::get().end_at_event;
-                report = or_restore(self, restore, |run| locate(run, events, report, end))?;
+                or_restore(self, restore, |run| locate(run, events, end))?;
             }
+            let report = self.report;
             let stopped = observer(self, &report).is_break();
             if let Some(first) = events.iter().position(Event::has_happened) {
                 return Ok(RunEnd::Event(first));
@@ -129,36 +130,33 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Ends the last step at the first event in it, if there is one, and marks the events that have happened then.
-    /// Returns the report of the step that is kept.
     pub(in crate::run::simulation) fn end_at_event(
         &mut self,
         events: &mut [Event<'_, D>],
-        whole: StepReport,
         end: f64,
-    ) -> StepResult {
-        let mut report = whole;
+    ) -> Made {
         let mut is_located = false;
         for place in 0..events.len() {
             // An earlier event of the list may have shortened the step.
             let event = &mut events[place];
             event.after = self.value(event, place)?;
-            let Some(bracket) = event.bracket(report.step) else {
+            let whole = self.report.step;
+            let Some(bracket) = event.bracket(whole) else {
                 continue;
             };
             is_located = true;
-            match self.locate(bracket, report, end, (event, place)) {
-                Ok(located) => report = located,
-                Err(error) => return self.end_at_event_in_half(events, report, end, error),
+            if let Err(error) = self.locate(bracket, end, (event, place)) {
+                return self.end_at_event_in_half(events, whole, end, error);
             }
         }
         for (event, place) in events.iter_mut().zip(0..) {
             if is_located {
                 event.after = self.value(event, place)?;
             }
-            event.has_happened = event.bracket(report.step).is_some();
+            event.has_happened = event.bracket(self.report.step).is_some();
             event.before = event.after;
         }
-        Ok(report)
+        Ok(())
     }
 
     /// Used when the step that would end at the event has failed: makes a step of half the size instead, which is kept, and
@@ -166,56 +164,54 @@ impl<const D: usize> Simulation<D> {
     fn end_at_event_in_half(
         &mut self,
         events: &mut [Event<'_, D>],
-        whole: StepReport,
+        whole: f64,
         end: f64,
         error: StepError,
-    ) -> StepResult {
+    ) -> Made {
         let is_of_event = matches!(
             error.failure,
             StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
         );
-        let middle = self.time() + 0.5 * whole.step;
+        let middle = self.time() + 0.5 * whole;
         if self.control.is_none() || is_of_event || !self.is_before(middle) {
             return Err(error);
         }
-        let shorter = self.advance(Aim::InSchemeTowards(middle))?;
-        self.end_at_event(events, shorter, end)
+        self.advance(Aim::InSchemeTowards(middle))?;
+        self.end_at_event(events, end)
     }
 
-    /// Replaces the last step, `whole`, by a shorter one that ends just behind the event.
+    /// Replaces the last step by a shorter one that ends just behind the event.
     fn locate(
         &mut self,
         mut bracket: Bracket,
-        whole: StepReport,
         end: f64,
         (event, place): (&mut Event<'_, D>, usize),
-    ) -> StepResult {
+    ) -> Made {
+        let whole = self.report;
         let scale = whole.time.abs() + whole.step;
         let sharpest = SHARPEST * f64::EPSILON * scale;
         let resolution = Scalar::maximum(event.tolerance, sharpest);
-        let mut report = whole;
         let (mut is_behind, mut is_shorter) = (true, false);
         while let Some(size) = bracket.candidate(resolution) {
             self.undo();
-            report = self.advance(Aim::Again(size))?;
+            self.advance(Aim::Again(size))?;
             let value = self.value(event, place)?;
             is_behind = bracket.narrow(size, value);
             is_shorter |= is_behind;
         }
         if is_behind {
-            return Ok(report);
+            return Ok(());
         }
         self.undo();
         if is_shorter {
             return self.advance(Aim::Again(bracket.high));
         }
-        let mut report = self.advance(Aim::Again(whole.step))?;
+        self.advance(Aim::Again(whole.step))?;
         #[expect(clippy::float_cmp, reason = "whether the step ended there")]
         if whole.time == end {
             self.arrive_at(end);
-            report.time = end;
         }
-        Ok(report)
+        Ok(())
     }
 
     /// The function of an event at the present state. If it fails, the last step is undone.
