@@ -32,9 +32,8 @@ mod stepper;
 mod unseen;
 pub(crate) mod warning;
 
-use core::fmt;
-use core::mem;
 use core::sync::atomic::AtomicBool;
+use core::{fmt, mem};
 use std::collections::BTreeMap;
 
 use crate::element::conduction::Conduction;

@@ -4,10 +4,9 @@ mod cell;
 
 use core::error::Error;
 use std::collections::BTreeSet;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use std::{fs, io};
 
 use crate::element::handle::Node;
 use crate::run::simulation::Simulation;

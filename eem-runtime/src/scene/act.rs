@@ -26,13 +26,11 @@ impl<const D: usize> Scene<D> {
 
     /// A constant force on a mass, N. The ledger counts its work.
     pub fn dead_load(&mut self, node: Node, force: [f64; D]) {
-        match infinite(&force).next() {
-            Some((axis, value)) => self.refuse(SceneError::DeadLoad { node, axis, value }),
-            None if self.expect_kind(node, true, "a force") => {
-                let force = Course::Constant(SVector::from(force));
-                self.loads.forces.push((node, force));
-            }
-            None => {}
+        if let Some((axis, value)) = infinite(&force).next() {
+            self.refuse(SceneError::DeadLoad { node, axis, value });
+        } else if self.expect_kind(node, true, "a force") {
+            let force = Course::Constant(force.into());
+            self.loads.forces.push((node, force));
         }
     }
 
@@ -42,10 +40,8 @@ impl<const D: usize> Scene<D> {
     /// the times of the stages.
     pub fn force(&mut self, node: Node, force: impl Fn(f64) -> [f64; D] + Send + Sync + 'static) {
         if self.expect_kind(node, true, "a force") {
-            let force = move |time| SVector::from(force(time));
-            self.loads
-                .forces
-                .push((node, Course::Function(Arc::new(force))));
+            let force = Arc::new(move |time| SVector::from(force(time)));
+            self.loads.forces.push((node, Course::Function(force)));
         }
     }
 
@@ -110,10 +106,10 @@ impl<const D: usize> Scene<D> {
         position: impl Fn(f64) -> [f64; D] + Send + Sync + 'static,
     ) {
         if self.expect_kind(anchor, false, "a prescribed motion") {
-            let position = move |time| SVector::from(position(time));
+            let position = Arc::new(move |time| SVector::from(position(time)));
             self.loads
                 .motions
-                .push((anchor, Course::Function(Arc::new(position))));
+                .push((anchor, Course::Function(position)));
         }
     }
 

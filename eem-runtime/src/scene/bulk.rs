@@ -228,28 +228,22 @@ pub(super) fn joined<H: Shape<D>, const D: usize>(
             return Err(joint.too_far(mesh, element));
         }
     }
-    let mut moved = nearest
-        .iter()
-        .flatten()
-        .filter(|(distance, _)| *distance > 0.0);
-    if moved.next().is_some() {
+    let mut known = nearest.iter().flatten();
+    if known.any(|(distance, _)| *distance > 0.0) {
         // The mesh must be valid with its nodes in their new positions.
         let places = mesh.nodes().iter().zip(&nearest);
         let places = places.map(|(&place, known)| known.map_or(place, |(_, shared)| shared.place));
         let checked = Mesh::<H, D>::new(places.collect(), mesh.cells().to_vec());
+        let within = joints.iter().map(|joint| joint.within);
         checked.map_err(|error| SolidError::JoinedNodes {
             element,
-            within: joints
-                .iter()
-                .fold(0.0, |most, joint| joint.within.max(most)),
+            within: within.fold(0.0, f64::max),
             error,
         })?;
     }
     let shared = nearest.into_iter().map(|known| Some(known?.1));
     Ok(shared.collect())
 }
-
-#[cfg(feature = "gradients")]
 
 /// A solid of a scene: its mesh and the handles of its nodes and integration points, in the reference
 /// configuration.

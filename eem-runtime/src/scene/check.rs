@@ -149,6 +149,45 @@ impl<const D: usize> Scene<D> {
             errors.push(error);
         }
     }
+
+    /// Motions of anchors must begin where the anchors were created.
+    fn check_motions(&self, errors: &mut Vec<SceneError>) {
+        let mut scale = 0.0;
+        for node in &self.nodes {
+            scale = Scalar::maximum(scale, extent(node.position.as_slice()));
+        }
+        for (anchor, motion) in &self.loads.motions {
+            let created = self.nodes[anchor.index].position;
+            let prescribed = motion.position(self.start, &created.into(), 0.0);
+            for axis in 0..D {
+                if !is_rounding(prescribed[axis] - created[axis], scale) {
+                    errors.push(SceneError::AnchorJump {
+                        node: *anchor,
+                        axis,
+                        created: created[axis],
+                        prescribed: prescribed[axis],
+                    });
+                }
+            }
+        }
+    }
+
+    /// Thermostats must begin at the initial temperature.
+    fn check_thermostats(&self, errors: &mut Vec<SceneError>) {
+        for (element, temperature) in &self.loads.temperatures {
+            let Some(initial) = self.elements[element.index()].temperature else {
+                continue;
+            };
+            let prescribed = temperature.at(self.start, initial, 0.0);
+            if !is_rounding(prescribed - initial, initial) {
+                errors.push(SceneError::TemperatureJump {
+                    element: *element,
+                    initial,
+                    prescribed,
+                });
+            }
+        }
+    }
 }
 
 fn check_node<const D: usize>(node: Node, entry: &NodeEntry<D>, errors: &mut Vec<SceneError>) {
@@ -202,47 +241,6 @@ fn check_element(
             errors.push(StateError::Temperature { element, value }.into());
         }
         (None, false) | (Some(_), true) => {}
-    }
-}
-
-impl<const D: usize> Scene<D> {
-    /// Motions of anchors must begin where the anchors were created.
-    fn check_motions(&self, errors: &mut Vec<SceneError>) {
-        let mut scale = 0.0;
-        for node in &self.nodes {
-            scale = Scalar::maximum(scale, extent(node.position.as_slice()));
-        }
-        for (anchor, motion) in &self.loads.motions {
-            let created = self.nodes[anchor.index].position;
-            let prescribed = motion.position(self.start, &created.into(), 0.0);
-            for axis in 0..D {
-                if !is_rounding(prescribed[axis] - created[axis], scale) {
-                    errors.push(SceneError::AnchorJump {
-                        node: *anchor,
-                        axis,
-                        created: created[axis],
-                        prescribed: prescribed[axis],
-                    });
-                }
-            }
-        }
-    }
-
-    /// Thermostats must begin at the initial temperature.
-    fn check_thermostats(&self, errors: &mut Vec<SceneError>) {
-        for (element, temperature) in &self.loads.temperatures {
-            let Some(initial) = self.elements[element.index()].temperature else {
-                continue;
-            };
-            let prescribed = temperature.at(self.start, initial, 0.0);
-            if !is_rounding(prescribed - initial, initial) {
-                errors.push(SceneError::TemperatureJump {
-                    element: *element,
-                    initial,
-                    prescribed,
-                });
-            }
-        }
     }
 }
 

@@ -1,8 +1,7 @@
 //! Derivatives by sizes of steps and by the time at the end, also where loads depend on time.
 
 use super::error::GradientError;
-use super::input::Timed;
-use super::input::{Input, InputOf};
+use super::input::{Input, InputOf, Timed};
 use super::result::Gradient;
 
 impl<const D: usize> Gradient<D> {

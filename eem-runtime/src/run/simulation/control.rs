@@ -3,10 +3,8 @@
 use core::mem;
 
 use super::compiled::Functions;
-use super::memory::Guard;
-use super::memory::{Control, History, SMALLEST, Snapshot};
-use super::start::find_speeds;
-use super::start::{check_step, check_tolerance};
+use super::memory::{Control, Guard, History, SMALLEST, Snapshot};
+use super::start::{check_step, check_tolerance, find_speeds};
 use super::stepper::Stepper;
 use super::{Made, Simulation, Tried};
 use crate::element::state::State;

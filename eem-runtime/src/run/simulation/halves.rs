@@ -16,8 +16,7 @@
 use core::f64::consts::TAU;
 
 use super::attempt::explicit_view;
-use super::memory::or_restore;
-use super::memory::{Control, Halves};
+use super::memory::{Control, Halves, or_restore};
 use super::stepper::Stepper;
 use super::{Made, Simulation, Tried};
 use crate::algebra::vector;

@@ -4,8 +4,7 @@ use core::ops::ControlFlow;
 
 use super::Simulation;
 use super::compiled::Aim;
-use super::memory::Guard;
-use super::memory::SMALLEST;
+use super::memory::{Guard, SMALLEST};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use eem_material::number::compensated::Sum;
