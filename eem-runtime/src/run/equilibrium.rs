@@ -155,31 +155,15 @@ pub struct EquilibriumReport {
 }
 
 /// The function that finds an equilibrium. In one to three dimensions it is compiled with this crate, else where it is used.
-struct Functions<const D: usize> {
-    find: fn(&mut Scene<D>, Equilibrium) -> Result<EquilibriumReport, EquilibriumError>,
-}
+type Find<const D: usize> =
+    fn(&mut Scene<D>, Equilibrium) -> Result<EquilibriumReport, EquilibriumError>;
 
 #[cfg(not(test))]
-static LINE: Functions<1> = Functions::HERE;
+static LINE: Find<1> = Scene::find_equilibrium;
 #[cfg(not(test))]
-static PLANE: Functions<2> = Functions::HERE;
+static PLANE: Find<2> = Scene::find_equilibrium;
 #[cfg(not(test))]
-static SPACE: Functions<3> = Functions::HERE;
-
-impl<const D: usize> Functions<D> {
-    const HERE: Self = Self {
-        find: Scene::find_equilibrium,
-    };
-
-    /// A branch that a constant rules out is not compiled.
-    fn get() -> &'static Self {
-        #[cfg(not(test))]
-        if const { 0 < D && D < 4 } {
-            return of_dimension(D, [&LINE, &PLANE, &SPACE]);
-        }
-        const { &Self::HERE }
-    }
-}
+static SPACE: Find<3> = Scene::find_equilibrium;
 
 /// # Equilibrium
 impl<const D: usize> Scene<D> {
@@ -226,7 +210,13 @@ impl<const D: usize> Scene<D> {
         &mut self,
         settings: Equilibrium,
     ) -> Result<EquilibriumReport, EquilibriumError> {
-        (Functions::get().find)(self, settings)
+        // A branch that a constant rules out is not compiled.
+        #[cfg(not(test))]
+        if const { 0 < D && D < 4 } {
+            let find: &Find<D> = of_dimension(D, [&LINE, &PLANE, &SPACE]);
+            return find(self, settings);
+        }
+        self.find_equilibrium(settings)
     }
 
     fn find_equilibrium(

@@ -107,7 +107,6 @@ impl<'a> Entry<'a> {
         let same = simulation.iter().find(|other| other.name == self.name);
         let counts = self.count.zip(same.and_then(|other| other.count));
         counts.map_or(Ok(()), |(own, other)| expect_count(self.name, own, other))?;
-        let is_not_negative = |number| number >= 0.0;
         let half = 0.5 * f64::EPSILON;
         let mut value = None;
         for &number in &*self.numbers {
@@ -115,11 +114,8 @@ impl<'a> Entry<'a> {
                 Rule::None => (true, ""),
                 Rule::Sum | Rule::Finite => (number.is_finite(), "finite"),
                 Rule::Positive => (is_positive(number), "positive and finite"),
-                Rule::NotNegative => (is_not_negative(number), "not negative"),
-                Rule::FiniteNotNegative => {
-                    let is_met = number.is_finite() && is_not_negative(number);
-                    (is_met, "not negative")
-                }
+                Rule::NotNegative => (number >= 0.0, "not negative"),
+                Rule::FiniteNotNegative => ((0.0..=f64::MAX).contains(&number), "not negative"),
             };
             if !is_met {
                 return Err(RestoreError::Value {

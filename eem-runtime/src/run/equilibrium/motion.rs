@@ -245,7 +245,7 @@ impl Moved<'_> {
 #[non_exhaustive]
 pub enum EquilibriumError {
     /// The scene is invalid.
-    #[error("{}{}", first(errors), more(errors))]
+    #[error("{}", summary(errors))]
     Scene {
         /// What is wrong with it, at least one error.
         errors: Vec<SceneError>,
@@ -320,13 +320,10 @@ fn reason(failure: &StepFailure) -> String {
     }
 }
 
-fn first(errors: &[SceneError]) -> String {
-    errors.first().map_or_else(String::new, ToString::to_string)
-}
-
-fn more(errors: &[SceneError]) -> String {
+fn summary(errors: &[SceneError]) -> String {
+    let first = errors.first().map_or_else(String::new, ToString::to_string);
     match errors.len().saturating_sub(1) {
-        0 => String::new(),
-        more => format!(" (and {more} more)"),
+        0 => first,
+        more => format!("{first} (and {more} more)"),
     }
 }

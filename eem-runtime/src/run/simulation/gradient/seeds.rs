@@ -119,11 +119,8 @@ impl<const D: usize> Simulation<D> {
         if matches!(term.when, When::Integral) {
             let value = self.value_in(state, term)?;
             (counts, found.integrand) = (true, Some(value));
-            let before = steps.checked_sub(1);
-            for step in before
-                .into_iter()
-                .chain((steps < kept.len()).then_some(steps))
-            {
+            let after = (steps < kept.len()).then_some(steps);
+            for step in [steps.checked_sub(1), after].into_iter().flatten() {
                 let share = 0.5 * term.factor * kept.size(step);
                 found.weight += asked.factor * share;
                 found.own += share * value;
