@@ -11,6 +11,7 @@ use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
 use crate::element::layout::{Shape, Slots};
 use crate::element::loads::point;
+use crate::element::state::State;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
@@ -383,17 +384,17 @@ impl<const D: usize> Simulation<D> {
     }
 
     pub(super) fn ledger_here(&self) -> Ledger<D> {
-        let sheet = Ledger::of(
-            &self.state,
-            &self.masses,
-            &mut self.stepper.all(),
-            &self.conduction.reservoirs,
-            &self.loads.gravity,
-        );
         Ledger {
             unresolved: self.unresolved.points,
-            ..sheet
+            ..self.ledger_in(&self.state)
         }
+    }
+
+    /// The ledger of a state, whatever steps led there.
+    pub(super) fn ledger_in(&self, state: &State) -> Ledger<D> {
+        let (mut groups, reservoirs) = (self.stepper.all(), &self.conduction.reservoirs);
+        let gravity = &self.loads.gravity;
+        Ledger::of(state, &self.masses, &mut groups, reservoirs, gravity)
     }
 
     /// An error unless an element is a spring of this scene.

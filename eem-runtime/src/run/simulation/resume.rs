@@ -7,7 +7,6 @@ use super::start::check_tolerance;
 use crate::element::conduction::Partner;
 use crate::element::state::State;
 use crate::run::checkpoint::{Checkpoint, Numbers, Outline, RestoreError, SavedEnergies};
-use crate::run::ledger::Ledger;
 use crate::scene::loads::{Course, MOTION_ROUNDINGS, extent};
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Closing;
@@ -200,17 +199,14 @@ impl<const D: usize> Simulation<D> {
         for group in self.stepper.all() {
             group.audit(state)?;
         }
-        let reservoirs = &self.conduction.reservoirs;
-        let (mut groups, gravity) = (self.stepper.all(), &self.loads.gravity);
-        let ledger = Ledger::of(state, &self.masses, &mut groups, reservoirs, gravity);
-        match ledger.infinite_entry() {
-            None => Ok(()),
-            Some((quantity, value, unit)) => Err(RestoreError::Total {
+        let infinite = self.ledger_in(state).infinite_entry();
+        infinite.map_or(Ok(()), |(quantity, value, unit)| {
+            Err(RestoreError::Total {
                 quantity,
                 value,
                 unit,
-            }),
-        }
+            })
+        })
     }
 
     /// Which nodes are anchors whose motion is given.

@@ -44,32 +44,20 @@ impl Draw {
         by.iter().map(|&by| self.of(by, size)).collect()
     }
 
-    /// Changes of the values of a function of time.
-    fn values(&mut self, by: &Series<f64>, size: f64) -> Arc<dyn Fn(f64) -> f64 + Send + Sync> {
-        let values = by.iter().map(|&(time, by)| (time, self.of(by, size)));
-        let values: Vec<(f64, f64)> = values.collect();
-        Arc::new(move |time| at(&values, time).unwrap_or(0.0))
-    }
-
-    /// Changes of the values of a vector function of time.
-    fn vectors<const D: usize>(
+    /// Changes of the values of a function of time, which are `none` at other times.
+    fn course<T: Copy + Send + Sync + 'static>(
         &mut self,
-        by: &Series<SVector<f64, D>>,
-        size: f64,
-    ) -> Arc<dyn Fn(f64) -> SVector<f64, D> + Send + Sync> {
-        let values = by
-            .iter()
-            .map(|(time, by)| (*time, by.map(|by| self.of(by, size))));
-        let values: Vec<_> = values.collect();
-        let still = SVector::from_element(0.0);
-        Arc::new(move |time| at(&values, time).unwrap_or(still))
+        by: &Series<T>,
+        none: T,
+        of: impl Fn(&mut Self, T) -> T,
+    ) -> Arc<dyn Fn(f64) -> T + Send + Sync> {
+        let values = by.iter().map(|&(time, by)| (time, of(self, by)));
+        let values: Vec<(f64, T)> = values.collect();
+        Arc::new(move |time| {
+            let found = values.binary_search_by(|(own, _)| own.total_cmp(&time));
+            found.map_or(none, |place| values[place].1)
+        })
     }
-}
-
-/// The value at this time; `None` unless it is one of the sorted times.
-fn at<T: Copy>(values: &[(f64, T)], time: f64) -> Option<T> {
-    let found = values.binary_search_by(|(own, _)| own.total_cmp(&time));
-    found.ok().map(|place| values[place].1)
 }
 
 /// The largest magnitude, or one if all are zero.
@@ -205,11 +193,13 @@ impl<const D: usize> Simulation<D> {
             Timed::Thermostat(_) | Timed::Oven(_) => theta,
         };
         for (load, by) in &gradient.vectors {
-            let values = draw.vectors(by, size_of_load(*load));
+            let (size, still) = (size_of_load(*load), SVector::from_element(0.0));
+            let values = draw.course(by, still, |draw, by| by.map(|by| draw.of(by, size)));
             change.vectors.push((*load, values));
         }
         for (load, by) in &gradient.numbers {
-            let values = draw.values(by, size_of_load(*load));
+            let size = size_of_load(*load);
+            let values = draw.course(by, 0.0, |draw, by| draw.of(by, size));
             change.numbers.push((*load, values));
         }
         Ok((change, draw))
