@@ -155,6 +155,7 @@ pub struct EquilibriumReport {
 }
 
 /// The function that finds an equilibrium. In one to three dimensions it is compiled with this crate, else where it is used.
+#[cfg(not(test))]
 type Find<const D: usize> =
     fn(&mut Scene<D>, Equilibrium) -> Result<EquilibriumReport, EquilibriumError>;
 
