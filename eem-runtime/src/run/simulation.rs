@@ -34,7 +34,6 @@ pub(crate) mod warning;
 
 use core::sync::atomic::AtomicBool;
 use core::{fmt, mem};
-use std::collections::BTreeMap;
 
 use crate::element::conduction::Conduction;
 use crate::element::layout::{Layout, Shape};
@@ -105,7 +104,7 @@ pub struct Simulation<const D: usize> {
     /// The time at which the run began, s.
     start: f64,
     /// The positions of anchors before a controller moved them for the first time, m, by node.
-    homes: BTreeMap<usize, [f64; D]>,
+    homes: Vec<(usize, [f64; D])>,
     /// The states since the call of `keep_history`; `None` without it.
     #[cfg(feature = "gradients")]
     history: Option<Box<Record>>,
@@ -122,7 +121,7 @@ pub struct Simulation<const D: usize> {
 }
 
 /// A step that was made, whose report is in the simulation, or why it failed.
-type Made = Result<(), StepError>;
+type Stepped = Result<(), StepError>;
 
 /// A step that was tried.
 enum Tried {
@@ -254,7 +253,7 @@ impl<const D: usize> Simulation<D> {
             state,
             has_stepped: false,
             start: scene.start,
-            homes: BTreeMap::new(),
+            homes: Vec::new(),
             #[cfg(feature = "gradients")]
             history: None,
             #[cfg(feature = "gradients")]

@@ -4,7 +4,7 @@ use core::mem;
 
 use super::start::SHORTEST;
 use super::stepper::Stepper;
-use super::{Made, Simulation, Tried};
+use super::{Simulation, Stepped, Tried};
 use crate::element::group::StepView;
 use crate::element::phase::Phase;
 use crate::step::error::{StepError, StepFailure};
@@ -60,7 +60,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// One step of this size, whatever its error.
-    pub(super) fn step_by(&mut self, size: f64) -> Made {
+    pub(super) fn step_by(&mut self, size: f64) -> Stepped {
         self.make_step(size)
     }
 
@@ -70,7 +70,7 @@ impl<const D: usize> Simulation<D> {
         clippy::inline_always,
         reason = "a step of one spring copies nothing twice"
     )]
-    pub(super) fn make_step(&mut self, size: f64) -> Made {
+    pub(super) fn make_step(&mut self, size: f64) -> Stepped {
         match self.find_next(size, Demand::None) {
             Ok(Attempt {
                 error,

@@ -3,7 +3,7 @@
 use super::attempt::explicit_view;
 use super::memory::Control;
 use super::stepper::Stepper;
-use super::{Made, Simulation, Tried};
+use super::{Simulation, Stepped, Tried};
 use crate::element::state::Energy;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict};
@@ -27,7 +27,7 @@ pub(super) struct SchemeAtWork {
 
 impl<const D: usize> Simulation<D> {
     /// An accurate step by the scheme that is likely to be the cheapest; the state is unchanged if there is none.
-    pub(super) fn step_of_choice(&mut self, control: &mut Control, end: f64) -> Made {
+    pub(super) fn step_of_choice(&mut self, control: &mut Control, end: f64) -> Stepped {
         self.judge_trial(control);
         if self.in_use.closing() == Closing::Explicit {
             self.measure_stability(control);
@@ -67,7 +67,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// A step of the present scheme, or of another one if it finds none.
-    fn step_by_some_scheme(&mut self, control: &mut Control, end: f64) -> Made {
+    fn step_by_some_scheme(&mut self, control: &mut Control, end: f64) -> Stepped {
         let (own, usual) = (self.in_use, self.step);
         let Err(mut failed) = self.counted_step(control, end) else {
             return Ok(());
@@ -97,7 +97,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// A step of the present scheme, whose effort is counted.
-    fn counted_step(&mut self, control: &mut Control, end: f64) -> Made {
+    fn counted_step(&mut self, control: &mut Control, end: f64) -> Stepped {
         let before = self.stepper.evaluations();
         let found = self.find_accurate_step(control, end);
         let time = if found.is_ok() { self.report.step } else { 0.0 };

@@ -7,7 +7,7 @@
 
 use super::event::Event;
 use super::stepper::Stepper;
-use super::{Made, Simulation};
+use super::{Simulation, Stepped};
 use crate::algebra::memory::TooLarge;
 use crate::element::conduction::Conduction;
 #[cfg(not(test))]
@@ -129,11 +129,11 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Makes one step, whose report is in the simulation.
-    pub(super) fn advance(&mut self, aim: Aim) -> Made {
+    pub(super) fn advance(&mut self, aim: Aim) -> Stepped {
         (Functions::get().advance)(self, aim)
     }
 
-    fn advance_here(&mut self, aim: Aim) -> Made {
+    fn advance_here(&mut self, aim: Aim) -> Stepped {
         self.begin_meters();
         let made = match aim {
             Aim::Towards(end) | Aim::InSchemeTowards(end) if self.control.is_none() => {
@@ -153,7 +153,7 @@ impl<const D: usize> Simulation<D> {
 }
 
 /// See [`end_at_event`](Simulation::end_at_event).
-type EndAtEvent<const D: usize> = fn(&mut Simulation<D>, &mut [Event<'_, D>], f64) -> Made;
+type EndAtEvent<const D: usize> = fn(&mut Simulation<D>, &mut [Event<'_, D>], f64) -> Stepped;
 
 /// See [`begin`](Simulation::begin).
 type New<const D: usize> = fn(
@@ -166,7 +166,7 @@ type New<const D: usize> = fn(
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize> {
     new: New<D>,
-    advance: fn(&mut Simulation<D>, Aim) -> Made,
+    advance: fn(&mut Simulation<D>, Aim) -> Stepped,
     pub(super) end_at_event: EndAtEvent<D>,
     pub(super) undo: fn(&mut Simulation<D>),
     pub(super) checkpoint: fn(&Simulation<D>) -> Checkpoint,

@@ -6,7 +6,7 @@ use super::compiled::Functions;
 use super::memory::{Control, Guard, History, SMALLEST, Snapshot};
 use super::start::{check_step, check_tolerance, find_speeds};
 use super::stepper::Stepper;
-use super::{Made, Simulation, Tried};
+use super::{Simulation, Stepped, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
@@ -164,7 +164,7 @@ impl<const D: usize> Simulation<D> {
 
     /// One step by the scheme in use, not beyond `end`, of an accurate size; by another scheme if that is allowed and
     /// cheaper.
-    pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> Made {
+    pub(super) fn step_towards(&mut self, end: f64, may_switch: bool) -> Stepped {
         // A step in the scheme goes to a time within one that has looked.
         let horizon = may_switch.then_some(end);
         let end = self.stop_before(end);
@@ -202,7 +202,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// An accurate step of the scheme in use, not beyond `end`.
-    pub(super) fn find_accurate_step(&mut self, control: &mut Control, end: f64) -> Made {
+    pub(super) fn find_accurate_step(&mut self, control: &mut Control, end: f64) -> Stepped {
         let usual = self.step;
         loop {
             let memory = &control.memory;
@@ -299,7 +299,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Another step from the beginning of the one that was undone, of this size; as accurate as that one if possible.
-    pub(super) fn step_again(&mut self, size: f64) -> Made {
+    pub(super) fn step_again(&mut self, size: f64) -> Stepped {
         self.with_control(|run, control| {
             let Some(control) = control else {
                 return run.step_by(size);

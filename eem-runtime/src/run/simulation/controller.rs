@@ -98,8 +98,10 @@ impl<const D: usize> Simulation<D> {
 
     /// Remembers where an anchor is before it is moved for the first time.
     fn note_home(&mut self, anchor: usize) {
-        let home = point(self.state.positions.values(), anchor);
-        self.homes.entry(anchor).or_insert(home);
+        if self.homes.iter().all(|&(own, _)| own != anchor) {
+            let home = point(self.state.positions.values(), anchor);
+            self.homes.push((anchor, home));
+        }
     }
 
     /// Sets the temperature that an element with a thermostat reaches at the end of the next step, K, linearly in time; it

@@ -18,7 +18,7 @@ use core::f64::consts::TAU;
 use super::attempt::explicit_view;
 use super::memory::{Control, Halves, or_restore};
 use super::stepper::Stepper;
-use super::{Made, Simulation, Tried};
+use super::{Simulation, Stepped, Tried};
 use crate::algebra::vector;
 use crate::element::group::points;
 use crate::element::layout::Slots;
@@ -97,7 +97,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// A whole step, stored in `halves`, and one in two halves. If one fails, the state is that before both.
-    pub(super) fn step_twice(&mut self, halves: &mut Halves, size: f64) -> Made {
+    pub(super) fn step_twice(&mut self, halves: &mut Halves, size: f64) -> Stepped {
         halves.before.copy_all_from(&self.state);
         self.stepper.save_past_to(&mut halves.past);
         self.step_by(size)?;
@@ -110,7 +110,7 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// Two steps of half a size. If one fails, the state is that before both.
-    pub(super) fn step_in_halves(&mut self, halves: &Halves, size: f64) -> Made {
+    pub(super) fn step_in_halves(&mut self, halves: &Halves, size: f64) -> Stepped {
         let half = 0.5 * size;
         self.step_by(half)?;
         let first = self.report;

@@ -7,7 +7,7 @@
 use core::ops::ControlFlow;
 
 use super::{Bracket, Event, Simulation};
-use crate::run::simulation::Made;
+use crate::run::simulation::Stepped;
 use crate::run::simulation::compiled::{Aim, Functions};
 use crate::run::simulation::memory::or_restore;
 use crate::run::simulation::run::RunEnd;
@@ -134,7 +134,7 @@ impl<const D: usize> Simulation<D> {
         &mut self,
         events: &mut [Event<'_, D>],
         end: f64,
-    ) -> Made {
+    ) -> Stepped {
         let mut is_located = false;
         for place in 0..events.len() {
             // An earlier event of the list may have shortened the step.
@@ -167,7 +167,7 @@ impl<const D: usize> Simulation<D> {
         whole: f64,
         end: f64,
         error: StepError,
-    ) -> Made {
+    ) -> Stepped {
         let is_of_event = matches!(
             error.failure,
             StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
@@ -186,7 +186,7 @@ impl<const D: usize> Simulation<D> {
         mut bracket: Bracket,
         end: f64,
         (event, place): (&mut Event<'_, D>, usize),
-    ) -> Made {
+    ) -> Stepped {
         let whole = self.report;
         let scale = whole.time.abs() + whole.step;
         let sharpest = SHARPEST * f64::EPSILON * scale;

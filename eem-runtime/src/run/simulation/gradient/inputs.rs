@@ -1,5 +1,7 @@
 //! The derivatives of a step by its inputs, from the weights of its equations.
 
+use std::collections::BTreeSet;
+
 use super::derivatives::{Of, Passage, viscous_unit};
 use crate::element::conduction::Partner;
 use crate::element::loads::point;
@@ -285,18 +287,18 @@ impl<const D: usize> Simulation<D> {
             values: vec![0.0; group.parameters().len()],
         });
         let (mut vectors, mut numbers, mut timed) = (Vec::new(), Vec::new(), Vec::new());
+        let mut forced = BTreeSet::new();
         for (load, is_function) in self.timed_loads() {
             if is_function {
                 timed.push(load);
             }
             match load {
+                // Several forces on a node have one series.
+                Timed::Force(node) if !forced.insert(node.index) => {}
                 Timed::Force(_) | Timed::Motion(_) => vectors.push((load, Series(Vec::new()))),
                 _ => numbers.push((load, Series(Vec::new()))),
             }
         }
-        // Several forces on a node have one series.
-        vectors.sort_by_key(|(load, _)| load.key());
-        vectors.dedup_by_key(|(load, _)| load.key());
         Gradient {
             scene: self.scene.clone(),
             value: 0.0,
