@@ -7,6 +7,8 @@ mod lines;
 #[cfg(feature = "serde")]
 mod scheme_name;
 
+use crate::element::layout::Shape;
+use crate::element::masses::Masses;
 use crate::element::state::{Energy, State};
 use crate::step::automatic::SchemeSelection;
 use crate::step::control::{Controller, StepStatistics, Tolerance};
@@ -16,7 +18,6 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
 use eem_material::number::digest::Digest;
 
-pub(crate) use entries::{Numbers, Outline};
 pub(crate) use error::expect_count;
 pub use error::{FormatError, LoadError, RestoreError};
 
@@ -209,5 +210,124 @@ impl Checkpoint {
     pub(crate) fn sealed(mut self) -> Self {
         self.seals = self.digests().map(|(_, digest)| digest).collect();
         self
+    }
+}
+
+/// Nodes, elements and reservoirs, without their values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct Outline {
+    pub(crate) dimensions: usize,
+    /// Whether each node is an anchor.
+    pub(crate) anchors: Vec<bool>,
+    pub(crate) elements: Vec<ElementOutline>,
+    pub(crate) reservoirs: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct ElementOutline {
+    pub(crate) dashpots: usize,
+    pub(crate) thermal: bool,
+}
+
+/// Digests of all numbers of a scene that a state does not contain.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct Numbers {
+    /// Names and values of the parameters, by element.
+    pub(crate) materials: Digest,
+    pub(crate) masses: Digest,
+    pub(crate) conductances: Digest,
+    pub(crate) reservoirs: Digest,
+    pub(crate) gravity: Digest,
+}
+
+impl Outline {
+    pub(crate) fn new(
+        dimensions: usize,
+        masses: &Masses,
+        shapes: &mut dyn Iterator<Item = Shape>,
+        reservoirs: usize,
+    ) -> Self {
+        let element = |shape: Shape| ElementOutline {
+            dashpots: shape.dashpots,
+            thermal: shape.thermal,
+        };
+        Self {
+            dimensions,
+            anchors: masses.iter().map(|mass| mass.is_none()).collect(),
+            elements: shapes.map(element).collect(),
+            reservoirs,
+        }
+    }
+
+    /// An error with the first difference from the outline of a simulation.
+    fn compare(&self, simulation: &Self) -> Result<(), RestoreError> {
+        expect_count("dimensions", self.dimensions, simulation.dimensions)?;
+        expect_count("nodes", self.anchors.len(), simulation.anchors.len())?;
+        expect_count("elements", self.elements.len(), simulation.elements.len())?;
+        expect_count("reservoirs", self.reservoirs, simulation.reservoirs)?;
+        let mut nodes = self.anchors.iter().zip(&simulation.anchors);
+        if let Some(node) = nodes.position(|(own, other)| own != other) {
+            let is_anchor = self.anchors[node];
+            return Err(RestoreError::Node { node, is_anchor });
+        }
+        let elements = self.elements.iter().zip(&simulation.elements);
+        for (element, (own, other)) in elements.enumerate() {
+            let (checkpoint, simulation) = (own.dashpots, other.dashpots);
+            if checkpoint != simulation {
+                return Err(RestoreError::Dashpots {
+                    element,
+                    checkpoint,
+                    simulation,
+                });
+            }
+            let in_checkpoint = own.thermal;
+            if in_checkpoint != other.thermal {
+                return Err(RestoreError::Temperature {
+                    element,
+                    in_checkpoint,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Numbers {
+    /// An error with the first kind of numbers that differ from those of a simulation.
+    fn compare(&self, simulation: &Self) -> Result<(), RestoreError> {
+        let kinds = [
+            (
+                "parameters of materials",
+                self.materials,
+                simulation.materials,
+            ),
+            ("masses", self.masses, simulation.masses),
+            ("conductances", self.conductances, simulation.conductances),
+            (
+                "temperatures of reservoirs",
+                self.reservoirs,
+                simulation.reservoirs,
+            ),
+            ("gravity", self.gravity, simulation.gravity),
+        ];
+        match kinds.into_iter().find(|(_, own, other)| own != other) {
+            Some((kind, ..)) => Err(RestoreError::Numbers { kind }),
+            None => Ok(()),
+        }
     }
 }

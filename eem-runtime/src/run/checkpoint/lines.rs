@@ -1,8 +1,10 @@
 //! The lines of a file with a checkpoint. Each function writes the part `own`, or reads it if `own` is `None`.
 
-use super::entries::{ElementOutline, Numbers, Outline};
 use super::file::{Read, Text};
-use super::{Checkpoint, SavedChoice, SavedControl, SavedEnergies, SavedLoads};
+use super::{
+    Checkpoint, ElementOutline, Numbers, Outline, SavedChoice, SavedControl, SavedEnergies,
+    SavedLoads,
+};
 use crate::algebra::memory::TooLarge;
 use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
