@@ -61,8 +61,13 @@ impl Checkpoint {
         let mut name = path.as_os_str().to_owned();
         name.push(format!(".{}.part", std::process::id()));
         let part = PathBuf::from(name);
-        let written = write(&part, &self.to_text()).and_then(|()| fs::rename(&part, path));
-        written.inspect_err(|_| {
+        let write = || {
+            let mut file = File::create(&part)?;
+            file.write_all(self.to_text().as_bytes())?;
+            file.sync_all()?;
+            fs::rename(&part, path)
+        };
+        write().inspect_err(|_| {
             // An incomplete file is of no use.
             _ = fs::remove_file(&part);
         })
@@ -136,13 +141,6 @@ impl Checkpoint {
 /// The digest of a text.
 fn digest(text: &str) -> Digest {
     Digest::of(|digest| digest.bytes(text.as_bytes()))
-}
-
-/// Writes a file to the disk.
-fn write(path: &Path, text: &str) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(text.as_bytes())?;
-    file.sync_all()
 }
 
 /// The number, from 1, of a line that is not as expected, and the name that it should have.

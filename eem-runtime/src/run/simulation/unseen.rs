@@ -63,9 +63,13 @@ impl<const D: usize> Simulation<D> {
             memory: (&mut [0.0; D], &mut [Component::default(); D]),
         };
         let passed = if is_short {
-            lookout.first_oven(&self.loads.ovens)
+            Ok(None)
         } else {
             lookout.first(&self.loads)
+        };
+        let passed = match passed {
+            Ok(None) => lookout.first_oven(&self.loads.ovens),
+            passed => passed,
         };
         passed.map_err(|failure| self.failed(size, failure))
     }
@@ -192,9 +196,13 @@ impl Lookout<'_> {
             return Ok(true);
         }
         let (grid, stops) = (&self.grid, self.stops);
-        let is_valid: fn(f64) -> bool = match load {
-            TimedLoad::Force(_) | TimedLoad::Thrust(_) | TimedLoad::Motion(_) => f64::is_finite,
-            TimedLoad::Temperature(_) | TimedLoad::Oven(_) => is_positive,
+        let tolerance = &self.control.memory.tolerance;
+        let is_vector = matches!(load, TimedLoad::Force(_) | TimedLoad::Motion(_));
+        let is_thermal = matches!(load, TimedLoad::Temperature(_) | TimedLoad::Oven(_));
+        let is_valid = if is_thermal {
+            is_positive
+        } else {
+            f64::is_finite
         };
         let of = |time: f64, value: &mut [f64]| {
             let time = inside(stops, grid.span(), time);
@@ -204,19 +212,13 @@ impl Lookout<'_> {
                 None => Ok(()),
             }
         };
-        let components = match load {
-            TimedLoad::Force(_) | TimedLoad::Motion(_) => self.memory.0.len(),
-            TimedLoad::Thrust(_) | TimedLoad::Temperature(_) | TimedLoad::Oven(_) => 1,
-        };
         let (value, seen) = (&mut *self.memory.0, &mut *self.memory.1);
+        let components = if is_vector { value.len() } else { 1 };
         let mut look = grid.look(&of, &mut value[..components], &mut seen[..components])?;
-        let tolerance = &self.control.memory.tolerance;
         let height = match load {
-            TimedLoad::Force(_) | TimedLoad::Thrust(_) => f64::INFINITY,
+            _ if is_thermal => tolerance.relative * look.first(0) + tolerance.temperature,
             TimedLoad::Motion(_) => self.scales.height(),
-            TimedLoad::Temperature(_) | TimedLoad::Oven(_) => {
-                tolerance.relative * look.first(0) + tolerance.temperature
-            }
+            _ => f64::INFINITY,
         };
         if look.misses_height(height) {
             return Ok(true);
