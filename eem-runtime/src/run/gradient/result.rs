@@ -4,14 +4,13 @@ use core::fmt;
 use std::collections::BTreeSet;
 
 use super::error::GradientError;
-use super::input::Timed;
+use super::input::{Input, Timed};
 use super::series::Series;
 use crate::element::handle::{Element, HeatPath, Node, Reservoir};
 use crate::element::kinematics::Shape;
 use crate::element::layout::Slots;
 use crate::element::lineage::Lineage;
 use crate::element::loads::point;
-use crate::run::recorder::axis_name;
 use crate::scene::bulk::Body;
 use crate::scene::error::SceneError;
 use crate::step::adjoint::PerVariable;
@@ -104,41 +103,42 @@ impl<const D: usize> Gradient<D> {
     /// ```
     pub fn iter(&self) -> impl Iterator<Item = Derivative> + '_ {
         let mut all = self.parameters();
-        let mut add = |name: String, by: f64, unit: &str| all.push(self.named(name, by, unit));
+        let by_input = |input: Input<D>, by: f64| self.named(input.name(), by, input.unit());
+        let (scene, start) = (&self.scene, &self.start);
         // Masses of solids are no inputs.
         let of_solids: BTreeSet<usize> = self.pairs.iter().flat_map(|(nodes, _)| *nodes).collect();
-        for node in self.moving.iter().filter(|node| !of_solids.contains(node)) {
-            add(format!("mass of node {node}"), self.masses[*node], "kg");
+        for &node in self.moving.iter().filter(|node| !of_solids.contains(node)) {
+            all.push(by_input(Input::mass(scene.node(node)), self.masses[node]));
         }
         for (axis, &by) in self.gravity.iter().enumerate() {
-            add(format!("gravity {}", axis_name(axis)), by, "m/s²");
+            all.push(by_input(Input::gravity(axis), by));
         }
-        for (path, &by) in self.conductances.iter().enumerate() {
-            add(format!("conductance of path of heat {path}"), by, "W/K");
+        for (index, &by) in self.conductances.iter().enumerate() {
+            let scene = scene.scene();
+            all.push(by_input(Input::conductance(HeatPath { scene, index }), by));
         }
-        for (reservoir, &by) in self.reservoirs.iter().enumerate() {
-            add(format!("temperature of reservoir {reservoir}"), by, "K");
+        for (index, &by) in self.reservoirs.iter().enumerate() {
+            let reservoir = scene.reservoir(index);
+            all.push(by_input(Input::reservoir_temperature(reservoir), by));
         }
-        let (positions, velocities) = (&self.start.positions, &self.start.velocities);
-        for (what, by, unit) in [
-            ("position", positions, "m"),
-            ("velocity", velocities, "m/s"),
-        ] {
-            for (at, &by) in by.iter().enumerate() {
-                let (node, axis) = (at / D, axis_name(at % D));
-                add(format!("{what} {axis} of node {node}"), by, unit);
-            }
+        for (at, &by) in start.positions.iter().enumerate() {
+            all.push(by_input(Input::position(scene.node(at / D), at % D), by));
+        }
+        for (at, &by) in start.velocities.iter().enumerate() {
+            all.push(by_input(Input::velocity(scene.node(at / D), at % D), by));
         }
         for own in &self.elements {
             let element = own.element;
             if let Some(slot) = own.slots.thermal {
-                let by = self.start.temperatures[slot];
-                add(format!("temperature of {element}"), by, "K");
+                all.push(by_input(
+                    Input::temperature(element),
+                    start.temperatures[slot],
+                ));
             }
-            let viscous = &self.start.viscous[own.slots.viscous..][..own.dashpots];
+            let viscous = &start.viscous[own.slots.viscous..][..own.dashpots];
             for (dashpot, &by) in viscous.iter().enumerate() {
-                let name = format!("viscous stretch {dashpot} of {element}");
-                add(name, by, own.viscous_unit);
+                let name = Input::<D>::viscous_stretch(element, dashpot).name();
+                all.push(self.named(name, by, own.viscous_unit));
             }
         }
         all.into_iter()
