@@ -121,6 +121,8 @@ impl<const D: usize> Solver<D> {
         let (mut nodes, mut interfaces) = (Vec::new(), Vec::new());
         for set in 0..sets.len() {
             let sites = sites.of_sets([set, set]);
+            // Not more than there are: they are a good part of what a long chain takes.
+            nodes.reserve_exact(Balance::all(masses, &sites).count());
             nodes.extend(Balance::all(masses, &sites));
             interfaces.extend(Interface::all(&sites));
         }

@@ -66,11 +66,8 @@ pub(crate) struct AtNode {
     free: f64,
     /// The terms of the forces, N.
     force: f64,
-    /// The sums of the stiffnesses, N/m, and of the dampers, N s/m.
+    /// The sum of the stiffnesses, N/m.
     stiffness: f64,
-    damping: f64,
-    /// ℓ: the shortest length, m.
-    length: f64,
     /// Zero for an anchor, kg.
     mass: f64,
 }
@@ -85,11 +82,9 @@ impl LeastScales {
     ) -> Self {
         let size = length(state.positions.values());
         let size = if size > 0.0 { size } else { 1.0 };
-        let alone = AtNode {
-            length: f64::MAX,
-            ..AtNode::default()
-        };
-        let mut nodes = vec![alone; masses.len()];
+        let mut nodes = vec![AtNode::default(); masses.len()];
+        // The sum of the dampers, N s/m, and the shortest length, m, at each node.
+        let mut around = vec![[0.0, f64::MAX]; masses.len()];
         let mut rate = 0.0;
         let mut links = BTreeMap::new();
         let mut viscous = Vec::new();
@@ -114,9 +109,10 @@ impl LeastScales {
                 for &node in point.nodes {
                     let at = &mut nodes[node as usize];
                     at.stiffness += point.elastic;
-                    at.damping += point.damping;
                     at.force += point.force;
-                    at.length = Scalar::minimum(at.length, point.length);
+                    let [damping, length] = &mut around[node as usize];
+                    *damping += point.damping;
+                    *length = Scalar::minimum(*length, point.length);
                 }
                 let is_moved = |anchor: &&u32| moved.binary_search(&(**anchor as usize)).is_ok();
                 for &anchor in point.nodes.iter().filter(is_moved) {
@@ -133,23 +129,20 @@ impl LeastScales {
             ..AtNode::default()
         };
         // Anchors have momenta next to solids.
-        for ((at, own), &held) in nodes.iter_mut().zip(masses.iter()).zip(&*masses.weights()) {
+        let all = nodes.iter_mut().zip(masses.iter());
+        for (((at, own), &held), [damping, length]) in all.zip(&*masses.weights()).zip(around) {
             let mass = own.unwrap_or(held);
             at.mass = own.unwrap_or(0.0);
             if at.mass > 0.0 {
-                let fastest = Scalar::maximum((at.stiffness / mass).sqrt(), at.damping / mass);
+                let fastest = Scalar::maximum((at.stiffness / mass).sqrt(), damping / mass);
                 rate = Scalar::maximum(rate, fastest);
             }
-            let length = if at.length < f64::MAX {
-                at.length
-            } else {
-                size
-            };
+            let length = if length < f64::MAX { length } else { size };
             // m ω = √(k m), times ω m/d at most.
             let root = (at.stiffness * mass).sqrt();
-            let is_slow = root < at.damping;
+            let is_slow = root < damping;
             let bound = if is_slow {
-                root * (root / at.damping)
+                root * (root / damping)
             } else {
                 root
             };

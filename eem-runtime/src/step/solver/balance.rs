@@ -5,6 +5,7 @@ use crate::element::group::{Sites, StepView, Trial, points};
 use crate::element::masses::Masses;
 use crate::element::tableau::UnknownSet;
 use crate::step::certificate::Speeds;
+use eem_material::number::compact::compact;
 
 /// A moving node in Newton's method, during one step.
 ///
@@ -16,13 +17,13 @@ pub(super) struct Balance<const D: usize> {
     /// Its index in the trial, which has all nodes of every set of unknowns.
     pub(super) in_trial: usize,
     /// The set of unknowns to which it belongs.
-    pub(super) set: usize,
+    pub(super) set: u32,
     /// Its first row in the tangent.
-    row: usize,
+    row: u32,
     /// Its diagonal entries in the tangent.
-    pub(super) diagonal: [usize; D],
+    pub(super) diagonal: [u32; D],
     /// Its diagonal entry in the secant matrix, if there is one.
-    pub(super) secant_diagonal: usize,
+    pub(super) secant_diagonal: u32,
     /// m, kg, and 1/m.
     pub(super) mass: f64,
     pub(super) per_mass: f64,
@@ -51,10 +52,13 @@ impl<const D: usize> Balance<D> {
             Some(Self {
                 node,
                 in_trial: set * masses.len() + node,
-                set,
-                row: sites.row(Some(first)),
-                diagonal: vector(|axis| sites.place(Some(first + axis), Some(first + axis))),
-                secant_diagonal: sites.secant_place(own, own),
+                set: compact(set),
+                row: compact(sites.row(Some(first))),
+                diagonal: vector(|axis| {
+                    let own = Some(first + axis);
+                    compact(sites.place(own, own))
+                }),
+                secant_diagonal: compact(sites.secant_place(own, own)),
                 mass,
                 per_mass: mass.recip(),
                 flight: [0.0; D],
@@ -74,7 +78,8 @@ impl<const D: usize> Balance<D> {
     /// Its rows of a vector of the tangent.
     #[inline]
     pub(super) fn rows<'a>(&self, vector: &'a [[f64; 1]]) -> &'a [f64; D] {
-        let rows = vector.as_flattened().get(self.row..self.row + D);
+        let first = self.row as usize;
+        let rows = vector.as_flattened().get(first..first + D);
         rows.and_then(<[f64]>::as_array)
             .unwrap_or_else(|| no_such_row())
     }
@@ -82,7 +87,8 @@ impl<const D: usize> Balance<D> {
     /// The same, mutable.
     #[inline]
     pub(super) fn rows_mut<'a>(&self, vector: &'a mut [[f64; 1]]) -> &'a mut [f64; D] {
-        let rows = vector.as_flattened_mut().get_mut(self.row..self.row + D);
+        let first = self.row as usize;
+        let rows = vector.as_flattened_mut().get_mut(first..first + D);
         rows.and_then(<[f64]>::as_mut_array)
             .unwrap_or_else(|| no_such_row())
     }
@@ -185,7 +191,7 @@ impl<const D: usize> Balance<D> {
         right: &mut [[f64; 1]],
     ) {
         for place in self.diagonal {
-            values[place] = self.inertia;
+            values[place as usize] = self.inertia;
         }
         let [impulse, _] = self.impulse(displacement);
         *self.rows_mut(right) = vector(|axis| self.push[axis] - impulse[axis]);

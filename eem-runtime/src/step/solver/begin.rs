@@ -63,7 +63,7 @@ impl<const D: usize> Solver<D> {
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
             let force = force_of_set(rule, node, (&self.old_force, view));
-            node.weigh(view, &self.sets[node.set], force);
+            node.weigh(view, &self.sets[node.set as usize], force);
         }
     }
 
@@ -124,7 +124,7 @@ impl<const D: usize> Solver<D> {
         let predictor = self.past.predictor();
         let rule = self.scheme.tableau();
         for node in &mut self.nodes {
-            let set = &self.sets[node.set];
+            let set = &self.sets[node.set as usize];
             let force = force_of_set(rule, node, (&self.old_force, view));
             node.weigh(view, set, force);
             node.per_length = inverse_length(self.lengths[node.node]);
@@ -237,7 +237,7 @@ fn force_of_set<const D: usize>(
     };
     let loads = view.stages.iter();
     let forces = loads.map(|loads| scaled(-1.0, &loads.total_force(of.node)));
-    combined(rule.positions[of.set], forces)
+    combined(rule.positions[of.set as usize], forces)
 }
 
 /// The part of the force on a node that depends on the old state and the loads only, N.

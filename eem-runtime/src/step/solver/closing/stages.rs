@@ -90,7 +90,7 @@ impl<const D: usize> Search<'_, D> {
         let inertia = solver.inertias(view)[set];
         let (values, right) = secant.parts();
         for (mass, right) in solver.nodes_of_set(set).iter().zip(right) {
-            values[mass.secant_diagonal] += inertia * mass.mass;
+            values[mass.secant_diagonal as usize] += inertia * mass.mass;
             let impulse = stages.combined(mass.node, before);
             let load = view.stages[own].total_force::<D>(mass.node);
             for (axis, right) in right.iter_mut().enumerate() {

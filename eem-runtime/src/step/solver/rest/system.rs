@@ -99,7 +99,10 @@ impl<const D: usize> AtRest<'_, D> {
             for (force, first) in node.rows_mut(right).iter_mut().zip(first) {
                 *force -= left * first;
             }
-            let sizes = node.diagonal.iter().map(|&place| values[place].abs());
+            let sizes = node
+                .diagonal
+                .iter()
+                .map(|&place| values[place as usize].abs());
             self.sizes.push(sizes.fold(0.0, f64::max));
         }
         fill_sizes(&mut self.sizes);
@@ -125,7 +128,7 @@ impl<const D: usize> AtRest<'_, D> {
         let (values, _) = self.search.solver.tangent.parts();
         for (node, size) in self.search.solver.nodes.iter().zip(&self.sizes) {
             for place in node.diagonal {
-                values[place] += shift * size;
+                values[place as usize] += shift * size;
             }
         }
     }
