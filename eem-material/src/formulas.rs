@@ -152,7 +152,10 @@ impl<M: Material, O: Array<f64>>
     }
 
     fn together(&self) -> Option<&TogetherOf<M>> {
-        FreeEnergy::together(self)
+        // They store what forms keep, never the old variables in its place.
+        let fits =
+            const { M::EntropyFormOld::LEN <= O::LEN && M::TemperatureFormOld::LEN <= O::LEN };
+        FreeEnergy::together(self).filter(|_| fits)
     }
 
     fn parameter(&self, index: usize) -> f64 {

@@ -5,7 +5,7 @@ use core::any::Any;
 pub use crate::array::{Array, Entry};
 use crate::inversion::Inverse;
 use crate::number::scalar::Scalar;
-pub use crate::together::{ExactForm, MOST_TOGETHER, Steps, Together, TogetherOf};
+pub use crate::together::{ExactForm, MOST_TOGETHER, Steps, Together};
 use crate::values::absent;
 pub use crate::values::{Caloric, Rates};
 
@@ -72,7 +72,7 @@ pub trait FreeEnergy<S: Scalar> {
     /// }
     /// ```
     const HAS_PARAMETER_DERIVATIVES: bool = false;
-    /// Whether [`together`](Self::together) may return functions.
+    /// Whether [`together`](Self::together) may return functions; only for springs.
     const MAY_BE_TOGETHER: bool = false;
     /// The name of the struct.
     const MODEL: &'static str;
@@ -128,7 +128,8 @@ pub trait FreeEnergy<S: Scalar> {
         self
     }
 
-    /// Functions that evaluate several elements of this material in one call, if that takes less time than one by one.
+    /// Functions that evaluate several springs of this material in one call, if that takes less time than one by one. Springs are
+    /// evaluated together if their functions have one address, which those with other values of parameters must not have.
     fn together(&self) -> Option<&TogetherOf<Self, S>> {
         None
     }
@@ -441,6 +442,15 @@ pub type Form<S, M> = (
     <M as FreeEnergy<S>>::Response,
     <M as FreeEnergy<S>>::Tangent,
 );
+
+/// [`Together`] for the arrays of a material.
+pub type TogetherOf<M, S = f64> = dyn Together<
+        <M as FreeEnergy<S>>::Variables,
+        <M as FreeEnergy<S>>::Viscosities,
+        <M as FreeEnergy<S>>::Corners,
+        <M as FreeEnergy<S>>::Response,
+        <M as FreeEnergy<S>>::Tangent,
+    >;
 
 /// A free energy that a scene can use. Implemented for every type that qualifies.
 ///

@@ -1,6 +1,5 @@
 //! Materials that evaluate several elements in one call.
 
-use crate::free_energy::FreeEnergy;
 use crate::values::Caloric;
 
 /// The most elements of a call.
@@ -9,9 +8,9 @@ pub const MOST_TOGETHER: usize = 32;
 /// The forms of the discrete derivatives; without a temperature both are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExactForm {
-    /// [`FreeEnergy::entropy_form`].
+    /// [`FreeEnergy::entropy_form`](crate::FreeEnergy::entropy_form).
     Entropy,
-    /// [`FreeEnergy::temperature_form`].
+    /// [`FreeEnergy::temperature_form`](crate::FreeEnergy::temperature_form).
     Temperature,
 }
 
@@ -26,7 +25,7 @@ pub struct Steps<'a, X, C> {
     pub corners: &'a [C],
 }
 
-/// The functions of a [`FreeEnergy`] that are evaluated most often, for at most [`MOST_TOGETHER`] elements of one material
+/// The functions of a [`FreeEnergy`](crate::FreeEnergy) that are evaluated most often, for at most [`MOST_TOGETHER`] elements of one material
 /// with the same parameters. The results have the bits of the functions for one element.
 pub trait Together<X, V, C, R, T>: Send + Sync {
     /// The smallest number of elements for which one call is worthwhile.
@@ -41,21 +40,12 @@ pub trait Together<X, V, C, R, T>: Send + Sync {
     /// The responses alone.
     fn response(&self, form: ExactForm, steps: Steps<'_, X, C>, found: &mut [R]);
 
-    /// [`FreeEnergy::mixed_states`].
+    /// [`FreeEnergy::mixed_states`](crate::FreeEnergy::mixed_states).
     fn mixed_states(&self, steps: Steps<'_, X, C>, found: &mut [[C; 2]]);
 
-    /// [`FreeEnergy::viscosity`] at these temperatures; a material without temperature ignores them.
+    /// [`FreeEnergy::viscosity`](crate::FreeEnergy::viscosity) at these temperatures; a material without temperature ignores them.
     fn viscosity(&self, theta: &[f64], found: &mut [(V, V)]);
 
-    /// [`FreeEnergy::caloric_at`], at the temperatures of these variables.
+    /// [`FreeEnergy::caloric_at`](crate::FreeEnergy::caloric_at), at the temperatures of these variables.
     fn caloric_at(&self, x: &[X], found: &mut [(Caloric<f64>, f64)]);
 }
-
-/// [`Together`] for the arrays of a material.
-pub type TogetherOf<M, S = f64> = dyn Together<
-        <M as FreeEnergy<S>>::Variables,
-        <M as FreeEnergy<S>>::Viscosities,
-        <M as FreeEnergy<S>>::Corners,
-        <M as FreeEnergy<S>>::Response,
-        <M as FreeEnergy<S>>::Tangent,
-    >;

@@ -7,17 +7,16 @@ mod staged;
 use std::sync::{Arc, OnceLock};
 
 use eem_language::text::Compiled;
-use eem_material::Joint;
+use eem_material::{Caloric, Joint};
 use eem_runtime::Strain;
 use eem_symbolic::{Program, Programs, Value};
 
 use crate::error::LawError;
 use crate::names;
-use crate::shape::Shape;
+use crate::shape::{KEPT, Shape};
 use crate::tape::Tape;
 pub(crate) use by_parameters::{ByParameters, MOST_PARAMETERS};
 use room::Room;
-pub use staged::KEPT;
 pub(crate) use staged::{Form, Staged};
 use staged::{kept, of_state};
 
@@ -182,5 +181,14 @@ impl Functions {
             .map(|&parameter| model.graph.name(parameter))
             .collect();
         names::list(&names)
+    }
+}
+
+/// The results of a tape as caloric quantities.
+pub(crate) fn caloric([entropy, heat_capacity, magnitude]: [f64; 3]) -> Caloric<f64> {
+    Caloric {
+        entropy,
+        heat_capacity,
+        magnitude,
     }
 }

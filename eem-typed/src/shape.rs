@@ -4,8 +4,6 @@ use core::fmt;
 
 use eem_language::text::{Compiled, Joint};
 
-use crate::functions::KEPT;
-
 /// Of what a law is a function besides its dashpots and its temperature: [`Stretch`], [`Strains`] or [`Flow`].
 pub trait Measures: fmt::Debug + Copy + Send + Sync + 'static + sealed::Sealed {
     /// Strains, variables, dashpots and responses at a point of a solid; zeros of a spring.
@@ -47,6 +45,9 @@ impl<const M: usize, const N: usize, const K: usize, const R: usize> sealed::Sea
 impl<const M: usize, const N: usize, const K: usize, const R: usize> Measures for Flow<M, N, K, R> {
     const AT_POINT: [usize; 4] = [M, N, K, R];
 }
+
+/// The most values of the old state that any function keeps.
+pub const KEPT: usize = 32;
 
 /// The most dashpots in series of a spring made of texts.
 pub const MOST_DASHPOTS: usize = 8;
@@ -154,7 +155,14 @@ impl Shape {
         }
         let temperature = if self.thermal { ", 1 temperature" } else { "" };
         let most = self.dashpots;
-        format!("1 stretch, at most {most} dashpots in series, at most 1 beside{temperature}")
+        let others = if self.thermal {
+            "`ThermalSpring0` or `ThermalSpring1`"
+        } else {
+            "`Spring0`"
+        };
+        format!(
+            "1 stretch, at most {most} dashpots in series, at most 1 beside{temperature}, but none that {others} has"
+        )
     }
 }
 

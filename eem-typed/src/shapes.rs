@@ -3,9 +3,8 @@
 use eem_runtime::{Element, Node, Scene};
 
 use crate::error::LawError;
-use crate::functions::KEPT;
 use crate::law::Law;
-use crate::shape::{MOST_DASHPOTS, Stretch};
+use crate::shape::{KEPT, MOST_DASHPOTS, Stretch};
 use crate::typed::Typed;
 
 /// A spring without temperature and dashpots.

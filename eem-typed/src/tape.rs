@@ -105,7 +105,7 @@ impl Tape {
         }
     }
 
-    /// The same for several elements, given by their indices: each instruction for a row of them, with the same bits.
+    /// The same for at most [`ROW`] elements, given by their indices: each instruction for a row of them, with the same bits.
     pub(crate) fn run_rows<'a, R, const I: usize, const O: usize>(
         &self,
         inputs: impl Fn(usize) -> [&'a [f64]; I],
@@ -114,16 +114,14 @@ impl Tape {
     ) where
         f64: 'a,
     {
-        for (row, results) in results.chunks_mut(ROW).enumerate() {
-            let inputs = |element: usize| inputs(row * ROW + element);
-            if results.len() >= WORTH_A_ROW && self.registers <= SMALL {
-                SMALL_ROWS.with_borrow_mut(|file| self.run_in(file, inputs, results, &parts));
-            } else if results.len() >= WORTH_A_ROW && self.registers <= MEDIUM {
-                MEDIUM_ROWS.with_borrow_mut(|file| self.run_in(file, inputs, results, &parts));
-            } else {
-                for (element, result) in results.iter_mut().enumerate() {
-                    self.run(inputs(element), parts(result));
-                }
+        debug_assert!(results.len() <= ROW, "a row");
+        if results.len() >= WORTH_A_ROW && self.registers <= SMALL {
+            SMALL_ROWS.with_borrow_mut(|file| self.run_in(file, inputs, results, parts));
+        } else if results.len() >= WORTH_A_ROW && self.registers <= MEDIUM {
+            MEDIUM_ROWS.with_borrow_mut(|file| self.run_in(file, inputs, results, parts));
+        } else {
+            for (element, result) in results.iter_mut().enumerate() {
+                self.run(inputs(element), parts(result));
             }
         }
     }

@@ -10,9 +10,9 @@ use std::sync::Arc;
 
 use eem_material::free_energy::{Array, Caloric, FreeEnergy, Rates, TogetherOf};
 
-use crate::functions::{ByParameters, Functions, KEPT, MOST_PARAMETERS};
+use crate::functions::{ByParameters, Functions, MOST_PARAMETERS, caloric};
 use crate::names::NAMELESS;
-use crate::shape::{Measures, Shape};
+use crate::shape::{KEPT, Measures, Shape};
 use crate::tape::Tape;
 
 /// A law as a material for scenes with the numbers `S`; made by [`Law::model`](crate::Law::model).
@@ -493,13 +493,5 @@ impl<
     fn drag_adjoint(&self, theta: f64, weights: &[f64; D]) -> [f64; MOST_PARAMETERS] {
         let inputs = [Self::temperature_input(&theta), weights];
         self.derivative(|all| all.drag_adjoint.as_ref(), inputs)
-    }
-}
-
-fn caloric([entropy, heat_capacity, magnitude]: [f64; 3]) -> Caloric<f64> {
-    Caloric {
-        entropy,
-        heat_capacity,
-        magnitude,
     }
 }

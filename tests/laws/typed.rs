@@ -434,6 +434,35 @@ fn springs_that_are_evaluated_together_have_the_bits_of_derived_ones() {
     assert!(derived.1 == typed.1, "the states before the refusal");
 }
 
+/// With a dashpot beside and none in series there are no viscosities to be found.
+#[test]
+fn springs_with_a_dashpot_beside_are_evaluated_together() {
+    let chain = |add: &dyn Fn(&mut Scene<2>, [Node; 2]) -> Element| {
+        let mut scene = Scene::new();
+        let mut last = scene.anchor([0.0, 0.0]);
+        let (mut nodes, mut springs) = (Vec::new(), Vec::new());
+        for x in (0_u8..40).map(f64::from) {
+            let node = scene.mass(0.5, [1.1 * x + 1.2, (0.7 * x).sin()], [0.1 * x.cos(), 0.3]);
+            springs.push(add(&mut scene, [last, node]));
+            nodes.push(node);
+            last = node;
+        }
+        (scene, nodes, springs)
+    };
+    let model = Isothermal { k: 40.0, eta: 0.7 };
+    let source =
+        Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").viscosity("lambda", "eta");
+    let law = law!(model, source, [k, eta]).named("Isothermal").unwrap();
+    let derived = chain(&|scene, ends| scene.spring(model.clone(), ends));
+    let typed = chain(&|scene, ends| law.add_spring(scene, ends).unwrap());
+    let schemes = [
+        Scheme::EemTemperature,
+        Scheme::EemEntropy,
+        Scheme::EemDamped,
+    ];
+    assert_same_bits([&derived, &typed], schemes, (20, 0.02));
+}
+
 #[test]
 fn a_checkpoint_belongs_to_its_law() {
     let at = |model: ThermalSpring1| Running::new(&single(model), Scheme::EemTemperature, 0.01);

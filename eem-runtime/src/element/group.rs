@@ -13,6 +13,7 @@
 //! close      impulses, what is booked, and the new state            (closing, recovery, certify)
 //! ```
 
+mod ahead;
 mod arms;
 mod audit;
 mod begin;

@@ -124,6 +124,7 @@ impl<const D: usize> Solver<D> {
             // Not more than there are: they are a good part of what a long chain takes.
             nodes.reserve_exact(Balance::all(masses, &sites).count());
             nodes.extend(Balance::all(masses, &sites));
+            interfaces.reserve_exact(Interface::all(&sites).count());
             interfaces.extend(Interface::all(&sites));
         }
         let coupling = Coupling::new(masses, &loads.moved, (&sites, sets.len()));

@@ -7,9 +7,6 @@ use eem_symbolic::{Operation, Program, Value};
 use crate::error::LawError;
 use crate::tape::{Tape, Wanted, fold};
 
-/// The most values of the old state that any function keeps.
-pub const KEPT: usize = 32;
-
 /// A function of old and new inputs, in two parts.
 #[derive(Debug)]
 pub(crate) struct Staged {

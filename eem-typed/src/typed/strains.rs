@@ -5,8 +5,7 @@ use eem_material::{ComponentEnergy, Joint, JointEnergy};
 use eem_runtime::{Strain, StrainEnergy};
 
 use super::Typed;
-use crate::functions::KEPT;
-use crate::shape::{Flow, Strains};
+use crate::shape::{Flow, KEPT, Strains};
 
 /// Room for what is kept of the old state of a material, and for the components of E and Γ.
 const KEPT_WITH_COMPONENTS: usize = KEPT + 12;

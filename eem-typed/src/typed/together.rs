@@ -4,8 +4,8 @@ use core::slice;
 
 use eem_material::free_energy::{Caloric, ExactForm, MOST_TOGETHER, Steps, Together};
 
-use super::caloric;
-use crate::functions::{Form, Functions, KEPT};
+use crate::functions::{Form, Functions, caloric};
+use crate::shape::KEPT;
 use crate::tape::{ROW, Tape, WORTH_A_ROW};
 
 const _: () = assert!(ROW == MOST_TOGETHER, "a call fills a row");

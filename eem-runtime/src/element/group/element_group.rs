@@ -1,5 +1,6 @@
 //! The elements of one model, with one set of forces in a step.
 
+use super::ahead::Ahead;
 use super::arms::change_in;
 use super::interface::{Elements, Group, Loose};
 use super::loose::{LooseElements, MakeExplicit};
@@ -10,7 +11,6 @@ use super::point::Point;
 use super::point_step::{Direction, PastStep, PerVariable, SeeParameters, StepBack, StepWeights};
 use super::share::Share;
 use super::site::{Contact, Site};
-use super::together::Ahead;
 use super::view::{Along, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 #[cfg(feature = "gradients")]
@@ -90,8 +90,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
 
 /// The functions of a step, for a family of schemes.
 impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
-    /// Whether the loops are those for elements that are evaluated together. Of the family of any scheme there are no others if the material
-    /// may be evaluated so: they are compiled once, and only a little slower. A branch that a constant rules out is not compiled.
+    /// Whether the loops are those for elements that are evaluated together. For the family of any scheme there are no others
+    /// if the material may be evaluated so: one copy is compiled, a little slower.
     #[inline]
     fn is_together<C: Family>(&self) -> bool {
         M::MAY_BE_TOGETHER && (!C::IS_EXACT || self.ahead.is_some())

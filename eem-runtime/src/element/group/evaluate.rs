@@ -142,8 +142,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
         Ok(())
     }
 
-    /// Evaluates responses and tangents, unless the form is known and what the point stores is right, and the contribution of the element to the system of the next
-    /// iteration.
+    /// Evaluates responses and tangents, and the contribution of the element to the system of the next iteration. With a known
+    /// form, mixed states and viscosities are those that the point stores.
     #[expect(
         clippy::inline_always,
         reason = "a call of its own costs 1 % of a step of a spring"

@@ -288,16 +288,18 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Finds the viscosities at a temperature; an error unless all are positive.
     #[inline]
     pub(super) fn find_viscosities(&mut self, theta: f64) -> Result<(), StateError> {
-        if self.dashpots() == 0 {
-            return Ok(());
+        if self.dashpots() > 0 {
+            self.viscosities = self.model.viscosity(theta);
         }
-        self.viscosities = self.model.viscosity(theta);
         self.check_viscosities(theta)
     }
 
     /// An error unless the viscosities, found at a temperature, are positive.
     #[inline]
     pub(super) fn check_viscosities(&self, theta: f64) -> Result<(), StateError> {
+        if self.dashpots() == 0 {
+            return Ok(());
+        }
         let viscosities = self.viscosities.0.as_ref();
         match viscosities.iter().position(|&eta| !is_positive(eta)) {
             None => Ok(()),

@@ -68,8 +68,8 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         start.form::<C>(self.scheme, model, x, &self.corners)
     }
 
-    /// Finds the viscosities for a response, unless those stored are known to be right; an error if the trial is unstable or a value is not
-    /// finite.
+    /// Finds the viscosities for a response, unless those stored are known to be right; an error if the trial is unstable or a
+    /// value is not finite.
     #[inline]
     pub(super) fn accept<C: Family>(
         &mut self,

@@ -63,13 +63,9 @@ impl<const D: usize> Simulation<D> {
             memory: (&mut [0.0; D], &mut [Component::default(); D]),
         };
         let passed = if is_short {
-            Ok(None)
+            lookout.first_oven(&self.loads.ovens)
         } else {
             lookout.first(&self.loads)
-        };
-        let passed = match passed {
-            Ok(None) => lookout.first_oven(&self.loads.ovens),
-            passed => passed,
         };
         passed.map_err(|failure| self.failed(size, failure))
     }

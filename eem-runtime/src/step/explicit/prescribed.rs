@@ -96,7 +96,8 @@ pub(super) struct Prescribed<const D: usize> {
 impl<const D: usize> Prescribed<D> {
     pub(super) fn new(loads: &Loads<D>, layout: &Layout, components: &Components) -> Self {
         let mut places: BTreeMap<_, Vec<_>> = BTreeMap::new();
-        for place in components.masses..components.nodes.len() {
+        let anchors = components.masses..components.nodes.len();
+        for place in anchors.filter(|_| !loads.motions.is_empty()) {
             places
                 .entry(components.nodes[place])
                 .or_default()

@@ -14,13 +14,16 @@ use crate::algebra::{add, combined, difference, vector};
 use crate::element::group::{Sites, StepView, Trial};
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
+use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
 /// The masses that couple nodes of a scene, with the indices of their matrix entries.
 #[derive(Debug)]
 pub(super) struct Coupling<const D: usize> {
     /// The pairs of moving nodes.
-    pairs: Vec<CoupledPair<D>>,
+    pairs: Vec<CoupledPair>,
+    /// Their entries of the tangent, set after set: rows of the first node, then rows of the second.
+    places: Vec<[[u32; D]; 2]>,
     /// One per moving node that is coupled to moved anchors.
     drives: Vec<Drive<D>>,
     /// `Δp` of the moving nodes, and the magnitude of its terms, N s; empty unless masses couple nodes.
@@ -42,12 +45,16 @@ struct Drive<const D: usize> {
 
 /// Two coupled moving nodes, by their indices among the moving nodes.
 #[derive(Clone, Copy, Debug)]
-struct CoupledPair<const D: usize> {
-    nodes: [usize; 2],
+struct CoupledPair {
+    nodes: [u32; 2],
     /// kg.
     mass: f64,
-    /// The entries of the tangent for each set of unknowns: rows of the first node, then rows of the second.
-    places: [[[usize; D]; 2]; MOST_SETS],
+}
+
+impl CoupledPair {
+    fn indices(&self) -> [usize; 2] {
+        self.nodes.map(|node| node as usize)
+    }
 }
 
 impl<const D: usize> Coupling<D> {
@@ -59,23 +66,24 @@ impl<const D: usize> Coupling<D> {
     ) -> Self {
         let unknowns = &sites.layout.nodes;
         let mut pairs = Vec::with_capacity(masses.pairs().len());
-        for pair in masses.pairs() {
-            let [Some(a), Some(b)] = pair.nodes().map(|node| unknowns[node]) else {
-                continue;
-            };
-            let mut places = [[[0; D]; 2]; MOST_SETS];
-            for (set, places) in places.iter_mut().enumerate().take(sets) {
-                let sites = sites.of_sets([set, set]);
-                let place = |row: usize, column: usize| {
-                    vector(|axis| sites.place(Some(row + axis), Some(column + axis)))
+        let mut places = Vec::with_capacity(sets * masses.pairs().len());
+        for set in 0..sets {
+            let sites = sites.of_sets([set, set]);
+            for pair in masses.pairs() {
+                let [Some(a), Some(b)] = pair.nodes().map(|node| unknowns[node]) else {
+                    continue;
                 };
-                *places = [place(a, b), place(b, a)];
+                let place = |row: usize, column: usize| {
+                    vector(|axis| compact(sites.place(Some(row + axis), Some(column + axis))))
+                };
+                places.push([place(a, b), place(b, a)]);
+                if set == 0 {
+                    pairs.push(CoupledPair {
+                        nodes: [compact(a / D), compact(b / D)],
+                        mass: pair.mass,
+                    });
+                }
             }
-            pairs.push(CoupledPair {
-                nodes: [a / D, b / D],
-                mass: pair.mass,
-                places,
-            });
         }
         let mut driven = BTreeMap::<_, Vec<_>>::new();
         for pair in masses.held() {
@@ -102,6 +110,7 @@ impl<const D: usize> Coupling<D> {
         });
         Self {
             pairs,
+            places,
             drives: drives.collect(),
             impulses: vec![still; if is_coupled { moving } else { 0 }],
         }
@@ -164,11 +173,12 @@ impl<const D: usize> Coupling<D> {
         values: &mut [f64],
         right: &mut [[f64; 1]],
     ) {
-        for pair in &self.pairs {
-            let [a, b] = pair.nodes;
+        let places = &self.places[set * self.pairs.len()..];
+        for (pair, places) in self.pairs.iter().zip(places) {
+            let [a, b] = pair.indices();
             let inertia = pair.mass * inertia_per_mass;
-            for &place in pair.places[set].as_flattened() {
-                values[place] += inertia;
+            for &place in places.as_flattened() {
+                values[place as usize] += inertia;
             }
             for [own, other] in [[a, b], [b, a]] {
                 let change = nodes[other].change(trial);
@@ -227,7 +237,7 @@ impl<const D: usize> Coupling<D> {
             }
         }
         for pair in &self.pairs {
-            let [a, b] = pair.nodes;
+            let [a, b] = pair.indices();
             let inertia = pair.mass * factor;
             for [own, other] in [[a, b], [b, a]] {
                 let [entries, sizes] = entries(&nodes[other]);

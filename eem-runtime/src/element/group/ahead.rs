@@ -1,0 +1,213 @@
+//! What a material evaluates of several springs in one call, ahead of the loop over the springs.
+
+use super::member::Member;
+use super::point::{Point, Viscosities, variables};
+use super::pose::placed_arms;
+use crate::element::conjugates::{Family, Form, OneSet, find_corners_together};
+use crate::element::group::view::Trial;
+use crate::element::kinematics::Kinematics;
+use crate::element::state::State;
+use eem_material::free_energy::{
+    Array, Caloric, ExactForm, MOST_TOGETHER, Material, Steps, TogetherOf,
+};
+
+/// Values of the elements of a block.
+pub(super) struct Ahead<M: Material> {
+    /// The numbers of elements that follow one another and are evaluated in one call.
+    pub(super) blocks: Vec<usize>,
+    pub(super) x: [M::Variables; MOST_TOGETHER],
+    pub(super) corners: [M::Corners; MOST_TOGETHER],
+    pub(super) forms: [Form<f64, M>; MOST_TOGETHER],
+    pub(super) responses: [M::Response; MOST_TOGETHER],
+    pub(super) viscosities: [Viscosities<M>; MOST_TOGETHER],
+    pub(super) caloric: [(Caloric<f64>, f64); MOST_TOGETHER],
+}
+
+/// Whether the forms of a block are evaluated in one call: its elements are not few, and no thermostat prescribes a
+/// temperature, with which the form may be another one.
+fn may_be_together<M: Material, K: Kinematics<D>, const D: usize>(
+    members: &[Member<M, K, D>],
+) -> bool {
+    let together = members[0].only().model.together();
+    together.is_some_and(|together| members.len() >= together.least())
+        && !members.iter().any(|member| member.only().is_prescribed)
+}
+
+impl<M: Material> Ahead<M> {
+    /// For these elements; `None` if all are evaluated one by one.
+    pub(super) fn new<K: Kinematics<D>, const D: usize>(
+        members: &[Member<M, K, D>],
+    ) -> Option<Box<Self>> {
+        let mut blocks = Vec::new();
+        let mut is_worthwhile = false;
+        let mut last: Option<&TogetherOf<M>> = None;
+        for member in members {
+            let together = member.only().model.together()?;
+            let is_same = last.is_some_and(|last| core::ptr::addr_eq(last, together));
+            match blocks.last_mut() {
+                Some(count) if is_same && *count < MOST_TOGETHER => *count += 1,
+                _ => blocks.push(1),
+            }
+            is_worthwhile |= blocks
+                .last()
+                .is_some_and(|&count| count >= together.least());
+            last = Some(together);
+        }
+        let (x, response) = (M::Variables::filled(0.0), M::Response::filled(0.0));
+        let viscosities = M::Viscosities::filled(0.0);
+        let caloric = Caloric {
+            entropy: 0.0,
+            heat_capacity: 0.0,
+            magnitude: 0.0,
+        };
+        is_worthwhile.then(|| {
+            Box::new(Self {
+                blocks,
+                x: [x; MOST_TOGETHER],
+                corners: [M::Corners::filled(0.0); MOST_TOGETHER],
+                forms: [(response, M::Tangent::filled(x)); MOST_TOGETHER],
+                responses: [response; MOST_TOGETHER],
+                viscosities: [(viscosities, viscosities); MOST_TOGETHER],
+                caloric: [(caloric, 0.0); MOST_TOGETHER],
+            })
+        })
+    }
+
+    /// Stores what the form of a scheme keeps of the old state of a block.
+    pub(super) fn keep<K: Kinematics<D>, const D: usize>(
+        &mut self,
+        scheme: OneSet,
+        members: &mut [Member<M, K, D>],
+    ) -> bool {
+        let Some(form) = scheme.form().filter(|_| may_be_together(members)) else {
+            return false;
+        };
+        let mut kept: [&mut [f64]; MOST_TOGETHER] = core::array::from_fn(|_| Default::default());
+        let (count, mut together) = (members.len(), None);
+        for ((x0, kept), member) in self.x.iter_mut().zip(&mut kept).zip(members) {
+            let Point { model, start, .. } = &mut member.points.as_mut()[0].point;
+            (*x0, *kept) = (start.x0, start.room_for(form));
+            together = model.together();
+        }
+        together.is_some_and(|together| {
+            together.keep(form, &self.x[..count], &mut kept[..count]);
+            true
+        })
+    }
+
+    /// Evaluates the forms of a block at a trial, or the responses alone. `false` if the elements are to be evaluated one by one;
+    /// so they are, too, if there is no solution: then the error is that of the first element that has one.
+    pub(super) fn respond<C: Family, K: Kinematics<D>, const D: usize>(
+        &mut self,
+        (scheme, trial): (OneSet, &Trial<D>),
+        members: &[Member<M, K, D>],
+        has_tangent: bool,
+    ) -> bool {
+        let together = members[0].only().model.together();
+        let Some((form, together)) = scheme.form().zip(together) else {
+            return false;
+        };
+        if trial.is_start || !may_be_together(members) {
+            return false;
+        }
+        let count = members.len();
+        let mut kept: [&[f64]; MOST_TOGETHER] = [&[]; MOST_TOGETHER];
+        for (index, member) in members.iter().enumerate() {
+            self.x[index] = member.placed_variables::<C>(trial);
+            self.corners[index] = member.only().corners;
+            kept[index] = member.only().start.kept();
+        }
+        let (x1, kept) = (&self.x[..count], &kept[..count]);
+        let corners = &mut self.corners[..count];
+        if M::THERMAL && form == ExactForm::Entropy {
+            let ends = |index: usize| {
+                let point = members[index].only();
+                (&point.model, [&point.start.x0, &x1[index]])
+            };
+            if find_corners_together(together, ends, (kept, x1), corners).is_err() {
+                return false;
+            }
+        }
+        let steps = Steps { kept, x1, corners };
+        let (forms, responses) = (&mut self.forms[..count], &mut self.responses[..count]);
+        if has_tangent {
+            together.form(form, steps, forms);
+            for (response, form) in responses.iter_mut().zip(forms) {
+                *response = form.0;
+            }
+        } else {
+            together.response(form, steps, responses);
+        }
+        if M::DASHPOTS > 0 {
+            // Materials without temperature ignore it, so that any entry will do.
+            let at = Point::<M, K::Measures>::TEMPERATURE * usize::from(M::THERMAL);
+            let mut theta = [0.0; MOST_TOGETHER];
+            for (theta, response) in theta.iter_mut().zip(&self.responses) {
+                *theta = response[at];
+            }
+            together.viscosity(&theta[..count], &mut self.viscosities[..count]);
+        }
+        true
+    }
+
+    /// Stores the temperatures of mixed states and the viscosities of an element of the block; returns its form.
+    #[inline]
+    pub(super) fn give<K: Kinematics<D>, const D: usize>(
+        &self,
+        index: usize,
+        member: &mut Member<M, K, D>,
+    ) -> &Form<f64, M> {
+        let point = &mut member.points.as_mut()[0].point;
+        point.corners = self.corners[index];
+        point.viscosities = self.viscosities[index];
+        &self.forms[index]
+    }
+
+    /// Evaluates the caloric quantities of a block at the temperatures of the trial, where they are needed.
+    pub(super) fn close<K: Kinematics<D>, const D: usize>(
+        &mut self,
+        members: &[Member<M, K, D>],
+        (old, next): (&State, &mut State),
+    ) -> bool {
+        let count = members.len();
+        let together = members[0].only().model.together();
+        let together = together.filter(|together| count >= together.least());
+        let Some(together) = together else {
+            return false;
+        };
+        for (x, member) in self.x.iter_mut().zip(members) {
+            *x = member.closed_variables(old, next);
+        }
+        together.caloric_at(&self.x[..count], &mut self.caloric[..count]);
+        true
+    }
+}
+
+impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+    /// The variables of a spring at a trial, at which the form of its scheme is evaluated.
+    #[inline]
+    fn placed_variables<C: Family>(&self, trial: &Trial<D>) -> M::Variables {
+        let point = self.only();
+        let at = C::placement(point.scheme);
+        let r1 = placed_arms::<K, D>(at, &self.r0, self.new_arms(trial));
+        let mut x = point.x;
+        for (a, &measure) in point.placed::<C>(&r1)[1].as_ref().iter().enumerate() {
+            x[a] = measure;
+        }
+        x
+    }
+
+    /// The new variables of a spring, with the temperature of the trial.
+    fn closed_variables(&self, old: &State, next: &mut State) -> M::Variables {
+        let point = self.only();
+        let slots = point.slots();
+        for k in 0..point.dashpots() {
+            let slot = slots.viscous + k;
+            next.viscous.advance(slot, &old.viscous, point.creep[k]);
+        }
+        let measures = point.kinematics.measure(&self.arms_in(next));
+        let mut x = variables(&point.model, measures.as_ref(), slots, next);
+        x[M::Variables::LEN - 1] = point.x[M::Variables::LEN - 1];
+        x
+    }
+}
