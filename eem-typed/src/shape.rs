@@ -82,8 +82,8 @@ impl Shape {
         }
     }
 
-    /// The shape of the type of its materials: springs for which the runtime is not compiled already have room for
-    /// [`MOST_DASHPOTS`] in series and one in parallel.
+    /// The shape of the type of its materials. Solids, and the springs whose groups are compiled with the runtime, have exactly the
+    /// numbers of the law; other springs have room for [`MOST_DASHPOTS`] in series and one in parallel.
     pub(crate) fn with_room(self) -> Self {
         if self.strains > 0 || self.is_exact_spring() {
             return self;
@@ -95,7 +95,7 @@ impl Shape {
         }
     }
 
-    /// Whether the type of its springs has exactly their numbers.
+    /// Whether the groups of its springs are compiled with the runtime.
     const fn is_exact_spring(&self) -> bool {
         let is_without_drag = self.strains == 0 && self.drag == 0;
         is_without_drag && (self.dashpots == 0 || self.dashpots == 1 && self.thermal)

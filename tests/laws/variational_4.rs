@@ -218,7 +218,7 @@ fn the_tangent_is_exact() {
     // Displacements of the middle, Θ_0 of both springs, and the same at the end.
     let at = [0.02, -0.01, 0.03, 0.05, 318.0, 320.0].repeat(2);
     let width = |column: usize| if column % 6 < 4 { 1e-4 } else { 1e-2 };
-    assert_tangent(&mut run, &at, 0..12, (width, 1e-8));
+    assert_tangent(&mut run, &at, 0..12, (width, 1e-9));
 }
 
 #[test]

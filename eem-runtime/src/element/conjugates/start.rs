@@ -28,6 +28,32 @@ pub(crate) enum Kept<E, T> {
 pub(super) type KeptOf<M> =
     Kept<<M as FreeEnergy<f64>>::EntropyFormOld, <M as FreeEnergy<f64>>::TemperatureFormOld>;
 
+impl<E: Array<f64>, T: Array<f64>> Kept<E, T> {
+    /// What the entropy form keeps; zeros if it was another one that kept something.
+    #[inline]
+    fn in_entropy(&mut self) -> &mut E {
+        if !matches!(self, Self::Entropy(_)) {
+            *self = Self::Entropy(E::filled(0.0));
+        }
+        match self {
+            Self::Entropy(old) => old,
+            Self::Temperature(_) | Self::State(_) => not_of_this_family(),
+        }
+    }
+
+    /// The same of the temperature form.
+    #[inline]
+    fn in_temperature(&mut self) -> &mut T {
+        if !matches!(self, Self::Temperature(_)) {
+            *self = Self::Temperature(T::filled(0.0));
+        }
+        match self {
+            Self::Temperature(old) => old,
+            Self::Entropy(_) | Self::State(_) => not_of_this_family(),
+        }
+    }
+}
+
 impl<M: FreeEnergy<f64>> Start<M> {
     /// Before the first step.
     pub(crate) fn nothing() -> Self {
@@ -44,20 +70,10 @@ impl<M: FreeEnergy<f64>> Start<M> {
     pub(crate) fn keep(&mut self, scheme: OneSet, model: &M, entropy: f64, is_prescribed: bool) {
         match scheme {
             OneSet::Exact(ExactForm::Entropy) if !is_prescribed => {
-                if !matches!(self.old, Kept::Entropy(_)) {
-                    self.old = Kept::Entropy(M::EntropyFormOld::filled(0.0));
-                }
-                if let Kept::Entropy(old) = &mut self.old {
-                    model.keep_for_entropy_form(&self.x0, old);
-                }
+                model.keep_for_entropy_form(&self.x0, self.old.in_entropy());
             }
             OneSet::Exact(_) | OneSet::Damped => {
-                if !matches!(self.old, Kept::Temperature(_)) {
-                    self.old = Kept::Temperature(M::TemperatureFormOld::filled(0.0));
-                }
-                if let Kept::Temperature(old) = &mut self.old {
-                    model.keep_for_temperature_form(&self.x0, old);
-                }
+                model.keep_for_temperature_form(&self.x0, self.old.in_temperature());
             }
             OneSet::Point(_) => self.old = Kept::State(entropy),
         }
@@ -65,14 +81,9 @@ impl<M: FreeEnergy<f64>> Start<M> {
 
     /// Room for what a form keeps.
     pub(crate) fn room_for(&mut self, form: ExactForm) -> &mut [f64] {
-        self.old = match form {
-            ExactForm::Entropy => Kept::Entropy(M::EntropyFormOld::filled(0.0)),
-            ExactForm::Temperature => Kept::Temperature(M::TemperatureFormOld::filled(0.0)),
-        };
-        match &mut self.old {
-            Kept::Entropy(old) => old.as_mut(),
-            Kept::Temperature(old) => old.as_mut(),
-            Kept::State(_) => not_of_this_family(),
+        match form {
+            ExactForm::Entropy => self.old.in_entropy().as_mut(),
+            ExactForm::Temperature => self.old.in_temperature().as_mut(),
         }
     }
 

@@ -11,7 +11,7 @@ use eem_material::free_energy::{
     Array, Caloric, ExactForm, MOST_TOGETHER, Material, Steps, TogetherOf,
 };
 
-/// Values of the elements of a block.
+/// The elements that are evaluated in one call, in blocks, and room for the values of a block.
 pub(super) struct Ahead<M: Material> {
     /// The numbers of elements that follow one another and are evaluated in one call.
     pub(super) blocks: Vec<usize>,
@@ -23,14 +23,22 @@ pub(super) struct Ahead<M: Material> {
     pub(super) caloric: [(Caloric<f64>, f64); MOST_TOGETHER],
 }
 
-/// Whether the forms of a block are evaluated in one call: its elements are not few, and no thermostat prescribes a
-/// temperature, with which the form may be another one.
-fn may_be_together<M: Material, K: Kinematics<D>, const D: usize>(
+/// The functions of a block, unless its elements are too few for a call.
+fn together<M: Material, K: Kinematics<D>, const D: usize>(
     members: &[Member<M, K, D>],
-) -> bool {
+) -> Option<&TogetherOf<M>> {
     let together = members[0].only().model.together();
-    together.is_some_and(|together| members.len() >= together.least())
-        && !members.iter().any(|member| member.only().is_prescribed)
+    together.filter(|together| members.len() >= together.least())
+}
+
+/// The form of a scheme and the functions with which a block evaluates it in one call; not if a thermostat prescribes a
+/// temperature, with which the form may be another one.
+fn form_together<M: Material, K: Kinematics<D>, const D: usize>(
+    scheme: OneSet,
+    members: &[Member<M, K, D>],
+) -> Option<(ExactForm, &TogetherOf<M>)> {
+    let form = scheme.form().zip(together(members));
+    form.filter(|_| !members.iter().any(|member| member.only().is_prescribed))
 }
 
 impl<M: Material> Ahead<M> {
@@ -79,7 +87,7 @@ impl<M: Material> Ahead<M> {
         scheme: OneSet,
         members: &mut [Member<M, K, D>],
     ) -> bool {
-        let Some(form) = scheme.form().filter(|_| may_be_together(members)) else {
+        let Some((form, _)) = form_together(scheme, members) else {
             return false;
         };
         let mut kept: [&mut [f64]; MOST_TOGETHER] = core::array::from_fn(|_| Default::default());
@@ -103,13 +111,10 @@ impl<M: Material> Ahead<M> {
         members: &[Member<M, K, D>],
         has_tangent: bool,
     ) -> bool {
-        let together = members[0].only().model.together();
-        let Some((form, together)) = scheme.form().zip(together) else {
+        let form = form_together(scheme, members);
+        let Some((form, together)) = form.filter(|_| !trial.is_start) else {
             return false;
         };
-        if trial.is_start || !may_be_together(members) {
-            return false;
-        }
         let count = members.len();
         let mut kept: [&[f64]; MOST_TOGETHER] = [&[]; MOST_TOGETHER];
         for (index, member) in members.iter().enumerate() {
@@ -129,22 +134,23 @@ impl<M: Material> Ahead<M> {
             }
         }
         let steps = Steps { kept, x1, corners };
-        let (forms, responses) = (&mut self.forms[..count], &mut self.responses[..count]);
+        // Materials without temperature ignore it, so that any entry will do.
+        let at = Point::<M, K::Measures>::TEMPERATURE * usize::from(M::THERMAL);
+        let mut theta = [0.0; MOST_TOGETHER];
         if has_tangent {
+            let forms = &mut self.forms[..count];
             together.form(form, steps, forms);
-            for (response, form) in responses.iter_mut().zip(forms) {
-                *response = form.0;
-            }
-        } else {
-            together.response(form, steps, responses);
-        }
-        if M::DASHPOTS > 0 {
-            // Materials without temperature ignore it, so that any entry will do.
-            let at = Point::<M, K::Measures>::TEMPERATURE * usize::from(M::THERMAL);
-            let mut theta = [0.0; MOST_TOGETHER];
-            for (theta, response) in theta.iter_mut().zip(&self.responses) {
+            for (theta, (response, _)) in theta.iter_mut().zip(forms) {
                 *theta = response[at];
             }
+        } else {
+            let responses = &mut self.responses[..count];
+            together.response(form, steps, responses);
+            for (theta, response) in theta.iter_mut().zip(responses) {
+                *theta = response[at];
+            }
+        }
+        if M::DASHPOTS > 0 {
             together.viscosity(&theta[..count], &mut self.viscosities[..count]);
         }
         true
@@ -163,18 +169,16 @@ impl<M: Material> Ahead<M> {
         &self.forms[index]
     }
 
-    /// Evaluates the caloric quantities of a block at the temperatures of the trial, where they are needed.
+    /// Evaluates the caloric quantities of a block at the temperatures of the trial.
     pub(super) fn close<K: Kinematics<D>, const D: usize>(
         &mut self,
         members: &[Member<M, K, D>],
         (old, next): (&State, &mut State),
     ) -> bool {
-        let count = members.len();
-        let together = members[0].only().model.together();
-        let together = together.filter(|together| count >= together.least());
-        let Some(together) = together else {
+        let Some(together) = together(members) else {
             return false;
         };
+        let count = members.len();
         for (x, member) in self.x.iter_mut().zip(members) {
             *x = member.closed_variables(old, next);
         }

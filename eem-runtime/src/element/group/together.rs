@@ -1,6 +1,6 @@
-//! The loops over springs whose material evaluates several of them in one call, ahead of the loop over the springs.
+//! The loops over springs of a material that evaluates several of them in one call.
 //!
-//! They take the values evaluated ahead, which have the same bits.
+//! A block of springs is evaluated ahead; then each takes its values, which have the bits of those evaluated one by one.
 
 use super::ahead::Ahead;
 use super::element_group::ElementGroup;

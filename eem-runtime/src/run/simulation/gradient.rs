@@ -13,6 +13,7 @@ use core::ops::ControlFlow;
 use super::Simulation;
 use super::memory::Guard;
 use super::stepper::Stepper;
+use crate::algebra::add;
 use crate::algebra::system::LinearSystem;
 use crate::element::group::{Group, StepView};
 use crate::element::handle::Element;
@@ -28,7 +29,7 @@ use crate::step::adjoint::{Adjoint, NoAdjoint, PastStep, PerVariable, RocketStep
 use crate::step::control::length;
 use crate::step::scheme::Scheme;
 use derivatives::Passage;
-use inputs::{Made, Way, Weighted, add};
+use inputs::{Made, Way, Weighted};
 use seeds::Seeds;
 
 /// # Gradients

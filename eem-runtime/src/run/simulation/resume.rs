@@ -254,8 +254,11 @@ impl<const D: usize> Simulation<D> {
         for (node, motion) in &self.loads.motions {
             motions[node.index] = Some(motion);
         }
+        let mut homes = vec![None; self.masses.len()];
+        for (node, home) in &self.homes {
+            homes[*node] = Some(home);
+        }
         for node in self.masses.anchors() {
-            let home = self.homes.iter().find(|(own, _)| *own == node);
             for axis in 0..D {
                 let at = node * D + axis;
                 let momentum = not_zero(state.momenta.sum(at));
@@ -263,7 +266,7 @@ impl<const D: usize> Simulation<D> {
                     return Err(RestoreError::AnchorMomentum { node, axis, value });
                 }
                 let Sum { value, carry } = state.positions.sum(at);
-                let created = home.map_or(created[at], |(_, home)| home[axis]);
+                let created = homes[node].map_or(created[at], |home| home[axis]);
                 let (is_right, expected) = match motions[node] {
                     // The position depends on what controllers have set before.
                     Some(Course::Set(_)) => continue,

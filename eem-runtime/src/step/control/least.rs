@@ -8,8 +8,7 @@ use crate::element::conduction::{Conduction, Partner};
 use crate::element::group::Elements;
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::step::control::controller::Accuracy;
-use crate::step::control::controller::ROUNDINGS;
+use crate::step::control::controller::{Accuracy, ROUNDINGS};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 

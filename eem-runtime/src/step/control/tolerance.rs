@@ -3,8 +3,7 @@
 use crate::algebra::length;
 use crate::element::state::State;
 use crate::scene::error::SceneError;
-use crate::step::control::controller::Accuracy;
-use crate::step::control::controller::ROUNDINGS;
+use crate::step::control::controller::{Accuracy, ROUNDINGS};
 use crate::step::control::least::{LeastScales, Step};
 use crate::step::control::rounding::LoadRounding;
 use crate::step::control::worst::{Unknown, UnknownError, see_worst};

@@ -4,7 +4,6 @@ use super::components::Support;
 use super::memory::Target;
 use super::outside::copy_loads;
 use super::tableau::WEIGHTS;
-
 use super::{Explicit, ExplicitView};
 use crate::element::group::{ComponentEnergy, Inner, points};
 use crate::element::state::State;

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::derivatives::{Of, Passage, viscous_unit};
+use crate::algebra::add;
 use crate::element::conduction::Partner;
 use crate::element::loads::point;
 use crate::element::state::State;
@@ -265,13 +266,6 @@ pub(super) fn add_to<const D: usize>(
     }
 }
 
-/// Adds `factor values` to `sum`.
-pub(super) fn add(sum: &mut [f64], factor: f64, values: &[f64]) {
-    for (sum, &value) in sum.iter_mut().zip(values) {
-        *sum += factor * value;
-    }
-}
-
 impl<const D: usize> Simulation<D> {
     /// A gradient of zeros, to which the derivatives of each step are added, with the names of all parameters.
     pub(super) fn no_gradient(&self, passage: &Passage<D>) -> Gradient<D> {
@@ -334,11 +328,11 @@ impl<const D: usize> Simulation<D> {
         for (element, course) in &loads.temperatures {
             all.push((Timed::Thermostat(*element), course.function().is_some()));
         }
-        for (place, rocket) in loads.rockets.iter().enumerate() {
+        let mut rockets = vec![0; self.masses.len()];
+        for rocket in &loads.rockets {
             let node = rocket.line.node;
-            let before = loads.rockets[..place].iter();
-            let before = before.filter(|other| other.line.node == node).count();
-            all.push((Timed::Thrust(node, before), true));
+            all.push((Timed::Thrust(node, rockets[node.index]), true));
+            rockets[node.index] += 1;
         }
         for (oven, _) in &loads.ovens {
             all.push((Timed::Oven(self.scene.reservoir(*oven)), true));
