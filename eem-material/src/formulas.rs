@@ -8,8 +8,11 @@
 //! The results have the bits of the material's own functions.
 
 use core::any::Any;
+use core::marker::PhantomData;
 
-use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates, Together, TogetherOf};
+use crate::free_energy::{
+    Array, Caloric, Entry, FreeEnergy, Material, Rates, Together, TogetherOf,
+};
 use crate::inversion::{Inverse, InversionError, temperature_near};
 
 /// The most parameters of a material behind a table.
@@ -18,62 +21,198 @@ pub const MOST_PARAMETERS: usize = 64;
 /// An entry per parameter; those beyond the parameters of the material are unused.
 pub type ByParameters = [f64; MOST_PARAMETERS];
 
+/// The arrays of materials with the same numbers of variables, see the types of [`FreeEnergy`] with these names.
+pub trait Arrays: Entry {
+    /// Number of measures.
+    const MEASURES: usize;
+    /// The most dashpots in series.
+    const DASHPOTS: usize;
+    /// Whether there may be a temperature.
+    const THERMAL: bool;
+
+    type Variables: Array<f64>;
+    type Hessian: Array<Self::Variables>;
+    type Viscosities: Array<f64>;
+    type Drag: Array<f64>;
+    type Corners: Array<f64>;
+    type Response: Array<f64>;
+    type Tangent: Array<Self::Variables>;
+    /// Room for what a form keeps of the old state; a form that keeps more computes it again.
+    type Kept: Array<f64>;
+}
+
+/// [`Arrays`] of these types; those of measures are first.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes<P, X, H, V, G, C, R, T, O>(PhantomData<(P, X, H, V, G, C, R, T, O)>);
+
+impl<P, X, H, V, G, C, R, T, O> Arrays for Sizes<P, X, H, V, G, C, R, T, O>
+where
+    P: Array<f64>,
+    X: Array<f64>,
+    H: Array<X>,
+    V: Array<f64>,
+    G: Array<f64>,
+    C: Array<f64>,
+    R: Array<f64>,
+    T: Array<X>,
+    O: Array<f64>,
+{
+    const MEASURES: usize = P::LEN;
+    const DASHPOTS: usize = X::LEN - P::LEN - Self::THERMAL as usize;
+    const THERMAL: bool = R::LEN > X::LEN;
+
+    type Variables = X;
+    type Hessian = H;
+    type Viscosities = V;
+    type Drag = G;
+    type Corners = C;
+    type Response = R;
+    type Tangent = T;
+    type Kept = O;
+}
+
+/// The arrays of a material, with those of its measures, and room for O values of the old state.
+pub type ArraysOf<M, P, O> = Sizes<
+    P,
+    <M as FreeEnergy<f64>>::Variables,
+    <M as FreeEnergy<f64>>::Hessian,
+    <M as FreeEnergy<f64>>::Viscosities,
+    <M as FreeEnergy<f64>>::Drag,
+    <M as FreeEnergy<f64>>::Corners,
+    <M as FreeEnergy<f64>>::Response,
+    <M as FreeEnergy<f64>>::Tangent,
+    O,
+>;
+
+/// The arrays of springs.
+///
+/// | | |
+/// |---|---|
+/// | N | variables: the stretch, K viscous stretches, the temperature |
+/// | K | dashpots in series |
+/// | D | dashpots in parallel |
+/// | C | corners: 2 (N − 1) with a temperature, else 0 |
+/// | R | responses: N + 1 with a temperature, else N |
+/// | O | values of the old state for which there is room |
+pub type SpringArrays<
+    const N: usize,
+    const K: usize,
+    const D: usize,
+    const C: usize,
+    const R: usize,
+    const O: usize,
+> = Sizes<
+    [f64; 1],
+    [f64; N],
+    [[f64; N]; N],
+    [f64; K],
+    [f64; D],
+    [f64; C],
+    [f64; R],
+    [[f64; N]; R],
+    [f64; O],
+>;
+
 /// What is known of a material without evaluating it, see the functions of [`FreeEnergy`] with these names.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
     pub model: &'static &'static str,
     pub kind: u64,
+    pub dashpots: usize,
+    pub drags: usize,
+    pub is_thermal: bool,
+    pub viscous_strain: usize,
+    pub has_constant_capacity: bool,
     pub parameter_count: usize,
     pub parameter_units: &'static [&'static str],
     pub has_parameter_derivatives: bool,
 }
 
-/// The functions of a [`FreeEnergy`] with these variables, Hessian, viscosities, corners, response and tangent, as a table.
-/// Implemented for every material; see the functions of [`FreeEnergy`] with the same names.
-pub trait Formulas<X, H, V, C, R, T, O>: Inverse<X> + Send + Sync {
+/// The functions of a [`FreeEnergy`] with these arrays, as a table. Implemented for every material; see the functions of
+/// [`FreeEnergy`] with the same names.
+pub trait Formulas<A: Arrays>: Inverse<A::Variables> + Send + Sync {
     fn facts(&self) -> Facts;
     fn as_any(&self) -> &dyn Any;
-    fn duplicate(&self) -> Box<dyn Formulas<X, H, V, C, R, T, O>>;
+    fn duplicate(&self) -> Box<dyn Formulas<A>>;
     fn parameter_names(&self) -> &'static [&'static str];
-    fn together(&self) -> Option<&(dyn Together<X, V, C, R, T> + 'static)>;
+    fn together(&self) -> Option<&TogetherIn<A>>;
     fn parameter(&self, index: usize) -> f64;
-    fn free_energy(&self, x: &X) -> f64;
-    fn energy_magnitude(&self, x: &X) -> f64;
-    fn internal_energy(&self, x: &X) -> f64;
-    fn gradient(&self, x: &X) -> X;
-    fn hessian(&self, x: &X) -> (X, H);
-    fn caloric(&self, x: &X) -> Caloric<f64>;
-    fn caloric_at(&self, x: &X, theta: f64) -> (Caloric<f64>, f64);
-    fn caloric_between(&self, ends: [&X; 2], new: usize, theta: f64) -> (Caloric<f64>, f64);
-    fn rates(&self, x: &X) -> Rates<X>;
-    fn rates_at(&self, x: &X, theta: f64) -> (Rates<X>, [f64; 2]);
-    fn entropy_hessian(&self, x: &X) -> H;
-    fn viscosity(&self, theta: f64) -> (V, V);
-    fn keep_for_entropy_form(&self, x0: &X, old: &mut O);
-    fn entropy_form(&self, old: &O, x1: &X, corners: &C) -> (R, T);
-    fn entropy_form_response(&self, old: &O, x1: &X, corners: &C) -> R;
-    fn mixed_states(&self, x0: &X, old: &O, x1: &X, corners: &C) -> [C; 2];
-    fn keep_for_temperature_form(&self, x0: &X, old: &mut O);
-    fn temperature_form(&self, old: &O, x1: &X) -> (R, T);
-    fn temperature_form_response(&self, old: &O, x1: &X) -> R;
-    fn temperature_form_adjoint(&self, ends: [&X; 2], weights: &R) -> ByParameters;
-    fn temperature_form_tangent(&self, ends: [&X; 2], direction: &ByParameters) -> R;
-    fn entropy_form_adjoint(&self, ends: [&X; 2], corners: &C, weights: &R) -> ByParameters;
-    fn entropy_form_tangent(&self, ends: [&X; 2], corners: &C, direction: &ByParameters) -> R;
-    fn gradient_adjoint(&self, x: &X, weights: &X) -> ByParameters;
-    fn energy_by_parameters(&self, x: &X) -> ByParameters;
-    fn viscosity_adjoint(&self, theta: f64, weights: &V) -> ByParameters;
+    fn free_energy(&self, x: &A::Variables) -> f64;
+    fn energy_magnitude(&self, x: &A::Variables) -> f64;
+    fn internal_energy(&self, x: &A::Variables) -> f64;
+    fn gradient(&self, x: &A::Variables) -> A::Variables;
+    fn hessian(&self, x: &A::Variables) -> (A::Variables, A::Hessian);
+    fn caloric(&self, x: &A::Variables) -> Caloric<f64>;
+    fn caloric_at(&self, x: &A::Variables, theta: f64) -> (Caloric<f64>, f64);
+    fn caloric_between(
+        &self,
+        ends: [&A::Variables; 2],
+        new: usize,
+        theta: f64,
+    ) -> (Caloric<f64>, f64);
+    fn rates(&self, x: &A::Variables) -> Rates<A::Variables>;
+    fn rates_at(&self, x: &A::Variables, theta: f64) -> (Rates<A::Variables>, [f64; 2]);
+    fn entropy_hessian(&self, x: &A::Variables) -> A::Hessian;
+    fn viscosity(&self, theta: f64) -> (A::Viscosities, A::Viscosities);
+    fn drag(&self, theta: f64) -> (A::Drag, A::Drag);
+    fn keep_for_entropy_form(&self, x0: &A::Variables, old: &mut A::Kept);
+    fn entropy_form(
+        &self,
+        old: &A::Kept,
+        x1: &A::Variables,
+        corners: &A::Corners,
+    ) -> (A::Response, A::Tangent);
+    fn entropy_form_response(
+        &self,
+        old: &A::Kept,
+        x1: &A::Variables,
+        corners: &A::Corners,
+    ) -> A::Response;
+    fn mixed_states(
+        &self,
+        x0: &A::Variables,
+        old: &A::Kept,
+        x1: &A::Variables,
+        corners: &A::Corners,
+    ) -> [A::Corners; 2];
+    fn keep_for_temperature_form(&self, x0: &A::Variables, old: &mut A::Kept);
+    fn temperature_form(&self, old: &A::Kept, x1: &A::Variables) -> (A::Response, A::Tangent);
+    fn temperature_form_response(&self, old: &A::Kept, x1: &A::Variables) -> A::Response;
+    fn temperature_form_adjoint(
+        &self,
+        ends: [&A::Variables; 2],
+        weights: &A::Response,
+    ) -> ByParameters;
+    fn temperature_form_tangent(
+        &self,
+        ends: [&A::Variables; 2],
+        direction: &ByParameters,
+    ) -> A::Response;
+    fn entropy_form_adjoint(
+        &self,
+        ends: [&A::Variables; 2],
+        corners: &A::Corners,
+        weights: &A::Response,
+    ) -> ByParameters;
+    fn entropy_form_tangent(
+        &self,
+        ends: [&A::Variables; 2],
+        corners: &A::Corners,
+        direction: &ByParameters,
+    ) -> A::Response;
+    fn gradient_adjoint(&self, x: &A::Variables, weights: &A::Variables) -> ByParameters;
+    fn energy_by_parameters(&self, x: &A::Variables) -> ByParameters;
+    fn viscosity_adjoint(&self, theta: f64, weights: &A::Viscosities) -> ByParameters;
+    fn drag_adjoint(&self, theta: f64, weights: &A::Drag) -> ByParameters;
 }
 
-/// The table of a material with room for O.
-pub type TableOf<M, O> = dyn Formulas<
-        <M as FreeEnergy<f64>>::Variables,
-        <M as FreeEnergy<f64>>::Hessian,
-        <M as FreeEnergy<f64>>::Viscosities,
-        <M as FreeEnergy<f64>>::Corners,
-        <M as FreeEnergy<f64>>::Response,
-        <M as FreeEnergy<f64>>::Tangent,
-        O,
+/// [`Together`] for these arrays.
+pub type TogetherIn<A> = dyn Together<
+        <A as Arrays>::Variables,
+        <A as Arrays>::Viscosities,
+        <A as Arrays>::Corners,
+        <A as Arrays>::Response,
+        <A as Arrays>::Tangent,
     >;
 
 /// Stores what a form keeps of the old state, or the old variables if there is no room for it.
@@ -125,14 +264,28 @@ impl<M: Material> Inverse<M::Variables> for M {
     }
 }
 
-impl<M: Material, O: Array<f64>>
-    Formulas<M::Variables, M::Hessian, M::Viscosities, M::Corners, M::Response, M::Tangent, O>
-    for M
+impl<M, A> Formulas<A> for M
+where
+    M: Material,
+    A: Arrays<
+            Variables = M::Variables,
+            Hessian = M::Hessian,
+            Viscosities = M::Viscosities,
+            Drag = M::Drag,
+            Corners = M::Corners,
+            Response = M::Response,
+            Tangent = M::Tangent,
+        >,
 {
     fn facts(&self) -> Facts {
         Facts {
             model: self.model(),
             kind: self.kind(),
+            dashpots: self.dashpots(),
+            drags: self.drags(),
+            is_thermal: self.is_thermal(),
+            viscous_strain: self.viscous_strain(),
+            has_constant_capacity: self.has_constant_capacity(),
             parameter_count: self.parameter_count(),
             parameter_units: self.parameter_units(),
             has_parameter_derivatives: self.has_parameter_derivatives(),
@@ -140,10 +293,10 @@ impl<M: Material, O: Array<f64>>
     }
 
     fn as_any(&self) -> &dyn Any {
-        self
+        FreeEnergy::as_any(self)
     }
 
-    fn duplicate(&self) -> Box<TableOf<M, O>> {
+    fn duplicate(&self) -> Box<dyn Formulas<A>> {
         Box::new(FreeEnergy::duplicate(self))
     }
 
@@ -153,8 +306,9 @@ impl<M: Material, O: Array<f64>>
 
     fn together(&self) -> Option<&TogetherOf<M>> {
         // They store what forms keep, never the old variables in its place.
-        let fits =
-            const { M::EntropyFormOld::LEN <= O::LEN && M::TemperatureFormOld::LEN <= O::LEN };
+        let fits = const {
+            M::EntropyFormOld::LEN <= A::Kept::LEN && M::TemperatureFormOld::LEN <= A::Kept::LEN
+        };
         FreeEnergy::together(self).filter(|_| fits)
     }
 
@@ -215,13 +369,17 @@ impl<M: Material, O: Array<f64>>
         FreeEnergy::viscosity(self, theta)
     }
 
-    fn keep_for_entropy_form(&self, x0: &M::Variables, kept: &mut O) {
+    fn drag(&self, theta: f64) -> (M::Drag, M::Drag) {
+        FreeEnergy::drag(self, theta)
+    }
+
+    fn keep_for_entropy_form(&self, x0: &M::Variables, kept: &mut A::Kept) {
         keep(x0, |x0| self.entropy_form_old(x0), kept);
     }
 
     fn entropy_form(
         &self,
-        kept: &O,
+        kept: &A::Kept,
         x1: &M::Variables,
         corners: &M::Corners,
     ) -> (M::Response, M::Tangent) {
@@ -234,7 +392,7 @@ impl<M: Material, O: Array<f64>>
 
     fn entropy_form_response(
         &self,
-        kept: &O,
+        kept: &A::Kept,
         x1: &M::Variables,
         corners: &M::Corners,
     ) -> M::Response {
@@ -248,7 +406,7 @@ impl<M: Material, O: Array<f64>>
     fn mixed_states(
         &self,
         x0: &M::Variables,
-        kept: &O,
+        kept: &A::Kept,
         x1: &M::Variables,
         corners: &M::Corners,
     ) -> [M::Corners; 2] {
@@ -259,11 +417,11 @@ impl<M: Material, O: Array<f64>>
         )
     }
 
-    fn keep_for_temperature_form(&self, x0: &M::Variables, kept: &mut O) {
+    fn keep_for_temperature_form(&self, x0: &M::Variables, kept: &mut A::Kept) {
         keep(x0, |x0| self.temperature_form_old(x0), kept);
     }
 
-    fn temperature_form(&self, kept: &O, x1: &M::Variables) -> (M::Response, M::Tangent) {
+    fn temperature_form(&self, kept: &A::Kept, x1: &M::Variables) -> (M::Response, M::Tangent) {
         with_kept(
             kept,
             |x0| self.temperature_form_old(x0),
@@ -271,7 +429,7 @@ impl<M: Material, O: Array<f64>>
         )
     }
 
-    fn temperature_form_response(&self, kept: &O, x1: &M::Variables) -> M::Response {
+    fn temperature_form_response(&self, kept: &A::Kept, x1: &M::Variables) -> M::Response {
         with_kept(
             kept,
             |x0| self.temperature_form_old(x0),
@@ -325,5 +483,9 @@ impl<M: Material, O: Array<f64>>
 
     fn viscosity_adjoint(&self, theta: f64, weights: &M::Viscosities) -> ByParameters {
         resized(&FreeEnergy::viscosity_adjoint(self, theta, weights))
+    }
+
+    fn drag_adjoint(&self, theta: f64, weights: &M::Drag) -> ByParameters {
+        resized(&FreeEnergy::drag_adjoint(self, theta, weights))
     }
 }

@@ -169,10 +169,22 @@ pub trait FreeEnergy<S: Scalar> {
         Self::DASHPOTS
     }
 
+    /// [`THERMAL`](Self::THERMAL), unless it is known only at run time: then that constant is true, and without a temperature
+    /// its variable and its rows are unused.
+    #[inline]
+    fn is_thermal(&self) -> bool {
+        Self::THERMAL
+    }
+
     /// The number of dashpots in parallel: the length of [`Drag`](Self::Drag), unless it is known only at run time.
     #[inline]
     fn drags(&self) -> usize {
         Self::Drag::LEN
+    }
+
+    /// [`VISCOUS_STRAIN`](Self::VISCOUS_STRAIN), unless it is known only at run time.
+    fn viscous_strain(&self) -> usize {
+        Self::VISCOUS_STRAIN
     }
 
     /// The value of parameter `index` of [`PARAMETERS`](Self::PARAMETERS).

@@ -133,6 +133,11 @@ impl Functions {
         })
     }
 
+    /// Whether there is a temperature.
+    pub(crate) fn is_thermal(&self) -> bool {
+        self.caloric.is_some()
+    }
+
     /// Derivatives with respect to the parameters; `None` with too many parameters, too long formulas or too large factors.
     pub(crate) fn by_parameters(&self) -> Option<&ByParameters> {
         let make = || {

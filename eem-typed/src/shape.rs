@@ -52,6 +52,9 @@ pub const KEPT: usize = 32;
 /// The most dashpots in series of a spring made of texts.
 pub const MOST_DASHPOTS: usize = 8;
 
+/// The most dashpots in series of a spring with fewer numbers to compute.
+const FEW_DASHPOTS: usize = 2;
+
 /// How many variables and viscosities of each kind a law has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
@@ -83,14 +86,19 @@ impl Shape {
     }
 
     /// The shape of the type of its materials. Solids, and the springs whose groups are compiled with the runtime, have exactly the
-    /// numbers of the law; other springs have room for [`MOST_DASHPOTS`] in series and one in parallel.
+    /// numbers of the law; other springs have room for a temperature, one dashpot in parallel, and two or [`MOST_DASHPOTS`] in series.
     pub(crate) fn with_room(self) -> Self {
         if self.strains > 0 || self.is_exact_spring() {
             return self;
         }
         Self {
-            dashpots: self.dashpots.max(MOST_DASHPOTS),
+            dashpots: if self.dashpots <= FEW_DASHPOTS {
+                FEW_DASHPOTS
+            } else {
+                self.dashpots.max(MOST_DASHPOTS)
+            },
             drag: 1,
+            thermal: true,
             ..self
         }
     }
@@ -153,15 +161,13 @@ impl Shape {
         if self.strains > 0 || self.is_exact_spring() {
             return self.to_string();
         }
-        let temperature = if self.thermal { ", 1 temperature" } else { "" };
-        let most = self.dashpots;
-        let others = if self.thermal {
-            "`ThermalSpring0` or `ThermalSpring1`"
-        } else {
-            "`Spring0`"
+        let others = "`Spring0`, `ThermalSpring0` or `ThermalSpring1`";
+        let dashpots = match self.dashpots {
+            FEW_DASHPOTS => format!("at most {FEW_DASHPOTS} dashpots"),
+            most => format!("{} to {most} dashpots", FEW_DASHPOTS + 1),
         };
         format!(
-            "1 stretch, at most {most} dashpots in series, at most 1 beside{temperature}, but none that {others} has"
+            "1 stretch, {dashpots} in series, at most 1 beside, at most 1 temperature, but none that {others} has"
         )
     }
 }

@@ -16,11 +16,11 @@ pub type ThermalSpring0 = Typed<Stretch, 2, 0, 0, 0, 2, 3, 16>;
 /// A spring with a temperature and one dashpot, in series.
 pub type ThermalSpring1 = Typed<Stretch, 3, 1, 1, 0, 4, 4, 24>;
 
-/// Any other spring without temperature: with at most eight dashpots in series and one in parallel.
-pub type Spring8 = Typed<Stretch, 9, 8, 8, 1, 0, 9, KEPT>;
+/// Any other spring with at most two dashpots in series and one in parallel, with a temperature or without.
+pub type DampedSpring = Typed<Stretch, 4, 2, 2, 1, 6, 5, KEPT>;
 
-/// Any other spring with a temperature: with at most eight dashpots in series and one in parallel.
-pub type ThermalSpring8 = Typed<Stretch, 10, 8, 8, 1, 18, 11, KEPT>;
+/// A spring with three to eight dashpots in series and at most one in parallel, with a temperature or without.
+pub type Spring8 = Typed<Stretch, 10, 8, 8, 1, 18, 11, KEPT>;
 
 impl Law {
     /// Whether [`add_spring`](Self::add_spring) has a shape for it.
@@ -51,9 +51,6 @@ impl Law {
     }
 
     /// Puts a spring of this law between two nodes of a scene, whatever its shape is.
-    ///
-    /// The solver is compiled for [`Spring8`] and [`ThermalSpring8`], as for two derived materials, for every dimension that a
-    /// program calls this for; what steps the other three is compiled with the library.
     ///
     /// # Errors
     ///
@@ -92,8 +89,8 @@ impl Law {
             (0, 0, false) => scene.spring::<Spring0>(self.model()?, nodes),
             (0, 0, true) => scene.spring::<ThermalSpring0>(self.model()?, nodes),
             (1, 0, true) => scene.spring::<ThermalSpring1>(self.model()?, nodes),
-            (_, _, false) => scene.spring::<Spring8>(self.model()?, nodes),
-            (_, _, true) => scene.spring::<ThermalSpring8>(self.model()?, nodes),
+            (0..=2, _, _) => scene.spring::<DampedSpring>(self.model()?, nodes),
+            _ => scene.spring::<Spring8>(self.model()?, nodes),
         })
     }
 }

@@ -21,12 +21,15 @@ use crate::tape::Tape;
 /// |---|---|
 /// | H | its measures: [`Stretch`](crate::Stretch), [`Strains`](crate::Strains), [`Flow`](crate::Flow) |
 /// | N | number of variables: measures, dashpots, temperature |
-/// | K | dashpots in series; where a spring may have several, the most: those that it lacks are unused entries of arrays |
+/// | K | dashpots in series |
 /// | V | viscosities: K, and those of a viscous strain |
 /// | D | dashpots in parallel with the spring, 0 or 1 |
 /// | C | corners: 2 (N − 1) with a temperature, else 0 |
 /// | R | responses: N + 1 with a temperature, else N |
 /// | O | values of the old state that a form keeps: 4, 16, 24 for the springs with exact numbers, else 32 |
+///
+/// If there is room for a dashpot in parallel (D = 1), these are the most: dashpots and temperature that a spring lacks are unused
+/// entries of arrays.
 ///
 /// Use the names of the shapes of springs, such as [`ThermalSpring1`](crate::ThermalSpring1), and [`solid!`](crate::solid). A
 /// copy shares the tapes.
@@ -136,8 +139,8 @@ impl<
     }
 
     /// The temperature as the input of viscosities; no input if the law has no temperature.
-    fn temperature_input(theta: &f64) -> &[f64] {
-        if Self::THERMAL {
+    fn temperature_input<'a>(&self, theta: &'a f64) -> &'a [f64] {
+        if self.functions.is_thermal() {
             slice::from_ref(theta)
         } else {
             &[]
@@ -146,12 +149,17 @@ impl<
 
     /// Forces, heat capacity and slopes; further results of the tape go to `others`.
     fn rates_of<const I: usize>(
+        &self,
         tape: &Tape,
         inputs: [&[f64]; I],
         others: &mut [f64],
     ) -> Rates<[f64; N]> {
         let (mut forces, mut slopes) = ([0.0; N], [0.0; N]);
-        let count = if Self::THERMAL { N - 1 } else { 0 };
+        let count = if self.functions.is_thermal() {
+            N - 1
+        } else {
+            0
+        };
         tape.run(inputs, [&mut forces, &mut slopes[..count], others]);
         Rates { forces, slopes }
     }
@@ -225,6 +233,10 @@ impl<
         self.functions.drags
     }
 
+    fn is_thermal(&self) -> bool {
+        self.functions.is_thermal()
+    }
+
     fn has_constant_capacity(&self) -> bool {
         self.functions.has_constant_capacity
     }
@@ -290,7 +302,7 @@ impl<
     }
 
     fn rates(&self, x: &[f64; N]) -> Rates<[f64; N]> {
-        Self::rates_of(&self.functions.rates, [x], &mut [])
+        self.rates_of(&self.functions.rates, [x], &mut [])
     }
 
     fn rates_at(&self, x: [f64; N]) -> impl Fn(f64) -> (Rates<[f64; N]>, [f64; 2]) {
@@ -306,9 +318,9 @@ impl<
             let rates = match (staged, &self.functions.rates_of_state) {
                 (Some(staged), _) => {
                     let inputs = [&kept[..count], &[theta][..]];
-                    Self::rates_of(&staged.new, inputs, &mut others)
+                    self.rates_of(&staged.new, inputs, &mut others)
                 }
-                (None, Some(tape)) => Self::rates_of(tape, [&x], &mut others[1..]),
+                (None, Some(tape)) => self.rates_of(tape, [&x], &mut others[1..]),
                 (None, None) => unreachable!("one of them is there"),
             };
             (rates, others)
@@ -326,7 +338,7 @@ impl<
     fn viscosity(&self, theta: f64) -> ([f64; V], [f64; V]) {
         let (mut eta, mut slope) = ([0.0; V], [0.0; V]);
         if let Some(tape) = &self.functions.viscosity {
-            let theta = Self::temperature_input(&theta);
+            let theta = self.temperature_input(&theta);
             tape.run([theta], [&mut eta, &mut slope]);
         }
         (eta, slope)
@@ -335,7 +347,7 @@ impl<
     fn drag(&self, theta: f64) -> ([f64; D], [f64; D]) {
         let (mut eta, mut slope) = ([0.0; D], [0.0; D]);
         if let Some(tape) = &self.functions.drag {
-            let theta = Self::temperature_input(&theta);
+            let theta = self.temperature_input(&theta);
             tape.run([theta], [&mut eta, &mut slope]);
         }
         (eta, slope)
@@ -427,7 +439,7 @@ impl<
         x1: &[f64; N],
         weights: &[f64; R],
     ) -> [f64; MOST_PARAMETERS] {
-        if !Self::THERMAL {
+        if !self.functions.is_thermal() {
             return self.entropy_form_adjoint(x0, x1, &[0.0; C], weights);
         }
         self.derivative(
@@ -442,7 +454,7 @@ impl<
         x1: &[f64; N],
         direction: &[f64; MOST_PARAMETERS],
     ) -> [f64; R] {
-        if !Self::THERMAL {
+        if !self.functions.is_thermal() {
             return self.entropy_form_tangent(x0, x1, &[0.0; C], direction);
         }
         self.derivative(
@@ -486,12 +498,12 @@ impl<
     }
 
     fn viscosity_adjoint(&self, theta: f64, weights: &[f64; V]) -> [f64; MOST_PARAMETERS] {
-        let inputs = [Self::temperature_input(&theta), weights];
+        let inputs = [self.temperature_input(&theta), weights];
         self.derivative(|all| all.viscosity_adjoint.as_ref(), inputs)
     }
 
     fn drag_adjoint(&self, theta: f64, weights: &[f64; D]) -> [f64; MOST_PARAMETERS] {
-        let inputs = [Self::temperature_input(&theta), weights];
+        let inputs = [self.temperature_input(&theta), weights];
         self.derivative(|all| all.drag_adjoint.as_ref(), inputs)
     }
 }

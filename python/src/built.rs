@@ -7,7 +7,6 @@ use eem::{
 };
 use eem_gradients::Gradients;
 use eem_solids::{Refused, Solids};
-use eem_springs::Springs;
 use pyo3::PyResult;
 
 use crate::act::{self, Act, Course, Partner, Rest, Speed};
@@ -99,7 +98,7 @@ pub(crate) struct Built<const D: usize> {
 
 impl<const D: usize> Built<D>
 where
-    Scene<D>: Springs + Solids<D>,
+    Scene<D>: Solids<D>,
 {
     pub(crate) fn new() -> Self {
         Self {
@@ -213,7 +212,7 @@ where
         let dashpots = dashpots(law);
         for (index, &[first, second]) in pairs.iter().enumerate() {
             let nodes = [parts.nodes[first], parts.nodes[second]];
-            let element = scene.add_spring(law, nodes)?;
+            let element = law.add_spring(scene, nodes)?;
             if let Some(&temperature) = temperatures.get(index) {
                 scene.set_temperature(element, temperature);
             }
@@ -331,7 +330,7 @@ where
 
 impl<const D: usize> AnyScene for Built<D>
 where
-    Scene<D>: Springs + Solids<D>,
+    Scene<D>: Solids<D>,
     Simulation<D>: Gradients<D>,
 {
     fn parts(&self) -> &Parts {

@@ -9,7 +9,6 @@ use eem::typed::LawError;
 use eem::{Ensemble, MemberFailure, RunEnd, Scene, Scheme, Simulation, Tolerance};
 use eem_gradients::Gradients;
 use eem_solids::Solids;
-use eem_springs::Springs;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -54,7 +53,7 @@ impl Plan<'_> {
 
     fn run<const D: usize>(&self) -> Vec<Result<Rows, MemberFailure>>
     where
-        Scene<D>: Springs + Solids<D>,
+        Scene<D>: Solids<D>,
         Simulation<D>: Gradients<D>,
     {
         let ensemble = Ensemble::new(self.scheme, self.step).threads(self.threads);

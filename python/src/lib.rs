@@ -9,7 +9,7 @@
 //! | add a quantity that has derivatives, or an input they are by | `gradient.rs`, `python/eem/_gradient.py`; `sensitivities.rs`, `python/eem/_sensitivities.py` |
 //! | change what a study takes or tells | `study.rs`, `python/eem/_study.py` |
 //! | change exceptions | `error.rs`, `python/eem/_errors.py` |
-//! | compile springs and solids differently, or other shapes of them | `springs`, `solids` |
+//! | compile solids differently, or other shapes of them | `solids` |
 
 mod act;
 mod arguments;

@@ -3,7 +3,7 @@
 mod solids;
 
 use eem::prelude::*;
-use eem::typed::{Law, Source, Spring0, Spring8, ThermalSpring0, ThermalSpring1, ThermalSpring8};
+use eem::typed::{DampedSpring, Law, Source, Spring0, Spring8, ThermalSpring0, ThermalSpring1};
 
 use eem_testkit::length::at_length;
 
@@ -271,7 +271,7 @@ fn three_dashpots(model: &ThreeDashpots) -> Law {
 #[test]
 fn a_spring_with_room_for_more_dashpots_has_the_bits_of_the_derived_one() {
     let model = ThreeDashpots::DATA;
-    let typed: ThermalSpring8 = three_dashpots(&model).model().unwrap();
+    let typed: Spring8 = three_dashpots(&model).model().unwrap();
     let steps = (at_length(200, 30), 0.02);
     assert_same_bits([&single(model), &single(typed)], schemes(), steps);
 }
@@ -300,7 +300,7 @@ fn springs_with_a_dashpot_beside_have_the_bits_of_derived_ones() {
         source,
         [k, branch, beta, capacity, theta_ref, slow, fast]
     );
-    let typed: ThermalSpring8 = law.named("Both").unwrap().model().unwrap();
+    let typed: DampedSpring = law.named("Both").unwrap().model().unwrap();
     let derived = single(BOTH);
     assert_same_bits([&derived, &single(typed)], schemes_of(&derived), steps);
 
@@ -318,7 +318,7 @@ fn springs_with_a_dashpot_beside_have_the_bits_of_derived_ones() {
         Source::new("|lambda: Stretch| 0.5 * k * (lambda - 1).powi(2)").viscosity("lambda", "eta");
     let law = law!(model, source, [k, eta]).named("Isothermal").unwrap();
     let derived = swinging(&|scene, ends| scene.spring(model.clone(), ends));
-    let typed = swinging(&|scene, ends| scene.spring::<Spring8>(law.model().unwrap(), ends));
+    let typed = swinging(&|scene, ends| scene.spring::<DampedSpring>(law.model().unwrap(), ends));
     assert_same_bits([&derived, &typed], schemes_of(&derived), steps);
 }
 

@@ -6,13 +6,16 @@ use super::Scene;
 use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::Conductor;
 use crate::element::group::springs::{
-    ElasticSpring, NewGroup, Springs, ViscousSpring, WarmSpring, explicit, group_of,
+    Damped, Elastic, ManyDashpots, NewGroup, Springs, Viscous, Warm, explicit, group_of,
 };
 use crate::element::group::{LooseElements, identity};
 use crate::element::handle::{Element, HeatPartner, HeatPath, Kind, Node, Reservoir};
 use crate::element::kinematics::Stretch;
 use crate::scene::error::SceneError;
+use eem_material::formulas::Arrays;
 use eem_material::free_energy::Material;
+use eem_material::tabled::Tabled;
+use eem_material::with_room::WithRoom;
 
 impl<const D: usize> Scene<D> {
     /// An empty scene.
@@ -53,18 +56,40 @@ impl<const D: usize> Scene<D> {
             let node = nodes[0];
             self.refuse(SceneError::SelfSpring { element, node });
         }
+        let groups = Springs::get();
         // A branch that a constant rules out is not compiled.
-        let at = if const { ElasticSpring::is_for::<M>() } {
-            self.push_spring::<M, _>(element, ElasticSpring::new(model), Springs::get().elastic)
-        } else if const { WarmSpring::is_for::<M>() } {
-            self.push_spring::<M, _>(element, WarmSpring::new(model), Springs::get().warm)
-        } else if const { ViscousSpring::is_for::<M>() } {
-            self.push_spring::<M, _>(element, ViscousSpring::new(model), Springs::get().viscous)
+        let at = if const { Tabled::<Elastic>::is_for::<M>() } {
+            self.push_tabled::<M, Elastic, _>(element, model, groups.elastic)
+        } else if const { Tabled::<Warm>::is_for::<M>() } {
+            self.push_tabled::<M, Warm, _>(element, model, groups.warm)
+        } else if const { Tabled::<Viscous>::is_for::<M>() } {
+            self.push_tabled::<M, Viscous, _>(element, model, groups.viscous)
+        } else if const { Tabled::<Damped>::is_for::<M>() } {
+            self.push_tabled::<M, Damped, _>(element, model, groups.damped)
+        } else if const { Tabled::<ManyDashpots>::is_for::<M>() } {
+            self.push_tabled::<M, ManyDashpots, _>(element, model, groups.many_dashpots)
+        } else if const { WithRoom::<M, Damped>::FITS } {
+            let model = WithRoom::<M, Damped>::new(model);
+            self.push_tabled::<M, Damped, _>(element, model, groups.damped)
+        } else if const { WithRoom::<M, ManyDashpots>::FITS } {
+            let model = WithRoom::<M, ManyDashpots>::new(model);
+            self.push_tabled::<M, ManyDashpots, _>(element, model, groups.many_dashpots)
         } else {
             self.push_spring::<M, _>(element, model, group_of::<M, D>)
         };
         self.push_element(&nodes, at);
         element
+    }
+
+    /// Adds a spring of the material `M`, or of the same with room, behind its table.
+    fn push_tabled<M: Material, A: Arrays, R: Material>(
+        &mut self,
+        element: Element,
+        model: R,
+        new: NewGroup<D>,
+    ) -> [usize; 2] {
+        let model = Tabled::<A>::new::<R, [f64; 1]>(model);
+        self.push_spring::<M, _>(element, model, new)
     }
 
     /// Adds a spring of the material `M`, which may be behind the table `A`, to its group; returns the indices of group and place.

@@ -11,10 +11,12 @@ use crate::scene::check::check_position;
 use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
-use eem_material::free_energy::{FreeEnergy, Material};
+use eem_material::formulas::{Arrays, ArraysOf};
+use eem_material::free_energy::FreeEnergy;
 use eem_material::joint::components;
 use eem_material::number::scalar::is_positive;
 use eem_material::point_energy::PointEnergy;
+use eem_material::tabled::Tabled;
 use eem_mesh::{integrals, per_node};
 
 /// The properties of a quadrilateral besides its material and corners.
@@ -155,6 +157,13 @@ fn invalid_shear(element: Element, strain: &[[f64; 3]; 3], is_plane: bool) -> Op
 /// The measures of a material; an error that may already be recorded if a solid is invalid.
 type Measures<const N: usize, const D: usize> = Result<[Measure<D>; N], Option<SolidError>>;
 
+/// The arrays of a material of solids with N strains at a point.
+type SolidArrays<M, const N: usize> =
+    ArraysOf<PointEnergy<<M as StrainEnergy<N>>::AtPoint>, [f64; N], [f64; KEPT]>;
+
+/// The most values that a form of a solid keeps of the old state of a point; one that keeps more computes them again.
+const KEPT: usize = 48;
+
 /// Explicit schemes refuse scenes with solids.
 fn no_explicit<const D: usize>(_: Box<dyn Loose<D>>, _: Placed<'_>) -> Box<dyn ExplicitGroup<D>> {
     unreachable!("explicit schemes refuse solids")
@@ -182,7 +191,10 @@ impl<const D: usize> Scene<D> {
                 let parts = H::PerPoint::from_fn(|at| {
                     let point = cell.as_ref()[at];
                     let energy = PointEnergy::new(model.at_point(), point.volume());
-                    (energy, point)
+                    (
+                        Tabled::<SolidArrays<M, N>>::new::<_, [f64; N]>(energy),
+                        point,
+                    )
                 });
                 self.push_parts::<_, SolidPoint<H, N, D>>(first, parts)
             }
@@ -199,14 +211,16 @@ impl<const D: usize> Scene<D> {
     }
 
     /// Adds an element to the group of its material.
-    fn push_parts<M: Material, K: QuadraticStrain<D>>(
+    fn push_parts<A: Arrays, K: QuadraticStrain<D>>(
         &mut self,
         first: Element,
-        parts: Parts<M, K, D>,
+        parts: Parts<Tabled<A>, K, D>,
     ) -> (usize, usize) {
         let kind = identity(&parts.as_ref()[0].0);
-        let new = || -> Box<dyn Loose<D>> { Box::new(LooseElements::<M, K, D>::new(no_explicit)) };
-        let (group, set) = self.set_of::<LooseElements<M, K, D>>(kind, new);
+        let new = || -> Box<dyn Loose<D>> {
+            Box::new(LooseElements::<Tabled<A>, K, D>::new(no_explicit))
+        };
+        let (group, set) = self.set_of::<LooseElements<Tabled<A>, K, D>>(kind, new);
         let place = set.points();
         set.elements.push((first, parts));
         (group, place)

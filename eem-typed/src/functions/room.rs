@@ -1,7 +1,8 @@
-//! Programs of a law in the arrays of a type with room for more dashpots than the law has.
+//! Programs of a law in the arrays of a type with room for more variables than the law has.
 //!
 //! ```text
 //! (λ, γ₁ … γ_k, θ)  ↦  (λ, γ₁ … γ_k, unused …, θ)
+//! (λ, γ₁ … γ_k)     ↦  (λ, γ₁ … γ_k, unused …, unused)
 //! ```
 //!
 //! No value depends on an unused input, and unused results are 0, except viscosities and heat capacities, which are 1: what
@@ -36,7 +37,7 @@ enum Unused {
 impl Room {
     /// The room of a law of the shape `law` in a type with the shape `all`; `None` if the law fills it.
     pub(super) fn new(law: &Shape, all: &Shape) -> Option<Self> {
-        if law.dashpots == all.dashpots {
+        if law.variables() == all.variables() {
             return None;
         }
         let mechanical = law.variables() - usize::from(law.thermal);
@@ -44,7 +45,7 @@ impl Room {
         let with_room = |beyond: usize| {
             let used = (0..mechanical).map(Some);
             let unused = (0..room).map(|_| None);
-            let rest = (mechanical..mechanical + beyond).map(Some);
+            let rest = (mechanical..mechanical + beyond).map(|place| law.thermal.then_some(place));
             used.chain(unused).chain(rest).collect::<Places>()
         };
         let chain = |first: usize| {
@@ -52,12 +53,12 @@ impl Room {
             all.map(move |place| place.map(|place| first + place))
         };
         Some(Self {
-            state: with_room(usize::from(law.thermal)),
-            responses: with_room(2 * usize::from(law.thermal)),
+            state: with_room(usize::from(all.thermal)),
+            responses: with_room(2 * usize::from(all.thermal)),
             corners: if law.thermal {
                 chain(0).chain(chain(mechanical)).collect()
             } else {
-                Places::new()
+                vec![None; 2 * (all.variables() - 1) * usize::from(all.thermal)]
             },
             viscosities: (0..all.dashpots)
                 .map(|k| (k < law.dashpots).then_some(k))

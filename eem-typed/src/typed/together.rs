@@ -18,10 +18,11 @@ impl<const N: usize, const V: usize, const C: usize, const R: usize>
     }
 
     fn keep(&self, form: ExactForm, x0: &[[f64; N]], kept: &mut [&mut [f64]]) {
+        let (form, functions) = self.form(form);
         let mixed = self.mixed_states.as_ref();
         let mixed = mixed.filter(|_| form == ExactForm::Entropy);
         let mut start = 0;
-        for staged in [Some(&self.form(form).staged), mixed].into_iter().flatten() {
+        for staged in [Some(&functions.staged), mixed].into_iter().flatten() {
             let place = start..start + staged.old.results();
             start = place.end;
             let inputs = |element: usize| [&x0[element][..]];
@@ -35,7 +36,7 @@ impl<const N: usize, const V: usize, const C: usize, const R: usize>
         steps: Steps<'_, [f64; N], [f64; C]>,
         found: &mut [([f64; R], [[f64; N]; R])],
     ) {
-        let staged = &self.form(form).staged;
+        let (form, Form { staged, .. }) = self.form(form);
         let inputs = inputs_of(form, (0, &staged.old), steps);
         staged.new.run_rows(inputs, found, |(response, tangent)| {
             [&mut response[..], tangent.as_flattened_mut()]
@@ -48,7 +49,7 @@ impl<const N: usize, const V: usize, const C: usize, const R: usize>
         steps: Steps<'_, [f64; N], [f64; C]>,
         found: &mut [[f64; R]],
     ) {
-        let Form { staged, response } = self.form(form);
+        let (form, Form { staged, response }) = self.form(form);
         let inputs = inputs_of(form, (0, &staged.old), steps);
         response.run_rows(inputs, found, |response| [&mut response[..]]);
     }
@@ -65,7 +66,7 @@ impl<const N: usize, const V: usize, const C: usize, const R: usize>
 
     fn viscosity(&self, theta: &[f64], found: &mut [([f64; V], [f64; V])]) {
         if let Some(tape) = &self.viscosity {
-            let is_input = self.caloric.is_some();
+            let is_input = self.is_thermal();
             let inputs = |element: usize| {
                 let theta = slice::from_ref(&theta[element]);
                 [if is_input { theta } else { &[] }]
@@ -92,11 +93,12 @@ impl<const N: usize, const V: usize, const C: usize, const R: usize>
 }
 
 impl Functions {
-    /// A form. Without a temperature both are the same.
-    fn form(&self, form: ExactForm) -> &Form {
-        let in_temperature = self.temperature_form.as_ref();
-        let in_temperature = in_temperature.filter(|_| form == ExactForm::Temperature);
-        in_temperature.unwrap_or(&self.entropy_form)
+    /// A form. Without a temperature both are that of the entropy.
+    fn form(&self, form: ExactForm) -> (ExactForm, &Form) {
+        match &self.temperature_form {
+            Some(in_temperature) if form == ExactForm::Temperature => (form, in_temperature),
+            _ => (ExactForm::Entropy, &self.entropy_form),
+        }
     }
 }
 

@@ -12,7 +12,6 @@ use std::time::Instant;
 use eem::prelude::*;
 use eem::typed::{Law, Source, compile};
 use eem_solids::Solids;
-use eem_springs::Springs;
 
 /// The parameters of rubber with their units and values.
 const RUBBER: [(&str, &str, f64); 8] = [
@@ -46,7 +45,7 @@ fn pendulum(law: &Law) -> Result<(Scene<2>, Node, Element), Box<dyn Error>> {
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
-    let spring = scene.add_spring(law, [pivot, bob])?;
+    let spring = law.add_spring(&mut scene, [pivot, bob])?;
     scene.set_temperature(spring, 380.0);
     let air = scene.reservoir(300.0);
     scene.conduct(spring, air, 10.0);

@@ -1,5 +1,4 @@
-//! Solids of texts in two and three dimensions: the solver is compiled for each of their shapes here and nowhere else, as for
-//! springs in `eem-springs`.
+//! Solids of texts in two and three dimensions: the solver is compiled for each of their shapes here and nowhere else.
 
 use eem::kinematics::{Hex8, Quad4};
 use eem::typed::{Law, LawError, solid};

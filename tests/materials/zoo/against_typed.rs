@@ -1,11 +1,13 @@
 //! Materials of texts, and those behind tables, against derived ones: every function has the same bits.
 
 use eem::typed::{
-    Law, Source, Spring0, Spring8, ThermalSpring0, ThermalSpring1, ThermalSpring8, compile, solid,
+    DampedSpring, Law, Source, Spring0, Spring8, ThermalSpring0, ThermalSpring1, compile, solid,
 };
 use eem::{Array, FreeEnergy, Material};
+use eem_material::formulas::{Arrays, SpringArrays};
 use eem_material::free_energy::{ExactForm, MOST_TOGETHER, Steps};
 use eem_material::tabled::Tabled;
+use eem_material::with_room::WithRoom;
 
 use crate::zoo::families;
 use crate::zoo::states;
@@ -21,13 +23,14 @@ pub(crate) struct At {
 /// A function and the bits of its results.
 pub(crate) type Results = Vec<(&'static str, Vec<u64>)>;
 
-/// The places that a material uses of its arrays, some of which have room for more dashpots than it has.
+/// The places that a material uses of its arrays, some of which have room for more variables than it has.
 #[derive(Clone, Copy)]
 struct Used {
     measures: usize,
     dashpots: usize,
     room: usize,
     drags: usize,
+    is_thermal: bool,
 }
 
 impl Used {
@@ -37,13 +40,14 @@ impl Used {
             dashpots: model.dashpots(),
             room: M::DASHPOTS - model.dashpots(),
             drags: model.drags(),
+            is_thermal: model.is_thermal(),
         }
     }
 
     /// Of a state or a response.
     fn in_state(self) -> impl Fn(usize) -> bool + Copy {
         let beyond = self.measures + self.dashpots;
-        move |index| index < beyond || index >= beyond + self.room
+        move |index| index < beyond || self.is_thermal && index >= beyond + self.room
     }
 
     /// Of the mixed states, in two chains.
@@ -208,7 +212,7 @@ fn of_state<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
             vec![u64::from(model.has_constant_capacity())],
         ),
     ];
-    if M::THERMAL {
+    if model.is_thermal() {
         for new in 0..=M::MEASURES + model.dashpots() {
             let (found, psi) = model.caloric_between(&x0, &x1, new)(theta);
             let found = caloric(found).into_iter().chain([psi]);
@@ -236,7 +240,7 @@ fn of_step<M: FreeEnergy<f64>>(model: &M, at: &At) -> Results {
         ),
         ("entropy_form_response", flat(used.in_state(), &[alone])),
     ];
-    if M::THERMAL {
+    if model.is_thermal() {
         let mixed = model.mixed_states(&x0, &old, &x1, &corners);
         all.push(("mixed_states", flat(used.in_corners(), &mixed)));
     }
@@ -299,7 +303,7 @@ fn assert_same_together<M: FreeEnergy<f64>>(model: &M, at: &At) {
                     model.temperature_form(&model.temperature_form_old(x0), x1)
                 } else {
                     let old = model.entropy_form_old(x0);
-                    if M::THERMAL {
+                    if model.is_thermal() {
                         let one = model.mixed_states(x0, &old, x1, &corners);
                         assert_eq!(flat(all, &mixed[element]), flat(all, &one));
                     }
@@ -321,7 +325,7 @@ fn assert_same_together<M: FreeEnergy<f64>>(model: &M, at: &At) {
             let one = model.viscosity(theta);
             assert_eq!(flat(all, &[*eta, *slope]), flat(all, &[one.0, one.1]));
         }
-        if M::THERMAL {
+        if model.is_thermal() {
             let caloric_of = |x: &M::Variables| model.caloric_at(*x)(x[last]);
             let mut found = vec![caloric_of(&x0[0]); count];
             together.caloric_at(&x1, &mut found);
@@ -353,10 +357,10 @@ macro_rules! shapes {
 
 shapes! {
     Spring0,
-    Spring8,
     ThermalSpring0,
     ThermalSpring1,
-    ThermalSpring8,
+    DampedSpring,
+    Spring8,
     solid!(strains: 2),
     solid!(strains: 3),
     solid!(strains: 2, temperature: 1),
@@ -366,36 +370,31 @@ shapes! {
     solid!(strains: 2, invariants: 3, volume_flow: 1, dashpots: 1, temperature: 1),
 }
 
-/// The same of a material behind a table, if it fits.
-fn behind_table<
-    M: Material,
-    const N: usize,
-    const K: usize,
-    const C: usize,
-    const R: usize,
-    const O: usize,
->(
-    model: &M,
-    at: &At,
-) -> Option<Results> {
-    if !Tabled::<N, K, C, R, O>::is_for::<M>() {
+/// The same of a material behind a table, if it fits, or fits with room.
+fn behind_table<M: Material, A: Arrays>(model: &M, at: &At) -> Option<Results> {
+    let model = model.duplicate();
+    let tabled = if Tabled::<A>::is_for::<M>() {
+        Tabled::<A>::new::<_, [f64; 1]>(model)
+    } else if WithRoom::<M, A>::FITS && A::Drag::LEN > 0 {
+        Tabled::<A>::new::<_, [f64; 1]>(WithRoom::<M, A>::new(model))
+    } else {
         return None;
-    }
-    let tabled = Tabled::<N, K, C, R, O>::new(model.duplicate());
+    };
     assert!(tabled.as_any().is::<M>());
-    assert_eq!(tabled.model(), model.model());
     Some(everything(&tabled.duplicate(), at))
 }
 
 /// The same behind each table, with room for what forms keep of the old state, and without.
 pub(crate) fn behind_tables<M: Material>(model: &M, at: &At) -> Vec<Results> {
     let all = [
-        behind_table::<M, 1, 0, 0, 1, 8>,
-        behind_table::<M, 1, 0, 0, 1, 1>,
-        behind_table::<M, 2, 0, 2, 3, 24>,
-        behind_table::<M, 2, 0, 2, 3, 2>,
-        behind_table::<M, 3, 1, 4, 4, 40>,
-        behind_table::<M, 3, 1, 4, 4, 3>,
+        behind_table::<M, SpringArrays<1, 0, 0, 0, 1, 8>>,
+        behind_table::<M, SpringArrays<1, 0, 0, 0, 1, 1>>,
+        behind_table::<M, SpringArrays<2, 0, 0, 2, 3, 24>>,
+        behind_table::<M, SpringArrays<2, 0, 0, 2, 3, 2>>,
+        behind_table::<M, SpringArrays<3, 1, 0, 4, 4, 40>>,
+        behind_table::<M, SpringArrays<3, 1, 0, 4, 4, 3>>,
+        behind_table::<M, SpringArrays<4, 2, 1, 6, 5, 32>>,
+        behind_table::<M, SpringArrays<10, 8, 1, 18, 11, 32>>,
     ];
     all.iter()
         .filter_map(|behind_table| behind_table(model, at))

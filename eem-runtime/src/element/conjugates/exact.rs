@@ -38,10 +38,11 @@ pub(crate) fn exchanged<M: FreeEnergy<f64>>(corners: &M::Corners) -> M::Corners 
 /// Rejects an unstable trial of an exact scheme, by `∂Δs/∂θ¹ = C/θ¹` in its form.
 #[inline]
 pub(crate) fn check_stable<M: FreeEnergy<f64>>(
+    model: &M,
     x: &M::Variables,
     form: &Form<f64, M>,
 ) -> Result<(), Infeasible> {
-    if !M::THERMAL {
+    if !model.is_thermal() {
         return Ok(());
     }
     let last = M::Variables::LEN - 1;

@@ -122,7 +122,7 @@ fn respond<M: FreeEnergy<f64>>(
             tangent.as_mut()[row].as_mut()[column] = sign * by(column) * entry;
         }
     }
-    if M::THERMAL {
+    if model.is_thermal() {
         let last = variables - 1;
         response.as_mut()[last] = x.as_ref()[last];
         tangent.as_mut()[last].as_mut()[last] = 1.0;

@@ -105,7 +105,9 @@ impl<M: FreeEnergy<f64>> Start<M> {
         corners: &mut M::Corners,
     ) -> Result<(), Infeasible> {
         match &self.old {
-            Kept::Entropy(old) if M::THERMAL => find_corners((model, [&self.x0, x]), old, corners),
+            Kept::Entropy(old) if model.is_thermal() => {
+                find_corners((model, [&self.x0, x]), old, corners)
+            }
             _ => Ok(()),
         }
     }

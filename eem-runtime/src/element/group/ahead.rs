@@ -124,7 +124,7 @@ impl<M: Material> Ahead<M> {
         }
         let (x1, kept) = (&self.x[..count], &kept[..count]);
         let corners = &mut self.corners[..count];
-        if M::THERMAL && form == ExactForm::Entropy {
+        if members[0].only().is_thermal() && form == ExactForm::Entropy {
             let ends = |index: usize| {
                 let point = members[index].only();
                 (&point.model, [&point.start.x0, &x1[index]])
@@ -175,7 +175,8 @@ impl<M: Material> Ahead<M> {
         members: &[Member<M, K, D>],
         (old, next): (&State, &mut State),
     ) -> bool {
-        let Some(together) = together(members) else {
+        let thermal = together(members).filter(|_| members[0].only().is_thermal());
+        let Some(together) = thermal else {
             return false;
         };
         let count = members.len();

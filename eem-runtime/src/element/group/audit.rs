@@ -49,7 +49,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 value: *value,
             });
         }
-        let theta = if M::THERMAL {
+        let theta = if self.is_thermal() {
             x[Self::TEMPERATURE]
         } else {
             0.0
@@ -65,7 +65,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 dashpot,
                 value: *eta,
                 unit: Q::VISCOSITY_UNIT,
-                temperature: M::THERMAL.then_some(theta),
+                temperature: self.is_thermal().then_some(theta),
             }),
         }
     }

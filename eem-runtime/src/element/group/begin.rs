@@ -177,7 +177,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         if let Some(at_point) = &mut self.single {
             (at_point.old_rates, at_point.old_power) = (rates, old_power);
         }
-        if M::THERMAL && self.scheme.is_in_temperature() {
+        if self.is_thermal() && self.scheme.is_in_temperature() {
             self.find_old_heating(speeds, heat / theta);
         }
         Ok(gradient)

@@ -186,7 +186,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         for row in 0..M::MEASURES + self.dashpots() {
             sum += self.magnitude_of_row(row, sizes) * self.increment_of(row).abs();
         }
-        if M::THERMAL {
+        if self.is_thermal() {
             let change = self.response[Self::ENTROPY];
             sum += self.magnitude_of_row(Self::TEMPERATURE, sizes) * change.abs();
         }
@@ -230,7 +230,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 }
             }
         }
-        if !M::THERMAL {
+        if !self.is_thermal() {
             return;
         }
         let theta = self.temperature();

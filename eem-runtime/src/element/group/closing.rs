@@ -100,7 +100,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
                 tally.force(forces);
                 tally.exchange(view.step * largest);
                 let energy = &mut next.energies[point.element.index()];
-                energy.add_secants(at_end, M::THERMAL);
+                energy.add_secants(at_end, point.is_thermal());
                 let terms = [energy.magnitude + forces, energy.heat_capacity];
                 let outside = (paths, &trial.interface);
                 point.judge::<C>(view, outside, &sizes[1], (received, terms), tally);
@@ -194,7 +194,11 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let h = view.thermal_step();
         let share = C::implicit(self.scheme) * h;
         let theta = self.conducting_temperature::<C>(&self.response);
-        let per_theta = if M::THERMAL { theta.recip() } else { 1.0 };
+        let per_theta = if self.is_thermal() {
+            theta.recip()
+        } else {
+            1.0
+        };
         let mut dissipated = self.book_drag(per_theta, tally);
         if self.drags() > 0 {
             let drag = view.state.viscous.values().len() + self.element.index();

@@ -1,6 +1,5 @@
 //! Responses of a point as functions of its measures and of the heat that it receives.
 
-use super::eliminate::has_unknown;
 use super::point::Point;
 use crate::element::conjugates::{Family, Form};
 use crate::element::kinematics::{MeasureSet, Numbers};
@@ -30,7 +29,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             condensed.by_measure[a] = tangent[row][a];
         }
         for u in 0..Self::UNKNOWNS {
-            if !has_unknown::<M>(u, self.dashpots()) {
+            if !self.own_unknowns().has::<M>(u) {
                 continue;
             }
             let by_unknown = tangent[row][M::MEASURES + u];

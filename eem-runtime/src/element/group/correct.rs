@@ -1,7 +1,6 @@
 //! From the solution of the global system to the internal variables of the elements.
 
 use super::arms::along;
-use super::eliminate::has_unknown;
 use super::placed::PlacedPoint;
 use super::point::Point;
 use super::share::run;
@@ -23,7 +22,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     ) -> f64 {
         let changes = Self::rates_along(&self.sensitivity, motion);
         let mut heat = 0.0;
-        if M::THERMAL
+        if self.is_thermal()
             && let Some(contact) = contact
         {
             heat = self.condensed.heat_factor * contact.heat(solution);
@@ -52,7 +51,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             self.correction[a] = changes[a];
         }
         for u in 0..Self::UNKNOWNS {
-            if !has_unknown::<M>(u, self.dashpots()) {
+            if !self.own_unknowns().has::<M>(u) {
                 continue;
             }
             let mut change = self.condensed.constant.get(u);
@@ -65,7 +64,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             self.correction[M::MEASURES + u] = -change;
         }
         self.remember();
-        if M::THERMAL {
+        if self.is_thermal() {
             let (change, correction) = (self.response[Self::ENTROPY], self.correction);
             if let Some(at_point) = self.single_mut::<C>() {
                 at_point.previous_entropy_change = change;
@@ -88,7 +87,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             let scaled = self.correction[index] / unit;
             largest = Scalar::maximum(largest, scaled.abs());
         }
-        if M::THERMAL {
+        if self.is_thermal() {
             let scaled = self.correction[Self::TEMPERATURE] / self.x[Self::TEMPERATURE];
             largest = Scalar::maximum(largest, scaled.abs());
         }

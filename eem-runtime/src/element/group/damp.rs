@@ -173,7 +173,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn conducting_temperature<C: Family>(&self, response: &M::Response) -> f64 {
         let theta = temperature_in::<M>(response);
-        if !M::THERMAL {
+        if !self.is_thermal() {
             return theta;
         }
         let change = response[Self::ENTROPY];
@@ -207,7 +207,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         &self,
         response: &M::Response,
     ) -> Result<(), StateError> {
-        if !M::THERMAL || !C::is_damped(self.scheme) {
+        if !self.is_thermal() || !C::is_damped(self.scheme) {
             return Ok(());
         }
         check_temperature(self.element, self.conducting_temperature::<C>(response))

@@ -19,10 +19,10 @@ use crate::element::conjugates::{Any, Exact, Family, OneSet, Placement};
 use crate::element::error::StateError;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Kinematics, Points, QuadraticStrain};
+use crate::element::kinematics::{Kinematics, MeasureSet, Points, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tally::{Reevaluation, Tally};
-use eem_material::free_energy::Material;
+use eem_material::free_energy::{Array, Material};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
@@ -41,13 +41,16 @@ pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, const D: usize> {
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+    /// Whether several elements may be evaluated in one call.
+    const MAY_BE_TOGETHER: bool = M::MAY_BE_TOGETHER && K::Measures::IS_SPRING;
+
     pub(crate) fn new(scheme: OneSet, loose: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
         // A loop: collected, it takes four times the code.
         let mut members = Vec::with_capacity(loose.elements.len());
         for parts in loose.elements {
             members.push(Member::new(scheme, parts, placed));
         }
-        let ahead = if const { M::MAY_BE_TOGETHER } {
+        let ahead = if const { Self::MAY_BE_TOGETHER } {
             Ahead::new(&members)
         } else {
             None
@@ -90,11 +93,15 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
 
 /// The functions of a step, for a family of schemes.
 impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+    /// Whether the functions of exact schemes are compiled apart from those of all schemes. Not if a dashpot may act in parallel: then
+    /// the variables of a point are found out at run time, which takes more.
+    const IS_SEPARATE: bool = M::Drag::LEN == 0;
+
     /// Whether the loops are those for elements that are evaluated together. For the family of any scheme there are no others
     /// if the material may be evaluated so: one copy is compiled, a little slower.
     #[inline]
     fn is_together<C: Family>(&self) -> bool {
-        M::MAY_BE_TOGETHER && (!C::IS_EXACT || self.ahead.is_some())
+        Self::MAY_BE_TOGETHER && (!C::IS_EXACT || self.ahead.is_some())
     }
 
     fn begin_as<C: Family>(
@@ -109,7 +116,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
                 member.keep(view);
             }
         }
-        if const { M::MAY_BE_TOGETHER } && is_together {
+        if const { Self::MAY_BE_TOGETHER } && is_together {
             return self.keep_together(view);
         }
         Ok(())
@@ -121,7 +128,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         trial: &Trial<D>,
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        if const { M::MAY_BE_TOGETHER } && self.is_together::<C>() {
+        if const { Self::MAY_BE_TOGETHER } && self.is_together::<C>() {
             return match system {
                 Some(system) => self.linearize_together::<C>(view, trial, system),
                 None => self.respond_together::<C>(view, trial),
@@ -200,7 +207,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        if const { M::MAY_BE_TOGETHER } && self.is_together::<C>() {
+        if const { Self::MAY_BE_TOGETHER } && self.is_together::<C>() {
             return self.close_together::<C>(view, trial, next, tally);
         }
         for member in &mut self.members {
@@ -243,9 +250,10 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
 
     fn begin(&mut self, view: &StepView<'_>, old: &mut Old<'_, D>) -> Result<(), StateError> {
         self.by_factors = old.by_factors;
-        match self.scheme {
-            OneSet::Exact(_) => self.begin_as::<Exact>(view, old),
-            OneSet::Damped | OneSet::Point(_) => self.begin_as::<Any>(view, old),
+        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_)) {
+            self.begin_as::<Exact>(view, old)
+        } else {
+            self.begin_as::<Any>(view, old)
         }
     }
 
@@ -255,16 +263,18 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
         trial: &Trial<D>,
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        match self.scheme {
-            OneSet::Exact(_) => self.evaluate_as::<Exact>(view, trial, system),
-            OneSet::Damped | OneSet::Point(_) => self.evaluate_as::<Any>(view, trial, system),
+        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_)) {
+            self.evaluate_as::<Exact>(view, trial, system)
+        } else {
+            self.evaluate_as::<Any>(view, trial, system)
         }
     }
 
     fn correct(&mut self, solution: &[[f64; 1]]) -> f64 {
-        match self.scheme {
-            OneSet::Exact(_) | OneSet::Damped => self.correct_as::<Exact>(solution),
-            OneSet::Point(_) => self.correct_as::<Any>(solution),
+        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_) | OneSet::Damped) {
+            self.correct_as::<Exact>(solution)
+        } else {
+            self.correct_as::<Any>(solution)
         }
     }
 
@@ -292,13 +302,10 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
         impulses: &mut Impulses<'_, D>,
         magnitudes: &mut [f64],
     ) {
-        match self.scheme {
-            OneSet::Exact(_) => {
-                self.add_impulse_as::<Exact>(view, trial, along, impulses, magnitudes);
-            }
-            OneSet::Damped | OneSet::Point(_) => {
-                self.add_impulse_as::<Any>(view, trial, along, impulses, magnitudes);
-            }
+        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_)) {
+            self.add_impulse_as::<Exact>(view, trial, along, impulses, magnitudes);
+        } else {
+            self.add_impulse_as::<Any>(view, trial, along, impulses, magnitudes);
         }
     }
 
@@ -309,9 +316,10 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        match self.scheme {
-            OneSet::Exact(_) => self.close_as::<Exact>(view, trial, next, tally),
-            OneSet::Damped | OneSet::Point(_) => self.close_as::<Any>(view, trial, next, tally),
+        if const { Self::IS_SEPARATE } && matches!(self.scheme, OneSet::Exact(_)) {
+            self.close_as::<Exact>(view, trial, next, tally)
+        } else {
+            self.close_as::<Any>(view, trial, next, tally)
         }
     }
 

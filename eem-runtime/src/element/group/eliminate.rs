@@ -89,18 +89,34 @@ impl<M: FreeEnergy<f64>> LocalSystem<M> {
     }
 }
 
-/// Whether this is one of the local unknowns of a point with so many dashpots in series.
-#[inline]
-pub(super) const fn has_unknown<M: FreeEnergy<f64>>(unknown: usize, dashpots: usize) -> bool {
-    unknown < dashpots || unknown >= M::DASHPOTS
+/// Which local unknowns a point has, of those that its type may have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unknowns {
+    dashpots: usize,
+    is_thermal: bool,
 }
 
-/// Gauss–Jordan elimination with partial pivoting, with the number of dashpots in series.
+impl Unknowns {
+    #[inline]
+    pub(super) fn of<M: FreeEnergy<f64>>(model: &M) -> Self {
+        Self {
+            dashpots: model.dashpots(),
+            is_thermal: model.is_thermal(),
+        }
+    }
+
+    #[inline]
+    pub(super) const fn has<M: FreeEnergy<f64>>(self, unknown: usize) -> bool {
+        unknown < self.dashpots || self.is_thermal && unknown >= M::DASHPOTS
+    }
+}
+
+/// Gauss–Jordan elimination with partial pivoting.
 #[expect(clippy::inline_always, reason = "a few numbers in registers")]
 #[inline(always)]
 pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
     system: &mut LocalSystem<M>,
-    dashpots: usize,
+    own: Unknowns,
 ) -> Result<(), Singular> {
     let LocalSystem {
         constant,
@@ -114,12 +130,12 @@ pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
         units[unknowns - 1] = unit[1];
     }
     for k in 0..unknowns {
-        if !has_unknown::<M>(k, dashpots) {
+        if !own.has::<M>(k) {
             continue;
         }
         let at = M::MEASURES + k;
         for row in k + 1..unknowns {
-            if !has_unknown::<M>(row, dashpots) {
+            if !own.has::<M>(row) {
                 continue;
             }
             let size = |row: usize| (units[row] * rows[row][at]).abs();
@@ -145,7 +161,7 @@ pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
             by_heat[k] *= inverse;
         }
         for row in (0..unknowns).filter(|&row| row != k) {
-            if !has_unknown::<M>(row, dashpots) {
+            if !own.has::<M>(row) {
                 continue;
             }
             let factor = rows[row][at];

@@ -167,7 +167,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
             let by_rate = point.extend::<C>(&pose, &arms.motion);
             // Used in place: copies would cost a good part of the time.
             let mut form = known.map_or_else(|| point.form::<C>(trial.is_start), |form| *form);
-            if M::THERMAL && C::is_in_temperature(point.scheme) {
+            if point.is_thermal() && C::is_in_temperature(point.scheme) {
                 point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
             }
             point.accept::<C>(view.per_step, &form, known.is_some())?;

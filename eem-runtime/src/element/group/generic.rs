@@ -23,7 +23,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         for index in 0..M::MEASURES + self.dashpots() {
             self.point.response[index] = Point::<M, K::Measures>::sign(index) * gradient[index];
         }
-        if M::THERMAL {
+        if self.is_thermal() {
             self.point.response[M::MEASURES + M::DASHPOTS] = theta;
         }
     }

@@ -81,7 +81,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         for a in 0..self.drags() {
             elastic[a] = response[a];
             response[a] += self.drag.force[a];
-            if M::THERMAL {
+            if self.is_thermal() {
                 let thinning = self.thinning::<C>(a, per_step);
                 for column in 0..Self::VARIABLES {
                     let by_theta = tangent[Self::TEMPERATURE][column];
@@ -121,7 +121,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             let rate = self.extension_rate::<C>(a, view.per_step);
             let force = self.drag.force[a];
             dissipation.power += force * rate;
-            if M::THERMAL {
+            if self.is_thermal() {
                 let thinning = rate * self.thinning::<C>(a, view.per_step);
                 for column in 0..Self::VARIABLES {
                     let by_theta = tangent[Self::TEMPERATURE][column];
@@ -298,7 +298,7 @@ pub(super) fn check_drag<M: FreeEnergy<f64>, Q: MeasureSet>(
         Some(eta) => Err(WrongDrag {
             value: *eta,
             unit: Q::VISCOSITY_UNIT,
-            temperature: M::THERMAL.then_some(theta),
+            temperature: model.is_thermal().then_some(theta),
         }),
     }
 }

@@ -11,7 +11,7 @@
 //! unknowns `u = (Δγ…, τ)` occur in no other element, since elements in contact are coupled by the global unknown Θ =
 //! θ*. So their corrections are eliminated here.
 
-use super::eliminate::{LocalSystem, eliminate, has_unknown};
+use super::eliminate::{LocalSystem, eliminate};
 use super::point::Point;
 use super::site::HeatPath;
 use crate::algebra::lu::Singular;
@@ -54,9 +54,9 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         self.balances::<C, true>(view, &flow, form, &mut system);
         let depends_on_heat = self.depends_on_heat::<C>(paths.is_some());
         let solved = if depends_on_heat {
-            eliminate::<M, true>(&mut system, self.dashpots())
+            eliminate::<M, true>(&mut system, self.own_unknowns())
         } else {
-            eliminate::<M, false>(&mut system, self.dashpots())
+            eliminate::<M, false>(&mut system, self.own_unknowns())
         };
         solved.map_err(|singular| self.unsolved(singular))?;
         self.keep_solved(&system, depends_on_heat);
@@ -91,7 +91,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         }
         self.dissipate_by_drag::<C>(view, form, &mut dissipation);
         self.dissipate_by_damping::<C>(view, &mut dissipation);
-        if M::THERMAL {
+        if self.is_thermal() {
             let row = M::DASHPOTS;
             if self.is_prescribed {
                 // r_s = τ − τ_prescribed, which is zero from the start.
@@ -108,7 +108,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn keep_solved(&mut self, system: &LocalSystem<M>, depends_on_heat: bool) {
         for u in 0..Self::UNKNOWNS {
-            if !has_unknown::<M>(u, self.dashpots()) {
+            if !self.own_unknowns().has::<M>(u) {
                 continue;
             }
             self.condensed.constant.set(u, system.constant[u]);
@@ -134,7 +134,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Whether `r_s` depends on global unknowns other than through the measures.
     #[inline]
     pub(super) fn depends_on_heat<C: Family>(&self, is_coupled: bool) -> bool {
-        C::is_in_temperature(self.scheme) || (M::THERMAL && (is_coupled || self.has_rates::<C>()))
+        C::is_in_temperature(self.scheme)
+            || (self.is_thermal() && (is_coupled || self.has_rates::<C>()))
     }
 
     /// The heat received by conduction.
@@ -206,7 +207,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         let per_creep = eta * view.per_step;
         for column in 0..Self::VARIABLES {
             // The derivative of η γ̇ through the temperature.
-            let thinning = if M::THERMAL {
+            let thinning = if self.is_thermal() {
                 rate * self.viscosities.1[k] * tangent[Self::TEMPERATURE][column]
             } else {
                 0.0
@@ -243,7 +244,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         let thinning = rate * self.viscosities.1[k];
         for column in 0..Self::VARIABLES {
             let by = tangent[index][column];
-            let driving = if M::THERMAL {
+            let driving = if self.is_thermal() {
                 by - thinning * tangent[Self::TEMPERATURE][column]
             } else {
                 by

@@ -50,10 +50,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
         let model = self.model();
         Shape {
             dashpots: model.map_or(0, M::dashpots),
-            thermal: M::THERMAL,
+            thermal: model.map_or(M::THERMAL, M::is_thermal),
             drag: model.map_or(0, M::drags) > 0,
             is_spring: K::Measures::IS_SPRING,
-            viscous_strain: M::VISCOUS_STRAIN,
+            viscous_strain: model.map_or(0, M::viscous_strain),
             viscous_unit: K::Measures::VISCOUS_UNIT,
         }
     }

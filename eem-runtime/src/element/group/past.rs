@@ -106,7 +106,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let corners = exchanged::<M>(&self.corners);
         let (_, mut tangent) =
             start.form::<Exact>(self.scheme, &self.model, &self.start.x0, &corners);
-        if M::THERMAL {
+        if self.is_thermal() {
             for slope in tangent[Self::ENTROPY].as_mut() {
                 *slope = -*slope;
             }

@@ -158,7 +158,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             self.point.response = form.0;
             return Ok(());
         }
-        if M::THERMAL && C::is_in_temperature(self.scheme) {
+        if self.is_thermal() && C::is_in_temperature(self.scheme) {
             let mut form = self.form::<C>(trial.is_start);
             let pose = self.pose::<C>(arms, &measures);
             self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);

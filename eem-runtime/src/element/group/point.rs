@@ -3,7 +3,7 @@
 
 use super::arms::measures_in;
 use super::damping::Damping;
-use super::eliminate::{Condensed, PerUnknown, has_unknown};
+use super::eliminate::{Condensed, PerUnknown, Unknowns};
 use crate::element::conjugates::{Family, Form, OneSet, Placement, Start};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
@@ -177,11 +177,23 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         self.model.drags()
     }
 
+    /// Whether it has a temperature.
+    #[inline]
+    pub(super) fn is_thermal(&self) -> bool {
+        self.model.is_thermal()
+    }
+
     /// The variables that are eliminated, from zero: the viscous stretches, and the temperature after the last that there may be.
     #[inline]
     pub(super) fn unknowns(&self) -> impl Iterator<Item = usize> + use<M, Q> {
-        let dashpots = self.dashpots();
-        (0..Self::UNKNOWNS).filter(move |&u| has_unknown::<M>(u, dashpots))
+        let own = self.own_unknowns();
+        (0..Self::UNKNOWNS).filter(move |&u| own.has::<M>(u))
+    }
+
+    /// Which of [`UNKNOWNS`](Self::UNKNOWNS) it has.
+    #[inline]
+    pub(super) fn own_unknowns(&self) -> Unknowns {
+        Unknowns::of(&self.model)
     }
 
     /// The state indices of its internal variables.
@@ -189,7 +201,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     pub(super) fn slots(&self) -> Slots {
         Slots {
             viscous: self.viscous as usize,
-            thermal: M::THERMAL.then_some(self.slot as usize),
+            thermal: self.is_thermal().then_some(self.slot as usize),
         }
     }
 
@@ -228,7 +240,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Its contact, if it conducts heat to other elements.
     #[inline]
     pub(super) fn contact_in<'a, T>(&self, contacts: &'a [T]) -> Option<&'a T> {
-        if M::THERMAL {
+        if self.is_thermal() {
             contacts.get(self.contact as usize)
         } else {
             None
@@ -242,7 +254,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         for row in 0..Self::VARIABLES {
             self.slopes[row] = tangent[row];
         }
-        if M::THERMAL
+        if self.is_thermal()
             && let Some(at_point) = self.single_mut::<C>()
         {
             at_point.entropy_by = tangent[Self::ENTROPY];
@@ -308,7 +320,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
                 dashpot,
                 value: viscosities[dashpot],
                 unit: Q::VISCOSITY_UNIT,
-                temperature: M::THERMAL.then_some(theta),
+                temperature: self.is_thermal().then_some(theta),
             }),
         }
     }
@@ -330,7 +342,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         for k in 0..self.dashpots() {
             self.previous.set(k, self.creep[k]);
         }
-        if M::THERMAL {
+        if self.is_thermal() {
             self.previous.set(M::DASHPOTS, self.x[Self::TEMPERATURE]);
         }
     }
@@ -344,7 +356,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             self.creep[k] = self.previous.get(k) + share * self.correction[index];
             self.x[index] = self.start.x0[index] + self.creep[k];
         }
-        if M::THERMAL {
+        if self.is_thermal() {
             let change = share * self.correction[Self::TEMPERATURE];
             let previous = self.previous.get(M::DASHPOTS);
             self.x[Self::TEMPERATURE] = if by_factors || !C::is_exact(self.scheme) {

@@ -74,7 +74,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     ) -> Result<Energy, StateError> {
         let psi = self.model.free_energy(x);
         self.unless_infinite(psi)?;
-        if !M::THERMAL {
+        if !self.is_thermal() {
             return Ok(Energy::without_temperature(psi));
         }
         let theta = x[Self::TEMPERATURE];

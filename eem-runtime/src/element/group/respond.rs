@@ -34,7 +34,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
-        if M::THERMAL
+        if self.is_thermal()
             && let Some(at_point) = self.single::<C>()
             && !self.scheme.is_in_temperature()
             && !self.is_prescribed
@@ -78,7 +78,8 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         is_known: bool,
     ) -> Result<(), StateError> {
         if C::is_exact(self.scheme) {
-            check_stable::<M>(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
+            check_stable(&self.model, &self.x, form)
+                .map_err(|infeasible| infeasible.of(self.element))?;
         }
         self.accept_response::<C>(per_step, &form.0, is_known)
     }
@@ -94,7 +95,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         response: &M::Response,
         is_known: bool,
     ) -> Result<(), StateError> {
-        check_response::<M>(self.element, response)?;
+        check_response::<M>(self.element, self.is_thermal(), response)?;
         self.check_conducting::<C>(response)?;
         self.find_drag::<C>(per_step, response)?;
         self.find_damping::<C>()?;
@@ -131,7 +132,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 let change = self.x[index] - old[index];
                 increments[index] = change - step * at_point.old_rates[index];
             }
-            if M::THERMAL {
+            if self.is_thermal() {
                 let change = self.new_temperature(old[last]) - old[last];
                 increments[last] = change - step * at_point.old_heating;
             }
@@ -144,9 +145,10 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 #[inline]
 fn check_response<M: FreeEnergy<f64>>(
     element: Element,
+    is_thermal: bool,
     response: &M::Response,
 ) -> Result<(), StateError> {
-    if M::THERMAL {
+    if is_thermal {
         check_temperature(element, response[M::MEASURES + M::DASHPOTS])?;
     }
     // Zero for finite numbers, NaN for others.

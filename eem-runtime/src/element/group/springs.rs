@@ -8,17 +8,24 @@ use super::interface::{ExplicitGroup, Loose};
 use super::loose::{LooseElements, MakeExplicit};
 use super::view::Placed;
 use crate::element::kinematics::Stretch;
+use eem_material::formulas::SpringArrays;
 use eem_material::free_energy::Material;
 use eem_material::tabled::Tabled;
 
-/// Without temperature and dashpots.
-pub(crate) type ElasticSpring = Tabled<1, 0, 0, 1, 4>;
+/// Arrays of springs without temperature and dashpots.
+pub(crate) type Elastic = SpringArrays<1, 0, 0, 0, 1, 4>;
 
 /// With a temperature and without dashpots.
-pub(crate) type WarmSpring = Tabled<2, 0, 2, 3, 16>;
+pub(crate) type Warm = SpringArrays<2, 0, 0, 2, 3, 16>;
 
 /// With a temperature and a dashpot in series.
-pub(crate) type ViscousSpring = Tabled<3, 1, 4, 4, 24>;
+pub(crate) type Viscous = SpringArrays<3, 1, 0, 4, 4, 24>;
+
+/// With room for a temperature, two dashpots in series and one in parallel.
+pub(crate) type Damped = SpringArrays<4, 2, 1, 6, 5, 32>;
+
+/// With room for a temperature, eight dashpots in series and one in parallel.
+pub(crate) type ManyDashpots = SpringArrays<10, 8, 1, 18, 11, 32>;
 
 /// Makes a group without elements.
 pub(crate) type NewGroup<const D: usize> = fn(MakeExplicit<D>) -> Box<dyn Loose<D>>;
@@ -28,6 +35,8 @@ pub(crate) struct Springs<const D: usize> {
     pub(crate) elastic: NewGroup<D>,
     pub(crate) warm: NewGroup<D>,
     pub(crate) viscous: NewGroup<D>,
+    pub(crate) damped: NewGroup<D>,
+    pub(crate) many_dashpots: NewGroup<D>,
 }
 
 #[cfg(not(test))]
@@ -47,9 +56,11 @@ pub(crate) fn group_of<M: Material, const D: usize>(
 impl<const D: usize> Springs<D> {
     /// Compiled where they are used.
     const HERE: Self = Self {
-        elastic: group_of::<ElasticSpring, D>,
-        warm: group_of::<WarmSpring, D>,
-        viscous: group_of::<ViscousSpring, D>,
+        elastic: group_of::<Tabled<Elastic>, D>,
+        warm: group_of::<Tabled<Warm>, D>,
+        viscous: group_of::<Tabled<Viscous>, D>,
+        damped: group_of::<Tabled<Damped>, D>,
+        many_dashpots: group_of::<Tabled<ManyDashpots>, D>,
     };
 
     /// Those of this crate if it has them. A branch that a constant rules out is not compiled.

@@ -57,7 +57,7 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, Q: MeasureSet>(
             let mut entry = hessian[a][b];
             force += slopes[a] * (entry.abs() * sizes[b]);
             isothermal += slopes[a] * entry.abs() * slopes[b];
-            if M::THERMAL {
+            if model.is_thermal() {
                 entry -= hessian[last][a] * hessian[last][b] / hessian[last][last];
             }
             along += slopes[a] * entry.abs() * slopes[b];
@@ -70,7 +70,7 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, Q: MeasureSet>(
         let own = (M::MEASURES..last).fold(0.0, |sum, k| sum + (row[k] * x[k]).abs());
         pull = [(pull[0], by_nodes), (pull[1], own)].map(|(a, b)| Scalar::maximum(a, b));
     }
-    let theta = if M::THERMAL { x[last] } else { 0.0 };
+    let theta = if model.is_thermal() { x[last] } else { 0.0 };
     let capacity = slots
         .thermal
         .map(|slot| (slot, -theta * hessian[last][last]));

@@ -146,7 +146,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         energy.add_forces(self.work_of(&found.rates.forces, r, &x));
         let theta = found.theta;
         energy.add_values(found.values.update(energy.terms, || {
-            if M::THERMAL {
+            if self.is_thermal() {
                 x[Self::TEMPERATURE] = theta;
             }
             self.model.energy_magnitude(&x)

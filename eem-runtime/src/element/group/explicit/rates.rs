@@ -92,7 +92,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         for k in 0..self.model.dashpots() {
             x[M::MEASURES + k] = stage.inner[self.slots().viscous + k].now;
         }
-        if M::THERMAL {
+        if self.is_thermal() {
             x[Self::TEMPERATURE] = theta;
         }
         x
@@ -141,7 +141,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             None => 0.0,
         };
         let (mut heat, mut is_sound) = (flow, true);
-        let per_theta = if M::THERMAL && M::DASHPOTS > 0 {
+        let per_theta = if self.is_thermal() && M::DASHPOTS > 0 {
             found.theta.recip()
         } else {
             1.0
@@ -159,7 +159,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             drift += slopes[M::MEASURES + k] * creep;
             is_sound &= found.viscosities[k] > 0.0;
             // With temperature, θ̇ contains the heat of the dashpot and is checked itself.
-            is_sound &= M::THERMAL || is_number(creep);
+            is_sound &= self.is_thermal() || is_number(creep);
         }
         let Some(slot) = self.slots().thermal else {
             return is_sound && is_number(power);
@@ -185,11 +185,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         }
         let found = self.found_at(r, &measures, stage);
         let theta = found.theta;
-        if M::THERMAL && !is_positive(theta) {
+        if self.is_thermal() && !is_positive(theta) {
             let value = theta;
             return StateError::Temperature { element, value };
         }
-        if M::THERMAL
+        if self.is_thermal()
             && let Err(infeasible) =
                 Infeasible::unless_stable(found.rates.forces[Self::TEMPERATURE], theta)
         {
@@ -203,7 +203,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
                     dashpot,
                     value: eta,
                     unit: K::Measures::VISCOSITY_UNIT,
-                    temperature: M::THERMAL.then_some(theta),
+                    temperature: self.is_thermal().then_some(theta),
                 };
             }
         }

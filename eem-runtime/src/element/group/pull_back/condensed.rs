@@ -88,21 +88,21 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 None => step.by_new.viscous[viscous + u],
             };
             transposed.constant[u] = -by_new;
-            if M::THERMAL {
+            if self.is_thermal() {
                 let by_theta = tangent[Self::TEMPERATURE][column];
                 transposed.constant[u] -= of_reservoirs * by_theta;
                 transposed.by_heat[u] = -by_theta;
             }
         }
         let solved = if paths.is_some() {
-            eliminate::<M, true>(&mut transposed, self.dashpots())
+            eliminate::<M, true>(&mut transposed, self.own_unknowns())
         } else {
-            eliminate::<M, false>(&mut transposed, self.dashpots())
+            eliminate::<M, false>(&mut transposed, self.own_unknowns())
         };
         solved.map_err(|singular| self.unsolved(singular))?;
         self.keep_solved(&transposed, paths.is_some());
         for b in 0..M::MEASURES {
-            if M::THERMAL {
+            if self.is_thermal() {
                 let by_theta = tangent[Self::TEMPERATURE][b];
                 reduced.constant[b] = -of_reservoirs * by_theta;
                 reduced.by_heat[b] = -by_theta;

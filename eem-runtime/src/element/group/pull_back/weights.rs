@@ -65,7 +65,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let theta = self.temperature();
         // Without a temperature there is no balance of entropy.
         let mut per_theta = 0.0;
-        if M::THERMAL {
+        if self.is_thermal() {
             of.own = own(M::DASHPOTS);
             per_theta = theta.recip();
         }
@@ -97,7 +97,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             heat += eta * rate * rate;
             slope += by_eta * rate * rate;
         }
-        if M::THERMAL {
+        if self.is_thermal() {
             let flow = self.heat_flow(
                 &around.step.past.view,
                 around.paths,

@@ -57,7 +57,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 by_heat: local.by_heat,
                 ..LocalSystem::empty(local.unit)
             };
-            eliminate::<M, true>(&mut solved, self.dashpots())
+            eliminate::<M, true>(&mut solved, self.own_unknowns())
                 .map_err(|singular| self.unsolved(singular))?;
             self.keep_solved(&solved, paths.is_some());
         }
@@ -70,7 +70,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// Keeps the derivatives of θ*.
     fn slopes_of(&mut self, (_, tangent): &Form<f64, M>) {
-        if M::THERMAL {
+        if self.is_thermal() {
             self.slopes[Self::TEMPERATURE] = tangent[Self::TEMPERATURE];
         }
     }
@@ -205,7 +205,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             ..LocalSystem::empty(linear.local.unit)
         };
         if Self::UNKNOWNS > 0 {
-            eliminate::<M, false>(&mut solved, self.dashpots())
+            eliminate::<M, false>(&mut solved, self.own_unknowns())
                 .map_err(|singular| self.unsolved(singular))?;
         }
         let condensed = |row: usize, value: f64| {

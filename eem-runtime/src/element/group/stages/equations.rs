@@ -18,13 +18,13 @@ pub(crate) trait StageEquations<M: Material, Q: MeasureSet>:
     const FORCES: usize;
 
     /// Number of local unknowns: the viscous stretches, set after set, then a temperature or entropy per set.
-    fn unknowns_of(rule: &Tableau, dashpots: usize) -> usize {
-        rule.sets() * (dashpots + usize::from(M::THERMAL))
+    fn unknowns_of(rule: &Tableau, (dashpots, is_thermal): (usize, bool)) -> usize {
+        rule.sets() * (dashpots + usize::from(is_thermal))
     }
 
     /// Number of inputs: one per force, set after set, and the heat Q from other elements, stage after stage.
-    fn inputs_of(rule: &Tableau) -> usize {
-        rule.sets() * Self::FORCES + rule.stages() * usize::from(M::THERMAL)
+    fn inputs_of(rule: &Tableau, is_thermal: bool) -> usize {
+        rule.sets() * Self::FORCES + rule.stages() * usize::from(is_thermal)
     }
 
     fn point_mut(&mut self) -> &mut StagePoint;

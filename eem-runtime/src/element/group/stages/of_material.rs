@@ -46,11 +46,12 @@ impl<M: Material, K: Kinematics<D>, E: StageEquations<M, K::Measures>, const D: 
             equations: Vec::new(),
         };
         let [unknowns, inputs] = all.unknowns_and_inputs();
-        let dashpots = all.dashpots();
+        let (dashpots, is_thermal) = all.dashpots_and_temperature();
         for point in all.elements.points() {
             let staged = StagePoint {
                 rule,
                 dashpots,
+                is_thermal,
                 entropy: 0.0,
                 prescribed: None,
                 viscous_unit: 1.0,
@@ -61,15 +62,18 @@ impl<M: Material, K: Kinematics<D>, E: StageEquations<M, K::Measures>, const D: 
         all
     }
 
-    /// Number of dashpots in series of every point.
-    fn dashpots(&self) -> usize {
+    /// Number of dashpots in series of every point, and whether they have a temperature.
+    fn dashpots_and_temperature(&self) -> (usize, bool) {
         let first = self.elements.points().next();
-        first.map_or(0, |point| point.dashpots())
+        first.map_or((0, false), |point| (point.dashpots(), point.is_thermal()))
     }
 
     fn unknowns_and_inputs(&self) -> [usize; 2] {
-        let unknowns = E::unknowns_of(self.rule, self.dashpots());
-        [unknowns, E::inputs_of(self.rule)]
+        let (dashpots, is_thermal) = self.dashpots_and_temperature();
+        [
+            E::unknowns_of(self.rule, (dashpots, is_thermal)),
+            E::inputs_of(self.rule, is_thermal),
+        ]
     }
 
     /// A point with its equations.

@@ -46,8 +46,9 @@ pub(crate) struct StagedPoint<K: Kinematics<D>, G, const D: usize> {
 /// A point of an element, apart from its nodes and its conjugates.
 pub(crate) struct StagePoint {
     pub(super) rule: &'static Tableau,
-    /// Number of dashpots in series.
+    /// Number of dashpots in series, and whether there is a temperature.
     pub(super) dashpots: usize,
+    pub(super) is_thermal: bool,
     /// s⁰, J/K; zero without temperature.
     pub(super) entropy: f64,
     /// The temperatures of a thermostat at the stages, or at the supports of the path, K.

@@ -181,7 +181,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
 
     /// Θ of a stage, K; one without temperature.
     fn temperature_or_one(&self, stage: usize) -> f64 {
-        if M::THERMAL {
+        if self.point.is_thermal {
             self.mean_temperature(stage)
         } else {
             1.0
@@ -219,7 +219,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
                 let terms = drag.abs() + self.size_of_conjugate([stage, index], tally.care);
                 tally.balance(drag + force, terms);
             }
-            if !M::THERMAL {
+            if !self.point.is_thermal {
                 continue;
             }
             let last = Self::ENTROPY;

@@ -84,7 +84,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
                 }
             }
             for q in 0..strains {
-                for column in (0..Self::LEN).filter(|_| M::THERMAL) {
+                for column in (0..Self::LEN).filter(|_| self.point.is_thermal) {
                     let by_theta = by.at([last, column]);
                     *by.at_mut([q, column]) += thinning * direction[q] * by_theta;
                 }

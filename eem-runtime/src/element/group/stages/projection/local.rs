@@ -136,7 +136,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
                 let entry = by.at([index, strains + k]) * self.units[strains + k];
                 local.by_unknown[set * self.point.dashpots + k] = entry;
             }
-            if M::THERMAL {
+            if self.point.is_thermal {
                 let last = Self::ENTROPY;
                 let entry = by.at([index, last]) * self.units[last];
                 local.by_unknown[sets * self.point.dashpots + set] = entry;
@@ -168,7 +168,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
         let diagonal = equation * (local.unknowns() + 1);
         local.matrix[diagonal] += unit * unit * drag;
         self.add(local, equation, [stage, index], unit);
-        if M::THERMAL {
+        if self.point.is_thermal {
             let temperature = [stage, Self::ENTROPY];
             self.add(local, equation, temperature, unit * slope * rate);
         }

@@ -1,6 +1,6 @@
 //! The path of a point through a step: its beginning, its points at a trial, and the projections from them.
 
-use super::vector::{Matrix, Vector, chained, derivatives, steepness, sum_of};
+use super::vector::{Last, Matrix, Vector, chained, derivatives, steepness, sum_of};
 use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Infeasible, temperature_at};
 use crate::element::error::StateError;
@@ -124,7 +124,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
             self.metric[q] = counts[q] * of_strain;
         }
         let entropy = Self::ENTROPY;
-        let components = entropy - M::VISCOUS_STRAIN..entropy;
+        let components = entropy - in_state.model.viscous_strain()..entropy;
         for index in strains.end..components.start {
             let unit = self.point.viscous_unit;
             self.units[index] = unit;
@@ -136,7 +136,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
             self.units[index] = self.point.viscous_unit;
             self.metric[index] = of_components;
         }
-        if M::THERMAL {
+        if self.point.is_thermal {
             let theta = x0[last];
             self.old[entropy] = self.point.entropy;
             self.units[entropy] = -theta * hessian[last][last];
@@ -183,7 +183,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
 
     /// Θ of a stage, K; zero without temperature.
     pub(super) fn mean_temperature(&self, stage: usize) -> f64 {
-        if M::THERMAL {
+        if self.point.is_thermal {
             self.conjugates[stage][Self::ENTROPY]
         } else {
             0.0
@@ -225,7 +225,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
         for (r, shares) in path.integrals.iter().enumerate() {
             let (y, x) = self.find_point(in_state, shares, r)?;
             let (gradient, hessian) = in_state.model.hessian(&x);
-            if M::THERMAL {
+            if self.point.is_thermal {
                 // ∂²ψ/∂θ² = −c/θ
                 let (last, theta) = (M::Variables::LEN - 1, x[M::Variables::LEN - 1]);
                 Infeasible::unless_stable(-theta * hessian[last][last], theta)
@@ -244,7 +244,12 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
         strain: &PerStrain<G>,
         of_model: (&M::Variables, &M::Variables, &M::Hessian),
     ) -> (Vector<M, G>, Matrix<M, G>) {
-        derivatives(&self.measures, strain, of_model, self.is_held())
+        let last = match (self.point.is_thermal, self.is_held()) {
+            (false, _) => Last::Absent,
+            (true, false) => Last::Entropy,
+            (true, true) => Last::Temperature,
+        };
+        derivatives(&self.measures, strain, of_model, last)
     }
 
     /// Adds the contribution of a point of the path to the projections.
@@ -298,7 +303,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
         let measures = self.measures_in_path(in_state.element, &y.strain)?;
         let near = self.temperatures[point];
         let mut x = y.variables(measures.as_ref(), near);
-        if M::THERMAL && !self.is_held() {
+        if self.point.is_thermal && !self.is_held() {
             let entropy = y[Self::ENTROPY];
             let found = temperature_at(&in_state.model, x, entropy, near);
             let theta = found.map_err(|infeasible| infeasible.of(in_state.element))?;
@@ -325,7 +330,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
         for force in &mut mean.as_mut()[M::MEASURES..M::MEASURES + self.point.dashpots] {
             *force = -*force;
         }
-        if M::THERMAL {
+        if self.point.is_thermal {
             let last = M::Variables::LEN - 1;
             gradient[last] = x[last];
         }
@@ -353,7 +358,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     fn find_viscosities(&mut self, in_state: &mut Point<M, G::Measures>) -> Result<(), StateError> {
         for stage in 0..self.point.rule.stages() {
             let theta = self.mean_temperature(stage);
-            if M::THERMAL && !is_positive(theta) {
+            if self.point.is_thermal && !is_positive(theta) {
                 return Err(StateError::MeanTemperature {
                     element: in_state.element,
                     value: theta,

@@ -152,18 +152,28 @@ impl<M: FreeEnergy<f64>, G: StrainMeasures> IndexMut<usize> for Vector<M, G> {
     }
 }
 
+/// The last variable of the energy of a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Last {
+    /// There is no temperature.
+    Absent,
+    Entropy,
+    /// The temperature, which is given at all times.
+    Temperature,
+}
+
 /// `∇ê` and `∇²ê` with respect to `(C, γ, s)` from the derivatives of ψ with respect to `x = (π, γ, θ)`. If the temperature
-/// `is_given`, `∇ψ` with respect to `(C, γ)` and θ, which depends on none of them.
+/// is given, `∇ψ` with respect to `(C, γ)` and θ, which depends on none of them.
 pub(super) fn derivatives<M: FreeEnergy<f64>, G: StrainMeasures>(
     measures: &G,
     strain: &PerStrain<G>,
     of_model: (&M::Variables, &M::Variables, &M::Hessian),
-    is_given: bool,
+    last: Last,
 ) -> (Vector<M, G>, Matrix<M, G>) {
-    let (first, second) = if is_given {
-        at_given_temperature::<M>(of_model)
-    } else {
-        by_entropy::<M>(of_model)
+    let (first, second) = match last {
+        Last::Absent => (*of_model.1, *of_model.2),
+        Last::Entropy => by_entropy::<M>(of_model),
+        Last::Temperature => at_given_temperature::<M>(of_model),
     };
     let along = measures.slopes([strain, strain]);
     let slopes = Vector {
@@ -207,9 +217,6 @@ fn by_entropy<M: FreeEnergy<f64>>(
     (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
 ) -> (M::Variables, M::Hessian) {
     let (mut first, mut second) = (*gradient, *hessian);
-    if !M::THERMAL {
-        return (first, second);
-    }
     let last = M::Variables::LEN - 1;
     let by_theta = hessian[last];
     let per_capacity = -by_theta[last].recip();

@@ -57,9 +57,9 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
         let unknowns = local.unknowns();
         let first = self.point.rule.sets() * self.point.dashpots;
         for (set, balance) in self.point.rule.entropies.iter().enumerate() {
-            if M::THERMAL && self.point.prescribed.is_none() {
+            if self.point.is_thermal && self.point.prescribed.is_none() {
                 self.write_balance(local, (first + set, balance), view.step);
-            } else if M::THERMAL {
+            } else if self.point.is_thermal {
                 // δθ = 0
                 local.matrix[(first + set) * (unknowns + 1)] = 1.0;
             }
@@ -117,7 +117,7 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
                 self.x[stage][index] = self.previous[stage][index] + change;
             }
         }
-        if !M::THERMAL || self.point.prescribed.is_some() {
+        if !self.point.is_thermal || self.point.prescribed.is_some() {
             return;
         }
         for stage in rule.entropies.iter().map(|balance| balance.unknown) {
@@ -190,7 +190,7 @@ impl<M: Material> StageValues<M> {
         (view, interface): (&StepView<'_>, &InterfaceTemperatures),
     ) -> Result<(), StateError> {
         let (theta, at_stage) = (self.theta(stage), &mut self.stages[stage]);
-        if M::THERMAL {
+        if self.point.is_thermal {
             check_temperature(in_state.element, theta)?;
         }
         (at_stage.gradient, at_stage.hessian) = in_state.model.hessian(&self.x[stage]);
@@ -228,7 +228,7 @@ impl<M: Material> StageValues<M> {
             let first = set * self.point.dashpots;
             local.by_unknown[first..first + dashpots.len()].copy_from_slice(dashpots);
         }
-        if M::THERMAL && self.point.prescribed.is_none() {
+        if self.point.is_thermal && self.point.prescribed.is_none() {
             let thetas = &mut local.by_unknown[rule.sets() * self.point.dashpots..];
             for (entry, &share) in thetas.iter_mut().zip(rule.temperatures[stage]) {
                 *entry = share * by[Self::TEMPERATURE];
