@@ -5,7 +5,7 @@ use super::memory::Target;
 use super::outside::copy_loads;
 use super::tableau::WEIGHTS;
 use super::{Explicit, ExplicitView};
-use crate::element::group::{ComponentEnergy, Inner, points};
+use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
 use crate::step::error::StepFailure;
 use eem_material::number::compensated::Sum;
@@ -76,6 +76,7 @@ impl<const D: usize> Explicit<D> {
             place.force = self.loads.total_force(node);
             place.begin_rates();
         }
+        stage.inner_rates.fill(0.0);
         let mut inner = stage.inner.iter_mut();
         for values in [
             state.viscous.values(),
@@ -83,7 +84,7 @@ impl<const D: usize> Explicit<D> {
             &view.conduction.reservoirs,
         ] {
             for (&value, own) in values.iter().zip(&mut inner) {
-                *own = Inner::new(value);
+                *own = value;
             }
         }
         Ok(())

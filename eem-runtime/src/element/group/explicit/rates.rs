@@ -90,7 +90,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             x[a] = measure;
         }
         for k in 0..self.model.dashpots() {
-            x[M::MEASURES + k] = stage.inner[self.slots().viscous + k].now;
+            x[M::MEASURES + k] = stage.inner[self.slots().viscous + k];
         }
         if M::THERMAL {
             x[Self::TEMPERATURE] = theta;
@@ -137,7 +137,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         }
         let viscous = self.slots().viscous;
         let flow = match self.slots().thermal {
-            Some(slot) => stage.inner[stage.temperatures + slot].rate,
+            Some(slot) => stage.inner_rates[stage.temperatures + slot],
             None => 0.0,
         };
         let (mut heat, mut is_sound) = (flow, true);
@@ -149,7 +149,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         for k in 0..self.model.dashpots() {
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
-            stage.inner[viscous + k].rate = creep;
+            stage.inner_rates[viscous + k] = creep;
             let power = g * creep;
             stage.productions[viscous + k].add(stage.weight, power * per_theta);
             if stage.has_heats {
@@ -166,7 +166,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         };
         let capacity = forces[Self::TEMPERATURE];
         let heating = (heat - found.theta * drift) / capacity;
-        stage.inner[stage.temperatures + slot].rate = heating;
+        stage.inner_rates[stage.temperatures + slot] = heating;
         if stage.has_thermostats {
             stage.receive(slot, heat);
         }

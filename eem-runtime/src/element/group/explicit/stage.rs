@@ -8,6 +8,7 @@ pub(crate) const KEPT: usize = 10;
 
 /// Variables at the start of a step, and their rates at its stages.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
 pub(crate) struct Past<const N: usize, const P: usize> {
     pub(crate) start: [[f64; N]; P],
     pub(crate) rates: [[[f64; N]; P]; KEPT],
@@ -217,33 +218,18 @@ impl Thermostat {
     }
 }
 
-/// An internal variable: a viscous stretch, m, or a temperature, K.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(16))]
-pub(crate) struct Inner {
-    pub(crate) now: f64,
-    /// `γ̇` or `θ̇`; before the elements have been evaluated the heat that flows into a thermal slot, W. Not used for a
-    /// reservoir.
-    pub(crate) rate: f64,
-}
-
-impl Inner {
-    /// With a rate of zero.
-    #[inline]
-    pub(crate) fn new(now: f64) -> Self {
-        Self { now, rate: 0.0 }
-    }
-}
-
 /// All variables at a stage.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage<const D: usize> {
     /// Masses, then anchors.
     pub(crate) places: Vec<Place<D>>,
-    /// Viscous stretches, then the temperatures of thermal slots and of reservoirs.
-    pub(crate) inner: Vec<Inner>,
-    /// Starts and earlier rates of the internal variables, two per entry.
-    pub(crate) inner_past: Vec<Past<2, 1>>,
+    /// The internal variables: viscous stretches, m, then the temperatures of thermal slots and of reservoirs, K.
+    pub(crate) inner: Vec<f64>,
+    /// Their rates `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into a thermal slot, W. Zero for a
+    /// reservoir.
+    pub(crate) inner_rates: Vec<f64>,
+    /// Their starts and earlier rates, two variables per entry.
+    pub(crate) inner_past: Vec<Past<1, 2>>,
     /// The index of the first temperature among the internal variables.
     pub(crate) temperatures: usize,
     /// The entropy production of each dashpot, `g γ̇/θ`, W/K, or without temperature its heat `g γ̇`, W.
@@ -275,7 +261,8 @@ impl<const D: usize> Stage<D> {
         }
         Self {
             places,
-            inner: vec![Inner::new(1.0); all],
+            inner: vec![1.0; all],
+            inner_rates: vec![0.0; all],
             inner_past: vec![Past::none(); pairs],
             temperatures: layout.viscous,
             productions: vec![Integral::none(); layout.viscous],
@@ -299,24 +286,24 @@ impl<const D: usize> Stage<D> {
     pub(crate) fn receive(&mut self, slot: usize, heat: f64) {
         self.thermostats[slot].received = heat;
         if self.thermostats[slot].holds {
-            self.inner[self.temperatures + slot].rate = 0.0;
+            self.inner_rates[self.temperatures + slot] = 0.0;
         }
     }
 
     /// An internal variable at the start of the step.
     pub(crate) fn inner_start(&self, index: usize) -> f64 {
-        self.inner_past[index / 2].start[0][index % 2]
+        self.inner_past[index / 2].start[index % 2][0]
     }
 
     /// The temperature of a thermal slot or, with an index after those of the slots, of a reservoir, K.
     #[inline]
     pub(crate) fn theta(&self, slot: usize) -> f64 {
-        self.inner[self.temperatures + slot].now
+        self.inner[self.temperatures + slot]
     }
 
     #[inline]
     pub(crate) fn theta_mut(&mut self, slot: usize) -> &mut f64 {
-        &mut self.inner[self.temperatures + slot].now
+        &mut self.inner[self.temperatures + slot]
     }
 
     /// Pairs of all rates, at the start of the step and now; of places only the first `places`.
@@ -329,10 +316,12 @@ impl<const D: usize> Stage<D> {
                 }
             }
         }
-        for (past, own) in self.inner_past.iter().zip(self.inner.as_chunks::<2>().0) {
-            let [starts] = past.rates[0];
-            all.extend([[starts[0], own[0].rate], [starts[1], own[1].rate]]);
-        }
+        let starts = self.inner_past.iter().flat_map(|past| past.rates[0]);
+        all.extend(
+            starts
+                .zip(&self.inner_rates)
+                .map(|([start], &now)| [start, now]),
+        );
         for of in &self.productions {
             all.push([of.start, of.rate]);
         }
@@ -351,12 +340,12 @@ impl<const D: usize> Stage<D> {
                 }
             }
         }
-        let inner = self.inner.as_chunks_mut::<2>().0;
-        for (past, own) in self.inner_past.iter_mut().zip(inner) {
-            let [starts] = &mut past.rates[0];
-            for at in 0..2 {
-                visit([&mut starts[at], &mut own[at].rate]);
-            }
+        let starts = self
+            .inner_past
+            .iter_mut()
+            .flat_map(|past| &mut past.rates[0]);
+        for ([start], now) in starts.zip(&mut self.inner_rates) {
+            visit([start, now]);
         }
         for of in &mut self.productions {
             visit([&mut of.start, &mut of.rate]);

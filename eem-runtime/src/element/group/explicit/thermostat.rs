@@ -55,7 +55,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         }
         for k in 0..self.dashpots() {
             let at = M::MEASURES + k;
-            rate -= (own[at] - other[at]) * stage.inner[self.slots().viscous + k].rate;
+            rate -= (own[at] - other[at]) * stage.inner_rates[self.slots().viscous + k];
         }
         let (weight, thermostat) = (stage.weight, &mut stage.thermostats[slot]);
         thermostat.sum += weight * rate;

@@ -166,7 +166,7 @@ impl<const D: usize> Explicit<D> {
             }
         }
         for dashpot in self.components.dashpots_of(index) {
-            let now = self.stage.inner[dashpot].now;
+            let now = self.stage.inner[dashpot];
             let way = (now - self.stage.inner_start(dashpot)).abs();
             sum += self.scratch.pulls[dashpot] * (way + f64::EPSILON * now.abs());
         }

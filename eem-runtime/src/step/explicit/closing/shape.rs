@@ -179,7 +179,7 @@ impl<const D: usize> Explicit<D> {
             add(&mut place.now[0], -change, &force);
         }
         for dashpot in self.components.dashpots_of(index) {
-            self.stage.inner[dashpot].now -= share * h * self.scratch.creep[dashpot][0];
+            self.stage.inner[dashpot] -= share * h * self.scratch.creep[dashpot][0];
         }
         self.exchange_heat(index, share * h, next);
     }
