@@ -61,8 +61,7 @@ fn combine_inner<const T: usize>(
         if last == 0 {
             past.start = *now;
         }
-        past.rates[ROWS[last]] = *rates;
-        *now = past.after(h, rows, a);
+        *now = past.advance(rates, h, rows, a);
         *rates = [[0.0]; 2];
     }
 }
@@ -119,8 +118,7 @@ impl<const D: usize> Explicit<D> {
             if last == 0 {
                 place.past.start = place.now;
             }
-            place.past.rates[ROWS[last]] = place.rates;
-            place.now = place.past.after(h, rows, a);
+            place.now = place.past.advance(&place.rates, h, rows, a);
             place.begin_rates();
         }
         let stage = &mut self.stage;

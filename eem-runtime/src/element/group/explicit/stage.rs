@@ -47,6 +47,32 @@ impl<const N: usize, const P: usize> Past<N, P> {
         sums
     }
 
+    /// Stores the newest rates in the last row; `y = y⁰ + h Σ a k`.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as above")]
+    #[expect(clippy::needless_range_loop, reason = "as above")]
+    pub(crate) fn advance<const T: usize>(
+        &mut self,
+        newest: &[[f64; N]; P],
+        h: f64,
+        rows: [usize; T],
+        a: &[f64; T],
+    ) -> [[f64; N]; P] {
+        let mut y = [[0.0; N]; P];
+        for part in 0..P {
+            for index in 0..N {
+                let newest = newest[part][index];
+                self.rates[rows[T - 1]][part][index] = newest;
+                let mut sum = a[0] * self.rates[rows[0]][part][index];
+                for term in 1..T {
+                    sum += a[term] * self.rates[rows[term]][part][index];
+                }
+                y[part][index] = self.start[part][index] + h * sum;
+            }
+        }
+        y
+    }
+
     /// `y = y⁰ + h Σ a k`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "as above")]
