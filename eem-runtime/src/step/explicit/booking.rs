@@ -30,7 +30,7 @@ impl<const D: usize> Explicit<D> {
     #[inline]
     fn book_paths(&mut self, h: f64, next: &mut State) {
         let (stage, scratch) = (&mut self.stage, &mut self.scratch);
-        let slots = scratch.produced.len();
+        let first = self.components.first_reservoir;
         for path in &mut self.components.paths {
             let [a, b] = path.ends;
             let progress = &mut scratch.progress[path.component];
@@ -55,13 +55,15 @@ impl<const D: usize> Explicit<D> {
             *least = Scalar::minimum(*least, production);
             next.entropies.add(a, flow);
             // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
-            for change in [-flow, production] {
-                match path.share {
-                    None => next.entropies.add(b, change),
-                    Some(share) => {
-                        self.books.shares[share].add(change);
-                        next.reservoir_entropies.add(b - slots, change);
-                    }
+            let changes = [-flow, production];
+            if let Some(share) = path.share {
+                for change in changes {
+                    self.books.shares[share].add(change);
+                    next.reservoir_entropies.add(b - first, change);
+                }
+            } else {
+                for change in changes {
+                    next.entropies.add(b, change);
                 }
             }
         }

@@ -314,8 +314,13 @@ impl<const D: usize> Motion<D> {
         let p = place.p();
         add(&mut self.linear, 1.0, p);
         self.angular.add(1.0, &Bivector::wedge(arm, p));
+    }
+
+    /// Adds their terms.
+    #[inline]
+    pub(super) fn add_terms(&mut self, place: &Place<D>, arm: &[f64; D]) {
         // Below the smallest normal number, rounding is that of this number.
-        let momentum = size(p) + f64::MIN_POSITIVE;
+        let momentum = size(place.p()) + f64::MIN_POSITIVE;
         self.terms[0] += momentum;
         self.terms[1] += farther(arm, place.q()) * momentum;
     }
@@ -324,6 +329,7 @@ impl<const D: usize> Motion<D> {
     #[inline]
     pub(super) fn add(&mut self, place: &Place<D>, arm: &[f64; D]) {
         self.add_momenta(place, arm);
+        self.add_terms(place, arm);
         let (q, p) = (place.q(), place.p());
         let kinetic = 0.5 * dot(p, p) * place.per_mass;
         self.energy.add(kinetic);

@@ -195,10 +195,7 @@ impl<const D: usize> Explicit<D> {
             let [near, far] = [theta[a], theta[b]];
             let flow = path.conductance * (far - near);
             rates[a] += flow;
-            // A reservoir keeps its temperature.
-            if path.share.is_none() {
-                rates[b] -= flow;
-            }
+            rates[b] -= flow;
             if let Some(at) = weight {
                 (path.temperatures[0][at], path.temperatures[1][at]) = (near, far);
             }

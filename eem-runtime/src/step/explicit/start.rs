@@ -77,16 +77,11 @@ impl<const D: usize> Explicit<D> {
             place.begin_rates();
         }
         stage.inner_rates.fill(0.0);
-        let mut inner = stage.inner.iter_mut();
-        for values in [
-            state.viscous.values(),
-            &state.temperatures,
-            &view.conduction.reservoirs,
-        ] {
-            for (&value, own) in values.iter().zip(&mut inner) {
-                *own = value;
-            }
-        }
+        let (stretches, temperatures) = stage.inner.split_at_mut(stage.temperatures);
+        let (slots, reservoirs) = temperatures.split_at_mut(self.components.first_reservoir);
+        stretches.copy_from_slice(state.viscous.values());
+        slots[..state.temperatures.len()].copy_from_slice(&state.temperatures);
+        reservoirs.copy_from_slice(&view.conduction.reservoirs);
         Ok(())
     }
 

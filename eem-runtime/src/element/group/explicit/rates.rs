@@ -9,7 +9,7 @@ use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, scale};
 use crate::element::group::explicit::closed::Found;
-use crate::element::group::explicit::group::ExplicitElements;
+use crate::element::group::explicit::group::{ExplicitElements, Spot};
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::placed::PlacedPoint;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Measures};
@@ -19,13 +19,18 @@ use eem_material::number::scalar::is_positive;
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
     pub(super) fn rates_of_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
-        for (point, nodes) in self.placed() {
+        for (point, spot) in self.placed() {
+            // The reference is for the error only.
+            let &Spot {
+                nodes, temperature, ..
+            } = spot;
             let r = arms_of::<K, D>(&nodes, &stage.places, Place::q);
             let measures = point.kinematics.measure(&r);
-            let found = point.found_at(&r, &measures, stage);
-            let is_sound = point.write_rates(nodes, &found, stage);
+            let found =
+                point.found_at(&r, &measures, spot.temperature_in(stage, M::THERMAL), stage);
+            let is_sound = point.write_rates(nodes, temperature, &found, stage);
             if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
-                return Err(point.refuse(&r, stage));
+                return Err(point.refuse(spot, stage));
             }
         }
         Ok(())
@@ -54,6 +59,18 @@ fn is_number(value: f64) -> bool {
     value.abs() <= f64::MAX
 }
 
+impl<N> Spot<N> {
+    /// The temperature of the element at a stage; zero without one.
+    #[inline]
+    pub(super) fn temperature_in<const D: usize>(&self, stage: &Stage<D>, is_thermal: bool) -> f64 {
+        if is_thermal {
+            stage.inner[self.temperature as usize]
+        } else {
+            0.0
+        }
+    }
+}
+
 impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what was found stays in registers")]
@@ -61,9 +78,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         &self,
         r: &Arms<K, D>,
         measures: &Measures<K, D>,
+        theta: f64,
         stage: &Stage<D>,
     ) -> Found<M, K, D> {
-        let theta = self.temperature_in(stage);
         // Called first: a call of `exp` would spill the registers used below.
         let viscosities = match M::DASHPOTS {
             0 => M::Viscosities::filled(0.0),
@@ -98,15 +115,6 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         x
     }
 
-    /// Its temperature at a stage; zero without one.
-    #[inline]
-    pub(super) fn temperature_in(&self, stage: &Stage<D>) -> f64 {
-        match self.slots().thermal {
-            Some(slot) => stage.theta(slot),
-            None => 0.0,
-        }
-    }
-
     /// Adds its forces on the nodes, and writes its rates; returns whether all are finite.
     #[inline(always)]
     #[expect(
@@ -116,9 +124,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     pub(super) fn write_rates(
         &self,
         nodes: K::PerNode<u32>,
+        temperature: u32,
         found: &Found<M, K, D>,
         stage: &mut Stage<D>,
     ) -> bool {
+        let at = temperature as usize;
         let motion = arms_of::<K, D>(&nodes, &stage.places, Place::velocity);
         let Rates { forces, slopes } = &found.rates;
         let mut pull = found.gradient[0];
@@ -136,9 +146,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             stage.places[nodes[0] as usize].pull(arm);
         }
         let viscous = self.slots().viscous;
-        let flow = match self.slots().thermal {
-            Some(slot) => stage.inner_rates[stage.temperatures + slot],
-            None => 0.0,
+        let flow = if M::THERMAL {
+            stage.inner_rates[at]
+        } else {
+            0.0
         };
         let (mut heat, mut is_sound) = (flow, true);
         let per_theta = if M::THERMAL && M::DASHPOTS > 0 {
@@ -166,7 +177,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         };
         let capacity = forces[Self::TEMPERATURE];
         let heating = (heat - found.theta * drift) / capacity;
-        stage.inner_rates[stage.temperatures + slot] = heating;
+        stage.inner_rates[at] = heating;
         if stage.has_thermostats {
             stage.receive(slot, heat);
         }
@@ -177,13 +188,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
 
     /// The error of an element that has no valid rates.
     #[cold]
-    pub(super) fn refuse(&self, r: &Arms<K, D>, stage: &Stage<D>) -> StateError {
+    pub(super) fn refuse(&self, spot: &Spot<K::PerNode<u32>>, stage: &Stage<D>) -> StateError {
         let element = self.element;
+        let r = &arms_of::<K, D>(&spot.nodes, &stage.places, Place::q);
         let measures = self.kinematics.measure(r);
         if !self.kinematics.is_admissible(r, &measures) {
             return self.kinematics.refusal(element, r);
         }
-        let found = self.found_at(r, &measures, stage);
+        let found = self.found_at(r, &measures, spot.temperature_in(stage, M::THERMAL), stage);
         let theta = found.theta;
         if M::THERMAL && !is_positive(theta) {
             let value = theta;

@@ -244,15 +244,26 @@ impl Thermostat {
     }
 }
 
+/// The number of pairs of internal variables without reservoirs.
+fn pairs(layout: &Layout) -> usize {
+    (layout.viscous + layout.thermal).div_ceil(2)
+}
+
+/// The index of the first reservoir among thermal slots and reservoirs.
+pub(crate) fn first_reservoir(layout: &Layout) -> usize {
+    2 * pairs(layout) - layout.viscous
+}
+
 /// All variables at a stage.
 #[derive(Clone, Debug)]
 pub(crate) struct Stage<const D: usize> {
     /// Masses, then anchors.
     pub(crate) places: Vec<Place<D>>,
-    /// The internal variables: viscous stretches, m, then the temperatures of thermal slots and of reservoirs, K.
+    /// The internal variables: viscous stretches, m, then the temperatures of thermal slots and, from the next pair on, of
+    /// reservoirs, K.
     pub(crate) inner: Vec<f64>,
-    /// Their rates `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into a thermal slot, W. Zero for a
-    /// reservoir.
+    /// Their rates `γ̇` and `θ̇`; before the elements have been evaluated the heat that flows into a thermal slot, W. Not used
+    /// for a reservoir.
     pub(crate) inner_rates: Vec<f64>,
     /// Their starts and earlier rates, two variables per entry.
     pub(crate) inner_past: Vec<Past<1, 2>>,
@@ -278,9 +289,8 @@ impl<const D: usize> Stage<D> {
         reservoirs: usize,
         thermostats: Vec<Thermostat>,
     ) -> Self {
-        let size = layout.viscous + layout.thermal;
-        let pairs = size.div_ceil(2);
-        let all = (size + reservoirs).max(2 * pairs);
+        let pairs = pairs(layout);
+        let all = 2 * pairs + reservoirs;
         let mut places = Vec::with_capacity(masses.len());
         for &mass in masses {
             places.push(Place::new(mass));

@@ -12,10 +12,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::integrate_thermostats`](super::ExplicitGroup::hold).
     #[cold]
     pub(super) fn integrate_thermostats_of_all(&self, stage: &mut Stage<D>, is_start: bool) {
-        for (point, nodes) in self.placed() {
+        for (point, spot) in self.placed() {
             let held = point.slots().thermal.filter(|&slot| stage.is_held(slot));
             if let Some(slot) = held {
-                point.integrate_thermostat(slot, &nodes, stage, is_start);
+                point.integrate_thermostat(slot, &spot.nodes, stage, is_start);
             }
         }
     }

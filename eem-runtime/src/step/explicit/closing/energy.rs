@@ -56,7 +56,9 @@ impl<const D: usize> Explicit<D> {
         }
         for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir;
-            let theta = self.stage.theta(self.components.elements.len() + reservoir);
+            let theta = self
+                .stage
+                .theta(self.components.first_reservoir + reservoir);
             let sum = self.books.shares[share];
             energy.add(theta * sum.value);
             energy.add(theta * sum.carry);

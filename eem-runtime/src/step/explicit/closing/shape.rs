@@ -186,7 +186,7 @@ impl<const D: usize> Explicit<D> {
 
     /// Moves entropy from the warmer to the cooler end of each path, without production.
     fn exchange_heat(&mut self, index: usize, duration: f64, next: &mut State) {
-        let slots = self.scratch.produced.len();
+        let first = self.components.first_reservoir;
         for path in &self.components.paths[self.components.all[index].paths.clone()] {
             let ends = path.ends;
             if self.meets_thermostat(ends) {
@@ -201,7 +201,7 @@ impl<const D: usize> Explicit<D> {
                 None => next.entropies.add(ends[1], -entropy),
                 Some(share) => {
                     self.books.shares[share].add(-entropy);
-                    next.reservoir_entropies.add(ends[1] - slots, -entropy);
+                    next.reservoir_entropies.add(ends[1] - first, -entropy);
                 }
             }
         }
