@@ -20,4 +20,4 @@ pub(super) mod view;
 pub(crate) use group::ExplicitElements;
 pub(crate) use stage::{Past, Place, Stage, Thermostat, first_reservoir};
 pub(crate) use temperature::is_met;
-pub(crate) use view::{ClosingView, ComponentEnergy, UnkeptEntropy};
+pub(crate) use view::{Caloric, ClosingView, ComponentEnergy, UnkeptEntropy};

@@ -84,7 +84,7 @@ impl<const D: usize> Explicit<D> {
                 continue;
             };
             next.entropies.add(slot, production);
-            scratch.produced[slot] += production;
+            scratch.slots[slot].produced += production;
             progress.production.add(production);
             progress.least = Scalar::minimum(progress.least, production);
         }
@@ -193,12 +193,12 @@ impl<const D: usize> Explicit<D> {
         for path in &self.components.paths {
             let capacity = |at: usize| {
                 let slot = path.stores[at].then_some(path.ends[at]);
-                slot.map_or(0.0, |slot| scratch.capacities[slot][0])
+                slot.map_or(0.0, |slot| scratch.slots[slot].capacity)
             };
             let [a, b] = [capacity(0), capacity(1)];
             for (end, capacity) in path.ends.into_iter().zip([a, b]) {
                 if a + b > 0.0 && capacity > 0.0 {
-                    scratch.produced[end] += path.production * (capacity / (a + b));
+                    scratch.slots[end].produced += path.production * (capacity / (a + b));
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::algebra::bivector::{Bivector, planes};
 use crate::algebra::{add, dot, size};
-use crate::element::group::{ComponentEnergy, Place, UnkeptEntropy};
+use crate::element::group::{Caloric, ComponentEnergy, Place, UnkeptEntropy};
 use crate::element::layout::Layout;
 use crate::step::explicit::components::Components;
 use eem_material::number::compensated::{Sum, Total};
@@ -265,9 +265,8 @@ pub(super) struct Scratch<const D: usize> {
     /// Whether a component has to be evaluated, and whether its forces are needed.
     pub(super) open: Vec<bool>,
     pub(super) needs_forces: Vec<bool>,
-    /// c and `|∂c/∂ ln θ|` per thermal slot, and what it has produced itself in this step, J/K.
-    pub(super) capacities: Vec<[f64; 2]>,
-    pub(super) produced: Vec<f64>,
+    /// Per thermal slot.
+    pub(super) slots: Vec<Caloric>,
     /// An element whose stored entropy does not match its temperature after the closing, if there is one.
     pub(super) unkept: Option<UnkeptEntropy>,
     /// Per thermal slot.
@@ -356,8 +355,7 @@ impl<const D: usize> Scratch<D> {
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
             needs_forces: vec![false; count],
-            capacities: vec![[0.0; 2]; thermal],
-            produced: vec![0.0; thermal],
+            slots: vec![Caloric::default(); thermal],
             unkept: None,
             held: vec![HeldBalance::default(); thermal],
             forces: vec![[0.0; D]; components.nodes.len()],
@@ -378,7 +376,7 @@ impl<const D: usize> Scratch<D> {
     pub(super) fn clear(&mut self, h: f64) {
         self.subnormal = f64::MIN_POSITIVE * (1.0 + h);
         self.progress.fill(Progress::none());
-        self.produced.fill(0.0);
+        self.slots.fill(Caloric::default());
         self.held.fill(HeldBalance::default());
         self.unkept = None;
         self.has_stiffnesses = false;

@@ -120,7 +120,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             energy.magnitude = energy.value.abs() + heat;
             energy.terms += heat;
             view.stage.inner[spot.temperature as usize] = recovered.corrected;
-            view.capacities[slot] = [capacity, recovered.bend];
+            let caloric = &mut view.slots[slot];
+            (caloric.capacity, caloric.bend) = (capacity, recovered.bend);
         }
         self.add_bounds_of(r, x, &mut found, &mut energy);
         *closed = found;

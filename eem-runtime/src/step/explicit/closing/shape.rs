@@ -235,18 +235,20 @@ impl<const D: usize> Explicit<D> {
         for at in self.slots_of(index) {
             let slot = self.components.slots[at];
             if self.takes(slot) {
-                all += self.scratch.capacities[slot][0] * self.stage.theta(slot);
+                all += self.scratch.slots[slot].capacity * self.stage.theta(slot);
             }
         }
         if all > 0.0 {
+            let mut sums = self.warmth(index);
             for at in self.slots_of(index) {
                 let slot = self.components.slots[at];
                 if self.takes(slot) {
-                    let entropy = self.scratch.capacities[slot][0] * (defect / all);
-                    self.warm(index, slot, entropy, next);
+                    let entropy = self.scratch.slots[slot].capacity * (defect / all);
+                    self.warm((slot, entropy), &mut sums, next);
                     next.meters.produce(slot, entropy);
                 }
             }
+            self.keep_warmth(index, sums);
             return true;
         }
         // What leaves the scene, or is taken by thermostats, is known to its own size.
