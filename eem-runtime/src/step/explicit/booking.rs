@@ -150,7 +150,7 @@ impl<const D: usize> Explicit<D> {
                 let mut mean = mass.past.start[1];
                 add(&mut mean, 0.5, &impulse);
                 let way = difference(mass.q(), &mass.past.start[0]);
-                work = dot(&impulse, &mean) * mass.per_mass - dot(&mass.force, &way);
+                work = dot(&impulse, &mean) * mass.per_mass() - dot(&mass.force, &way);
             }
             target.energy.add(work);
             next.work.add(work);

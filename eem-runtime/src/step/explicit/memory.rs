@@ -330,7 +330,7 @@ impl<const D: usize> Motion<D> {
         self.add_momenta(place, arm);
         self.add_terms(place, arm);
         let (q, p) = (place.q(), place.p());
-        let kinetic = 0.5 * dot(p, p) * place.per_mass;
+        let kinetic = 0.5 * dot(p, p) * place.per_mass();
         self.energy.add(kinetic);
         self.kinetic += kinetic;
         self.magnitude += kinetic;

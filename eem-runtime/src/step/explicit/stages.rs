@@ -216,7 +216,7 @@ impl<const D: usize> Explicit<D> {
             self.move_to(STAGES - 1);
         }
         self.stage.weight = 0.0;
-        self.conduct(None);
+        self.conduct(Some(0));
         for group in &self.groups {
             group.finish(&mut self.stage)?;
         }

@@ -35,11 +35,6 @@ impl<const D: usize> Explicit<D> {
         if view.state.meters.are_on {
             self.begin_heats();
         }
-        for path in &mut self.components.paths {
-            let [a, b] = path.ends;
-            path.temperatures[0][0] = self.stage.theta(a);
-            path.temperatures[1][0] = self.stage.theta(b);
-        }
         if self.is_driven {
             self.begin_outside();
         }
@@ -82,6 +77,11 @@ impl<const D: usize> Explicit<D> {
         stretches.copy_from_slice(state.viscous.values());
         slots[..state.temperatures.len()].copy_from_slice(&state.temperatures);
         reservoirs.copy_from_slice(&view.conduction.reservoirs);
+        for path in &mut self.components.paths {
+            for (temperatures, end) in path.temperatures.iter_mut().zip(path.ends) {
+                temperatures[0] = stage.theta(end);
+            }
+        }
         Ok(())
     }
 

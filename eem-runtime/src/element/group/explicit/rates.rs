@@ -7,7 +7,7 @@
 use crate::algebra::vector;
 use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, along, scale};
+use crate::element::group::arms::{add_scaled, scale};
 use crate::element::group::explicit::closed::Found;
 use crate::element::group::explicit::group::{ExplicitElements, Spot};
 use crate::element::group::explicit::stage::{Place, Stage};
@@ -51,6 +51,24 @@ pub(super) fn arms_of<K: Kinematics<D>, const D: usize>(
         *arm = vector(|axis| other[axis] - first[axis]);
     }
     arms
+}
+
+/// `Σ_i g_i · w_i` over the arms. The sums begin with −0, to which a number is added without an instruction: whether nothing moves at
+/// the speed 0 or −0 changes no rate, as no heat is −0.
+#[inline]
+fn speed_along<K: Kinematics<D>, const D: usize>(
+    gradient: &Arms<K, D>,
+    motion: &Arms<K, D>,
+) -> f64 {
+    let mut speed = -0.0;
+    for (g, w) in gradient.as_ref().iter().zip(motion.as_ref()) {
+        let mut own = -0.0;
+        for axis in 0..D {
+            own += g[axis] * w[axis];
+        }
+        speed += own;
+    }
+    speed
 }
 
 /// Whether a number is finite. By its magnitude, which takes fewer instructions than by its bits.
@@ -133,11 +151,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         let Rates { forces, slopes } = &found.rates;
         let mut pull = found.gradient[0];
         scale::<K, D>(&mut pull, forces[0]);
-        let speed = along::<K, D>(&found.gradient[0], &motion);
+        let speed = speed_along::<K, D>(&found.gradient[0], &motion);
         let (mut power, mut drift) = (forces[0] * speed, slopes[0] * speed);
         for a in 1..M::MEASURES {
             add_scaled::<K, D>(&mut pull, forces[a], &found.gradient[a]);
-            let speed = along::<K, D>(&found.gradient[a], &motion);
+            let speed = speed_along::<K, D>(&found.gradient[a], &motion);
             power += forces[a] * speed;
             drift += slopes[a] * speed;
         }

@@ -94,19 +94,22 @@ impl<const N: usize, const P: usize> Past<N, P> {
 }
 
 /// A mass, or an anchor in one of the components (connected bodies) that it holds.
+///
+/// In the order of the fields, vectors of the plane lie where they are loaded at once.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(16))]
+#[repr(C, align(16))]
 pub(crate) struct Place<const D: usize> {
     /// q, m, and p, kg m/s.
     pub(crate) now: [[f64; D]; 2],
     /// Their rates: v, m/s, and F, N; for an anchor the reaction, N, which is used only if it is moved.
     pub(crate) rates: [[f64; D]; 2],
-    /// m and 1/m; zero for anchors.
-    pub(crate) mass: f64,
-    pub(crate) per_mass: f64,
+    /// 1/m for each axis; zero for anchors.
+    per_mass: [f64; D],
     /// Its weight and the constant loads on it, N.
     pub(crate) force: [f64; D],
     pub(crate) past: Past<D, 2>,
+    /// m; zero for anchors.
+    pub(crate) mass: f64,
 }
 
 impl<const D: usize> Place<D> {
@@ -116,17 +119,20 @@ impl<const D: usize> Place<D> {
         Self {
             now: [[0.0; D]; 2],
             rates: [[0.0; D]; 2],
-            mass,
-            per_mass: if is_anchor { 0.0 } else { mass.recip() },
+            per_mass: [if is_anchor { 0.0 } else { mass.recip() }; D],
             force: [0.0; D],
             past: Past::none(),
+            mass,
         }
     }
 
     /// The rates that follow from the momentum; forces are added to them.
     #[inline]
     pub(crate) fn begin_rates(&mut self) {
-        self.rates = [vector(|axis| self.now[1][axis] * self.per_mass), [0.0; D]];
+        self.rates = [
+            vector(|axis| self.now[1][axis] * self.per_mass[axis]),
+            [0.0; D],
+        ];
     }
 
     /// Adds a force, N.
@@ -147,6 +153,12 @@ impl<const D: usize> Place<D> {
             *force -= by;
         }
         self.rates[1] = force;
+    }
+
+    /// 1/m.
+    #[inline]
+    pub(crate) const fn per_mass(&self) -> f64 {
+        self.per_mass[0]
     }
 
     #[inline]

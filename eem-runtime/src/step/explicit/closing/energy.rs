@@ -84,7 +84,7 @@ impl<const D: usize> Explicit<D> {
         let [mut motion, mut potential] = [0.0; 2];
         for place in &self.stage.places[..self.components.masses] {
             let [q, p] = &place.past.start;
-            motion += 0.5 * dot(p, p) * place.per_mass;
+            motion += 0.5 * dot(p, p) * place.per_mass();
             for (force, q) in place.force.iter().zip(q) {
                 potential += (force * q).abs();
             }

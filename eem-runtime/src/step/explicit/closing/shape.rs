@@ -106,7 +106,7 @@ impl<const D: usize> Explicit<D> {
         for place in component.masses.clone() {
             let own = self.inner_momentum(place, &rigid);
             let force = self.inner_force(place, &means);
-            let per_mass = self.stage.places[place].per_mass;
+            let per_mass = self.stage.places[place].per_mass();
             means.motion += 0.5 * dot(&own, &own) * per_mass;
             shape += dot(&force, &force) * per_mass;
         }
@@ -174,7 +174,7 @@ impl<const D: usize> Explicit<D> {
             let own = self.inner_momentum(at, &means.rigid);
             let force = self.inner_force(at, means);
             let place = &mut self.stage.places[at];
-            let change = place.per_mass * share * h * h;
+            let change = place.per_mass() * share * h * h;
             add(&mut place.now[1], share, &own);
             add(&mut place.now[0], -change, &force);
         }
