@@ -12,7 +12,7 @@ use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
-use eem_material::free_energy::Material;
+use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Scalar;
 
 impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
@@ -44,15 +44,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
-    /// The magnitudes of the terms of the variables in a state with these arms: times ε, their errors by rounding.
+    /// See [`sizes`].
     #[inline]
     pub(super) fn sizes(&self, r: &Arms<K, D>, x: &M::Variables) -> M::Variables {
-        let mut sizes = *x;
-        let own = self.kinematics.sizes(r, &measures_in::<K::Measures>(x));
-        for (a, &size) in own.as_ref().iter().enumerate() {
-            sizes[a] = size;
-        }
-        sizes
+        sizes(&self.kinematics, r, x)
     }
 
     /// A bound of the force between its nodes, `Σ |∂π/∂r| |f*|`, N.
@@ -84,21 +79,41 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// for schemes with discrete derivatives, those of the value of the energy.
     #[cold]
     pub(super) fn add_bounds(&self, r: &Arms<K, D>, x: &M::Variables, energy: &mut Energy) {
-        energy.add_forces(self.work_of(&self.model.gradient(x), r, x));
+        let gradient = self.model.gradient(x);
+        let forces = &gradient.as_ref()[..Self::TEMPERATURE];
+        energy.add_forces(work_of(&self.kinematics, forces, r, x));
         if !self.scheme.is_exact() {
             energy.add_values(self.model.energy_magnitude(x));
         }
     }
+}
 
-    /// `Σ|f||π| + Σ|g||γ|` of forces in a state with these arms, J.
-    #[inline]
-    pub(super) fn work_of(&self, forces: &M::Variables, r: &Arms<K, D>, x: &M::Variables) -> f64 {
-        let sizes = self.sizes(r, x);
-        let forces = forces.as_ref()[..M::MEASURES + M::DASHPOTS].iter();
-        forces
-            .zip(sizes.as_ref())
-            .fold(0.0, |sum, (&force, &size)| sum + (force * size).abs())
+/// The magnitudes of the terms of the variables in a state with these arms: times ε, their errors by rounding.
+#[inline]
+fn sizes<K: Kinematics<D>, X: Array<f64>, const D: usize>(
+    kinematics: &K,
+    r: &Arms<K, D>,
+    x: &X,
+) -> X {
+    let mut sizes = *x;
+    let own = kinematics.sizes(r, &measures_in::<K::Measures>(x));
+    for (a, &size) in own.as_ref().iter().enumerate() {
+        sizes[a] = size;
     }
+    sizes
+}
+
+/// `Σ|f||π| + Σ|g||γ|` of forces in a state with these arms, J.
+#[inline]
+pub(super) fn work_of<K: Kinematics<D>, X: Array<f64>, const D: usize>(
+    kinematics: &K,
+    forces: &[f64],
+    r: &Arms<K, D>,
+    x: &X,
+) -> f64 {
+    let sizes = sizes(kinematics, r, x);
+    let terms = forces.iter().zip(sizes.as_ref());
+    terms.fold(0.0, |sum, (&force, &size)| sum + (force * size).abs())
 }
 
 /// Magnitudes of the terms of variables and responses, and the checks of a point by the certificate.

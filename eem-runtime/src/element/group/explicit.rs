@@ -11,6 +11,7 @@
 mod closed;
 mod closing;
 mod group;
+mod point;
 mod rates;
 pub(super) mod stage;
 mod temperature;
@@ -18,6 +19,7 @@ mod thermostat;
 pub(super) mod view;
 
 pub(crate) use group::ExplicitElements;
+pub(crate) use point::ExplicitPoint;
 pub(crate) use stage::{Past, Place, Stage, Thermostat, first_reservoir};
 pub(crate) use temperature::is_met;
 pub(crate) use view::{Caloric, ClosingView, ComponentEnergy, UnkeptEntropy};

@@ -287,14 +287,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// An error unless a free energy is finite.
     pub(super) fn unless_infinite(&self, psi: f64) -> Result<(), StateError> {
-        if psi.is_finite() {
-            return Ok(());
-        }
-        Err(StateError::NotFinite {
-            element: self.element,
-            quantity: "free energy",
-            value: psi,
-        })
+        unless_infinite(self.element, psi)
     }
 
     /// Finds the viscosities at a temperature; an error unless all are positive.
@@ -369,6 +362,18 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
         }
     }
+}
+
+/// An error unless a free energy is finite.
+pub(super) fn unless_infinite(element: Element, psi: f64) -> Result<(), StateError> {
+    if psi.is_finite() {
+        return Ok(());
+    }
+    Err(StateError::NotFinite {
+        element,
+        quantity: "free energy",
+        value: psi,
+    })
 }
 
 /// A temperature after the correction δθ, linear unless that would take more than half of it, and positive:

@@ -3,7 +3,7 @@
 #[cfg(not(test))]
 use core::any::Any;
 
-use super::explicit::ExplicitElements;
+use super::explicit::{ExplicitElements, ExplicitPoint};
 use super::interface::{ExplicitGroup, Loose};
 use super::loose::{LooseElements, MakeExplicit};
 use super::view::Placed;
@@ -91,14 +91,12 @@ pub(crate) fn explicit<M: Material, A: Material, const D: usize>(
         .as_any()
         .downcast_ref::<LooseElements<A, Stretch<D>, D>>();
     let all = all.unwrap_or_else(|| unreachable!("the group has made this function known"));
-    let elements = all.elements.iter().map(|(element, [(model, stretch)])| {
+    let points = all.elements.iter().map(|(element, [(model, stretch)])| {
         let model = model.as_any().downcast_ref::<M>();
         let model = model.unwrap_or_else(|| unreachable!("the models of a group are of one type"));
-        (*element, [(model.duplicate(), *stretch)])
+        let slots = placed.layout.elements[element.index()];
+        ExplicitPoint::new((*element, slots), model.duplicate(), *stretch)
     });
-    let own = LooseElements::<M, Stretch<D>, D> {
-        elements: elements.collect(),
-        make_explicit: all.make_explicit,
-    };
-    Box::new(ExplicitElements::new(own, placed, loose))
+    let points = points.collect();
+    Box::new(ExplicitElements::new(points, loose, placed))
 }

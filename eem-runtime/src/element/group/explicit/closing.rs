@@ -4,13 +4,16 @@
 use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::arms::add_scaled;
+use crate::element::group::certify::work_of;
 use crate::element::group::explicit::closed::Closed;
-use crate::element::group::explicit::group::{ExplicitElements, Spot};
+use crate::element::group::explicit::group::ExplicitElements;
+use crate::element::group::explicit::point::ExplicitPoint;
 use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
 use crate::element::group::explicit::temperature::Recovered;
 use crate::element::group::explicit::view::ClosingView;
-use crate::element::group::placed::PlacedPoint;
+use crate::element::group::placed::admissible;
+use crate::element::group::point::unless_infinite;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use eem_material::free_energy::{Array, Material};
@@ -18,10 +21,9 @@ use eem_material::free_energy::{Array, Material};
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::close`](super::ExplicitGroup::close).
     pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, D>) -> Result<(), StateError> {
-        let members = self.elements.members.iter().zip(&self.spots);
-        for ((member, spot), closed) in members.zip(&mut self.closed) {
-            if view.open[spot.component as usize] {
-                member.only().close_at(spot, view, closed)?;
+        for (point, closed) in self.points.iter().zip(&mut self.closed) {
+            if view.open[point.component as usize] {
+                point.close_at(view, closed)?;
             }
         }
         Ok(())
@@ -34,10 +36,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
         forces: &mut [[f64; D]],
         creep: &mut [[f64; 2]],
     ) {
-        let members = self.elements.members.iter().zip(&self.spots);
-        for ((member, spot), closed) in members.zip(&self.closed) {
-            let nodes = &spot.nodes;
-            if !components[spot.component as usize] {
+        for (point, closed) in self.points.iter().zip(&self.closed) {
+            let nodes = &point.nodes;
+            if !components[point.component as usize] {
                 continue;
             }
             let mut pull = Arms::<K, D>::filled([0.0; D]);
@@ -51,42 +52,41 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
                     forces[nodes[0] as usize][axis] += pull;
                 }
             }
-            for k in 0..member.only().dashpots() {
+            for k in 0..point.model.dashpots() {
                 let g = closed.rates.forces[M::MEASURES + k];
                 let rate = g / closed.viscosities.0[k];
-                creep[member.only().slots().viscous + k] = [rate, g * rate];
+                creep[point.viscous(k)] = [rate, g * rate];
             }
         }
     }
 
     /// See [`ExplicitGroup::finish`](super::ExplicitGroup::finish).
     pub(super) fn finish_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
-        for ((point, spot), closed) in self.placed().zip(&self.closed) {
-            let theta = spot.temperature_in(stage, M::THERMAL);
-            let found = closed.at(theta, point.dashpots());
-            if !point.write_rates(spot.nodes, spot.temperature, &found, stage) {
-                return Err(point.refuse(spot, stage));
+        for (point, closed) in self.points.iter().zip(&self.closed) {
+            let theta = point.temperature_in(stage);
+            let found = closed.at(theta, point.model.dashpots());
+            if !point.write_rates(&found, stage) {
+                return Err(point.refuse(stage));
             }
         }
         Ok(())
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     /// Finds temperature and energy.
     #[inline]
     fn close_at(
         &self,
-        spot: &Spot<K::PerNode<u32>>,
         view: &mut ClosingView<'_, D>,
         closed: &mut Closed<M, K, D>,
     ) -> Result<(), StateError> {
-        let r = &arms_of::<K, D>(&spot.nodes, &view.stage.places, Place::q);
-        let measures = self.admissible_measures(r)?;
-        let theta = spot.temperature_in(view.stage, M::THERMAL);
+        let r = &arms_of::<K, D>(&self.nodes, &view.stage.places, Place::q);
+        let measures = admissible(&self.kinematics, self.element, r)?;
+        let theta = self.temperature_in(view.stage);
         let x = self.variables_at(&measures, view.stage, theta);
         let at = self.model.rates_at(x);
-        let thermal = self.slots().thermal;
+        let thermal = self.slot();
         let free = thermal.filter(|&slot| !view.stage.is_held(slot));
         let recovered = match free.map(|slot| view.next.entropies.values()[slot]) {
             Some(entropy) => self.temperature_of(&x, &at, [entropy, theta], view.unkept)?,
@@ -104,7 +104,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             gradient: self.kinematics.gradient(r, &measures),
             values: closed.values,
         };
-        self.unless_infinite(psi)?;
+        unless_infinite(self.element, psi)?;
         let mut energy = Energy::without_temperature(psi);
         if let Some(slot) = thermal {
             if free.is_none() {
@@ -119,13 +119,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             let heat = theta * (kept.abs() + capacity);
             energy.magnitude = energy.value.abs() + heat;
             energy.terms += heat;
-            view.stage.inner[spot.temperature as usize] = recovered.corrected;
+            view.stage.inner[self.temperature()] = recovered.corrected;
             let caloric = &mut view.slots[slot];
             (caloric.capacity, caloric.bend) = (capacity, recovered.bend);
         }
         self.add_bounds_of(r, x, &mut found, &mut energy);
         *closed = found;
-        self.write_energy(spot.component, &energy, view);
+        self.write_energy(self.component, &energy, view);
         Ok(())
     }
 
@@ -138,10 +138,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         found: &mut Closed<M, K, D>,
         energy: &mut Energy,
     ) {
-        energy.add_forces(self.work_of(&found.rates.forces, r, &x));
+        let forces = &found.rates.forces.as_ref()[..Self::TEMPERATURE];
+        energy.add_forces(work_of(&self.kinematics, forces, r, &x));
         let theta = found.theta;
         energy.add_values(found.values.update(energy.terms, || {
-            if self.is_thermal() {
+            if self.model.is_thermal() {
                 x[Self::TEMPERATURE] = theta;
             }
             self.model.energy_magnitude(&x)

@@ -1,80 +1,52 @@
 //! The elements of one model in an explicit scheme.
 
-use crate::element::conjugates::{OneSet, PointRule};
+use crate::element::conjugates::{Conjugates, OneSet, PointRule};
 use crate::element::error::StateError;
-use crate::element::group::element_group::ElementGroup;
 use crate::element::group::explicit::closed::Closed;
+use crate::element::group::explicit::point::ExplicitPoint;
 use crate::element::group::explicit::stage::Stage;
 use crate::element::group::explicit::view::ClosingView;
-use crate::element::group::interface::{Elements, ExplicitGroup, Loose};
-use crate::element::group::loose::LooseElements;
-use crate::element::group::placed::PlacedPoint;
+use crate::element::group::interface::{Elements, ExplicitGroup, Group, Loose};
 use crate::element::group::view::Placed;
-use crate::element::kinematics::{Kinematics, QuadraticStrain};
+use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Material;
-use eem_material::number::compact::compact;
-
-/// Where an element is in a stage.
-pub(super) struct Spot<N> {
-    pub(super) component: u32,
-    /// The index of its temperature among the internal variables, if it has one.
-    pub(super) temperature: u32,
-    /// The indices of its nodes among the places.
-    pub(super) nodes: N,
-}
 
 /// Springs of the model `M` with the kinematics `K`. Their forces follow from the state alone.
 pub(crate) struct ExplicitElements<M: Material, K: Kinematics<D>, const D: usize> {
-    /// The elements in a state.
-    pub(super) elements: ElementGroup<M, K, D>,
-    /// Per element.
-    pub(super) spots: Vec<Spot<K::PerNode<u32>>>,
+    pub(super) points: Vec<ExplicitPoint<M, K, D>>,
     /// Per element: its last evaluation in a closing.
     pub(super) closed: Vec<Closed<M, K, D>>,
-    /// The elements without a scheme, whose models may be behind a table.
-    loose: Box<dyn Loose<D>>,
+    /// The elements in a state, whose models may be behind a table.
+    all: Box<dyn Group<D>>,
 }
 
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
+    /// The springs `points`, which are all of `loose`.
     pub(crate) fn new(
-        elements: LooseElements<M, K, D>,
-        placed: Placed<'_>,
+        points: Vec<ExplicitPoint<M, K, D>>,
         loose: Box<dyn Loose<D>>,
+        placed: Placed<'_>,
     ) -> Self {
-        let scheme = OneSet::Point(PointRule::Variational);
-        let elements = ElementGroup::new(scheme, elements, placed);
-        let count = elements.members.len();
+        let rule = OneSet::Point(PointRule::Variational);
         Self {
-            spots: Vec::with_capacity(count),
-            closed: (0..count).map(|_| Closed::none()).collect(),
-            elements,
-            loose,
+            closed: points.iter().map(|_| Closed::none()).collect(),
+            points,
+            all: loose.build(Conjugates::One(rule), placed),
         }
-    }
-
-    /// All elements with their spots.
-    #[inline]
-    pub(super) fn placed(
-        &self,
-    ) -> impl Iterator<Item = (&PlacedPoint<M, K, D>, &Spot<K::PerNode<u32>>)> {
-        let members = self.elements.members.iter().zip(&self.spots);
-        members.map(|(member, spot)| (member.only(), spot))
     }
 }
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> ExplicitGroup<D>
-    for ExplicitElements<M, K, D>
-{
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitGroup<D> for ExplicitElements<M, K, D> {
     fn elements(&self) -> &dyn Elements<D> {
-        &self.elements
+        self.all.elements()
     }
 
     fn elements_mut(&mut self) -> &mut dyn Elements<D> {
-        &mut self.elements
+        self.all.elements_mut()
     }
 
     fn into_loose(self: Box<Self>) -> Box<dyn Loose<D>> {
-        self.loose
+        self.all.into_loose()
     }
 
     fn join(
@@ -82,19 +54,12 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> ExplicitGroup<D>
         (component_of, first_temperature): (&[u32], usize),
         place_of: &dyn Fn(u32, u32) -> u32,
     ) {
-        for member in &self.elements.members {
-            let point = member.only();
+        let elements = self.all.elements();
+        for (place, point) in self.points.iter_mut().enumerate() {
             let component = component_of[point.element.index()];
-            let mut nodes = member.site.nodes;
-            for node in nodes.as_mut() {
-                *node = place_of(component, *node);
-            }
-            let thermal = point.slots().thermal.unwrap_or(0);
-            self.spots.push(Spot {
-                component,
-                temperature: compact(first_temperature + thermal),
-                nodes,
-            });
+            let places = elements.nodes(place).iter();
+            let places = places.map(|&node| place_of(component, node));
+            point.join(component, first_temperature, places);
         }
     }
 

@@ -9,9 +9,9 @@ use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, scale};
 use crate::element::group::explicit::closed::Found;
-use crate::element::group::explicit::group::{ExplicitElements, Spot};
+use crate::element::group::explicit::group::ExplicitElements;
+use crate::element::group::explicit::point::ExplicitPoint;
 use crate::element::group::explicit::stage::{Place, Stage};
-use crate::element::group::placed::PlacedPoint;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Measures};
 use eem_material::free_energy::{Array, Material, Rates};
 use eem_material::number::scalar::is_positive;
@@ -19,18 +19,13 @@ use eem_material::number::scalar::is_positive;
 impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
     pub(super) fn rates_of_all(&self, stage: &mut Stage<D>) -> Result<(), StateError> {
-        for (point, spot) in self.placed() {
-            // The reference is for the error only.
-            let &Spot {
-                nodes, temperature, ..
-            } = spot;
-            let r = arms_of::<K, D>(&nodes, &stage.places, Place::q);
+        for point in &self.points {
+            let r = arms_of::<K, D>(&point.nodes, &stage.places, Place::q);
             let measures = point.kinematics.measure(&r);
-            let found =
-                point.found_at(&r, &measures, spot.temperature_in(stage, M::THERMAL), stage);
-            let is_sound = point.write_rates(nodes, temperature, &found, stage);
+            let found = point.found_at(&r, &measures, stage);
+            let is_sound = point.write_rates(&found, stage);
             if !(is_sound && point.kinematics.is_admissible(&r, &measures)) {
-                return Err(point.refuse(spot, stage));
+                return Err(point.refuse(stage));
             }
         }
         Ok(())
@@ -77,28 +72,16 @@ fn is_number(value: f64) -> bool {
     value.abs() <= f64::MAX
 }
 
-impl<N> Spot<N> {
-    /// The temperature of the element at a stage; zero without one.
-    #[inline]
-    pub(super) fn temperature_in<const D: usize>(&self, stage: &Stage<D>, is_thermal: bool) -> f64 {
-        if is_thermal {
-            stage.inner[self.temperature as usize]
-        } else {
-            0.0
-        }
-    }
-}
-
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "what was found stays in registers")]
     fn found_at(
         &self,
         r: &Arms<K, D>,
         measures: &Measures<K, D>,
-        theta: f64,
         stage: &Stage<D>,
     ) -> Found<M, K, D> {
+        let theta = self.temperature_in(stage);
         // Called first: a call of `exp` would spill the registers used below.
         let viscosities = match M::DASHPOTS {
             0 => M::Viscosities::filled(0.0),
@@ -125,9 +108,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             x[a] = measure;
         }
         for k in 0..self.model.dashpots() {
-            x[M::MEASURES + k] = stage.inner[self.slots().viscous + k];
+            x[M::MEASURES + k] = stage.inner[self.viscous(k)];
         }
-        if self.is_thermal() {
+        if self.model.is_thermal() {
             x[Self::TEMPERATURE] = theta;
         }
         x
@@ -139,14 +122,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         clippy::inline_always,
         reason = "what was found stays in registers, and there are two callers"
     )]
-    pub(super) fn write_rates(
-        &self,
-        nodes: K::PerNode<u32>,
-        temperature: u32,
-        found: &Found<M, K, D>,
-        stage: &mut Stage<D>,
-    ) -> bool {
-        let at = temperature as usize;
+    pub(super) fn write_rates(&self, found: &Found<M, K, D>, stage: &mut Stage<D>) -> bool {
+        let (at, nodes, is_thermal) = (self.temperature(), self.nodes, self.model.is_thermal());
         let motion = arms_of::<K, D>(&nodes, &stage.places, Place::velocity);
         let Rates { forces, slopes } = &found.rates;
         let mut pull = found.gradient[0];
@@ -163,14 +140,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             stage.places[nodes[index + 1] as usize].push(arm);
             stage.places[nodes[0] as usize].pull(arm);
         }
-        let viscous = self.slots().viscous;
-        let flow = if M::THERMAL {
+        let flow = if is_thermal {
             stage.inner_rates[at]
         } else {
             0.0
         };
         let (mut heat, mut is_sound) = (flow, true);
-        let per_theta = if self.is_thermal() && M::DASHPOTS > 0 {
+        let per_theta = if is_thermal && M::DASHPOTS > 0 {
             found.theta.recip()
         } else {
             1.0
@@ -178,19 +154,19 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         for k in 0..self.model.dashpots() {
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
-            stage.inner_rates[viscous + k] = creep;
+            stage.inner_rates[self.viscous(k)] = creep;
             let power = g * creep;
-            stage.productions[viscous + k].add(stage.weight, power * per_theta);
+            stage.productions[self.viscous(k)].add(stage.weight, power * per_theta);
             if stage.has_heats {
-                stage.add_heat(viscous + k, power);
+                stage.add_heat(self.viscous(k), power);
             }
             heat += power;
             drift += slopes[M::MEASURES + k] * creep;
             is_sound &= found.viscosities[k] > 0.0;
             // With temperature, θ̇ contains the heat of the dashpot and is checked itself.
-            is_sound &= self.is_thermal() || is_number(creep);
+            is_sound &= is_thermal || is_number(creep);
         }
-        let Some(slot) = self.slots().thermal else {
+        let Some(slot) = self.slot() else {
             return is_sound && is_number(power);
         };
         let capacity = forces[Self::TEMPERATURE];
@@ -206,26 +182,26 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
 
     /// The error of an element that has no valid rates.
     #[cold]
-    pub(super) fn refuse(&self, spot: &Spot<K::PerNode<u32>>, stage: &Stage<D>) -> StateError {
-        let element = self.element;
-        let r = &arms_of::<K, D>(&spot.nodes, &stage.places, Place::q);
+    pub(super) fn refuse(&self, stage: &Stage<D>) -> StateError {
+        let (element, is_thermal) = (self.element, self.model.is_thermal());
+        let r = &arms_of::<K, D>(&self.nodes, &stage.places, Place::q);
         let measures = self.kinematics.measure(r);
         if !self.kinematics.is_admissible(r, &measures) {
             return self.kinematics.refusal(element, r);
         }
-        let found = self.found_at(r, &measures, spot.temperature_in(stage, M::THERMAL), stage);
+        let found = self.found_at(r, &measures, stage);
         let theta = found.theta;
-        if self.is_thermal() && !is_positive(theta) {
+        if is_thermal && !is_positive(theta) {
             let value = theta;
             return StateError::Temperature { element, value };
         }
-        if self.is_thermal()
+        if is_thermal
             && let Err(infeasible) =
                 Infeasible::unless_stable(found.rates.forces[Self::TEMPERATURE], theta)
         {
             return infeasible.of(element);
         }
-        let viscosities = found.viscosities.as_ref()[..self.dashpots()].iter();
+        let viscosities = found.viscosities.as_ref()[..self.model.dashpots()].iter();
         for (dashpot, &eta) in viscosities.enumerate() {
             if !is_positive(eta) {
                 return StateError::Viscosity {
@@ -233,7 +209,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
                     dashpot,
                     value: eta,
                     unit: K::Measures::VISCOSITY_UNIT,
-                    temperature: self.is_thermal().then_some(theta),
+                    temperature: is_thermal.then_some(theta),
                 };
             }
         }

@@ -2,9 +2,9 @@
 
 use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
+use crate::element::group::explicit::point::ExplicitPoint;
 use crate::element::group::explicit::view::UnkeptEntropy;
-use crate::element::group::point::Point;
-use crate::element::kinematics::MeasureSet;
+use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::{FreeEnergy, Material, Rates};
 use eem_material::inversion::temperature_near;
 use eem_material::number::scalar::Scalar;
@@ -58,7 +58,7 @@ pub(crate) fn is_met(change: f64, [capacity, bend]: [f64; 2]) -> bool {
     bend * change * change <= 0.125 * f64::EPSILON * capacity
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     /// The temperature of an entropy near a guess by Newton's method in ln θ.
     #[expect(clippy::inline_always, reason = "the logarithms of `at` are shared")]
     #[inline(always)]

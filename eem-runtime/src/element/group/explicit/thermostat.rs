@@ -2,9 +2,9 @@
 
 use crate::element::group::arms::along;
 use crate::element::group::explicit::group::ExplicitElements;
+use crate::element::group::explicit::point::ExplicitPoint;
 use crate::element::group::explicit::rates::arms_of;
 use crate::element::group::explicit::stage::{Place, Stage};
-use crate::element::group::placed::PlacedPoint;
 use crate::element::kinematics::Kinematics;
 use eem_material::free_energy::Material;
 
@@ -12,24 +12,18 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitElements<M, K, D> {
     /// See [`ExplicitGroup::integrate_thermostats`](super::ExplicitGroup::hold).
     #[cold]
     pub(super) fn integrate_thermostats_of_all(&self, stage: &mut Stage<D>, is_start: bool) {
-        for (point, spot) in self.placed() {
-            let held = point.slots().thermal.filter(|&slot| stage.is_held(slot));
+        for point in &self.points {
+            let held = point.slot().filter(|&slot| stage.is_held(slot));
             if let Some(slot) = held {
-                point.integrate_thermostat(slot, &spot.nodes, stage, is_start);
+                point.integrate_thermostat(slot, stage, is_start);
             }
         }
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<M: Material, K: Kinematics<D>, const D: usize> ExplicitPoint<M, K, D> {
     /// Adds the present stage to the integrals of its [thermostat](crate::element::group::explicit::stage::Thermostat).
-    fn integrate_thermostat(
-        &self,
-        slot: usize,
-        nodes: &K::PerNode<u32>,
-        stage: &mut Stage<D>,
-        is_start: bool,
-    ) {
+    fn integrate_thermostat(&self, slot: usize, stage: &mut Stage<D>, is_start: bool) {
         let (theta, thermostat) = (stage.theta(slot), &stage.thermostats[slot]);
         let last = thermostat.last;
         #[expect(
@@ -39,10 +33,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         if theta == last {
             return;
         }
-        let r = arms_of::<K, D>(nodes, &stage.places, Place::q);
+        let r = arms_of::<K, D>(&self.nodes, &stage.places, Place::q);
         let measures = self.kinematics.measure(&r);
         let gradient = self.kinematics.gradient(&r, &measures);
-        let motion = arms_of::<K, D>(nodes, &stage.places, Place::velocity);
+        let motion = arms_of::<K, D>(&self.nodes, &stage.places, Place::velocity);
         let x = self.variables_at(&measures, stage, theta);
         let at_last = self.variables_at(&measures, stage, last);
         let (own, other) = (
@@ -53,9 +47,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         for a in 0..M::MEASURES {
             rate += (own[a] - other[a]) * along::<K, D>(&gradient[a], &motion);
         }
-        for k in 0..self.dashpots() {
+        for k in 0..self.model.dashpots() {
             let at = M::MEASURES + k;
-            rate -= (own[at] - other[at]) * stage.inner_rates[self.slots().viscous + k];
+            rate -= (own[at] - other[at]) * stage.inner_rates[self.viscous(k)];
         }
         let (weight, thermostat) = (stage.weight, &mut stage.thermostats[slot]);
         thermostat.sum += weight * rate;
