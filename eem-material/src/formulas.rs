@@ -13,13 +13,7 @@ use core::marker::PhantomData;
 use crate::free_energy::{
     Array, Caloric, Entry, FreeEnergy, Material, Rates, Together, TogetherOf,
 };
-use crate::inversion::{Inverse, InversionError, temperature_near};
-
-/// The most parameters of a material behind a table.
-pub const MOST_PARAMETERS: usize = 64;
-
-/// An entry per parameter; those beyond the parameters of the material are unused.
-pub type ByParameters = [f64; MOST_PARAMETERS];
+use crate::inversion::{InversionError, temperature_near};
 
 /// The arrays of materials with the same numbers of variables, see the types of [`FreeEnergy`] with these names.
 pub trait Arrays: Entry {
@@ -130,7 +124,7 @@ pub struct Facts {
 
 /// The functions of a [`FreeEnergy`] with these arrays, as a table. Implemented for every material; see the functions of
 /// [`FreeEnergy`] with the same names.
-pub trait Formulas<A: Arrays>: Inverse<A::Variables> + Send + Sync {
+pub trait Formulas<A: Arrays>: Send + Sync {
     fn facts(&self) -> Facts;
     fn as_any(&self) -> &dyn Any;
     fn duplicate(&self) -> Box<dyn Formulas<A>>;
@@ -150,6 +144,12 @@ pub trait Formulas<A: Arrays>: Inverse<A::Variables> + Send + Sync {
         new: usize,
         theta: f64,
     ) -> (Caloric<f64>, f64);
+    /// [`temperature_near`] with the other variables of `x`; the numbers are entropy, guess and `enough`.
+    ///
+    /// # Errors
+    ///
+    /// As [`invert`](crate::invert).
+    fn temperature_of(&self, x: &A::Variables, numbers: [f64; 3]) -> Result<f64, InversionError>;
     fn rates(&self, x: &A::Variables) -> Rates<A::Variables>;
     fn rates_at(&self, x: &A::Variables, theta: f64) -> (Rates<A::Variables>, [f64; 2]);
     fn entropy_hessian(&self, x: &A::Variables) -> A::Hessian;
@@ -182,29 +182,34 @@ pub trait Formulas<A: Arrays>: Inverse<A::Variables> + Send + Sync {
         &self,
         ends: [&A::Variables; 2],
         weights: &A::Response,
-    ) -> ByParameters;
+        found: &mut [f64],
+    );
     fn temperature_form_tangent(
         &self,
         ends: [&A::Variables; 2],
-        direction: &ByParameters,
+        direction: &[f64],
     ) -> A::Response;
     fn entropy_form_adjoint(
         &self,
         ends: [&A::Variables; 2],
         corners: &A::Corners,
         weights: &A::Response,
-    ) -> ByParameters;
+        found: &mut [f64],
+    );
     fn entropy_form_tangent(
         &self,
         ends: [&A::Variables; 2],
         corners: &A::Corners,
-        direction: &ByParameters,
+        direction: &[f64],
     ) -> A::Response;
-    fn gradient_adjoint(&self, x: &A::Variables, weights: &A::Variables) -> ByParameters;
-    fn energy_by_parameters(&self, x: &A::Variables) -> ByParameters;
-    fn viscosity_adjoint(&self, theta: f64, weights: &A::Viscosities) -> ByParameters;
-    fn drag_adjoint(&self, theta: f64, weights: &A::Drag) -> ByParameters;
+    fn gradient_adjoint(&self, x: &A::Variables, weights: &A::Variables, found: &mut [f64]);
+    fn energy_by_parameters(&self, x: &A::Variables, found: &mut [f64]);
+    fn viscosity_adjoint(&self, theta: f64, weights: &A::Viscosities, found: &mut [f64]);
+    fn drag_adjoint(&self, theta: f64, weights: &A::Drag, found: &mut [f64]);
 }
+
+/// A response and its derivatives with respect to the new variables.
+pub type Form<A> = (<A as Arrays>::Response, <A as Arrays>::Tangent);
 
 /// [`Together`] for these arrays.
 pub type TogetherIn<A> = dyn Together<
@@ -243,25 +248,16 @@ fn with_kept<A: Array<f64>, X: Array<f64>, O: Array<f64>, T>(
     }
 }
 
-/// The first entries, and zeros beyond.
-fn resized<A: Array<f64>, B: Array<f64>>(from: &A) -> B {
-    let mut to = B::filled(0.0);
-    for (to, &from) in to.as_mut().iter_mut().zip(from.as_ref()) {
-        *to = from;
-    }
-    to
+/// Stores as many of some derivatives as the material has parameters.
+fn copy(by: &[f64], found: &mut [f64]) {
+    found.copy_from_slice(&by[..found.len()]);
 }
 
-impl<M: Material> Inverse<M::Variables> for M {
-    fn temperature_of(
-        &self,
-        x: &M::Variables,
-        [entropy, guess, enough]: [f64; 3],
-    ) -> Result<f64, InversionError> {
-        let caloric_at = FreeEnergy::caloric_at(self, *x);
-        let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
-        found.map(|(theta, [])| theta)
-    }
+/// A direction as the array of a material, which may be longer.
+fn parameters<M: Material>(direction: &[f64]) -> M::Parameters {
+    let mut parameters = M::Parameters::filled(0.0);
+    parameters.as_mut()[..direction.len()].copy_from_slice(direction);
+    parameters
 }
 
 impl<M, A> Formulas<A> for M
@@ -353,6 +349,16 @@ where
         FreeEnergy::caloric_between(self, x0, x1, new)(theta)
     }
 
+    fn temperature_of(
+        &self,
+        x: &M::Variables,
+        [entropy, guess, enough]: [f64; 3],
+    ) -> Result<f64, InversionError> {
+        let caloric_at = FreeEnergy::caloric_at(self, *x);
+        let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
+        found.map(|(theta, [])| theta)
+    }
+
     fn rates(&self, x: &M::Variables) -> Rates<M::Variables> {
         FreeEnergy::rates(self, x)
     }
@@ -441,16 +447,18 @@ where
         &self,
         [x0, x1]: [&M::Variables; 2],
         weights: &M::Response,
-    ) -> ByParameters {
-        resized(&FreeEnergy::temperature_form_adjoint(self, x0, x1, weights))
+        found: &mut [f64],
+    ) {
+        let by = FreeEnergy::temperature_form_adjoint(self, x0, x1, weights);
+        copy(by.as_ref(), found);
     }
 
     fn temperature_form_tangent(
         &self,
         [x0, x1]: [&M::Variables; 2],
-        direction: &ByParameters,
+        direction: &[f64],
     ) -> M::Response {
-        FreeEnergy::temperature_form_tangent(self, x0, x1, &resized(direction))
+        FreeEnergy::temperature_form_tangent(self, x0, x1, &parameters::<M>(direction))
     }
 
     fn entropy_form_adjoint(
@@ -458,34 +466,34 @@ where
         [x0, x1]: [&M::Variables; 2],
         corners: &M::Corners,
         weights: &M::Response,
-    ) -> ByParameters {
-        resized(&FreeEnergy::entropy_form_adjoint(
-            self, x0, x1, corners, weights,
-        ))
+        found: &mut [f64],
+    ) {
+        let by = FreeEnergy::entropy_form_adjoint(self, x0, x1, corners, weights);
+        copy(by.as_ref(), found);
     }
 
     fn entropy_form_tangent(
         &self,
         [x0, x1]: [&M::Variables; 2],
         corners: &M::Corners,
-        direction: &ByParameters,
+        direction: &[f64],
     ) -> M::Response {
-        FreeEnergy::entropy_form_tangent(self, x0, x1, corners, &resized(direction))
+        FreeEnergy::entropy_form_tangent(self, x0, x1, corners, &parameters::<M>(direction))
     }
 
-    fn gradient_adjoint(&self, x: &M::Variables, weights: &M::Variables) -> ByParameters {
-        resized(&FreeEnergy::gradient_adjoint(self, x, weights))
+    fn gradient_adjoint(&self, x: &M::Variables, weights: &M::Variables, found: &mut [f64]) {
+        copy(FreeEnergy::gradient_adjoint(self, x, weights).as_ref(), found);
     }
 
-    fn energy_by_parameters(&self, x: &M::Variables) -> ByParameters {
-        resized(&FreeEnergy::energy_by_parameters(self, x))
+    fn energy_by_parameters(&self, x: &M::Variables, found: &mut [f64]) {
+        copy(FreeEnergy::energy_by_parameters(self, x).as_ref(), found);
     }
 
-    fn viscosity_adjoint(&self, theta: f64, weights: &M::Viscosities) -> ByParameters {
-        resized(&FreeEnergy::viscosity_adjoint(self, theta, weights))
+    fn viscosity_adjoint(&self, theta: f64, weights: &M::Viscosities, found: &mut [f64]) {
+        copy(FreeEnergy::viscosity_adjoint(self, theta, weights).as_ref(), found);
     }
 
-    fn drag_adjoint(&self, theta: f64, weights: &M::Drag) -> ByParameters {
-        resized(&FreeEnergy::drag_adjoint(self, theta, weights))
+    fn drag_adjoint(&self, theta: f64, weights: &M::Drag, found: &mut [f64]) {
+        copy(FreeEnergy::drag_adjoint(self, theta, weights).as_ref(), found);
     }
 }

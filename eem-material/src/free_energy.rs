@@ -3,7 +3,6 @@
 use core::any::Any;
 
 pub use crate::array::{Array, Entry};
-use crate::inversion::Inverse;
 use crate::number::scalar::Scalar;
 pub use crate::together::{ExactForm, MOST_TOGETHER, Steps, Together};
 use crate::values::absent;
@@ -72,8 +71,6 @@ pub trait FreeEnergy<S: Scalar> {
     /// }
     /// ```
     const HAS_PARAMETER_DERIVATIVES: bool = false;
-    /// Whether [`together`](Self::together) may return functions; only for springs.
-    const MAY_BE_TOGETHER: bool = false;
     /// The name of the struct.
     const MODEL: &'static str;
     /// The names of the parameters that the model uses.
@@ -128,7 +125,7 @@ pub trait FreeEnergy<S: Scalar> {
         self
     }
 
-    /// Functions that evaluate several springs of this material in one call, if that takes less time than one by one. Springs are
+    /// Functions that evaluate several springs (no solids) of this material in one call, if that takes less time than one by one. Springs are
     /// evaluated together if their functions have one address, which those with other values of parameters must not have.
     fn together(&self) -> Option<&TogetherOf<Self, S>> {
         None
@@ -228,11 +225,6 @@ pub trait FreeEnergy<S: Scalar> {
             }
             (self.caloric(&x), self.free_energy(&x))
         }
-    }
-
-    /// The inversion of its entropy, if the material is behind a table.
-    fn inverse(&self) -> Option<&dyn Inverse<Self::Variables>> {
-        None
     }
 
     /// [`caloric_at`](Self::caloric_at) of the mixed state with the first `new` measures and viscous variables
@@ -448,12 +440,6 @@ pub trait FreeEnergy<S: Scalar> {
         absent()
     }
 }
-
-/// A response and its derivatives with respect to the new variables.
-pub type Form<S, M> = (
-    <M as FreeEnergy<S>>::Response,
-    <M as FreeEnergy<S>>::Tangent,
-);
 
 /// [`Together`] for the arrays of a material.
 pub type TogetherOf<M, S = f64> = dyn Together<

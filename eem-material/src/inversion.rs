@@ -95,16 +95,6 @@ const ENTROPY_ROUNDINGS: f64 = 4.0;
 /// Newton's method continues while a correction is at most this fraction of the one before.
 const CONTRACTION: f64 = 0.25;
 
-/// A material with variables `X` whose entropy can be inverted in one call.
-pub trait Inverse<X> {
-    /// [`temperature_near`] with the other variables of `x`; the numbers are entropy, guess and `enough`.
-    ///
-    /// # Errors
-    ///
-    /// As [`invert`].
-    fn temperature_of(&self, x: &X, numbers: [f64; 3]) -> Result<f64, InversionError>;
-}
-
 /// Newton's method in ln θ from a temperature near the solution, `θ ← θ e^((s − S)/C)`; also returns the other values
 /// evaluated at the last temperature.
 ///

@@ -10,7 +10,7 @@
 use core::any::Any;
 use core::marker::PhantomData;
 
-use crate::formulas::{Arrays, MOST_PARAMETERS};
+use crate::formulas::Arrays;
 use crate::free_energy::{Array, Caloric, FreeEnergy, Material, Rates};
 
 /// A material in the arrays A.
@@ -44,8 +44,7 @@ impl<M: Material, A: Arrays> WithRoom<M, A> {
         && !M::PER_VOLUME
         && M::DASHPOTS <= A::DASHPOTS
         && A::THERMAL
-        && M::Drag::LEN <= A::Drag::LEN
-        && M::Parameters::LEN <= MOST_PARAMETERS;
+        && M::Drag::LEN <= A::Drag::LEN;
 
     #[must_use]
     pub fn new(material: M) -> Self {

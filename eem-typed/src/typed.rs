@@ -180,7 +180,6 @@ impl<
     const DASHPOTS: usize = K;
     const THERMAL: bool = R > N;
     const PER_VOLUME: bool = H::AT_POINT[0] > 0;
-    const MAY_BE_TOGETHER: bool = H::AT_POINT[0] == 0;
     const MODEL: &'static str = NAMELESS;
     const HAS_PARAMETER_DERIVATIVES: bool = true;
     /// Empty: the names are known at run time, see `parameter_names`.
@@ -210,7 +209,7 @@ impl<
     }
 
     fn together(&self) -> Option<&TogetherOf<Self>> {
-        if Self::MAY_BE_TOGETHER {
+        if H::AT_POINT[0] == 0 {
             Some(&*self.functions)
         } else {
             None

@@ -12,10 +12,13 @@ use crate::element::group::{LooseElements, identity};
 use crate::element::handle::{Element, HeatPartner, HeatPath, Kind, Node, Reservoir};
 use crate::element::kinematics::Stretch;
 use crate::scene::error::SceneError;
-use eem_material::formulas::Arrays;
+use eem_material::formulas::{Arrays, ArraysOf};
 use eem_material::free_energy::Material;
 use eem_material::tabled::Tabled;
 use eem_material::with_room::WithRoom;
+
+/// The arrays of a spring with more variables than those that are compiled with this crate have room for.
+type Own<M> = ArraysOf<M, [f64; 1], [f64; 32]>;
 
 impl<const D: usize> Scene<D> {
     /// An empty scene.
@@ -59,46 +62,36 @@ impl<const D: usize> Scene<D> {
         let groups = Springs::get();
         // A branch that a constant rules out is not compiled.
         let at = if const { Tabled::<Elastic>::is_for::<M>() } {
-            self.push_tabled::<M, Elastic, _>(element, model, groups.elastic)
+            self.push_spring::<M, Elastic>(element, model, groups.elastic)
         } else if const { Tabled::<Warm>::is_for::<M>() } {
-            self.push_tabled::<M, Warm, _>(element, model, groups.warm)
+            self.push_spring::<M, Warm>(element, model, groups.warm)
         } else if const { Tabled::<Viscous>::is_for::<M>() } {
-            self.push_tabled::<M, Viscous, _>(element, model, groups.viscous)
+            self.push_spring::<M, Viscous>(element, model, groups.viscous)
         } else if const { Tabled::<Damped>::is_for::<M>() } {
-            self.push_tabled::<M, Damped, _>(element, model, groups.damped)
+            self.push_spring::<M, Damped>(element, model, groups.damped)
         } else if const { Tabled::<ManyDashpots>::is_for::<M>() } {
-            self.push_tabled::<M, ManyDashpots, _>(element, model, groups.many_dashpots)
+            self.push_spring::<M, ManyDashpots>(element, model, groups.many_dashpots)
         } else if const { WithRoom::<M, Damped>::FITS } {
             let model = WithRoom::<M, Damped>::new(model);
-            self.push_tabled::<M, Damped, _>(element, model, groups.damped)
+            self.push_spring::<M, Damped>(element, model, groups.damped)
         } else if const { WithRoom::<M, ManyDashpots>::FITS } {
             let model = WithRoom::<M, ManyDashpots>::new(model);
-            self.push_tabled::<M, ManyDashpots, _>(element, model, groups.many_dashpots)
+            self.push_spring::<M, ManyDashpots>(element, model, groups.many_dashpots)
         } else {
-            self.push_spring::<M, _>(element, model, group_of::<M, D>)
+            self.push_spring::<M, Own<M>>(element, model, group_of::<Own<M>, D>)
         };
         self.push_element(&nodes, at);
         element
     }
 
-    /// Adds a spring of the material `M`, or of the same with room, behind its table.
-    fn push_tabled<M: Material, A: Arrays, R: Material>(
+    /// Adds a spring of the material `M`, which is `model` or that with room, to its group; returns the indices of group and place.
+    fn push_spring<M: Material, A: Arrays>(
         &mut self,
         element: Element,
-        model: R,
+        model: impl Material,
         new: NewGroup<D>,
     ) -> [usize; 2] {
-        let model = Tabled::<A>::new::<R, [f64; 1]>(model);
-        self.push_spring::<M, _>(element, model, new)
-    }
-
-    /// Adds a spring of the material `M`, which may be behind the table `A`, to its group; returns the indices of group and place.
-    fn push_spring<M: Material, A: Material>(
-        &mut self,
-        element: Element,
-        model: A,
-        new: NewGroup<D>,
-    ) -> [usize; 2] {
+        let model = Tabled::<A>::new::<_, [f64; 1]>(model);
         let new = || new(explicit::<M, A, D>);
         let (group, set) = self.set_of::<LooseElements<A, Stretch<D>, D>>(identity(&model), new);
         let place = set.points();

@@ -214,13 +214,13 @@ impl<const D: usize> Scene<D> {
     fn push_parts<A: Arrays, K: QuadraticStrain<D>>(
         &mut self,
         first: Element,
-        parts: Parts<Tabled<A>, K, D>,
+        parts: Parts<A, K, D>,
     ) -> (usize, usize) {
         let kind = identity(&parts.as_ref()[0].0);
         let new = || -> Box<dyn Loose<D>> {
-            Box::new(LooseElements::<Tabled<A>, K, D>::new(no_explicit))
+            Box::new(LooseElements::<A, K, D>::new(no_explicit))
         };
-        let (group, set) = self.set_of::<LooseElements<Tabled<A>, K, D>>(kind, new);
+        let (group, set) = self.set_of::<LooseElements<A, K, D>>(kind, new);
         let place = set.points();
         set.elements.push((first, parts));
         (group, place)

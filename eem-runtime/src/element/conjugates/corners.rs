@@ -4,7 +4,9 @@
 
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
-use eem_material::free_energy::{Array, FreeEnergy, MOST_TOGETHER, Material, Steps, TogetherOf};
+use eem_material::formulas::{Arrays, TogetherIn};
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::{Array, MOST_TOGETHER, Steps};
 
 /// The largest first correction of ln θ with which Newton's method continues, and the factor by which corrections have to
 /// shrink; otherwise a safeguarded search finds the temperatures one by one.
@@ -12,16 +14,16 @@ const LARGEST_FIRST: f64 = 0.0625;
 const SHRINKING: f64 = 0.25;
 
 /// A model, and the variables of both ends of its step.
-type Ends<'a, M> = (&'a M, [&'a <M as FreeEnergy<f64>>::Variables; 2]);
+type Ends<'a, A> = (&'a Tabled<A>, [&'a <A as Arrays>::Variables; 2]);
 
 /// Finds the temperatures of all mixed states of an element, from those of the last trial.
 #[inline]
-pub(super) fn find_corners<M: FreeEnergy<f64>>(
-    (model, [x0, x1]): Ends<'_, M>,
-    old: &M::EntropyFormOld,
-    corners: &mut M::Corners,
+pub(super) fn find_corners<A: Arrays>(
+    (model, [x0, x1]): Ends<'_, A>,
+    old: &A::Kept,
+    corners: &mut A::Corners,
 ) -> Result<(), Infeasible> {
-    let mut search = Search::<M>::new(corners);
+    let mut search = Search::<A>::new(corners);
     while !search.settled {
         let mixed = model.mixed_states(x0, old, x1, corners);
         search.correct((model, [x0, x1]), &mixed, corners)?;
@@ -30,15 +32,15 @@ pub(super) fn find_corners<M: FreeEnergy<f64>>(
 }
 
 /// The same of several elements, whose mixed states are evaluated in one call, with the same bits.
-pub(crate) fn find_corners_together<'a, M: Material>(
-    together: &TogetherOf<M>,
-    each: impl Fn(usize) -> Ends<'a, M>,
-    (kept, x1): (&[&[f64]], &[M::Variables]),
-    corners: &mut [M::Corners],
+pub(crate) fn find_corners_together<'a, A: Arrays>(
+    together: &TogetherIn<A>,
+    each: impl Fn(usize) -> Ends<'a, A>,
+    (kept, x1): (&[&[f64]], &[A::Variables]),
+    corners: &mut [A::Corners],
 ) -> Result<(), Infeasible> {
     let count = corners.len();
     let mut searches: [_; MOST_TOGETHER] =
-        core::array::from_fn(|index| Search::<M>::new(&corners[index % count]));
+        core::array::from_fn(|index| Search::<A>::new(&corners[index % count]));
     let searches = &mut searches[..count];
     let mut mixed = [[corners[0]; 2]; MOST_TOGETHER];
     let mixed = &mut mixed[..count];
@@ -60,17 +62,17 @@ pub(crate) fn find_corners_together<'a, M: Material>(
 }
 
 /// Newton's method in ln θ for the temperatures of the mixed states of an element.
-struct Search<M: FreeEnergy<f64>> {
-    guesses: M::Corners,
+struct Search<A: Arrays> {
+    guesses: A::Corners,
     /// The largest correction with which Newton's method continues.
     limit: f64,
     /// Whether it has converged.
     settled: bool,
 }
 
-impl<M: FreeEnergy<f64>> Search<M> {
+impl<A: Arrays> Search<A> {
     #[inline]
-    fn new(guesses: &M::Corners) -> Self {
+    fn new(guesses: &A::Corners) -> Self {
         Self {
             guesses: *guesses,
             limit: LARGEST_FIRST,
@@ -78,13 +80,13 @@ impl<M: FreeEnergy<f64>> Search<M> {
         }
     }
 
-    /// One correction, from the [mixed states](FreeEnergy::mixed_states) at the present temperatures.
+    /// One correction, from the [mixed states](eem_material::FreeEnergy::mixed_states) at the present temperatures.
     #[inline]
     fn correct(
         &mut self,
-        (model, ends): Ends<'_, M>,
-        [excess, capacities]: &[M::Corners; 2],
-        corners: &mut M::Corners,
+        (model, ends): Ends<'_, A>,
+        [excess, capacities]: &[A::Corners; 2],
+        corners: &mut A::Corners,
     ) -> Result<(), Infeasible> {
         let root = f64::EPSILON.sqrt();
         // S(ln θ) is linear where the capacity is constant, so that only the series of e^x is left.
@@ -95,7 +97,7 @@ impl<M: FreeEnergy<f64>> Search<M> {
         };
         let mut found = *corners;
         let (mut largest, mut sum, mut least) = (0.0, 0.0, f64::MAX);
-        for index in 0..M::Corners::LEN {
+        for index in 0..A::Corners::LEN {
             let correction = -excess[index] / capacities[index];
             let size = correction.abs();
             // The sum keeps a NaN; a comparison loses it.
@@ -134,17 +136,17 @@ fn growth(x: f64) -> f64 {
 /// A trial beyond a spinodal is refused, so that all corners lie on the stable branch.
 #[cold]
 #[inline(never)]
-fn search_corners<M: FreeEnergy<f64>>(
-    model: &M,
-    [x0, x1]: [&M::Variables; 2],
-    mut corners: M::Corners,
-) -> Result<M::Corners, Infeasible> {
-    let steps = M::Corners::LEN / 2;
+fn search_corners<A: Arrays>(
+    model: &Tabled<A>,
+    [x0, x1]: [&A::Variables; 2],
+    mut corners: A::Corners,
+) -> Result<A::Corners, Infeasible> {
+    let steps = A::Corners::LEN / 2;
     let [old, new] = [x0, x1].map(|x| model.caloric(x));
-    Infeasible::unless_stable(new.heat_capacity, x1[M::Variables::LEN - 1])?;
+    Infeasible::unless_stable(new.heat_capacity, x1[A::Variables::LEN - 1])?;
     for k in 1..=steps {
         for (first, ends, entropy) in [(0, [x0, x1], old.entropy), (steps, [x1, x0], new.entropy)] {
-            let mixed = model.caloric_between(ends[0], ends[1], k);
+            let mixed = |theta: f64| model.caloric_between(ends, k, theta);
             let corner = &mut corners[first + k - 1];
             *corner = temperature_of(&mixed, entropy, *corner)?;
         }

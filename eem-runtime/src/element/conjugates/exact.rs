@@ -23,28 +23,30 @@
 
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::start::Form;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Array;
 
 /// The temperatures of mixed states for the step back from the new state to the old one: with the states exchanged, the ascending chain
 /// is the descending one.
 #[cfg(feature = "gradients")]
 #[inline]
-pub(crate) fn exchanged<M: FreeEnergy<f64>>(corners: &M::Corners) -> M::Corners {
+pub(crate) fn exchanged<A: Arrays>(corners: &A::Corners) -> A::Corners {
     let mut exchanged = *corners;
-    exchanged.as_mut().rotate_left(M::Corners::LEN / 2);
+    exchanged.as_mut().rotate_left(A::Corners::LEN / 2);
     exchanged
 }
 
 /// Rejects an unstable trial of an exact scheme, by `∂Δs/∂θ¹ = C/θ¹` in its form.
 #[inline]
-pub(crate) fn check_stable<M: FreeEnergy<f64>>(
-    model: &M,
-    x: &M::Variables,
-    form: &Form<f64, M>,
+pub(crate) fn check_stable<A: Arrays>(
+    model: &Tabled<A>,
+    x: &A::Variables,
+    form: &Form<A>,
 ) -> Result<(), Infeasible> {
     if !model.is_thermal() {
         return Ok(());
     }
-    let last = M::Variables::LEN - 1;
+    let last = A::Variables::LEN - 1;
     Infeasible::unless_stable(x[last] * form.1[last + 1][last], x[last])
 }

@@ -30,44 +30,46 @@ use crate::element::conjugates::family::{PointRule, not_of_this_family};
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::start::{Form, Kept, Start};
 use crate::element::conjugates::temperature::temperature_at;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Array;
 
 impl PointRule {
     /// The temperature τ of a trial, given its other variables and Δs: the entropy at the point is s⁰ + c Δs.
-    pub(crate) fn temperature<M: FreeEnergy<f64>>(
+    pub(crate) fn temperature<A: Arrays>(
         self,
-        model: &M,
-        start: &Start<M>,
-        x: &M::Variables,
+        model: &Tabled<A>,
+        start: &Start<A>,
+        x: &A::Variables,
         entropy_change: f64,
     ) -> Result<f64, Infeasible> {
         let c = self.time();
-        let guess = x.as_ref()[M::Variables::LEN - 1];
+        let guess = x.as_ref()[A::Variables::LEN - 1];
         let entropy = old_entropy(start) + c * entropy_change;
         temperature_at(model, point(start, x, c), entropy, guess)
     }
 
     /// The response and its tangent.
-    pub(super) fn respond<M: FreeEnergy<f64>>(
+    pub(super) fn respond<A: Arrays>(
         self,
-        model: &M,
-        start: &Start<M>,
-        x: &M::Variables,
-    ) -> Form<f64, M> {
+        model: &Tabled<A>,
+        start: &Start<A>,
+        x: &A::Variables,
+    ) -> Form<A> {
         respond(model, start, x, self.time())
     }
 
     /// For a rule in temperature: replaces the Δs of the form by `Σ_i (∂s/∂x_i) δ_i`, where `δ` are the
     /// increments of measures, viscous stretches and temperature along the step, less the contributions of the
     /// old state. Returns `∂s/∂x`.
-    pub(crate) fn change_entropy_at_rates<M: FreeEnergy<f64>>(
+    pub(crate) fn change_entropy_at_rates<A: Arrays>(
         self,
-        model: &M,
-        start: &Start<M>,
-        x: &M::Variables,
-        increments: &M::Variables,
-        form: &mut Form<f64, M>,
-    ) -> M::Variables {
+        model: &Tabled<A>,
+        start: &Start<A>,
+        x: &A::Variables,
+        increments: &A::Variables,
+        form: &mut Form<A>,
+    ) -> A::Variables {
         let c = self.time();
         let point = point(start, x, c);
         change_entropy_at_rates(model, &point, increments, c, form)
@@ -75,7 +77,7 @@ impl PointRule {
 }
 
 /// s⁰, J/K.
-fn old_entropy<M: FreeEnergy<f64>>(start: &Start<M>) -> f64 {
+fn old_entropy<A: Arrays>(start: &Start<A>) -> f64 {
     match start.old {
         Kept::State(entropy) => entropy,
         Kept::Entropy(_) | Kept::Temperature(_) => not_of_this_family(),
@@ -83,9 +85,9 @@ fn old_entropy<M: FreeEnergy<f64>>(start: &Start<M>) -> f64 {
 }
 
 /// `(π, γ⁰ + c (γ − γ⁰), τ)` for `x = (π, γ, τ)`.
-fn point<M: FreeEnergy<f64>>(start: &Start<M>, x: &M::Variables, c: f64) -> M::Variables {
+fn point<A: Arrays>(start: &Start<A>, x: &A::Variables, c: f64) -> A::Variables {
     let mut point = *x;
-    for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
+    for index in A::MEASURES..A::MEASURES + A::DASHPOTS {
         let old = start.x0.as_ref()[index];
         point.as_mut()[index] = old + c * (x.as_ref()[index] - old);
     }
@@ -99,23 +101,23 @@ fn point<M: FreeEnergy<f64>>(start: &Start<M>, x: &M::Variables, c: f64) -> M::V
 /// ```
 ///
 /// `c = ½` is the midpoint, where `s_m = s⁰ + ½Δs`; `c = 1` the end of the step.
-fn respond<M: FreeEnergy<f64>>(
-    model: &M,
-    start: &Start<M>,
-    x: &M::Variables,
+fn respond<A: Arrays>(
+    model: &Tabled<A>,
+    start: &Start<A>,
+    x: &A::Variables,
     c: f64,
-) -> Form<f64, M> {
-    let variables = M::Variables::LEN;
-    let dashpots = M::MEASURES..M::MEASURES + M::DASHPOTS;
+) -> Form<A> {
+    let variables = A::Variables::LEN;
+    let dashpots = A::MEASURES..A::MEASURES + A::DASHPOTS;
     let (gradient, hessian) = model.hessian(&point(start, x, c));
     let (gradient, hessian) = (gradient.as_ref(), hessian.as_ref());
-    let mut response = M::Response::filled(0.0);
-    let mut tangent = M::Tangent::filled(M::Variables::filled(0.0));
+    let mut response = A::Response::filled(0.0);
+    let mut tangent = A::Tangent::filled(A::Variables::filled(0.0));
     let by = |column: usize| {
         if dashpots.contains(&column) { c } else { 1.0 }
     };
-    for row in 0..M::MEASURES + M::DASHPOTS {
-        let sign = if row < M::MEASURES { 1.0 } else { -1.0 };
+    for row in 0..A::MEASURES + A::DASHPOTS {
+        let sign = if row < A::MEASURES { 1.0 } else { -1.0 };
         response.as_mut()[row] = sign * gradient[row];
         for column in 0..variables {
             let entry = hessian[row].as_ref()[column];
@@ -139,20 +141,20 @@ fn respond<M: FreeEnergy<f64>>(
 /// increments `δ` of measures, viscous stretches and temperature along the step.
 ///
 /// Returns `∂s/∂x`. With `θ ṡ = Σ g²/η + Q` written as `θ (s_λ λ̇ + s_γ γ̇ + s_θ θ̇)` this is the rule for θ̇.
-fn change_entropy_at_rates<M: FreeEnergy<f64>>(
-    model: &M,
-    point: &M::Variables,
-    increments: &M::Variables,
+fn change_entropy_at_rates<A: Arrays>(
+    model: &Tabled<A>,
+    point: &A::Variables,
+    increments: &A::Variables,
     c: f64,
-    (response, tangent): &mut Form<f64, M>,
-) -> M::Variables {
-    let (variables, last) = (M::Variables::LEN, M::Variables::LEN - 1);
+    (response, tangent): &mut Form<A>,
+) -> A::Variables {
+    let (variables, last) = (A::Variables::LEN, A::Variables::LEN - 1);
     let entropy_hessian = model.entropy_hessian(point);
     // ∂s/∂x, of which the tangent of Δs = (S − s⁰)/c is made: for γ with dγ_c/dγ = c.
     let slopes = tangent.as_ref()[variables];
     let slope = |i: usize| {
         let entry = slopes.as_ref()[i];
-        if (M::MEASURES..last).contains(&i) {
+        if (A::MEASURES..last).contains(&i) {
             entry
         } else {
             c * entry
@@ -169,7 +171,7 @@ fn change_entropy_at_rates<M: FreeEnergy<f64>>(
             entry += entropy_hessian.as_ref()[i].as_ref()[column] * increment;
         }
         // dγ_c/dγ = c and dδ_γ/dγ = 1; dδ_θ/dτ = 1/c; measures enter through their increments.
-        let entry = if column < M::MEASURES {
+        let entry = if column < A::MEASURES {
             entry
         } else if column < last {
             c * entry + slope(column)
@@ -178,7 +180,7 @@ fn change_entropy_at_rates<M: FreeEnergy<f64>>(
         };
         tangent.as_mut()[variables].as_mut()[column] = entry;
     }
-    let mut by_increment = M::Variables::filled(0.0);
+    let mut by_increment = A::Variables::filled(0.0);
     for (i, by) in by_increment.as_mut().iter_mut().enumerate() {
         *by = slope(i);
     }

@@ -3,37 +3,38 @@
 use crate::element::conjugates::corners::find_corners;
 use crate::element::conjugates::family::{ExactForm, Family, OneSet, not_of_this_family};
 use crate::element::conjugates::infeasible::Infeasible;
-pub(crate) use eem_material::free_energy::Form;
-use eem_material::free_energy::{Array, FreeEnergy};
+pub(crate) use eem_material::formulas::Form;
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Array;
 
 /// The old state of an element as its scheme sees it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Start<M: FreeEnergy<f64>> {
+pub(crate) struct Start<A: Arrays> {
     /// x⁰.
-    pub(crate) x0: M::Variables,
+    pub(crate) x0: A::Variables,
     /// What the scheme keeps of the old state.
-    pub(crate) old: KeptOf<M>,
+    pub(crate) old: KeptOf<A>,
 }
 
 /// What a scheme keeps of the old state. It tells the form of the step.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Kept<E, T> {
-    Entropy(E),
-    Temperature(T),
+pub(crate) enum Kept<O> {
+    Entropy(O),
+    Temperature(O),
     /// s⁰, J/K, for the classical schemes.
     State(f64),
 }
 
 /// The same for a model.
-pub(super) type KeptOf<M> =
-    Kept<<M as FreeEnergy<f64>>::EntropyFormOld, <M as FreeEnergy<f64>>::TemperatureFormOld>;
+pub(super) type KeptOf<A> = Kept<<A as Arrays>::Kept>;
 
-impl<E: Array<f64>, T: Array<f64>> Kept<E, T> {
+impl<O: Array<f64>> Kept<O> {
     /// What the entropy form keeps; zeros if it was another one that kept something.
     #[inline]
-    fn in_entropy(&mut self) -> &mut E {
+    fn in_entropy(&mut self) -> &mut O {
         if !matches!(self, Self::Entropy(_)) {
-            *self = Self::Entropy(E::filled(0.0));
+            *self = Self::Entropy(O::filled(0.0));
         }
         match self {
             Self::Entropy(old) => old,
@@ -43,9 +44,9 @@ impl<E: Array<f64>, T: Array<f64>> Kept<E, T> {
 
     /// The same of the temperature form.
     #[inline]
-    fn in_temperature(&mut self) -> &mut T {
+    fn in_temperature(&mut self) -> &mut O {
         if !matches!(self, Self::Temperature(_)) {
-            *self = Self::Temperature(T::filled(0.0));
+            *self = Self::Temperature(O::filled(0.0));
         }
         match self {
             Self::Temperature(old) => old,
@@ -54,11 +55,11 @@ impl<E: Array<f64>, T: Array<f64>> Kept<E, T> {
     }
 }
 
-impl<M: FreeEnergy<f64>> Start<M> {
+impl<A: Arrays> Start<A> {
     /// Before the first step.
     pub(crate) fn nothing() -> Self {
         Self {
-            x0: M::Variables::filled(0.0),
+            x0: A::Variables::filled(0.0),
             old: Kept::State(0.0),
         }
     }
@@ -67,7 +68,7 @@ impl<M: FreeEnergy<f64>> Start<M> {
     /// the temperature.
     // Each in its own place: one value for all forms would be copied as the largest one.
     #[inline]
-    pub(crate) fn keep(&mut self, scheme: OneSet, model: &M, entropy: f64, is_prescribed: bool) {
+    pub(crate) fn keep(&mut self, scheme: OneSet, model: &Tabled<A>, entropy: f64, is_prescribed: bool) {
         match scheme {
             OneSet::Exact(ExactForm::Entropy) if !is_prescribed => {
                 model.keep_for_entropy_form(&self.x0, self.old.in_entropy());
@@ -100,9 +101,9 @@ impl<M: FreeEnergy<f64>> Start<M> {
     #[inline]
     pub(crate) fn prepare(
         &self,
-        model: &M,
-        x: &M::Variables,
-        corners: &mut M::Corners,
+        model: &Tabled<A>,
+        x: &A::Variables,
+        corners: &mut A::Corners,
     ) -> Result<(), Infeasible> {
         match &self.old {
             Kept::Entropy(old) if model.is_thermal() => {
@@ -117,10 +118,10 @@ impl<M: FreeEnergy<f64>> Start<M> {
     pub(crate) fn form<C: Family>(
         &self,
         scheme: OneSet,
-        model: &M,
-        x: &M::Variables,
-        corners: &M::Corners,
-    ) -> Form<f64, M> {
+        model: &Tabled<A>,
+        x: &A::Variables,
+        corners: &A::Corners,
+    ) -> Form<A> {
         if !C::is_exact(scheme) {
             return scheme.point_rule().respond(model, self, x);
         }
@@ -135,10 +136,11 @@ impl<M: FreeEnergy<f64>> Start<M> {
     /// mixed states. With a small heat capacity their temperatures overflow away from the solution.
     #[cold]
     #[inline(never)]
-    pub(crate) fn starting_form(&self, model: &M, x: &M::Variables) -> Option<Form<f64, M>> {
+    pub(crate) fn starting_form(&self, model: &Tabled<A>, x: &A::Variables) -> Option<Form<A>> {
         match self.old {
             Kept::Entropy(_) => {
-                let old = model.temperature_form_old(&self.x0);
+                let mut old = A::Kept::filled(0.0);
+                model.keep_for_temperature_form(&self.x0, &mut old);
                 Some(model.temperature_form(&old, x))
             }
             Kept::Temperature(_) | Kept::State(_) => None,
@@ -151,10 +153,10 @@ impl<M: FreeEnergy<f64>> Start<M> {
     pub(crate) fn response<C: Family>(
         &self,
         scheme: OneSet,
-        model: &M,
-        x: &M::Variables,
-        corners: &M::Corners,
-    ) -> M::Response {
+        model: &Tabled<A>,
+        x: &A::Variables,
+        corners: &A::Corners,
+    ) -> A::Response {
         if !C::is_exact(scheme) {
             return scheme.point_rule().respond(model, self, x).0;
         }
@@ -169,14 +171,16 @@ impl<M: FreeEnergy<f64>> Start<M> {
     #[cfg(feature = "gradients")]
     pub(crate) fn form_adjoint(
         &self,
-        model: &M,
-        x: &M::Variables,
-        corners: &M::Corners,
-        weights: &M::Response,
-    ) -> M::Parameters {
+        model: &Tabled<A>,
+        x: &A::Variables,
+        corners: &A::Corners,
+        weights: &A::Response,
+        found: &mut [f64],
+    ) {
+        let ends = [&self.x0, x];
         match self.old {
-            Kept::Entropy(_) => model.entropy_form_adjoint(&self.x0, x, corners, weights),
-            Kept::Temperature(_) => model.temperature_form_adjoint(&self.x0, x, weights),
+            Kept::Entropy(_) => model.entropy_form_adjoint(ends, corners, weights, found),
+            Kept::Temperature(_) => model.temperature_form_adjoint(ends, weights, found),
             Kept::State(_) => not_of_this_family(),
         }
     }
@@ -185,14 +189,15 @@ impl<M: FreeEnergy<f64>> Start<M> {
     #[cfg(feature = "gradients")]
     pub(crate) fn form_tangent(
         &self,
-        model: &M,
-        x: &M::Variables,
-        corners: &M::Corners,
-        direction: &M::Parameters,
-    ) -> M::Response {
+        model: &Tabled<A>,
+        x: &A::Variables,
+        corners: &A::Corners,
+        direction: &[f64],
+    ) -> A::Response {
+        let ends = [&self.x0, x];
         match self.old {
-            Kept::Entropy(_) => model.entropy_form_tangent(&self.x0, x, corners, direction),
-            Kept::Temperature(_) => model.temperature_form_tangent(&self.x0, x, direction),
+            Kept::Entropy(_) => model.entropy_form_tangent(ends, corners, direction),
+            Kept::Temperature(_) => model.temperature_form_tangent(ends, direction),
             Kept::State(_) => not_of_this_family(),
         }
     }

@@ -4,7 +4,9 @@
 
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::state::Energy;
-use eem_material::free_energy::{Caloric, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Caloric;
 use eem_material::inversion::temperature_near;
 
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
@@ -14,16 +16,13 @@ pub(super) const LAST_CORRECTION: f64 = 0.25;
 
 /// θ̂ at the configuration of `x`, whose own temperature does not matter; its heat capacity is positive.
 #[inline]
-pub(crate) fn temperature_at<M: FreeEnergy<f64>>(
-    model: &M,
-    x: M::Variables,
+pub(crate) fn temperature_at<A: Arrays>(
+    model: &Tabled<A>,
+    x: A::Variables,
     entropy: f64,
     guess: f64,
 ) -> Result<f64, Infeasible> {
-    let Some(inverse) = model.inverse() else {
-        return temperature_of(&model.caloric_at(x), entropy, guess);
-    };
-    let found = inverse.temperature_of(&x, [entropy, guess, enough()]);
+    let found = model.temperature_of(&x, [entropy, guess, enough()]);
     found.map_err(|source| Infeasible::Entropy { entropy, source })
 }
 

@@ -7,48 +7,47 @@ use crate::element::conjugates::{Family, Form, OneSet, find_corners_together};
 use crate::element::group::view::Trial;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
-use eem_material::free_energy::{
-    Array, Caloric, ExactForm, MOST_TOGETHER, Material, Steps, TogetherOf,
-};
+use eem_material::formulas::{Arrays, TogetherIn};
+use eem_material::free_energy::{Array, Caloric, ExactForm, MOST_TOGETHER, Steps};
 
 /// The elements that are evaluated in one call, in blocks, and room for the values of a block.
-pub(super) struct Ahead<M: Material> {
+pub(super) struct Ahead<A: Arrays> {
     /// The numbers of elements that follow one another and are evaluated in one call.
     pub(super) blocks: Vec<usize>,
-    pub(super) x: [M::Variables; MOST_TOGETHER],
-    pub(super) corners: [M::Corners; MOST_TOGETHER],
-    pub(super) forms: [Form<f64, M>; MOST_TOGETHER],
-    pub(super) responses: [M::Response; MOST_TOGETHER],
-    pub(super) viscosities: [Viscosities<M>; MOST_TOGETHER],
+    pub(super) x: [A::Variables; MOST_TOGETHER],
+    pub(super) corners: [A::Corners; MOST_TOGETHER],
+    pub(super) forms: [Form<A>; MOST_TOGETHER],
+    pub(super) responses: [A::Response; MOST_TOGETHER],
+    pub(super) viscosities: [Viscosities<A>; MOST_TOGETHER],
     pub(super) caloric: [(Caloric<f64>, f64); MOST_TOGETHER],
 }
 
 /// The functions of a block, unless its elements are too few for a call.
-fn together<M: Material, K: Kinematics<D>, const D: usize>(
-    members: &[Member<M, K, D>],
-) -> Option<&TogetherOf<M>> {
+fn together<A: Arrays, K: Kinematics<D>, const D: usize>(
+    members: &[Member<A, K, D>],
+) -> Option<&TogetherIn<A>> {
     let together = members[0].only().model.together();
     together.filter(|together| members.len() >= together.least())
 }
 
 /// The form of a scheme and the functions with which a block evaluates it in one call; not if a thermostat prescribes a
 /// temperature, with which the form may be another one.
-fn form_together<M: Material, K: Kinematics<D>, const D: usize>(
+fn form_together<A: Arrays, K: Kinematics<D>, const D: usize>(
     scheme: OneSet,
-    members: &[Member<M, K, D>],
-) -> Option<(ExactForm, &TogetherOf<M>)> {
+    members: &[Member<A, K, D>],
+) -> Option<(ExactForm, &TogetherIn<A>)> {
     let form = scheme.form().zip(together(members));
     form.filter(|_| !members.iter().any(|member| member.only().is_prescribed))
 }
 
-impl<M: Material> Ahead<M> {
+impl<A: Arrays> Ahead<A> {
     /// For these elements; `None` if all are evaluated one by one.
     pub(super) fn new<K: Kinematics<D>, const D: usize>(
-        members: &[Member<M, K, D>],
+        members: &[Member<A, K, D>],
     ) -> Option<Box<Self>> {
         let mut blocks = Vec::new();
         let mut is_worthwhile = false;
-        let mut last: Option<&TogetherOf<M>> = None;
+        let mut last: Option<&TogetherIn<A>> = None;
         for member in members {
             let together = member.only().model.together()?;
             let is_same = last.is_some_and(|last| core::ptr::addr_eq(last, together));
@@ -61,8 +60,8 @@ impl<M: Material> Ahead<M> {
                 .is_some_and(|&count| count >= together.least());
             last = Some(together);
         }
-        let (x, response) = (M::Variables::filled(0.0), M::Response::filled(0.0));
-        let viscosities = M::Viscosities::filled(0.0);
+        let (x, response) = (A::Variables::filled(0.0), A::Response::filled(0.0));
+        let viscosities = A::Viscosities::filled(0.0);
         let caloric = Caloric {
             entropy: 0.0,
             heat_capacity: 0.0,
@@ -72,8 +71,8 @@ impl<M: Material> Ahead<M> {
             Box::new(Self {
                 blocks,
                 x: [x; MOST_TOGETHER],
-                corners: [M::Corners::filled(0.0); MOST_TOGETHER],
-                forms: [(response, M::Tangent::filled(x)); MOST_TOGETHER],
+                corners: [A::Corners::filled(0.0); MOST_TOGETHER],
+                forms: [(response, A::Tangent::filled(x)); MOST_TOGETHER],
                 responses: [response; MOST_TOGETHER],
                 viscosities: [(viscosities, viscosities); MOST_TOGETHER],
                 caloric: [(caloric, 0.0); MOST_TOGETHER],
@@ -85,7 +84,7 @@ impl<M: Material> Ahead<M> {
     pub(super) fn keep<K: Kinematics<D>, const D: usize>(
         &mut self,
         scheme: OneSet,
-        members: &mut [Member<M, K, D>],
+        members: &mut [Member<A, K, D>],
     ) -> bool {
         let Some((form, _)) = form_together(scheme, members) else {
             return false;
@@ -108,7 +107,7 @@ impl<M: Material> Ahead<M> {
     pub(super) fn respond<C: Family, K: Kinematics<D>, const D: usize>(
         &mut self,
         (scheme, trial): (OneSet, &Trial<D>),
-        members: &[Member<M, K, D>],
+        members: &[Member<A, K, D>],
         has_tangent: bool,
     ) -> bool {
         let form = form_together(scheme, members);
@@ -135,7 +134,7 @@ impl<M: Material> Ahead<M> {
         }
         let steps = Steps { kept, x1, corners };
         // Materials without temperature ignore it, so that any entry will do.
-        let at = Point::<M, K::Measures>::TEMPERATURE * usize::from(M::THERMAL);
+        let at = Point::<A, K::Measures>::TEMPERATURE * usize::from(A::THERMAL);
         let mut theta = [0.0; MOST_TOGETHER];
         if has_tangent {
             let forms = &mut self.forms[..count];
@@ -150,7 +149,7 @@ impl<M: Material> Ahead<M> {
                 *theta = response[at];
             }
         }
-        if M::DASHPOTS > 0 {
+        if A::DASHPOTS > 0 {
             together.viscosity(&theta[..count], &mut self.viscosities[..count]);
         }
         true
@@ -161,8 +160,8 @@ impl<M: Material> Ahead<M> {
     pub(super) fn give<K: Kinematics<D>, const D: usize>(
         &self,
         index: usize,
-        member: &mut Member<M, K, D>,
-    ) -> &Form<f64, M> {
+        member: &mut Member<A, K, D>,
+    ) -> &Form<A> {
         let point = &mut member.points.as_mut()[0].point;
         point.corners = self.corners[index];
         point.viscosities = self.viscosities[index];
@@ -172,7 +171,7 @@ impl<M: Material> Ahead<M> {
     /// Evaluates the caloric quantities of a block at the temperatures of the trial.
     pub(super) fn close<K: Kinematics<D>, const D: usize>(
         &mut self,
-        members: &[Member<M, K, D>],
+        members: &[Member<A, K, D>],
         (old, next): (&State, &mut State),
     ) -> bool {
         let thermal = together(members).filter(|_| members[0].only().is_thermal());
@@ -188,10 +187,10 @@ impl<M: Material> Ahead<M> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// The variables of a spring at a trial, at which the form of its scheme is evaluated.
     #[inline]
-    fn placed_variables<C: Family>(&self, trial: &Trial<D>) -> M::Variables {
+    fn placed_variables<C: Family>(&self, trial: &Trial<D>) -> A::Variables {
         let point = self.only();
         let at = C::placement(point.scheme);
         let r1 = placed_arms::<K, D>(at, &self.r0, self.new_arms(trial));
@@ -203,7 +202,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     }
 
     /// The new variables of a spring, with the temperature of the trial.
-    fn closed_variables(&self, old: &State, next: &mut State) -> M::Variables {
+    fn closed_variables(&self, old: &State, next: &mut State) -> A::Variables {
         let point = self.only();
         let slots = point.slots();
         for k in 0..point.dashpots() {
@@ -212,7 +211,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
         }
         let measures = point.kinematics.measure(&self.arms_in(next));
         let mut x = variables(&point.model, measures.as_ref(), slots, next);
-        x[M::Variables::LEN - 1] = point.x[M::Variables::LEN - 1];
+        x[A::Variables::LEN - 1] = point.x[A::Variables::LEN - 1];
         x
     }
 }

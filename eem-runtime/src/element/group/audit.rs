@@ -6,7 +6,7 @@ use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::kinematics::MeasureSet;
 use crate::element::state::State;
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
 use eem_material::number::scalar::{Scalar, is_positive};
 
 /// The largest difference of a stored entropy and that of the model, in ε of its terms.
@@ -37,9 +37,9 @@ impl From<StateError> for Misfit {
     }
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// An error unless energy and forces are finite and viscosities positive.
-    pub(super) fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {
+    pub(super) fn audit_response(&self, x: &A::Variables) -> Result<(), StateError> {
         self.unless_infinite(self.model.free_energy(x))?;
         let gradient = self.model.gradient(x);
         if let Some(value) = gradient.as_ref().iter().find(|value| !value.is_finite()) {
@@ -55,7 +55,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             0.0
         };
         let (drag, _) = self.model.drag(theta);
-        check_drag::<M, Q>(&self.model, drag, theta).map_err(|error| error.of(self.element))?;
+        check_drag::<A, Q>(&self.model, drag, theta).map_err(|error| error.of(self.element))?;
         let (viscosities, _) = self.model.viscosity(theta);
         let mut viscosities = viscosities.as_ref()[..self.dashpots()].iter().enumerate();
         match viscosities.find(|&(_, &eta)| !is_positive(eta)) {
@@ -75,7 +75,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// ```text
     /// |S − s| ≤ 8 ε (Σ|terms of S| + Σ |∂S/∂x| |x| + C max(1, |ln θ|)),   x = λ, γ
     /// ```
-    pub(super) fn audit_entropy(&self, x: &M::Variables, state: &State) -> Result<(), Misfit> {
+    pub(super) fn audit_entropy(&self, x: &A::Variables, state: &State) -> Result<(), Misfit> {
         let Some(slot) = self.slots().thermal else {
             return Ok(());
         };

@@ -9,7 +9,8 @@ use crate::element::conjugates::Family;
 use crate::element::error::StateError;
 use crate::element::group::view::{Before, Old, StepView};
 use crate::element::kinematics::{Kinematics, MeasureSet, Numbers};
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// Reduces the unit of length of each node to that of its elements, if that is shorter.
 #[inline]
@@ -27,7 +28,7 @@ pub(super) fn shorten<K: Kinematics<D>, const D: usize>(
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// Takes the old state, except what the scheme [keeps](Self::keep) of it.
     #[inline]
     pub(super) fn begin<C: Family>(
@@ -68,7 +69,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
         for point in self.points.as_mut() {
             let measures0 = point.old_measures();
             let by_arm = point.kinematics.gradient(&self.r0, &measures0);
-            let rates = PlacedPoint::<M, K, D>::rates_along(&by_arm, &velocities);
+            let rates = PlacedPoint::<A, K, D>::rates_along(&by_arm, &velocities);
             let gradient = point.take_old_share(view, &rates)?;
             let ends = [&self.r0, &self.r0];
             let pose = Pose::between(&point.kinematics, point.scheme.placement(), ends, measures0);
@@ -85,7 +86,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     }
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Takes measures, γ and θ from the old state, where the trial starts unless γ and θ are predicted.
     #[expect(
         clippy::inline_always,
@@ -102,10 +103,10 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let x0 = variables(&self.model, measures.as_ref(), slots, view.state);
         self.start.x0 = x0;
         self.x = x0;
-        self.creep = M::Viscosities::filled(0.0);
+        self.creep = A::Viscosities::filled(0.0);
         if let Some(slot) = slots.thermal {
             let theta = x0[Self::TEMPERATURE];
-            self.corners = M::Corners::filled(theta);
+            self.corners = A::Corners::filled(theta);
             let prescribed = view.prescribed(slot, C::placement(self.scheme));
             self.is_prescribed = prescribed.is_some();
             self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
@@ -136,7 +137,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     fn predict(&mut self, before: &Before<'_>) {
         let slots = self.slots();
         for k in 0..self.dashpots() {
-            let index = M::MEASURES + k;
+            let index = A::MEASURES + k;
             let old = self.start.x0[index];
             self.creep[k] = before.ratio * (old - before.viscous[slots.viscous + k]);
             self.x[index] = old + self.creep[k];
@@ -153,16 +154,16 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         &mut self,
         view: &StepView<'_>,
         speeds: &Numbers<Q>,
-    ) -> Result<M::Variables, StateError> {
+    ) -> Result<A::Variables, StateError> {
         let share = 1.0 - self.scheme.implicit();
         let x0 = self.start.x0;
         let theta = x0[Self::VARIABLES - 1];
         self.find_viscosities(theta)?;
         let mut gradient = self.model.gradient(&x0);
-        let mut rates = M::Variables::filled(0.0);
+        let mut rates = A::Variables::filled(0.0);
         let mut heat = self.add_old_drag(speeds, &mut gradient, &mut rates)?;
         for k in 0..self.dashpots() {
-            let index = M::MEASURES + k;
+            let index = A::MEASURES + k;
             let g = -gradient[index];
             let rate = g / self.viscosities.0[k];
             rates[index] = share * rate;
@@ -191,11 +192,11 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         // ∂s/∂x = −∂²ψ/∂θ∂x
         let slope = |index: usize| -hessian[last][index];
         let mut rest = share * entropy_rate;
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             rest -= slope(a) * share * speeds[a];
         }
         if let Some(at_point) = &mut self.single {
-            for index in M::MEASURES..last {
+            for index in A::MEASURES..last {
                 rest -= slope(index) * at_point.old_rates[index];
             }
             at_point.old_heating = rest / slope(last);

@@ -10,9 +10,10 @@ use super::view::Placed;
 use crate::element::conjugates::Conjugates;
 use crate::element::kinematics::{MeasureSet, QuadraticStrain};
 use crate::element::layout::Shape;
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseElements<M, K, D> {
+impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseElements<A, K, D> {
     fn as_any(&self) -> &dyn Any {
         self
     }
@@ -31,11 +32,11 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
 
     fn kind(&self) -> (TypeId, u64) {
         let model = self.model();
-        model.map_or((TypeId::of::<M>(), 0), identity)
+        model.map_or((TypeId::of::<A>(), 0), identity)
     }
 
     fn name(&self) -> &'static &'static str {
-        self.model().map_or(&M::MODEL, M::model)
+        self.model().map_or(&"material", |model| model.facts().model)
     }
 
     fn infinite_parameter(&self, place: usize) -> Option<(&'static str, f64)> {
@@ -77,6 +78,6 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseEleme
 }
 
 /// The type and the kind of a model.
-pub(crate) fn identity<M: Material>(model: &M) -> (TypeId, u64) {
-    (model.as_any().type_id(), model.kind())
+pub(crate) fn identity<A: Arrays>(model: &Tabled<A>) -> (TypeId, u64) {
+    (model.as_any().type_id(), model.facts().kind)
 }

@@ -12,10 +12,11 @@ use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// Adds the magnitude of the terms of `h F` to that of the nodes, N s, given the new arms and their change:
     ///
     /// ```text
@@ -43,10 +44,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// See [`sizes`].
     #[inline]
-    pub(super) fn sizes(&self, r: &Arms<K, D>, x: &M::Variables) -> M::Variables {
+    pub(super) fn sizes(&self, r: &Arms<K, D>, x: &A::Variables) -> A::Variables {
         sizes(&self.kinematics, r, x)
     }
 
@@ -67,7 +68,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         let slopes = self.kinematics.slopes(r1, &new);
         let slope_sizes = self.kinematics.slope_sizes(r1, &new);
         let mut sum = 0.0;
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             sum += slope_sizes[a] * self.pull_of_row::<Any>(a).abs();
             sum += slopes[a] * self.resolution_of_row(a, &sizes);
         }
@@ -78,7 +79,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     /// Adds the terms that the bound of the next step needs of a state with these arms: those of the forces and, except
     /// for schemes with discrete derivatives, those of the value of the energy.
     #[cold]
-    pub(super) fn add_bounds(&self, r: &Arms<K, D>, x: &M::Variables, energy: &mut Energy) {
+    pub(super) fn add_bounds(&self, r: &Arms<K, D>, x: &A::Variables, energy: &mut Energy) {
         let gradient = self.model.gradient(x);
         let forces = &gradient.as_ref()[..Self::TEMPERATURE];
         energy.add_forces(work_of(&self.kinematics, forces, r, x));
@@ -117,9 +118,9 @@ pub(super) fn work_of<K: Kinematics<D>, X: Array<f64>, const D: usize>(
 }
 
 /// Magnitudes of the terms of variables and responses, and the checks of a point by the certificate.
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// `Σ_j |T_ij| |x_j|`: times ε, the error of a response by rounding of the variables.
-    fn magnitude_of_row(&self, row: usize, sizes: &M::Variables) -> f64 {
+    fn magnitude_of_row(&self, row: usize, sizes: &A::Variables) -> f64 {
         let terms = self.slopes[row].as_ref().iter().zip(sizes.as_ref());
         terms.fold(0.0, |sum, (&slope, &x)| sum + (slope * x).abs())
     }
@@ -133,13 +134,13 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     ///
     /// With a small heat capacity c the temperature has an error of `ε θ |∂s/∂λ| λ/c`, far above its own rounding.
     #[cold]
-    pub(super) fn resolution_of_row(&self, row: usize, sizes: &M::Variables) -> f64 {
+    pub(super) fn resolution_of_row(&self, row: usize, sizes: &A::Variables) -> f64 {
         let mut sum = self.magnitude_of_row(row, sizes);
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             let by_measure = &self.condensed.by_measure[a];
             for u in self.unknowns() {
                 let answer = by_measure.get(u) * sizes[a];
-                sum += (self.slopes[row][M::MEASURES + u] * answer).abs();
+                sum += (self.slopes[row][A::MEASURES + u] * answer).abs();
             }
         }
         sum
@@ -168,16 +169,16 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn amplitude<C: Family>(
         &self,
-        [sizes0, sizes1]: &[M::Variables; 2],
+        [sizes0, sizes1]: &[A::Variables; 2],
         of_sums: Option<f64>,
     ) -> [f64; 2] {
         let (mut sum, mut at_end) = (0.0, 0.0);
-        for row in 0..M::MEASURES + self.dashpots() {
+        for row in 0..A::MEASURES + self.dashpots() {
             let size = sizes1[row].abs();
             let rounding = f64::EPSILON * size * size;
             sum += self.pull_of_row::<C>(row).abs() * (sizes0[row].abs() + size);
             sum += self.slopes[row][row].abs() * rounding;
-            let slopes = &self.slopes[row].as_ref()[..M::MEASURES + M::DASHPOTS];
+            let slopes = &self.slopes[row].as_ref()[..A::MEASURES + A::DASHPOTS];
             let slopes = slopes.iter().enumerate();
             let force = slopes.fold(self.response[row], |force, (column, &slope)| {
                 force + slope * self.increment_of(column)
@@ -196,9 +197,9 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     }
 
     #[cold]
-    fn work_of_arguments(&self, sizes: &M::Variables) -> f64 {
+    fn work_of_arguments(&self, sizes: &A::Variables) -> f64 {
         let mut sum = 0.0;
-        for row in 0..M::MEASURES + self.dashpots() {
+        for row in 0..A::MEASURES + self.dashpots() {
             sum += self.magnitude_of_row(row, sizes) * self.increment_of(row).abs();
         }
         if self.is_thermal() {
@@ -210,7 +211,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// The conditioning error of a response, in units of ε.
     #[inline]
-    fn known_to(&self, row: usize, sizes: &M::Variables, care: Care) -> f64 {
+    fn known_to(&self, row: usize, sizes: &A::Variables, care: Care) -> f64 {
         match care {
             Care::Quick => self.response[row].abs(),
             Care::Thorough => self.response[row].abs() + self.resolution_of_row(row, sizes),
@@ -228,13 +229,13 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         &self,
         view: &StepView<'_>,
         (paths, interface): (Option<&[HeatPath]>, &InterfaceTemperatures),
-        sizes: &M::Variables,
+        sizes: &A::Variables,
         (received, [magnitude, capacity]): (Received, [f64; 2]),
         tally: &mut Tally,
     ) {
         for k in 0..self.dashpots() {
             if view.phase.heats() {
-                let row = M::MEASURES + k;
+                let row = A::MEASURES + k;
                 let drag = self.viscosities.0[k] * self.creep_rate::<C>(k, view);
                 let terms = drag.abs() + self.known_to(row, sizes, tally.care);
                 tally.balance(drag - self.pull_of_row::<C>(row), terms);

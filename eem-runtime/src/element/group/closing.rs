@@ -23,9 +23,10 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Weights};
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
-use eem_material::free_energy::{Array, Caloric, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::{Array, Caloric};
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// The nodal forces of the last responses along the gradient between two configurations, N.
     pub(super) fn force(&self, at: Placement, ends: [&Arms<K, D>; 2]) -> K::PerNode<[f64; D]> {
         let mut sum = None;
@@ -62,7 +63,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// Books the step, recovers the new temperature and judges the step. The caloric quantities at the temperature of the
     /// trial may be known.
     #[expect(
@@ -82,7 +83,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
         for point in self.points.as_mut() {
             let paths = paths_of(point.contact_in(contacts));
             let received = point.book::<C>(view, (paths, &trial.interface), next, tally);
-            let near = (point.x[M::Variables::LEN - 1], known);
+            let near = (point.x[A::Variables::LEN - 1], known);
             let measures = point.admissible_measures(&r1)?;
             if let Some(entropy) = point.recover_temperature::<C>(&measures, view, near, next)? {
                 point.book_thermostat(view, [entropy, received.entropy], next);
@@ -152,7 +153,7 @@ pub(super) fn pull_of_arms<K: Kinematics<D>, const D: usize>(
     force
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// The matrix A of the force `A r_m` at the last response.
     #[inline]
     fn secant<C: Family>(&self, [r0, r1]: [&Arms<K, D>; 2]) -> Weights<K, D> {
@@ -175,7 +176,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     }
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Adds the increments of the internal variables and of the reservoirs' entropies; returns heat and entropy
     /// received from dashpots and conduction.
     #[expect(

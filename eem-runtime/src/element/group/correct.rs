@@ -7,10 +7,11 @@ use super::share::run;
 use super::site::{Contact, Site};
 use crate::element::conjugates::Family;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// Applies the corrections of the local unknowns for a motion of the arms; returns the largest in their units.
     #[inline]
     pub(super) fn correct<C: Family>(
@@ -37,7 +38,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     }
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Applies the corrections of the local unknowns, given the changes of the measures and `δr_s`; returns the largest in
     /// their units.
     #[inline]
@@ -47,21 +48,21 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         (heat, is_coupled): (f64, bool),
         by_factors: bool,
     ) -> f64 {
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             self.correction[a] = changes[a];
         }
         for u in 0..Self::UNKNOWNS {
-            if !self.own_unknowns().has::<M>(u) {
+            if !self.own_unknowns().has::<A>(u) {
                 continue;
             }
             let mut change = self.condensed.constant.get(u);
-            for a in 0..M::MEASURES {
+            for a in 0..A::MEASURES {
                 change += self.condensed.by_measure[a].get(u) * self.correction[a];
             }
             if self.depends_on_heat::<C>(is_coupled) {
                 change += self.condensed.by_heat.get(u) * heat;
             }
-            self.correction[M::MEASURES + u] = -change;
+            self.correction[A::MEASURES + u] = -change;
         }
         self.remember();
         if self.is_thermal() {
@@ -83,7 +84,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     fn scaled_update(&self) -> f64 {
         let mut largest = 0.0;
         let unit = self.viscous_unit();
-        for index in M::MEASURES..Self::TEMPERATURE {
+        for index in A::MEASURES..Self::TEMPERATURE {
             let scaled = self.correction[index] / unit;
             largest = Scalar::maximum(largest, scaled.abs());
         }

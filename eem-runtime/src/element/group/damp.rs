@@ -9,12 +9,13 @@ use crate::element::error::StateError;
 use crate::element::group::respond::check_temperature;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::MeasureSet;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Its damping in a damped scheme.
     #[inline]
-    pub(super) fn damping<C: Family>(&self) -> Option<&DampingOf<M>> {
+    pub(super) fn damping<C: Family>(&self) -> Option<&DampingOf<A>> {
         if C::IS_EXACT {
             None
         } else {
@@ -28,7 +29,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         if !C::is_damped(self.scheme) {
             return;
         }
-        let mut damping = DampingOf::<M>::none();
+        let mut damping = DampingOf::<A>::none();
         if let Some(slot) = self.conducting_slot(view) {
             let theta = self.start.x0[Self::TEMPERATURE];
             let x = view.step * relaxation_rate(view, slot);
@@ -38,9 +39,9 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         if self.dashpots() > 0 {
             let x0 = &self.start.x0;
             // Models without temperature ignore it.
-            let (viscosities, _) = self.model.viscosity(x0[M::Variables::LEN - 1]);
+            let (viscosities, _) = self.model.viscosity(x0[A::Variables::LEN - 1]);
             let (_, hessian) = self.model.hessian(x0);
-            let (mut modes, rates) = relaxation_modes::<M>(&hessian, &viscosities, self.dashpots());
+            let (mut modes, rates) = relaxation_modes::<A>(&hessian, &viscosities, self.dashpots());
             for k in 0..self.dashpots() {
                 let factor = (view.step * end_weight_over(view.step * rates[k])).sqrt();
                 for entry in modes[k].as_mut() {
@@ -57,10 +58,10 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// Δλ or Δγ.
     #[inline]
     pub(super) fn increment_of(&self, row: usize) -> f64 {
-        if row < M::MEASURES {
+        if row < A::MEASURES {
             self.x[row] - self.start.x0[row]
         } else {
-            self.creep[row - M::MEASURES]
+            self.creep[row - A::MEASURES]
         }
     }
 
@@ -70,13 +71,13 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         if self.dashpots() == 0 || !C::is_damped(self.scheme) {
             return Ok(());
         }
-        let mut increments = M::Variables::filled(0.0);
+        let mut increments = A::Variables::filled(0.0);
         for row in 0..Self::TEMPERATURE {
             increments[row] = self.increment_of(row);
         }
         let (dashpots, mut heat) = (self.dashpots(), 0.0);
         if let Some(damping) = &mut self.damping {
-            damping.force = M::Variables::filled(0.0);
+            damping.force = A::Variables::filled(0.0);
             for k in 0..dashpots {
                 let mode = &damping.modes[k];
                 let terms = (0..Self::TEMPERATURE).map(|row| mode[row] * increments[row]);
@@ -101,15 +102,15 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// The sign of a row of the response: f is a derivative of the energy, g of the negative energy.
     #[inline]
     pub(super) fn sign(row: usize) -> f64 {
-        if row < M::MEASURES { 1.0 } else { -1.0 }
+        if row < A::MEASURES { 1.0 } else { -1.0 }
     }
 
     /// Adds the damping of the dashpots and its derivatives to a form; returns the response without it.
     #[inline]
     pub(super) fn add_damping<C: Family>(
         &self,
-        (response, tangent): &mut Form<f64, M>,
-    ) -> Option<M::Response> {
+        (response, tangent): &mut Form<A>,
+    ) -> Option<A::Response> {
         if self.dashpots() == 0 {
             return None;
         }
@@ -131,7 +132,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// Restores the response of a form to that without damping.
     #[inline]
-    pub(super) fn drop_damping(&mut self, undamped: Option<&M::Response>) {
+    pub(super) fn drop_damping(&mut self, undamped: Option<&A::Response>) {
         if let Some(undamped) = undamped {
             self.response = *undamped;
         }
@@ -142,7 +143,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     pub(super) fn dissipate_by_damping<C: Family>(
         &self,
         view: &StepView<'_>,
-        dissipation: &mut Dissipation<M>,
+        dissipation: &mut Dissipation<A>,
     ) {
         if let Some(damping) = self.damping::<C>() {
             for k in 0..self.dashpots() {
@@ -171,8 +172,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// Θ at a response, K; zero without temperature.
     #[inline]
-    pub(super) fn conducting_temperature<C: Family>(&self, response: &M::Response) -> f64 {
-        let theta = temperature_in::<M>(response);
+    pub(super) fn conducting_temperature<C: Family>(&self, response: &A::Response) -> f64 {
+        let theta = temperature_in::<A>(response);
         if !self.is_thermal() {
             return theta;
         }
@@ -183,14 +184,14 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// `∂(Θ − θ*)/∂Δs`, K²/J.
     #[inline]
-    pub(super) fn shift_by_entropy<C: Family>(&self, response: &M::Response) -> f64 {
+    pub(super) fn shift_by_entropy<C: Family>(&self, response: &A::Response) -> f64 {
         let damping = self.damping::<C>();
         damping.map_or(0.0, |damping| damping.shift(response[Self::ENTROPY])[1])
     }
 
     /// A form with Θ instead of θ*.
     #[inline]
-    pub(super) fn conducting<C: Family>(&self, (response, tangent): &Form<f64, M>) -> Form<f64, M> {
+    pub(super) fn conducting<C: Family>(&self, (response, tangent): &Form<A>) -> Form<A> {
         let (mut response, mut tangent) = (*response, *tangent);
         let by_entropy = self.shift_by_entropy::<C>(&response);
         response[Self::TEMPERATURE] = self.conducting_temperature::<C>(&response);
@@ -205,7 +206,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn check_conducting<C: Family>(
         &self,
-        response: &M::Response,
+        response: &A::Response,
     ) -> Result<(), StateError> {
         if !self.is_thermal() || !C::is_damped(self.scheme) {
             return Ok(());

@@ -22,14 +22,15 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Kinematics, MeasureSet, Points, QuadraticStrain};
 use crate::element::state::State;
 use crate::element::tally::{Reevaluation, Tally};
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
-/// Elements of the model `M` with the kinematics `K`.
-pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, const D: usize> {
+/// Elements of the model `A` with the kinematics `K`.
+pub(crate) struct ElementGroup<A: Arrays, K: Kinematics<D>, const D: usize> {
     pub(super) scheme: OneSet,
-    pub(super) members: Vec<Member<M, K, D>>,
+    pub(super) members: Vec<Member<A, K, D>>,
     pub(super) contacts: Vec<Contact<K, D>>,
     make_explicit: MakeExplicit<D>,
     /// See [`Old::by_factors`].
@@ -37,20 +38,17 @@ pub(crate) struct ElementGroup<M: Material, K: Kinematics<D>, const D: usize> {
     /// Workspace for elements with many points, a round of elements at a time.
     pub(super) shares: Vec<Share<K, D>>,
     /// Workspace for elements that are evaluated together.
-    pub(super) ahead: Option<Box<Ahead<M>>>,
+    pub(super) ahead: Option<Box<Ahead<A>>>,
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
-    /// Whether several elements may be evaluated in one call.
-    const MAY_BE_TOGETHER: bool = M::MAY_BE_TOGETHER && K::Measures::IS_SPRING;
-
-    pub(crate) fn new(scheme: OneSet, loose: LooseElements<M, K, D>, placed: Placed<'_>) -> Self {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
+    pub(crate) fn new(scheme: OneSet, loose: LooseElements<A, K, D>, placed: Placed<'_>) -> Self {
         // A loop: collected, it takes four times the code.
         let mut members = Vec::with_capacity(loose.elements.len());
         for parts in loose.elements {
             members.push(Member::new(scheme, parts, placed));
         }
-        let ahead = if const { Self::MAY_BE_TOGETHER } {
+        let ahead = if const { K::Measures::IS_SPRING } {
             Ahead::new(&members)
         } else {
             None
@@ -67,7 +65,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     }
 
     /// The elements without the scheme.
-    pub(super) fn into_loose(self) -> LooseElements<M, K, D> {
+    pub(super) fn into_loose(self) -> LooseElements<A, K, D> {
         let mut elements = Vec::with_capacity(self.members.len());
         for member in self.members {
             elements.push(member.into_parts());
@@ -79,29 +77,29 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     }
 
     /// All points.
-    pub(super) fn points(&self) -> impl Iterator<Item = &PlacedPoint<M, K, D>> {
+    pub(super) fn points(&self) -> impl Iterator<Item = &PlacedPoint<A, K, D>> {
         let members = self.members.iter();
         members.flat_map(|member| member.points.as_ref())
     }
 
     /// The element of the point with this index in the group, and the index of the point in the element.
-    pub(super) fn at(&self, place: usize) -> (&Member<M, K, D>, usize) {
-        let points = K::PerPoint::<PlacedPoint<M, K, D>>::LEN;
+    pub(super) fn at(&self, place: usize) -> (&Member<A, K, D>, usize) {
+        let points = K::PerPoint::<PlacedPoint<A, K, D>>::LEN;
         (&self.members[place / points], place % points)
     }
 }
 
 /// The functions of a step, for a family of schemes.
-impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
     /// Whether the functions of exact schemes are compiled apart from those of all schemes. Not if a dashpot may act in parallel: then
     /// the variables of a point are found out at run time, which takes more.
-    const IS_SEPARATE: bool = M::Drag::LEN == 0;
+    const IS_SEPARATE: bool = A::Drag::LEN == 0;
 
     /// Whether the loops are those for elements that are evaluated together. For the family of any scheme there are no others
     /// if the material may be evaluated so: one copy is compiled, a little slower.
     #[inline]
     fn is_together<C: Family>(&self) -> bool {
-        Self::MAY_BE_TOGETHER && (!C::IS_EXACT || self.ahead.is_some())
+        K::Measures::IS_SPRING && (!C::IS_EXACT || self.ahead.is_some())
     }
 
     fn begin_as<C: Family>(
@@ -116,7 +114,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
                 member.keep(view);
             }
         }
-        if const { Self::MAY_BE_TOGETHER } && is_together {
+        if const { K::Measures::IS_SPRING } && is_together {
             return self.keep_together(view);
         }
         Ok(())
@@ -128,7 +126,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         trial: &Trial<D>,
         system: Option<&mut LinearSystem<1>>,
     ) -> Result<(), StateError> {
-        if const { Self::MAY_BE_TOGETHER } && self.is_together::<C>() {
+        if const { K::Measures::IS_SPRING } && self.is_together::<C>() {
             return match system {
                 Some(system) => self.linearize_together::<C>(view, trial, system),
                 None => self.respond_together::<C>(view, trial),
@@ -146,7 +144,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
 
     fn correct_as<C: Family>(&mut self, solution: &[[f64; 1]]) -> f64 {
         let mut largest = 0.0;
-        if Point::<M, K::Measures>::UNKNOWNS == 0 {
+        if Point::<A, K::Measures>::UNKNOWNS == 0 {
             return largest;
         }
         for member in &mut self.members {
@@ -207,7 +205,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         next: &mut State,
         tally: &mut Tally,
     ) -> Result<(), StateError> {
-        if const { Self::MAY_BE_TOGETHER } && self.is_together::<C>() {
+        if const { K::Measures::IS_SPRING } && self.is_together::<C>() {
             return self.close_together::<C>(view, trial, next, tally);
         }
         for member in &mut self.members {
@@ -217,7 +215,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     }
 }
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<M, K, D> {
+impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGroup<A, K, D> {
     fn elements(&self) -> &dyn Elements<D> {
         self
     }
@@ -327,7 +325,7 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> Group<D> for ElementGro
         for member in &self.members {
             for point in member.points.as_ref() {
                 let own = point.balance_between(&member.site.nodes, ends);
-                let found = Point::<M, K::Measures>::change_of(&point.response, &own.increments);
+                let found = Point::<A, K::Measures>::change_of(&point.response, &own.increments);
                 reevaluation.element(point.element, own.by_values, own.by_differences, found);
             }
         }

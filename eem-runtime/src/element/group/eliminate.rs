@@ -2,7 +2,9 @@
 
 use crate::algebra::lu::Singular;
 use crate::element::kinematics::MeasureSet;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
 
 /// A number per local unknown: the viscous stretches, then the temperature.
@@ -40,16 +42,16 @@ impl<V: Array<f64>> PerUnknown<V> {
 }
 
 /// The solved local system: `δu = −(constant + by_measure δπ + by_heat δr_s)`.
-pub(super) struct Condensed<M: FreeEnergy<f64>, Q: MeasureSet> {
-    pub(super) constant: PerUnknown<M::Viscosities>,
-    pub(super) by_measure: Q::Per<PerUnknown<M::Viscosities>>,
+pub(super) struct Condensed<A: Arrays, Q: MeasureSet> {
+    pub(super) constant: PerUnknown<A::Viscosities>,
+    pub(super) by_measure: Q::Per<PerUnknown<A::Viscosities>>,
     /// Only for elements whose heat depends on global unknowns other than through the measures.
-    pub(super) by_heat: PerUnknown<M::Viscosities>,
+    pub(super) by_heat: PerUnknown<A::Viscosities>,
     /// `∂r_s/∂Q = −h w/θ*`, by which heat from other elements enters.
     pub(super) heat_factor: f64,
 }
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet> Condensed<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Condensed<A, Q> {
     /// Before the first elimination.
     pub(super) fn zero() -> Self {
         Self {
@@ -63,26 +65,26 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Condensed<M, Q> {
 
 /// The local equations of an element, a row per unknown. Arrays have an entry per variable, of which the first are
 /// used.
-pub(super) struct LocalSystem<M: FreeEnergy<f64>> {
+pub(super) struct LocalSystem<A: Arrays> {
     /// r, and after the elimination the constant of the solution.
-    pub(super) constant: M::Variables,
+    pub(super) constant: A::Variables,
     /// `∂r/∂x`; the columns of the measures are right-hand sides, and after the elimination the solution.
-    pub(super) rows: M::Hessian,
+    pub(super) rows: A::Hessian,
     /// `∂r/∂r_s`, if needed.
-    pub(super) by_heat: M::Variables,
+    pub(super) by_heat: A::Variables,
     /// Factors that turn rows into energies, in which pivots are compared: a length (m) for a dashpot (N), a
     /// temperature (K) for the heat balance (J/K).
     pub(super) unit: [f64; 2],
 }
 
-impl<M: FreeEnergy<f64>> LocalSystem<M> {
+impl<A: Arrays> LocalSystem<A> {
     /// Without equations.
     #[inline]
     pub(super) fn empty(unit: [f64; 2]) -> Self {
-        let zeros = M::Variables::filled(0.0);
+        let zeros = A::Variables::filled(0.0);
         Self {
             constant: zeros,
-            rows: M::Hessian::filled(zeros),
+            rows: A::Hessian::filled(zeros),
             by_heat: zeros,
             unit,
         }
@@ -98,7 +100,7 @@ pub(super) struct Unknowns {
 
 impl Unknowns {
     #[inline]
-    pub(super) fn of<M: FreeEnergy<f64>>(model: &M) -> Self {
+    pub(super) fn of<A: Arrays>(model: &Tabled<A>) -> Self {
         Self {
             dashpots: model.dashpots(),
             is_thermal: model.is_thermal(),
@@ -106,16 +108,16 @@ impl Unknowns {
     }
 
     #[inline]
-    pub(super) const fn has<M: FreeEnergy<f64>>(self, unknown: usize) -> bool {
-        unknown < self.dashpots || self.is_thermal && unknown >= M::DASHPOTS
+    pub(super) const fn has<A: Arrays>(self, unknown: usize) -> bool {
+        unknown < self.dashpots || self.is_thermal && unknown >= A::DASHPOTS
     }
 }
 
 /// Gauss–Jordan elimination with partial pivoting.
 #[expect(clippy::inline_always, reason = "a few numbers in registers")]
 #[inline(always)]
-pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
-    system: &mut LocalSystem<M>,
+pub(super) fn eliminate<A: Arrays, const HEAT: bool>(
+    system: &mut LocalSystem<A>,
     own: Unknowns,
 ) -> Result<(), Singular> {
     let LocalSystem {
@@ -124,18 +126,18 @@ pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
         by_heat,
         unit,
     } = system;
-    let unknowns = M::Variables::LEN - M::MEASURES;
-    let mut units = M::Variables::filled(unit[0]);
-    if M::THERMAL {
+    let unknowns = A::Variables::LEN - A::MEASURES;
+    let mut units = A::Variables::filled(unit[0]);
+    if A::THERMAL {
         units[unknowns - 1] = unit[1];
     }
     for k in 0..unknowns {
-        if !own.has::<M>(k) {
+        if !own.has::<A>(k) {
             continue;
         }
-        let at = M::MEASURES + k;
+        let at = A::MEASURES + k;
         for row in k + 1..unknowns {
-            if !own.has::<M>(row) {
+            if !own.has::<A>(row) {
                 continue;
             }
             let size = |row: usize| (units[row] * rows[row][at]).abs();
@@ -152,8 +154,8 @@ pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
         }
         let inverse = value.recip();
         // The columns of the measures and of the unknowns not yet eliminated.
-        let columns = |column: &usize| *column < M::MEASURES || *column > at;
-        for column in (0..M::Variables::LEN).filter(columns) {
+        let columns = |column: &usize| *column < A::MEASURES || *column > at;
+        for column in (0..A::Variables::LEN).filter(columns) {
             rows[k][column] *= inverse;
         }
         constant[k] *= inverse;
@@ -161,11 +163,11 @@ pub(super) fn eliminate<M: FreeEnergy<f64>, const HEAT: bool>(
             by_heat[k] *= inverse;
         }
         for row in (0..unknowns).filter(|&row| row != k) {
-            if !own.has::<M>(row) {
+            if !own.has::<A>(row) {
                 continue;
             }
             let factor = rows[row][at];
-            for column in (0..M::Variables::LEN).filter(columns) {
+            for column in (0..A::Variables::LEN).filter(columns) {
                 let pivot = rows[k][column];
                 rows[row][column] -= factor * pivot;
             }

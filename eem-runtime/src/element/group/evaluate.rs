@@ -10,9 +10,9 @@ use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::Kinematics;
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
     /// Evaluates responses and tangents, and adds their contributions to the system of the next iteration.
     #[inline]
     pub(super) fn linearize_one_by_one<C: Family>(
@@ -53,10 +53,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         let contacts = &self.contacts;
-        let linearize = |member: &mut Member<M, K, D>, share: &mut Share<K, D>| {
+        let linearize = |member: &mut Member<A, K, D>, share: &mut Share<K, D>| {
             member.linearize::<C>(contacts, view, trial, None, share)
         };
-        let mut add = |member: &Member<M, K, D>, share: &Share<K, D>| {
+        let mut add = |member: &Member<A, K, D>, share: &Share<K, D>| {
             member.add_share(share, contacts, (&mut *values, &mut *right));
         };
         in_rounds(&mut self.members, &mut self.shares, &linearize, &mut add)
@@ -122,7 +122,7 @@ fn in_pieces<A: Send, B: Send>(
     first.and(second)
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// Evaluates the responses without tangents, unless those stored are known to be right.
     #[expect(
         clippy::inline_always,
@@ -154,7 +154,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
         contacts: &[Contact<K, D>],
         view: &StepView<'_>,
         trial: &Trial<D>,
-        known: Option<&Form<f64, M>>,
+        known: Option<&Form<A>>,
         share: &mut Share<K, D>,
     ) -> Result<(), StateError> {
         let arms = self.trial_arms::<C>(view, trial);

@@ -9,22 +9,23 @@ use crate::element::conjugates::Placement;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use crate::element::layout::Slots;
 use crate::element::state::State;
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// Replaces the response by the derivatives of the energy in a state.
     pub(super) fn take_derivatives(&mut self, r: &Arms<K, D>, state: &State) {
         let x = self.variables_in(r, state);
         let gradient = self.point.model.gradient(&x);
-        let theta = x[M::Variables::LEN - 1];
+        let theta = x[A::Variables::LEN - 1];
         self.point.viscosities = self.point.model.viscosity(theta);
         self.point.drag.viscosity = self.point.model.drag(theta);
         self.point.start.x0 = x;
-        for index in 0..M::MEASURES + self.dashpots() {
-            self.point.response[index] = Point::<M, K::Measures>::sign(index) * gradient[index];
+        for index in 0..A::MEASURES + self.dashpots() {
+            self.point.response[index] = Point::<A, K::Measures>::sign(index) * gradient[index];
         }
         if self.is_thermal() {
-            self.point.response[M::MEASURES + M::DASHPOTS] = theta;
+            self.point.response[A::MEASURES + A::DASHPOTS] = theta;
         }
     }
 
@@ -47,7 +48,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
             drags.push((self.drag.viscosity.0[a], on_nodes(&unit)));
         }
         for k in 0..self.dashpots() {
-            let g = self.response[M::MEASURES + k];
+            let g = self.response[A::MEASURES + k];
             dashpots.push((self.slots().viscous + k, g, self.viscosities.0[k]));
         }
         ElementGeneric {
@@ -68,16 +69,16 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         let Slots { viscous, thermal } = self.slots();
         let x = self.start.x0;
         let (_, hessian) = self.model.hessian(&x);
-        let theta = M::Variables::LEN - 1;
+        let theta = A::Variables::LEN - 1;
         let pose = Pose::between(&self.kinematics, at, ends, measures_in::<K::Measures>(&x));
         let mut by_measure = Measures::<K, D>::filled(0.0);
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             by_measure[a] = -hessian[theta][a];
         }
         let pulled = pose.pull(&self.kinematics, at, &by_measure);
         let mut by_viscous = Vec::new();
         for k in 0..self.dashpots() {
-            by_viscous.push((viscous + k, -hessian[theta][M::MEASURES + k]));
+            by_viscous.push((viscous + k, -hessian[theta][A::MEASURES + k]));
         }
         thermal.map(|slot| EntropySlopes {
             slot,

@@ -14,10 +14,12 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, SolidState};
 use crate::element::layout::Slots;
 use crate::element::state::{Energy, State};
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Array;
 use eem_material::number::digest::Digest;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup<A, K, D> {
     fn initialize(&mut self, state: &mut State, refuse: &mut dyn FnMut(StateError)) {
         for member in &mut self.members {
             let r = member.arms_in(state);
@@ -93,10 +95,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
         let r = member.arms_in(state);
         let x = point.variables_in(&r, state);
         let mut power = point.power_in_series(&x);
-        if const { !Point::<M, K::Measures>::MAY_HAVE_DRAG } {
+        if const { !Point::<A, K::Measures>::MAY_HAVE_DRAG } {
             return power;
         }
-        let (drags, _) = point.model.drag(x[M::Variables::LEN - 1]);
+        let (drags, _) = point.model.drag(x[A::Variables::LEN - 1]);
         let nodes = member.site.nodes.as_ref();
         let first = velocity(nodes[0] as usize);
         for (a, &drag) in drags.as_ref().iter().enumerate() {
@@ -124,7 +126,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
                 let sizes = kinematics.sizes(&r, &measures);
                 let of = (&point.model, nodes, point.slots());
                 let sizes = (length, &slopes, &sizes);
-                see(stiffness_of::<M, K::Measures>(of, &x, sizes));
+                see(stiffness_of::<A, K::Measures>(of, &x, sizes));
             }
         }
     }
@@ -162,19 +164,19 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
     fn parameters(&self) -> &'static [&'static str] {
         // Elements of a group are of one kind.
         let first = self.points().next();
-        first.map_or(M::PARAMETERS, |point| point.model.parameter_names())
+        first.map_or(&[], |point| point.model.parameter_names())
     }
 
     #[cfg(feature = "gradients")]
     fn parameter_units(&self) -> &'static [&'static str] {
         let first = self.points().next();
-        first.map_or(M::PARAMETER_UNITS, |point| point.model.parameter_units())
+        first.map_or(&[], |point| point.model.facts().parameter_units)
     }
 
     #[cfg(feature = "gradients")]
     fn has_parameter_derivatives(&self) -> bool {
         let first = self.points().next();
-        first.is_some_and(|point| point.model.has_parameter_derivatives())
+        first.is_some_and(|point| point.model.facts().has_parameter_derivatives)
     }
 
     #[cfg(feature = "gradients")]
@@ -209,7 +211,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// Finds entropy and energy in an initial state with these arms.
     fn initialize(&mut self, r: &Arms<K, D>, state: &mut State) -> Result<(), StateError> {
         let x = self.locate(r, state)?;
@@ -228,16 +230,16 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     }
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Finds the entropy of an initial state, whose variables are given; returns its energy.
-    fn initialize(&mut self, x: &M::Variables, state: &mut State) -> Result<Energy, StateError> {
+    fn initialize(&mut self, x: &A::Variables, state: &mut State) -> Result<Energy, StateError> {
         let slot = self.slots().thermal;
         let theta = slot.map_or(0.0, |slot| state.temperatures[slot]);
         self.find_viscosities(theta)?;
         self.find_drag_viscosity(theta)?;
         let caloric = self.model.caloric(x);
         let energy = self.energy_at(x, caloric)?;
-        check_gradient::<M>(self.element, &self.model.gradient(x))?;
+        check_gradient::<A>(self.element, &self.model.gradient(x))?;
         if let Some(slot) = slot {
             Infeasible::unless_stable(caloric.heat_capacity, theta)
                 .map_err(|infeasible| infeasible.of(self.element))?;
@@ -247,11 +249,11 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     }
 
     /// The power that its dashpots in series turn into heat, W.
-    fn power_in_series(&self, x: &M::Variables) -> f64 {
+    fn power_in_series(&self, x: &A::Variables) -> f64 {
         let gradient = self.model.gradient(x);
-        let (viscosities, _) = self.model.viscosity(x[M::Variables::LEN - 1]);
+        let (viscosities, _) = self.model.viscosity(x[A::Variables::LEN - 1]);
         (0..self.dashpots()).fold(0.0, |power, dashpot| {
-            let g = gradient[M::MEASURES + dashpot];
+            let g = gradient[A::MEASURES + dashpot];
             power + g * g / viscosities[dashpot]
         })
     }
@@ -259,13 +261,13 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// Adds its parameters.
     fn digest(&self, digest: &mut Digest) {
         digest.count(self.element.index());
-        for index in 0..self.model.parameter_count() {
+        for index in 0..self.model.facts().parameter_count {
             digest.number(self.model.parameter(index));
         }
     }
 
     /// The energy in a state whose temperature and entropy are known.
-    fn energy_in(&self, x: &M::Variables, state: &State) -> Energy {
+    fn energy_in(&self, x: &A::Variables, state: &State) -> Energy {
         let psi = self.model.free_energy(x);
         let Some(slot) = self.slots().thermal else {
             return Energy::without_temperature(psi);
@@ -276,7 +278,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     }
 
     /// `ψ + θ s` with the stored entropy, J.
-    fn internal_energy(&self, x: &M::Variables, state: &State) -> f64 {
+    fn internal_energy(&self, x: &A::Variables, state: &State) -> f64 {
         let psi = self.model.free_energy(x);
         match self.slots().thermal {
             Some(slot) => psi + state.temperatures[slot] * state.entropies.values()[slot],
@@ -286,8 +288,8 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 }
 
 /// Adds the kind of a model, or the names of its parameters.
-fn digest_kind<M: FreeEnergy<f64>>(model: &M, digest: &mut Digest) {
-    let kind = model.kind();
+fn digest_kind<A: Arrays>(model: &Tabled<A>, digest: &mut Digest) {
+    let kind = model.facts().kind;
     if kind != 0 {
         return digest.bytes(&kind.to_le_bytes());
     }
@@ -298,9 +300,9 @@ fn digest_kind<M: FreeEnergy<f64>>(model: &M, digest: &mut Digest) {
 }
 
 /// An error unless forces and entropy of an initial state are finite; those of later states are checked with a response.
-fn check_gradient<M: FreeEnergy<f64>>(
+fn check_gradient<A: Arrays>(
     element: Element,
-    gradient: &M::Variables,
+    gradient: &A::Variables,
 ) -> Result<(), StateError> {
     match gradient
         .as_ref()
@@ -310,9 +312,9 @@ fn check_gradient<M: FreeEnergy<f64>>(
         None => Ok(()),
         Some(index) => Err(StateError::NotFinite {
             element,
-            quantity: if index < M::MEASURES {
+            quantity: if index < A::MEASURES {
                 "force"
-            } else if index < M::MEASURES + M::DASHPOTS {
+            } else if index < A::MEASURES + A::DASHPOTS {
                 "dashpot force"
             } else {
                 "entropy"

@@ -19,12 +19,14 @@ use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Numbers};
 use crate::element::tally::Tally;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Whether its type has room for such a dashpot. What only they need is not compiled for others.
-    pub(super) const MAY_HAVE_DRAG: bool = M::Drag::LEN > 0;
+    pub(super) const MAY_HAVE_DRAG: bool = A::Drag::LEN > 0;
 
     /// Whether `λ̇` is the rate of a classical scheme, with its own derivatives with respect to the arms, and not a
     /// difference of lengths.
@@ -52,7 +54,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             return Ok(());
         }
         self.drag.viscosity = self.model.drag(theta);
-        check_drag::<M, Q>(&self.model, self.drag.viscosity.0, theta)
+        check_drag::<A, Q>(&self.model, self.drag.viscosity.0, theta)
             .map_err(|error| error.of(self.element))
     }
 
@@ -61,9 +63,9 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     pub(super) fn find_drag<C: Family>(
         &mut self,
         per_step: f64,
-        response: &M::Response,
+        response: &A::Response,
     ) -> Result<(), StateError> {
-        self.find_drag_viscosity(temperature_in::<M>(response))?;
+        self.find_drag_viscosity(temperature_in::<A>(response))?;
         for a in 0..self.drags() {
             self.drag.force[a] = self.drag.viscosity.0[a] * self.extension_rate::<C>(a, per_step);
         }
@@ -75,9 +77,9 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     pub(super) fn add_drag<C: Family>(
         &self,
         per_step: f64,
-        (response, tangent): &mut Form<f64, M>,
-    ) -> M::Drag {
-        let mut elastic = M::Drag::filled(0.0);
+        (response, tangent): &mut Form<A>,
+    ) -> A::Drag {
+        let mut elastic = A::Drag::filled(0.0);
         for a in 0..self.drags() {
             elastic[a] = response[a];
             response[a] += self.drag.force[a];
@@ -103,7 +105,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// Restores the response of a form to that of the free energy.
     #[inline]
-    pub(super) fn drop_drag(&mut self, elastic: &M::Drag) {
+    pub(super) fn drop_drag(&mut self, elastic: &A::Drag) {
         for a in 0..self.drags() {
             self.response[a] = elastic[a];
         }
@@ -114,8 +116,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     pub(super) fn dissipate_by_drag<C: Family>(
         &self,
         view: &StepView<'_>,
-        (_, tangent): &Form<f64, M>,
-        dissipation: &mut Dissipation<M>,
+        (_, tangent): &Form<A>,
+        dissipation: &mut Dissipation<A>,
     ) {
         for a in 0..self.drags() {
             let rate = self.extension_rate::<C>(a, view.per_step);
@@ -140,8 +142,8 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     pub(super) fn add_old_drag(
         &mut self,
         speeds: &Numbers<Q>,
-        gradient: &mut M::Variables,
-        rates: &mut M::Variables,
+        gradient: &mut A::Variables,
+        rates: &mut A::Variables,
     ) -> Result<f64, StateError> {
         let mut power = 0.0;
         if const { !Self::MAY_HAVE_DRAG } || self.drags() == 0 {
@@ -180,7 +182,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             forces[a] += self.drag.force[a];
         }
         if let Some(damping) = self.damping::<C>() {
-            for a in 0..M::MEASURES {
+            for a in 0..A::MEASURES {
                 forces[a] += damping.force[a];
             }
         }
@@ -200,7 +202,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     }
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// Finds `Δλ` along the gradients of the trial. For a classical scheme it is `w h λ̇`, with the rate λ̇ of the
     /// trial, and its derivatives with respect to the new arms are returned.
     #[inline]
@@ -209,7 +211,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> 
         pose: &Pose<K, D>,
         motion: &Arms<K, D>,
     ) -> Option<Gradient<K, D>> {
-        if const { !Point::<M, K::Measures>::MAY_HAVE_DRAG } {
+        if const { !Point::<A, K::Measures>::MAY_HAVE_DRAG } {
             return None;
         }
         if self.has_rates::<C>() {
@@ -232,7 +234,7 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> 
         view: &StepView<'_>,
         by_arm: &Gradient<K, D>,
     ) {
-        if const { !Point::<M, K::Measures>::MAY_HAVE_DRAG } {
+        if const { !Point::<A, K::Measures>::MAY_HAVE_DRAG } {
             return;
         }
         let (drags, per_share) = (self.drags(), self.per_share::<C>(view.per_step));
@@ -287,9 +289,9 @@ impl WrongDrag {
 
 /// An error unless the viscosity of a Kelvin–Voigt dashpot is positive and finite.
 #[inline]
-pub(super) fn check_drag<M: FreeEnergy<f64>, Q: MeasureSet>(
-    model: &M,
-    drag: M::Drag,
+pub(super) fn check_drag<A: Arrays, Q: MeasureSet>(
+    model: &Tabled<A>,
+    drag: A::Drag,
     theta: f64,
 ) -> Result<(), WrongDrag> {
     let mut all = drag.as_ref()[..model.drags()].iter();

@@ -21,15 +21,16 @@ use crate::element::error::StateError;
 use crate::element::group::point::temperature_in;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::MeasureSet;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// The power dissipated by the dashpots, `Σ η γ̇²`, W, and its derivatives with respect to the variables.
-pub(super) struct Dissipation<M: FreeEnergy<f64>> {
+pub(super) struct Dissipation<A: Arrays> {
     pub(super) power: f64,
-    pub(super) by: M::Variables,
+    pub(super) by: A::Variables,
 }
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Eliminates the internal variables of an element, given its response with tangent and its viscosities.
     #[expect(
         clippy::inline_always,
@@ -40,23 +41,23 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         &mut self,
         view: &StepView<'_>,
         interface: &InterfaceTemperatures,
-        form: &Form<f64, M>,
+        form: &Form<A>,
         paths: Option<&[HeatPath]>,
     ) -> Result<(), StateError> {
         if Self::UNKNOWNS == 0 {
             return Ok(());
         }
         // Called first: the call would spill the registers used below.
-        let theta = temperature_in::<M>(&form.0);
+        let theta = temperature_in::<A>(&form.0);
         let conducting = self.conducting_temperature::<C>(&form.0);
         let flow = self.heat_flow(view, paths, interface, conducting);
-        let mut system = LocalSystem::<M>::empty(self.pivot_units::<C>(theta));
+        let mut system = LocalSystem::<A>::empty(self.pivot_units::<C>(theta));
         self.balances::<C, true>(view, &flow, form, &mut system);
         let depends_on_heat = self.depends_on_heat::<C>(paths.is_some());
         let solved = if depends_on_heat {
-            eliminate::<M, true>(&mut system, self.own_unknowns())
+            eliminate::<A, true>(&mut system, self.own_unknowns())
         } else {
-            eliminate::<M, false>(&mut system, self.own_unknowns())
+            eliminate::<A, false>(&mut system, self.own_unknowns())
         };
         solved.map_err(|singular| self.unsolved(singular))?;
         self.keep_solved(&system, depends_on_heat);
@@ -79,12 +80,12 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         &mut self,
         view: &StepView<'_>,
         flow: &HeatFlow,
-        form: &Form<f64, M>,
-        system: &mut LocalSystem<M>,
+        form: &Form<A>,
+        system: &mut LocalSystem<A>,
     ) {
         let mut dissipation = Dissipation {
             power: 0.0,
-            by: M::Variables::filled(0.0),
+            by: A::Variables::filled(0.0),
         };
         for k in 0..self.dashpots() {
             self.dashpot_balance::<C>(view, k, form, system, &mut dissipation);
@@ -92,7 +93,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         self.dissipate_by_drag::<C>(view, form, &mut dissipation);
         self.dissipate_by_damping::<C>(view, &mut dissipation);
         if self.is_thermal() {
-            let row = M::DASHPOTS;
+            let row = A::DASHPOTS;
             if self.is_prescribed {
                 // r_s = τ − τ_prescribed, which is zero from the start.
                 self.condensed.heat_factor = 0.0;
@@ -106,13 +107,13 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// Stores the solved local system.
     #[inline]
-    pub(super) fn keep_solved(&mut self, system: &LocalSystem<M>, depends_on_heat: bool) {
+    pub(super) fn keep_solved(&mut self, system: &LocalSystem<A>, depends_on_heat: bool) {
         for u in 0..Self::UNKNOWNS {
-            if !self.own_unknowns().has::<M>(u) {
+            if !self.own_unknowns().has::<A>(u) {
                 continue;
             }
             self.condensed.constant.set(u, system.constant[u]);
-            for a in 0..M::MEASURES {
+            for a in 0..A::MEASURES {
                 self.condensed.by_measure[a].set(u, system.rows[u][a]);
             }
             if depends_on_heat {
@@ -170,7 +171,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         if C::is_exact(self.scheme) {
             self.creep[k] * view.per_step
         } else {
-            self.response[M::MEASURES + k] / self.viscosities.0[k]
+            self.response[A::MEASURES + k] / self.viscosities.0[k]
         }
     }
 
@@ -187,11 +188,11 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         &self,
         view: &StepView<'_>,
         k: usize,
-        (response, tangent): &Form<f64, M>,
-        system: &mut LocalSystem<M>,
-        dissipation: &mut Dissipation<M>,
+        (response, tangent): &Form<A>,
+        system: &mut LocalSystem<A>,
+        dissipation: &mut Dissipation<A>,
     ) {
-        let index = M::MEASURES + k;
+        let index = A::MEASURES + k;
         if !view.phase.heats() {
             // Δγ = 0.
             system.rows[k][index] = 1.0;
@@ -229,11 +230,11 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         &self,
         view: &StepView<'_>,
         k: usize,
-        (response, tangent): (&M::Response, &M::Tangent),
-        system: &mut LocalSystem<M>,
-        dissipation: &mut Dissipation<M>,
+        (response, tangent): (&A::Response, &A::Tangent),
+        system: &mut LocalSystem<A>,
+        dissipation: &mut Dissipation<A>,
     ) {
-        let index = M::MEASURES + k;
+        let index = A::MEASURES + k;
         let per_eta = self.viscosities.0[k].recip();
         let rate = response[index] * per_eta;
         dissipation.power += response[index] * rate;
@@ -267,14 +268,14 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
         &mut self,
         view: &StepView<'_>,
         flow: &HeatFlow,
-        (response, tangent): &Form<f64, M>,
-        system: &mut LocalSystem<M>,
-        dissipation: &Dissipation<M>,
+        (response, tangent): &Form<A>,
+        system: &mut LocalSystem<A>,
+        dissipation: &Dissipation<A>,
     ) {
-        let per_theta = temperature_in::<M>(response).recip();
+        let per_theta = temperature_in::<A>(response).recip();
         let rate = (dissipation.power + flow.heat) * per_theta;
         let h = view.thermal_step();
-        let row = M::DASHPOTS;
+        let row = A::DASHPOTS;
         let received = self.increment::<C>(Self::TEMPERATURE, rate, h);
         let residual = response[Self::ENTROPY] - received;
         system.constant[row] = residual;

@@ -7,24 +7,25 @@ use super::view::Placed;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Kinematics, MeasureSet, Points};
 use crate::element::layout::Shape;
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
 
 /// Model and kinematics of the points of an element.
-pub(crate) type Parts<M, K, const D: usize> = <K as Kinematics<D>>::PerPoint<(M, K)>;
+pub(crate) type Parts<A, K, const D: usize> = <K as Kinematics<D>>::PerPoint<(Tabled<A>, K)>;
 
 /// Makes the group of an explicit scheme.
 pub(crate) type MakeExplicit<const D: usize> =
     fn(Box<dyn Loose<D>>, Placed<'_>) -> Box<dyn ExplicitGroup<D>>;
 
-/// Elements of the model `M` with the kinematics `K`, each with the handle of its first point.
-pub(crate) struct LooseElements<M: Material, K: Kinematics<D>, const D: usize> {
-    pub(crate) elements: Vec<(Element, Parts<M, K, D>)>,
+/// Elements of the model `A` with the kinematics `K`, each with the handle of its first point.
+pub(crate) struct LooseElements<A: Arrays, K: Kinematics<D>, const D: usize> {
+    pub(crate) elements: Vec<(Element, Parts<A, K, D>)>,
     /// Explicit schemes are compiled for each material: a call of a table takes a good part of their time.
     pub(super) make_explicit: MakeExplicit<D>,
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
-    pub(super) const POINTS: usize = K::PerPoint::<(M, K)>::LEN;
+impl<A: Arrays, K: Kinematics<D>, const D: usize> LooseElements<A, K, D> {
+    pub(super) const POINTS: usize = K::PerPoint::<(Tabled<A>, K)>::LEN;
 
     /// No elements yet.
     pub(crate) fn new(make_explicit: MakeExplicit<D>) -> Self {
@@ -35,7 +36,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
     }
 
     /// The model of the first point; those of all points have its kind and name.
-    pub(super) fn model(&self) -> Option<&M> {
+    pub(super) fn model(&self) -> Option<&Tabled<A>> {
         let (_, points) = self.elements.first()?;
         Some(&points.as_ref().first()?.0)
     }
@@ -49,11 +50,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
     pub(super) fn shape_of_all(&self) -> Shape {
         let model = self.model();
         Shape {
-            dashpots: model.map_or(0, M::dashpots),
-            thermal: model.map_or(M::THERMAL, M::is_thermal),
-            drag: model.map_or(0, M::drags) > 0,
+            dashpots: model.map_or(0, Tabled::dashpots),
+            thermal: model.is_some_and(Tabled::is_thermal),
+            drag: model.map_or(0, Tabled::drags) > 0,
             is_spring: K::Measures::IS_SPRING,
-            viscous_strain: model.map_or(0, M::viscous_strain),
+            viscous_strain: model.map_or(0, Tabled::viscous_strain),
             viscous_unit: K::Measures::VISCOUS_UNIT,
         }
     }
@@ -84,9 +85,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> LooseElements<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> fmt::Debug for LooseElements<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> fmt::Debug for LooseElements<A, K, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = self.model().map_or(&M::MODEL, M::model);
+        let name = self.model().map_or(&"material", |model| model.facts().model);
         write!(f, "{} elements of {name}", self.elements.len())
     }
 }

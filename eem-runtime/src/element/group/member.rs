@@ -11,21 +11,23 @@ use crate::element::group::view::{Placed, StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Array;
 
 /// An element.
-pub(crate) struct Member<M: Material, K: Kinematics<D>, const D: usize> {
+pub(crate) struct Member<A: Arrays, K: Kinematics<D>, const D: usize> {
     pub(super) site: Site<K, D>,
     /// The old arms.
     pub(super) r0: Arms<K, D>,
-    pub(super) points: K::PerPoint<PlacedPoint<M, K, D>>,
+    pub(super) points: K::PerPoint<PlacedPoint<A, K, D>>,
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// An element whose points have consecutive handles, of which the first is given.
     pub(super) fn new(
         scheme: OneSet,
-        (first, points): (Element, K::PerPoint<(M, K)>),
+        (first, points): (Element, K::PerPoint<(Tabled<A>, K)>),
         placed: Placed<'_>,
     ) -> Self {
         let mut parts = points.into_iter();
@@ -42,7 +44,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     }
 
     /// The handle of its first point, and model and kinematics of all points.
-    pub(super) fn into_parts(self) -> (Element, K::PerPoint<(M, K)>) {
+    pub(super) fn into_parts(self) -> (Element, K::PerPoint<(Tabled<A>, K)>) {
         let first = self.points.as_ref()[0].element;
         let mut points = self.points.into_iter();
         let parts = K::PerPoint::from_fn(|_| {
@@ -53,7 +55,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     }
 
     /// The first point, the only one of a spring.
-    pub(super) fn only(&self) -> &PlacedPoint<M, K, D> {
+    pub(super) fn only(&self) -> &PlacedPoint<A, K, D> {
         &self.points.as_ref()[0]
     }
 

@@ -7,43 +7,44 @@
 //! V is found by Jacobi's method, which keeps the small rates of dashpots beside large ones, and turns nothing if the dashpots are
 //! not coupled. It does not depend on the axes in which the viscous strain of a solid is given.
 
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// Jacobi's method converges quadratically; matrices of up to seven rows take six sweeps or fewer.
 const MOST_SWEEPS: usize = 16;
 
 /// Replaces the rows `∂²ψ/∂γ∂x` of a Hessian by those of the modes, `Vᵀ η^−½ ∂²ψ/∂γ∂x`, which come first; returns the
 /// rates, 1/s.
-pub(super) fn relaxation_modes<M: FreeEnergy<f64>>(
-    hessian: &M::Hessian,
-    viscosities: &M::Viscosities,
+pub(super) fn relaxation_modes<A: Arrays>(
+    hessian: &A::Hessian,
+    viscosities: &A::Viscosities,
     dashpots: usize,
-) -> (M::Hessian, M::Viscosities) {
-    let zeros = M::Variables::filled(0.0);
-    let mut rows = M::Hessian::filled(zeros);
-    let mut matrix = M::Hessian::filled(zeros);
+) -> (A::Hessian, A::Viscosities) {
+    let zeros = A::Variables::filled(0.0);
+    let mut rows = A::Hessian::filled(zeros);
+    let mut matrix = A::Hessian::filled(zeros);
     for k in 0..dashpots {
         let factor = viscosities[k].sqrt().recip();
-        rows[k] = hessian[M::MEASURES + k];
+        rows[k] = hessian[A::MEASURES + k];
         for entry in rows[k].as_mut() {
             *entry *= factor;
         }
         for l in 0..dashpots {
-            matrix[k][l] = rows[k][M::MEASURES + l] / viscosities[l].sqrt();
+            matrix[k][l] = rows[k][A::MEASURES + l] / viscosities[l].sqrt();
         }
     }
     for _ in 0..MOST_SWEEPS {
         let mut has_turned = false;
         for p in 0..dashpots {
             for q in p + 1..dashpots {
-                has_turned |= turn::<M>([p, q], &mut matrix, &mut rows, dashpots);
+                has_turned |= turn::<A>([p, q], &mut matrix, &mut rows, dashpots);
             }
         }
         if !has_turned {
             break;
         }
     }
-    let mut rates = M::Viscosities::filled(0.0);
+    let mut rates = A::Viscosities::filled(0.0);
     for k in 0..dashpots {
         rates[k] = matrix[k][k];
     }
@@ -51,10 +52,10 @@ pub(super) fn relaxation_modes<M: FreeEnergy<f64>>(
 }
 
 /// Turns two rows so that their entry of the matrix vanishes; false if it is zero to rounding.
-fn turn<M: FreeEnergy<f64>>(
+fn turn<A: Arrays>(
     [p, q]: [usize; 2],
-    matrix: &mut M::Hessian,
-    rows: &mut M::Hessian,
+    matrix: &mut A::Hessian,
+    rows: &mut A::Hessian,
     dashpots: usize,
 ) -> bool {
     let (own, other, both) = (matrix[p][p], matrix[q][q], matrix[p][q]);
@@ -74,7 +75,7 @@ fn turn<M: FreeEnergy<f64>>(
     }
     for pair in [&mut *matrix, rows] {
         let (a, b) = (pair[p], pair[q]);
-        for column in 0..M::Variables::LEN {
+        for column in 0..A::Variables::LEN {
             pair[p][column] = cosine * a[column] - sine * b[column];
             pair[q][column] = sine * a[column] + cosine * b[column];
         }

@@ -12,9 +12,10 @@ use super::point_step::PastStep;
 use crate::element::conjugates::{Exact, Form, Start, exchanged};
 use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// Its arms in both states.
     #[inline]
     pub(super) fn past_arms(&self, step: &PastStep<'_>) -> [Arms<K, D>; 2] {
@@ -22,7 +23,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// Sets both states, and what depends on them, to those of a step.
     #[inline]
     pub(super) fn return_to(
@@ -51,12 +52,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     }
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Sets both states, and what depends on them.
     fn return_to(
         &mut self,
         step: &PastStep<'_>,
-        [x0, x1]: [M::Variables; 2],
+        [x0, x1]: [A::Variables; 2],
     ) -> Result<(), StateError> {
         self.x = x1;
         let mut theta = 1.0;
@@ -65,12 +66,12 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             self.is_prescribed = step.held[slot];
         }
         self.start = self.start_from(&x0);
-        self.corners = M::Corners::filled(theta);
+        self.corners = A::Corners::filled(theta);
         (self.start)
             .prepare(&self.model, &self.x, &mut self.corners)
             .map_err(|infeasible| infeasible.of(self.element))?;
         for k in 0..self.dashpots() {
-            self.creep[k] = self.x[M::MEASURES + k] - x0[M::MEASURES + k];
+            self.creep[k] = self.x[A::MEASURES + k] - x0[A::MEASURES + k];
         }
         for a in 0..self.drags() {
             self.drag.extension[a] = self.x[a] - x0[a];
@@ -80,7 +81,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// A step from these variables.
     #[inline]
-    fn start_from(&self, x0: &M::Variables) -> Start<M> {
+    fn start_from(&self, x0: &A::Variables) -> Start<A> {
         let mut start = Start {
             x0: *x0,
             ..Start::nothing()
@@ -91,7 +92,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// Its response with tangent, including Kelvin–Voigt dashpots.
     #[inline]
-    pub(super) fn tangent_in(&mut self, per_step: f64) -> Result<Form<f64, M>, StateError> {
+    pub(super) fn tangent_in(&mut self, per_step: f64) -> Result<Form<A>, StateError> {
         let mut form = self.form::<Exact>(false);
         self.accept::<Exact>(per_step, &form, false)?;
         self.response = form.0;
@@ -101,9 +102,9 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// The derivatives of the response with respect to the variables of the old state.
     #[inline]
-    pub(super) fn slopes_by_old(&self) -> M::Tangent {
+    pub(super) fn slopes_by_old(&self) -> A::Tangent {
         let start = self.start_from(&self.x);
-        let corners = exchanged::<M>(&self.corners);
+        let corners = exchanged::<A>(&self.corners);
         let (_, mut tangent) =
             start.form::<Exact>(self.scheme, &self.model, &self.start.x0, &corners);
         if self.is_thermal() {

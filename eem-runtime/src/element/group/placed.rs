@@ -12,21 +12,22 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Gradient, Kinematics, Measures};
 use crate::element::state::State;
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// A point, and what it takes to find its measures from the nodes and to bring its forces to them.
-pub(crate) struct PlacedPoint<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> {
+pub(crate) struct PlacedPoint<A: Arrays, K: Kinematics<D>, const D: usize> {
     pub(super) kinematics: K,
     /// The derivative of the measures with respect to the new arms.
     pub(super) sensitivity: Gradient<K, D>,
     /// The derivative of `r_s` with respect to the new arms, without that through the measures: through the increments for
     /// a scheme in temperature, through the rates of Kelvin–Voigt dashpots for all classical schemes.
     pub(super) by_increment: Option<Box<Arms<K, D>>>,
-    pub(super) point: Point<M, K::Measures>,
+    pub(super) point: Point<A, K::Measures>,
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> Deref for PlacedPoint<M, K, D> {
-    type Target = Point<M, K::Measures>;
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Deref for PlacedPoint<A, K, D> {
+    type Target = Point<A, K::Measures>;
 
     #[inline]
     fn deref(&self) -> &Self::Target {
@@ -34,18 +35,18 @@ impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> Deref for PlacedPoint
     }
 }
 
-impl<M: FreeEnergy<f64>, K: Kinematics<D>, const D: usize> DerefMut for PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> DerefMut for PlacedPoint<A, K, D> {
     #[inline]
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut self.point
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// The index of the temperature among the variables.
-    pub(super) const TEMPERATURE: usize = M::MEASURES + M::DASHPOTS;
+    pub(super) const TEMPERATURE: usize = A::MEASURES + A::DASHPOTS;
 
-    pub(super) fn new(kinematics: K, point: Point<M, K::Measures>) -> Self {
+    pub(super) fn new(kinematics: K, point: Point<A, K::Measures>) -> Self {
         let nowhere = Arms::<K, D>::filled([0.0; D]);
         let is_classical = matches!(point.scheme, OneSet::Point(_));
         Self {
@@ -76,14 +77,14 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     }
 
     /// The variables in a state with these arms.
-    pub(super) fn variables_in(&self, r: &Arms<K, D>, state: &State) -> M::Variables {
+    pub(super) fn variables_in(&self, r: &Arms<K, D>, state: &State) -> A::Variables {
         let measures = self.kinematics.measure(r);
         variables(&self.model, measures.as_ref(), self.point.slots(), state)
     }
 
     /// The same; an error if the deformation is inadmissible.
     #[inline]
-    pub(super) fn locate(&self, r: &Arms<K, D>, state: &State) -> Result<M::Variables, StateError> {
+    pub(super) fn locate(&self, r: &Arms<K, D>, state: &State) -> Result<A::Variables, StateError> {
         let measures = self.admissible_measures(r)?;
         Ok(variables(
             &self.model,
@@ -180,7 +181,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         step: f64,
         pose: &Pose<K, D>,
         motion: &Arms<K, D>,
-        form: &mut Form<f64, M>,
+        form: &mut Form<A>,
     ) {
         let at = self.point.scheme.placement();
         let (own, by_arm) = pose.increase(&self.kinematics, at, motion);

@@ -10,7 +10,9 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use crate::element::state::State;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
+use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::is_positive;
 
@@ -69,21 +71,21 @@ impl<V: Array<f64>> PointMemory<V> {
 }
 
 /// `η_k` and `dη_k/dθ`.
-pub(super) type Viscosities<M> = (
-    <M as FreeEnergy<f64>>::Viscosities,
-    <M as FreeEnergy<f64>>::Viscosities,
+pub(super) type Viscosities<A> = (
+    <A as Arrays>::Viscosities,
+    <A as Arrays>::Viscosities,
 );
 
 /// The damping of a point with this model.
-pub(super) type DampingOf<M> =
-    Damping<<M as FreeEnergy<f64>>::Variables, <M as FreeEnergy<f64>>::Hessian>;
+pub(super) type DampingOf<A> =
+    Damping<<A as Arrays>::Variables, <A as Arrays>::Hessian>;
 
 /// A point with its variables in a step. It knows the numbers of its measures `Q`, and no nodes.
-pub(crate) struct Point<M: FreeEnergy<f64>, Q: MeasureSet> {
+pub(crate) struct Point<A: Arrays, Q: MeasureSet> {
     pub(super) scheme: OneSet,
     /// Its handle.
     pub(super) element: Element,
-    pub(super) model: M,
+    pub(super) model: Tabled<A>,
     /// Its thermal slot, if it has a temperature, and the offset of its viscous stretches.
     slot: u32,
     viscous: u32,
@@ -96,47 +98,47 @@ pub(crate) struct Point<M: FreeEnergy<f64>, Q: MeasureSet> {
     /// See [`settling`](crate::element::conduction::Conduction::settling), W/K.
     pub(super) settling: f64,
     /// The old state.
-    pub(super) start: Start<M>,
+    pub(super) start: Start<A>,
     /// Temperatures of mixed states, kept from one iteration to the next; only in entropy form.
-    pub(super) corners: M::Corners,
+    pub(super) corners: A::Corners,
     /// The trial variables `(π, γ, τ)`.
-    pub(super) x: M::Variables,
+    pub(super) x: A::Variables,
     /// Δγ of the trial, m, stored because `γ⁰ + Δγ` would lose its digits where dashpots are stiff.
-    pub(super) creep: M::Viscosities,
+    pub(super) creep: A::Viscosities,
     /// Δγ and τ before the last correction, and the correction of all variables.
-    pub(super) previous: PerUnknown<M::Viscosities>,
-    pub(super) correction: M::Variables,
+    pub(super) previous: PerUnknown<A::Viscosities>,
+    pub(super) correction: A::Variables,
     /// The response at the trial, and the derivatives of `(f*, g*, θ*)` with respect to `x`.
-    pub(super) response: M::Response,
-    pub(super) slopes: M::Hessian,
+    pub(super) response: A::Response,
+    pub(super) slopes: A::Hessian,
     /// `η_k` and `dη_k/dθ` at θ*.
-    pub(super) viscosities: Viscosities<M>,
+    pub(super) viscosities: Viscosities<A>,
     /// The Kelvin–Voigt dashpot, if there is one.
-    pub(super) drag: Drag<M::Drag>,
+    pub(super) drag: Drag<A::Drag>,
     /// Local unknowns as functions of the global ones.
-    pub(super) condensed: Condensed<M, Q>,
+    pub(super) condensed: Condensed<A, Q>,
     /// Only for schemes that evaluate the model at one point of the step.
-    pub(super) single: Option<Box<PointMemory<M::Variables>>>,
+    pub(super) single: Option<Box<PointMemory<A::Variables>>>,
     /// Only for a damped scheme.
-    pub(super) damping: Option<Box<DampingOf<M>>>,
+    pub(super) damping: Option<Box<DampingOf<A>>>,
 }
 
-impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Number of variables.
-    pub(super) const VARIABLES: usize = M::Variables::LEN;
+    pub(super) const VARIABLES: usize = A::Variables::LEN;
 
     /// The most variables that are eliminated within the element: viscous stretches, temperature.
-    pub(super) const UNKNOWNS: usize = M::Variables::LEN - M::MEASURES;
+    pub(super) const UNKNOWNS: usize = A::Variables::LEN - A::MEASURES;
 
     /// The index of the temperature among the variables, and of θ* in the response.
-    pub(super) const TEMPERATURE: usize = M::MEASURES + M::DASHPOTS;
+    pub(super) const TEMPERATURE: usize = A::MEASURES + A::DASHPOTS;
 
     /// The index of Δs in the response.
     pub(super) const ENTROPY: usize = Self::TEMPERATURE + 1;
 
-    pub(super) fn new(scheme: OneSet, element: Element, model: M, slots: Slots) -> Self {
-        let zeros = M::Variables::filled(0.0);
-        let viscosities = M::Viscosities::filled(0.0);
+    pub(super) fn new(scheme: OneSet, element: Element, model: Tabled<A>, slots: Slots) -> Self {
+        let zeros = A::Variables::filled(0.0);
+        let viscosities = A::Viscosities::filled(0.0);
         let is_classical = matches!(scheme, OneSet::Point(_));
         let is_damped = matches!(scheme, OneSet::Damped);
         Self {
@@ -150,18 +152,18 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             is_prescribed: false,
             settling: 0.0,
             start: Start::nothing(),
-            corners: M::Corners::filled(0.0),
+            corners: A::Corners::filled(0.0),
             x: zeros,
             creep: viscosities,
             previous: PerUnknown::zero(),
             correction: zeros,
-            response: M::Response::filled(0.0),
-            slopes: M::Hessian::filled(zeros),
+            response: A::Response::filled(0.0),
+            slopes: A::Hessian::filled(zeros),
             viscosities: (viscosities, viscosities),
-            drag: Drag::zero(M::Drag::filled(0.0)),
+            drag: Drag::zero(A::Drag::filled(0.0)),
             condensed: Condensed::zero(),
             single: is_classical.then(|| Box::new(PointMemory::zero())),
-            damping: is_damped.then(|| Box::new(DampingOf::<M>::none())),
+            damping: is_damped.then(|| Box::new(DampingOf::<A>::none())),
         }
     }
 
@@ -185,9 +187,9 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// The variables that are eliminated, from zero: the viscous stretches, and the temperature after the last that there may be.
     #[inline]
-    pub(super) fn unknowns(&self) -> impl Iterator<Item = usize> + use<M, Q> {
+    pub(super) fn unknowns(&self) -> impl Iterator<Item = usize> + use<A, Q> {
         let own = self.own_unknowns();
-        (0..Self::UNKNOWNS).filter(move |&u| own.has::<M>(u))
+        (0..Self::UNKNOWNS).filter(move |&u| own.has::<A>(u))
     }
 
     /// Which of [`UNKNOWNS`](Self::UNKNOWNS) it has.
@@ -219,7 +221,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// Its variables of a scheme that evaluates the model at one point.
     #[inline]
-    pub(super) fn single<C: Family>(&self) -> Option<&PointMemory<M::Variables>> {
+    pub(super) fn single<C: Family>(&self) -> Option<&PointMemory<A::Variables>> {
         if C::IS_EXACT {
             None
         } else {
@@ -229,7 +231,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// The same, mutable.
     #[inline]
-    pub(super) fn single_mut<C: Family>(&mut self) -> Option<&mut PointMemory<M::Variables>> {
+    pub(super) fn single_mut<C: Family>(&mut self) -> Option<&mut PointMemory<A::Variables>> {
         if C::IS_EXACT {
             None
         } else {
@@ -249,7 +251,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
 
     /// Stores the response, and the rows of its tangent that are needed later.
     #[inline]
-    pub(super) fn keep<C: Family>(&mut self, (response, tangent): &Form<f64, M>) {
+    pub(super) fn keep<C: Family>(&mut self, (response, tangent): &Form<A>) {
         self.response = *response;
         for row in 0..Self::VARIABLES {
             self.slopes[row] = tangent[row];
@@ -282,7 +284,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     /// The algorithmic temperature θ*, K; zero without temperature.
     #[inline]
     pub(super) fn temperature(&self) -> f64 {
-        temperature_in::<M>(&self.response)
+        temperature_in::<A>(&self.response)
     }
 
     /// An error unless a free energy is finite.
@@ -322,7 +324,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn hold<C: Family>(&mut self) {
         self.remember();
-        self.correction = M::Variables::filled(0.0);
+        self.correction = A::Variables::filled(0.0);
         if let Some(at_point) = self.single_mut::<C>() {
             at_point.previous_entropy_change = at_point.entropy_change;
             at_point.entropy_correction = 0.0;
@@ -336,7 +338,7 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
             self.previous.set(k, self.creep[k]);
         }
         if self.is_thermal() {
-            self.previous.set(M::DASHPOTS, self.x[Self::TEMPERATURE]);
+            self.previous.set(A::DASHPOTS, self.x[Self::TEMPERATURE]);
         }
     }
 
@@ -345,13 +347,13 @@ impl<M: FreeEnergy<f64>, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn apply<C: Family>(&mut self, share: f64, by_factors: bool) {
         for k in 0..self.dashpots() {
-            let index = M::MEASURES + k;
+            let index = A::MEASURES + k;
             self.creep[k] = self.previous.get(k) + share * self.correction[index];
             self.x[index] = self.start.x0[index] + self.creep[k];
         }
         if self.is_thermal() {
             let change = share * self.correction[Self::TEMPERATURE];
-            let previous = self.previous.get(M::DASHPOTS);
+            let previous = self.previous.get(A::DASHPOTS);
             self.x[Self::TEMPERATURE] = if by_factors || !C::is_exact(self.scheme) {
                 grown(previous, change)
             } else {
@@ -414,9 +416,9 @@ const LARGEST_HALF_CHANGE: f64 = 0.75;
 
 /// θ* of a response, K; zero without temperature.
 #[inline]
-pub(super) fn temperature_in<M: FreeEnergy<f64>>(response: &M::Response) -> f64 {
-    if M::THERMAL {
-        response[M::MEASURES + M::DASHPOTS]
+pub(super) fn temperature_in<A: Arrays>(response: &A::Response) -> f64 {
+    if A::THERMAL {
+        response[A::MEASURES + A::DASHPOTS]
     } else {
         0.0
     }
@@ -424,21 +426,21 @@ pub(super) fn temperature_in<M: FreeEnergy<f64>>(response: &M::Response) -> f64 
 
 /// The variables `x = (π, γ, θ)` of a point in a state, given its measures.
 #[inline]
-pub(super) fn variables<M: FreeEnergy<f64>>(
-    model: &M,
+pub(super) fn variables<A: Arrays>(
+    model: &Tabled<A>,
     measures: &[f64],
     slots: Slots,
     state: &State,
-) -> M::Variables {
-    let mut x = M::Variables::filled(0.0);
+) -> A::Variables {
+    let mut x = A::Variables::filled(0.0);
     for (a, &measure) in measures.iter().enumerate() {
         x[a] = measure;
     }
     for k in 0..model.dashpots() {
-        x[M::MEASURES + k] = state.viscous.values()[slots.viscous + k];
+        x[A::MEASURES + k] = state.viscous.values()[slots.viscous + k];
     }
     if let Some(slot) = slots.thermal {
-        x[M::MEASURES + M::DASHPOTS] = state.temperatures[slot];
+        x[A::MEASURES + A::DASHPOTS] = state.temperatures[slot];
     }
     x
 }

@@ -28,10 +28,11 @@ use crate::element::conjugates::{Exact, Family};
 use crate::element::error::StateError;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use weights::Surroundings;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
     /// Finds the interface temperatures θ* of a step. Points that have one return to the states of the step.
     pub(super) fn find_interfaces(
         &mut self,
@@ -50,7 +51,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
                         point
                             .start
                             .response::<Exact>(point.scheme, model, &point.x, corners);
-                    interface.set(slot, temperature_in::<M>(&response));
+                    interface.set(slot, temperature_in::<A>(&response));
                 }
             }
         }
@@ -66,10 +67,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         let contacts = &self.contacts;
-        let of_one = |member: &mut Member<M, K, D>, share: &mut Share<K, D>| {
+        let of_one = |member: &mut Member<A, K, D>, share: &mut Share<K, D>| {
             member.pull_back(contacts, step, interface, share)
         };
-        let mut add = |member: &Member<M, K, D>, share: &Share<K, D>| {
+        let mut add = |member: &Member<A, K, D>, share: &Share<K, D>| {
             member.add_transposed(share, contacts, (&mut *values, &mut *right));
         };
         if const { K::PerPoint::<()>::LEN > 1 } {
@@ -93,6 +94,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         see: &mut SeeParameters<'_>,
     ) {
         let h = step.past.view.step;
+        let mut workspaces = [const { Vec::new() }; 2];
         for member in &mut self.members {
             let w = member.site.motion_in(solution);
             let arms = member.past_arms(&step.past);
@@ -119,7 +121,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
                 }
                 point.write(&by, &of_point, by_old, weights);
                 weights.by_size.add_all(&of_point.by_size);
-                see(point.element, point.by_parameters(&of_point).as_ref());
+                see(
+                    point.element,
+                    point.by_parameters(&of_point, &mut workspaces),
+                );
             }
             let [by_end, by_start] = by_arms;
             member
@@ -136,16 +141,19 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
 
     /// Passes the derivatives of the internal energies with respect to the parameters in a state to `see`.
     pub(super) fn energy_by_parameters(&self, state: &State, see: &mut SeeParameters<'_>) {
+        let mut found = Vec::new();
         for member in &self.members {
             for point in member.points.as_ref() {
                 let x = point.variables_in(&member.arms_in(state), state);
-                see(point.element, point.model.energy_by_parameters(&x).as_ref());
+                found.resize(point.model.facts().parameter_count, 0.0);
+                point.model.energy_by_parameters(&x, &mut found);
+                see(point.element, &found);
             }
         }
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// The contribution of its points to the transposed system.
     #[inline]
     fn pull_back(

@@ -27,9 +27,10 @@ use crate::element::conjugates::{Exact, Family};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, points, scale};
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics};
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
     /// Adds `∂R/∂x¹` of a step, local unknowns eliminated, to a system, and `−dR` to the right-hand side of each direction.
     /// In its new state, anchors and prescribed temperatures already have their changes, and masses those of the old state.
     pub(super) fn push_forward(
@@ -61,11 +62,11 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
                 point.add_momentum::<Exact>(step.view.step, &pose, form, heat, &mut share.momentum);
                 point.add_old_curvature(step.view.step, &ends, &mut by_old);
                 if let Some(slot) = point.slots().thermal {
-                    temperatures[slot] = temperature_in::<M>(&linear.form.0);
+                    temperatures[slot] = temperature_in::<A>(&linear.form.0);
                 }
                 for direction in &mut *directions {
                     let moved = member.site.changes_in(&direction.old.positions);
-                    let moved = PlacedPoint::<M, K, D>::rates_along(&by_old_arms, &moved);
+                    let moved = PlacedPoint::<A, K, D>::rates_along(&by_old_arms, &moved);
                     let change = point.change(step, (interface, paths), &moved, &linear, direction);
                     let unknown = contact.map(|contact| contact.unknown as usize);
                     let forces = point.push(&linear, &change, unknown, direction)?;
@@ -90,7 +91,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
             for direction in &mut *directions {
                 let moved = member.site.changes_in(&direction.new.positions);
                 for point in member.points.as_ref() {
-                    let changes = PlacedPoint::<M, K, D>::rates_along(&point.sensitivity, &moved);
+                    let changes = PlacedPoint::<A, K, D>::rates_along(&point.sensitivity, &moved);
                     let heat = point.contact_in(&self.contacts).map(|contact| {
                         point.condensed.heat_factor * contact.heat(&direction.right)
                     });
@@ -101,7 +102,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// Adds the changes with the old arms through the gradients, and all changes with the new arms.
     fn add_motion(
         &self,

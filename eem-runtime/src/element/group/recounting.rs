@@ -5,16 +5,17 @@ use super::placed::PlacedPoint;
 use super::point::Point;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet};
 use crate::element::state::State;
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// The change of the energy of a point between two states.
-pub(super) struct EnergyChange<M: FreeEnergy<f64>> {
+pub(super) struct EnergyChange<A: Arrays> {
     /// From values of the energy, with the magnitude of the terms of ψ, J.
     pub(super) by_values: [f64; 2],
     /// From discrete derivatives, J.
     pub(super) by_differences: f64,
     /// `(Δλ, Δγ, Δs)`.
-    pub(super) increments: M::Variables,
+    pub(super) increments: A::Variables,
 }
 
 /// The change of the arms of an element between two stored states.
@@ -36,13 +37,13 @@ fn change_between<K: Kinematics<D>, const D: usize>(
     change
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// The change of its energy between two states, given its nodes.
     pub(super) fn balance_between(
         &self,
         nodes: &K::PerNode<u32>,
         ends: [&State; 2],
-    ) -> EnergyChange<M> {
+    ) -> EnergyChange<A> {
         let [r0, r1] = [
             arms_in::<K, D>(nodes, &ends[0].positions),
             arms_in::<K, D>(nodes, &ends[1].positions),
@@ -68,10 +69,10 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         &self,
         [r0, r1]: [&Arms<K, D>; 2],
         change: &Arms<K, D>,
-        [x0, x1]: &[M::Variables; 2],
+        [x0, x1]: &[A::Variables; 2],
         [old, new]: [&State; 2],
-    ) -> M::Variables {
-        let mut increments = M::Variables::filled(0.0);
+    ) -> A::Variables {
+        let mut increments = A::Variables::filled(0.0);
         let measures = [x0, x1].map(measures_in::<K::Measures>);
         let ends = Ends::new(&self.kinematics, [*r0, *r1], measures);
         let gradient = self.kinematics.discrete_gradient(&ends);
@@ -80,21 +81,21 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         }
         let slots = self.slots();
         for k in 0..self.dashpots() {
-            increments[M::MEASURES + k] = new.viscous.change(slots.viscous + k, &old.viscous);
+            increments[A::MEASURES + k] = new.viscous.change(slots.viscous + k, &old.viscous);
         }
         if let Some(slot) = slots.thermal {
-            increments[M::MEASURES + M::DASHPOTS] = new.entropies.change(slot, &old.entropies);
+            increments[A::MEASURES + A::DASHPOTS] = new.entropies.change(slot, &old.entropies);
         }
         increments
     }
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
-    pub(super) fn change_of(response: &M::Response, increments: &M::Variables) -> f64 {
+    pub(super) fn change_of(response: &A::Response, increments: &A::Variables) -> f64 {
         let mut sum = 0.0;
         for row in 0..Self::VARIABLES {
-            let is_dashpot = (M::MEASURES..Self::TEMPERATURE).contains(&row);
+            let is_dashpot = (A::MEASURES..Self::TEMPERATURE).contains(&row);
             let term = response[row] * increments[row];
             sum += if is_dashpot { -term } else { term };
         }
@@ -103,8 +104,9 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// `Δe` between two states by discrete derivatives that are evaluated again: if the terms of a free energy cancel,
     /// its values have more rounding than its differences.
-    fn energy_change(&self, [x0, x1]: &[M::Variables; 2], increments: &M::Variables) -> f64 {
-        let old = self.model.temperature_form_old(x0);
+    fn energy_change(&self, [x0, x1]: &[A::Variables; 2], increments: &A::Variables) -> f64 {
+        let mut old = A::Kept::filled(0.0);
+        self.model.keep_for_temperature_form(x0, &mut old);
         let response = self.model.temperature_form_response(&old, x1);
         Self::change_of(&response, increments)
     }

@@ -7,9 +7,10 @@ use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::{Energy, State};
-use eem_material::free_energy::{Caloric, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Caloric;
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Finds the new temperature from the new entropy at new measures, starting at `near`, where the caloric quantities may be known. If the
     /// scheme integrates the temperature, or it is prescribed, finds the entropy from the temperature instead.
     ///
@@ -39,7 +40,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         if let (false, None) = (C::is_in_temperature(self.scheme), prescribed) {
             // The guess from the trial is good: usually one evaluation is enough.
             let entropy = state.entropies.values()[slot];
-            let energy_at = self.model.caloric_at(x);
+            let energy_at = |theta: f64| self.model.caloric_at(&x, theta);
             let mut known = known;
             let energy_at = |theta| {
                 known
@@ -69,7 +70,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     /// The internal energy at given variables, whose entropy and heat capacity are known.
     pub(super) fn energy_at(
         &self,
-        x: &M::Variables,
+        x: &A::Variables,
         caloric: Caloric<f64>,
     ) -> Result<Energy, StateError> {
         let psi = self.model.free_energy(x);
@@ -102,9 +103,9 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     }
 
     #[inline]
-    fn check_viscous(&self, x: &M::Variables) -> Result<(), StateError> {
+    fn check_viscous(&self, x: &A::Variables) -> Result<(), StateError> {
         for dashpot in 0..self.dashpots() {
-            let stretch = x[M::MEASURES + dashpot];
+            let stretch = x[A::MEASURES + dashpot];
             if !stretch.is_finite() {
                 return Err(StateError::ViscousStretch {
                     element: self.element,

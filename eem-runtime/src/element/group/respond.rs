@@ -5,7 +5,8 @@ use crate::element::conjugates::{Family, Form, check_stable};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, MeasureSet, Numbers};
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
 
 /// Arms of an element at a trial.
@@ -17,7 +18,7 @@ pub(super) struct TrialArms<K: Kinematics<D>, const D: usize> {
     pub(super) motion: Arms<K, D>,
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Takes the measures of a trial, and finds its temperature if that is not an unknown, and other values that the form of
     /// the scheme needs, unless those stored are known to be right.
     #[expect(
@@ -57,7 +58,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// The response and its tangent at the trial that has been located.
     #[inline]
-    pub(super) fn form<C: Family>(&self, is_start: bool) -> Form<f64, M> {
+    pub(super) fn form<C: Family>(&self, is_start: bool) -> Form<A> {
         let (start, model, x) = (&self.start, &self.model, &self.x);
         if C::is_exact(self.scheme)
             && is_start
@@ -74,7 +75,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     pub(super) fn accept<C: Family>(
         &mut self,
         per_step: f64,
-        form: &Form<f64, M>,
+        form: &Form<A>,
         is_known: bool,
     ) -> Result<(), StateError> {
         if C::is_exact(self.scheme) {
@@ -92,14 +93,14 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     pub(super) fn accept_response<C: Family>(
         &mut self,
         per_step: f64,
-        response: &M::Response,
+        response: &A::Response,
         is_known: bool,
     ) -> Result<(), StateError> {
-        check_response::<M>(self.element, self.is_thermal(), response)?;
+        check_response::<A>(self.element, self.is_thermal(), response)?;
         self.check_conducting::<C>(response)?;
         self.find_drag::<C>(per_step, response)?;
         self.find_damping::<C>()?;
-        let theta = temperature_in::<M>(response);
+        let theta = temperature_in::<A>(response);
         if is_known {
             return self.check_viscosities(theta);
         }
@@ -112,8 +113,8 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         &self,
         step: f64,
         measures: &Numbers<Q>,
-        form: &mut Form<f64, M>,
-    ) -> M::Variables {
+        form: &mut Form<A>,
+    ) -> A::Variables {
         let increments = self.increments(measures, step);
         let (model, start) = (&self.model, &self.start);
         let rule = self.scheme.point_rule();
@@ -121,14 +122,14 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     }
 
     /// The increments of measures, viscous stretches and temperature, less the contribution of the old state.
-    fn increments(&self, measures: &Numbers<Q>, step: f64) -> M::Variables {
-        let mut increments = M::Variables::filled(0.0);
+    fn increments(&self, measures: &Numbers<Q>, step: f64) -> A::Variables {
+        let mut increments = A::Variables::filled(0.0);
         let (old, last) = (&self.start.x0, Self::VARIABLES - 1);
         for (a, &increment) in measures.as_ref().iter().enumerate() {
             increments[a] = increment;
         }
         if let Some(at_point) = &self.single {
-            for index in M::MEASURES..last {
+            for index in A::MEASURES..last {
                 let change = self.x[index] - old[index];
                 increments[index] = change - step * at_point.old_rates[index];
             }
@@ -143,13 +144,13 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
 /// An error unless the temperature of a response is positive and the response finite.
 #[inline]
-fn check_response<M: FreeEnergy<f64>>(
+fn check_response<A: Arrays>(
     element: Element,
     is_thermal: bool,
-    response: &M::Response,
+    response: &A::Response,
 ) -> Result<(), StateError> {
     if is_thermal {
-        check_temperature(element, response[M::MEASURES + M::DASHPOTS])?;
+        check_temperature(element, response[A::MEASURES + A::DASHPOTS])?;
     }
     // Zero for finite numbers, NaN for others.
     let sum = response

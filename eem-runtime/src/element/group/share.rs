@@ -10,7 +10,8 @@ use crate::element::conduction::InterfaceTemperatures;
 use crate::element::conjugates::{Family, Form};
 use crate::element::group::member::Member;
 use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures, Points};
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// The contribution of the points of an element to the system of an iteration.
 pub(super) struct Share<K: Kinematics<D>, const D: usize> {
@@ -51,13 +52,13 @@ impl<K: Kinematics<D>, const D: usize> Share<K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// The derivative of a condensed response with respect to the new arms, times a factor.
     #[inline]
     fn by_arm<C: Family>(&self, row: &CondensedRow<K::Measures>, factor: f64) -> Arms<K, D> {
         let mut sum = self.sensitivity[0];
         scale::<K, D>(&mut sum, factor * row.by_measure[0]);
-        for a in 1..M::MEASURES {
+        for a in 1..A::MEASURES {
             let by = factor * row.by_measure[a];
             add_scaled::<K, D>(&mut sum, by, &self.sensitivity[a]);
         }
@@ -81,7 +82,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         &self,
         step: f64,
         pose: &Pose<K, D>,
-        (form, by_rate): (&Form<f64, M>, Option<&Gradient<K, D>>),
+        (form, by_rate): (&Form<A>, Option<&Gradient<K, D>>),
         heat: &mut Option<Heat<K, D>>,
         sum: &mut Option<Momentum<K, D>>,
     ) {
@@ -89,7 +90,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         let mut forces = Measures::<K, D>::filled(0.0);
         let mut forces_by_arm = pose.direction;
         let mut values = forces;
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             let row = self.condensed_row::<C>(a, form, heat.is_some());
             forces[a] = impulse * form.0[a];
             forces_by_arm[a] = self.by_arm::<C>(&row, impulse);
@@ -128,12 +129,12 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     pub(super) fn heat<C: Family>(
         &self,
         interface: &InterfaceTemperatures,
-        form: &Form<f64, M>,
+        form: &Form<A>,
     ) -> Heat<K, D> {
         let row = if C::is_damped(self.scheme) {
-            self.condensed_row::<C>(M::MEASURES + M::DASHPOTS, &self.conducting::<C>(form), true)
+            self.condensed_row::<C>(A::MEASURES + A::DASHPOTS, &self.conducting::<C>(form), true)
         } else {
-            self.condensed_row::<C>(M::MEASURES + M::DASHPOTS, form, true)
+            self.condensed_row::<C>(A::MEASURES + A::DASHPOTS, form, true)
         };
         let interface = interface.values()[self.slots().thermal.unwrap_or_default()];
         Heat {
@@ -145,7 +146,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> Member<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> Member<A, K, D> {
     /// Adds the contribution of the element to the entries of A and the rows of B.
     #[expect(
         clippy::inline_always,

@@ -1,4 +1,4 @@
-//! Springs of materials behind a table, compiled with this crate in one to three dimensions.
+//! Springs, compiled with this crate in one to three dimensions.
 
 #[cfg(not(test))]
 use core::any::Any;
@@ -8,9 +8,8 @@ use super::interface::{ExplicitGroup, Loose};
 use super::loose::{LooseElements, MakeExplicit};
 use super::view::Placed;
 use crate::element::kinematics::Stretch;
-use eem_material::formulas::SpringArrays;
+use eem_material::formulas::{Arrays, SpringArrays};
 use eem_material::free_energy::Material;
-use eem_material::tabled::Tabled;
 
 /// Arrays of springs without temperature and dashpots.
 pub(crate) type Elastic = SpringArrays<1, 0, 0, 0, 1, 4>;
@@ -46,21 +45,21 @@ static PLANE: Springs<2> = Springs::HERE;
 #[cfg(not(test))]
 static SPACE: Springs<3> = Springs::HERE;
 
-/// A group of springs of one material.
-pub(crate) fn group_of<M: Material, const D: usize>(
+/// A group of springs with these arrays.
+pub(crate) fn group_of<A: Arrays, const D: usize>(
     make_explicit: MakeExplicit<D>,
 ) -> Box<dyn Loose<D>> {
-    Box::new(LooseElements::<M, Stretch<D>, D>::new(make_explicit))
+    Box::new(LooseElements::<A, Stretch<D>, D>::new(make_explicit))
 }
 
 impl<const D: usize> Springs<D> {
     /// Compiled where they are used.
     const HERE: Self = Self {
-        elastic: group_of::<Tabled<Elastic>, D>,
-        warm: group_of::<Tabled<Warm>, D>,
-        viscous: group_of::<Tabled<Viscous>, D>,
-        damped: group_of::<Tabled<Damped>, D>,
-        many_dashpots: group_of::<Tabled<ManyDashpots>, D>,
+        elastic: group_of::<Elastic, D>,
+        warm: group_of::<Warm, D>,
+        viscous: group_of::<Viscous, D>,
+        damped: group_of::<Damped, D>,
+        many_dashpots: group_of::<ManyDashpots, D>,
     };
 
     /// Those of this crate if it has them. A branch that a constant rules out is not compiled.
@@ -82,8 +81,8 @@ pub(crate) fn of_dimension<T: Any>(dimension: usize, tables: [&'static dyn Any; 
     table.expect("the dimension is that of the table")
 }
 
-/// Springs of the material `M` in an explicit scheme, given those that are `A` in the scene: `M`, or a table.
-pub(crate) fn explicit<M: Material, A: Material, const D: usize>(
+/// Springs of the material `M` in an explicit scheme, given those behind tables.
+pub(crate) fn explicit<M: Material, A: Arrays, const D: usize>(
     loose: Box<dyn Loose<D>>,
     placed: Placed<'_>,
 ) -> Box<dyn ExplicitGroup<D>> {

@@ -5,7 +5,8 @@ use core::ops::Range;
 
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
-use eem_material::free_energy::FreeEnergy;
+use eem_material::formulas::Arrays;
+use eem_material::tabled::Tabled;
 use eem_material::number::scalar::Scalar;
 
 /// Stiffness and rates of a point.
@@ -44,16 +45,16 @@ impl Stiffness<'_> {
 
 /// The larger of `Σ |∂π_a/∂r| |∂²e/∂π_a∂π_b| |∂π_b/∂r|`, along the measures at constant entropy, and `Σ |f_a||∂π_a/∂r|/l`, across
 /// them; `∂²e/∂π_a∂π_b = ψ_ab − ψ_aθ ψ_bθ/ψ_θθ`. Of the measures, length, slopes and sizes are given.
-pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, Q: MeasureSet>(
-    (model, nodes, slots): (&M, &'a [u32], Slots),
-    x: &M::Variables,
+pub(super) fn stiffness_of<'a, A: Arrays, Q: MeasureSet>(
+    (model, nodes, slots): (&Tabled<A>, &'a [u32], Slots),
+    x: &A::Variables,
     (length, slopes, sizes): (f64, &Numbers<Q>, &Numbers<Q>),
 ) -> Stiffness<'a> {
     let (gradient, hessian) = model.hessian(x);
-    let last = M::MEASURES + M::DASHPOTS;
+    let last = A::MEASURES + A::DASHPOTS;
     let [mut along, mut isothermal, mut across, mut force] = [0.0; 4];
-    for a in 0..M::MEASURES {
-        for b in 0..M::MEASURES {
+    for a in 0..A::MEASURES {
+        for b in 0..A::MEASURES {
             let mut entry = hessian[a][b];
             force += slopes[a] * (entry.abs() * sizes[b]);
             isothermal += slopes[a] * entry.abs() * slopes[b];
@@ -65,9 +66,9 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, Q: MeasureSet>(
         across += (gradient[a] / length).abs() * slopes[a];
     }
     let mut pull = [0.0; 2];
-    for row in (M::MEASURES..last).map(|row| &hessian[row]) {
-        let by_nodes = (0..M::MEASURES).fold(0.0, |sum, a| sum + row[a].abs() * slopes[a]);
-        let own = (M::MEASURES..last).fold(0.0, |sum, k| sum + (row[k] * x[k]).abs());
+    for row in (A::MEASURES..last).map(|row| &hessian[row]) {
+        let by_nodes = (0..A::MEASURES).fold(0.0, |sum, a| sum + row[a].abs() * slopes[a]);
+        let own = (A::MEASURES..last).fold(0.0, |sum, k| sum + (row[k] * x[k]).abs());
         pull = [(pull[0], by_nodes), (pull[1], own)].map(|(a, b)| Scalar::maximum(a, b));
     }
     let theta = if model.is_thermal() { x[last] } else { 0.0 };
@@ -76,7 +77,7 @@ pub(super) fn stiffness_of<'a, M: FreeEnergy<f64>, Q: MeasureSet>(
         .map(|slot| (slot, -theta * hessian[last][last]));
     let (viscosities, _) = model.viscosity(theta);
     let relaxation = (0..model.dashpots()).fold(0.0, |most, k| {
-        let index = M::MEASURES + k;
+        let index = A::MEASURES + k;
         Scalar::maximum(most, hessian[index][index].abs() / viscosities[k])
     });
     let (drags, _) = model.drag(theta);

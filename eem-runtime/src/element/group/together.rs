@@ -12,9 +12,9 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
 
-impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> ElementGroup<A, K, D> {
     /// Stores what the scheme keeps of the old state.
     pub(super) fn keep_together(&mut self, view: &StepView<'_>) -> Result<(), StateError> {
         let scheme = self.scheme;
@@ -99,7 +99,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
         tally: &mut Tally,
     ) -> Result<(), StateError> {
         let contacts = &self.contacts;
-        let is_needed = M::THERMAL && !C::is_in_temperature(self.scheme);
+        let is_needed = A::THERMAL && !C::is_in_temperature(self.scheme);
         for_each_block(
             self.ahead.as_deref_mut(),
             &mut self.members,
@@ -119,13 +119,13 @@ impl<M: Material, K: Kinematics<D>, const D: usize> ElementGroup<M, K, D> {
 }
 
 /// A function of a block of elements, and of room for values evaluated ahead unless all are evaluated one by one.
-type OfBlock<'a, M, T> = dyn FnMut(Option<&mut Ahead<M>>, &mut [T]) -> Result<(), StateError> + 'a;
+type OfBlock<'a, A, T> = dyn FnMut(Option<&mut Ahead<A>>, &mut [T]) -> Result<(), StateError> + 'a;
 
 /// Calls a function for each block, until there is an error.
-fn for_each_block<M: Material, T>(
-    ahead: Option<&mut Ahead<M>>,
+fn for_each_block<A: Arrays, T>(
+    ahead: Option<&mut Ahead<A>>,
     mut members: &mut [T],
-    of_block: &mut OfBlock<'_, M, T>,
+    of_block: &mut OfBlock<'_, A, T>,
 ) -> Result<(), StateError> {
     let Some(ahead) = ahead else {
         return of_block(None, members);

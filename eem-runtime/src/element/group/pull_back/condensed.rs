@@ -14,7 +14,8 @@ use crate::element::group::site::HeatPath;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Measures, Numbers};
 use crate::element::layout::Slots;
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// The transposed equations of a point after the elimination of its own weights:
 /// `Σ_a h (D*π_a·w_v) moduli_a + w_Θ by_heat + constant`, by measure.
@@ -24,7 +25,7 @@ pub(super) struct Reduced<Q: MeasureSet> {
     constant: Numbers<Q>,
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// `Σ λ_σ h κ_r/θ_r`.
     #[inline]
     pub(super) fn of_reservoirs(&self, step: &StepBack<'_>) -> f64 {
@@ -52,7 +53,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         &mut self,
         step: &StepBack<'_>,
         interface: &InterfaceTemperatures,
-        form: &Form<f64, M>,
+        form: &Form<A>,
         paths: Option<&[HeatPath]>,
     ) -> Result<Reduced<Q>, StateError> {
         let (response, tangent) = form;
@@ -62,28 +63,28 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             by_heat: zeros,
             constant: zeros,
         };
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             reduced.moduli[a] = measures_in::<Q>(&tangent[a]);
         }
         if Self::UNKNOWNS == 0 {
             return Ok(reduced);
         }
-        let theta = temperature_in::<M>(response);
+        let theta = temperature_in::<A>(response);
         let flow = self.heat_flow(&step.past.view, paths, interface, theta);
-        let mut system = LocalSystem::<M>::empty(self.pivot_units::<Exact>(theta));
+        let mut system = LocalSystem::<A>::empty(self.pivot_units::<Exact>(theta));
         self.balances::<Exact, false>(&step.past.view, &flow, form, &mut system);
-        let mut transposed = LocalSystem::<M>::empty(system.unit);
+        let mut transposed = LocalSystem::<A>::empty(system.unit);
         let of_reservoirs = self.of_reservoirs(step);
         let Slots { viscous, thermal } = self.slots();
         for u in self.unknowns() {
-            let column = M::MEASURES + u;
-            for a in 0..M::MEASURES {
+            let column = A::MEASURES + u;
+            for a in 0..A::MEASURES {
                 transposed.rows[u][a] = tangent[a][column];
             }
             for v in self.unknowns() {
-                transposed.rows[u][M::MEASURES + v] = system.rows[v][column];
+                transposed.rows[u][A::MEASURES + v] = system.rows[v][column];
             }
-            let by_new = match thermal.filter(|_| u == M::DASHPOTS) {
+            let by_new = match thermal.filter(|_| u == A::DASHPOTS) {
                 Some(slot) => step.by_new.temperatures[slot],
                 None => step.by_new.viscous[viscous + u],
             };
@@ -95,13 +96,13 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             }
         }
         let solved = if paths.is_some() {
-            eliminate::<M, true>(&mut transposed, self.own_unknowns())
+            eliminate::<A, true>(&mut transposed, self.own_unknowns())
         } else {
-            eliminate::<M, false>(&mut transposed, self.own_unknowns())
+            eliminate::<A, false>(&mut transposed, self.own_unknowns())
         };
         solved.map_err(|singular| self.unsolved(singular))?;
         self.keep_solved(&transposed, paths.is_some());
-        for b in 0..M::MEASURES {
+        for b in 0..A::MEASURES {
             if self.is_thermal() {
                 let by_theta = tangent[Self::TEMPERATURE][b];
                 reduced.constant[b] = -of_reservoirs * by_theta;
@@ -113,7 +114,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
                 if paths.is_some() {
                     reduced.by_heat[b] -= by * self.condensed.by_heat.get(u);
                 }
-                for a in 0..M::MEASURES {
+                for a in 0..A::MEASURES {
                     reduced.moduli[a][b] -= by * self.condensed.by_measure[a].get(u);
                 }
             }
@@ -122,20 +123,20 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// Adds the derivatives of `wᵀR` with respect to the arms: the constant part, and that linear in `w_v`, its rows.
     #[inline]
     pub(super) fn add_transposed(
         &self,
         step: f64,
         pose: &Pose<K, D>,
-        (form, reduced): (&Form<f64, M>, &Reduced<K::Measures>),
+        (form, reduced): (&Form<A>, &Reduced<K::Measures>),
         sum: &mut Option<Momentum<K, D>>,
     ) {
         let (kinematics, at) = (&self.kinematics, Exact::placement(self.scheme));
         let mut forces = Measures::<K, D>::filled(0.0);
         let mut by_arm = pose.sensitivity;
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             forces[a] = step * form.0[a];
             by_arm[a] = combined::<K, D>(&pose.sensitivity, &reduced.moduli[a], step);
         }
@@ -162,9 +163,9 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
         pose: &Pose<K, D>,
         reduced: &Reduced<K::Measures>,
     ) -> Heat<K, D> {
-        let (own, factor) = (M::DASHPOTS, self.condensed.heat_factor);
+        let (own, factor) = (A::DASHPOTS, self.condensed.heat_factor);
         let mut by_measure = Measures::<K, D>::filled(0.0);
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             by_measure[a] = self.condensed.by_measure[a].get(own);
         }
         Heat {

@@ -10,7 +10,8 @@ use crate::element::group::site::HeatPath;
 use crate::element::group::terms::Terms;
 use crate::element::kinematics::{Arms, Ends, Kinematics, MeasureSet, Numbers};
 use crate::element::layout::Slots;
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// The inputs of the weights of a point besides its own values.
 pub(super) struct Surroundings<'a> {
@@ -23,16 +24,16 @@ pub(super) struct Surroundings<'a> {
 
 /// The derivatives of `wᵀR` with respect to the response, the increments and the viscosities of a point, its terms of
 /// `−(∂R/∂h)ᵀ w`, and the weight of its balance of heat.
-pub(super) struct OfPoint<M: Material> {
-    pub(super) rho: M::Response,
-    pub(super) increments: M::Variables,
+pub(super) struct OfPoint<A: Arrays> {
+    pub(super) rho: A::Response,
+    pub(super) increments: A::Variables,
     pub(super) by_size: Terms,
-    viscosities: M::Viscosities,
-    drag: M::Drag,
+    viscosities: A::Viscosities,
+    drag: A::Drag,
     own: f64,
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// The weights of its equations, given `D*π·w_v`, and its terms of `−(∂R/∂h)ᵀ w`. The forces
     /// there are replaced by inertia, by means of the momentum balances,
     ///
@@ -42,11 +43,11 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     ///
     /// The term with M is not included.
     #[inline]
-    pub(super) fn weigh(&self, around: &Surroundings<'_>, along: &Numbers<Q>) -> OfPoint<M> {
+    pub(super) fn weigh(&self, around: &Surroundings<'_>, along: &Numbers<Q>) -> OfPoint<A> {
         let (h, per_step) = (around.step.past.view.step, around.step.past.view.per_step);
         let own = |u: usize| {
             let mut sum = self.condensed.constant.get(u);
-            for a in 0..M::MEASURES {
+            for a in 0..A::MEASURES {
                 sum += self.condensed.by_measure[a].get(u) * (h * along[a]);
             }
             if around.paths.is_some() {
@@ -54,32 +55,32 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             }
             -sum
         };
-        let mut of = OfPoint::<M> {
-            rho: M::Response::filled(0.0),
-            increments: M::Variables::filled(0.0),
+        let mut of = OfPoint::<A> {
+            rho: A::Response::filled(0.0),
+            increments: A::Variables::filled(0.0),
             by_size: Terms::none(),
-            viscosities: M::Viscosities::filled(0.0),
-            drag: M::Drag::filled(0.0),
+            viscosities: A::Viscosities::filled(0.0),
+            drag: A::Drag::filled(0.0),
             own: 0.0,
         };
         let theta = self.temperature();
         // Without a temperature there is no balance of entropy.
         let mut per_theta = 0.0;
         if self.is_thermal() {
-            of.own = own(M::DASHPOTS);
+            of.own = own(A::DASHPOTS);
             per_theta = theta.recip();
         }
         let entropy = if self.is_prescribed { 0.0 } else { of.own };
         let per_heat = entropy * per_theta;
         let (mut by_theta, mut heat, mut slope) = (0.0, 0.0, 0.0);
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             of.rho[a] = h * along[a];
         }
         for k in 0..self.dashpots() {
             let (eta, by_eta) = (self.viscosities.0[k], self.viscosities.1[k]);
             let (weight, rate) = (own(k), self.creep[k] * per_step);
-            of.rho[M::MEASURES + k] = -weight;
-            of.increments[M::MEASURES + k] =
+            of.rho[A::MEASURES + k] = -weight;
+            of.increments[A::MEASURES + k] =
                 eta * (weight * per_step - (per_heat + per_heat) * rate);
             of.viscosities[k] = rate * (weight - h * per_heat * rate);
             of.by_size.add(weight * eta * rate * per_step);
@@ -118,12 +119,12 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
 
     /// The derivatives of `wᵀR` with respect to the variables of the old state.
     #[inline]
-    pub(super) fn by_old(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
+    pub(super) fn by_old(&self, rho: &A::Response, increments: &A::Variables) -> A::Variables {
         self.pulled(rho, &self.slopes_by_old(), increments, -1.0)
     }
 
     /// The derivatives of `wᵀR` with respect to the variables of the new state, without those to prescribed temperatures.
-    pub(super) fn by_new(&self, rho: &M::Response, increments: &M::Variables) -> M::Variables {
+    pub(super) fn by_new(&self, rho: &A::Response, increments: &A::Variables) -> A::Variables {
         let (_, tangent) = self.form::<Exact>(false);
         self.pulled(rho, &tangent, increments, 1.0)
     }
@@ -132,13 +133,13 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[inline]
     fn pulled(
         &self,
-        rho: &M::Response,
-        tangent: &M::Tangent,
-        increments: &M::Variables,
+        rho: &A::Response,
+        tangent: &A::Tangent,
+        increments: &A::Variables,
         sign: f64,
-    ) -> M::Variables {
-        let unused = M::MEASURES + self.dashpots()..Self::TEMPERATURE;
-        let mut pulled = M::Variables::filled(0.0);
+    ) -> A::Variables {
+        let unused = A::MEASURES + self.dashpots()..Self::TEMPERATURE;
+        let mut pulled = A::Variables::filled(0.0);
         for (at, pulled) in pulled.as_mut().iter_mut().enumerate() {
             *pulled = sign * increments[at];
             let rows = rho.as_ref().iter().zip(tangent.as_ref()).enumerate();
@@ -153,14 +154,14 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn write(
         &self,
-        by: &M::Variables,
-        of: &OfPoint<M>,
+        by: &A::Variables,
+        of: &OfPoint<A>,
         by_old: &mut PerVariable,
         weights: &mut StepWeights,
     ) {
         let Slots { viscous, thermal } = self.slots();
         for k in 0..self.dashpots() {
-            by_old.viscous[viscous + k] = -by[M::MEASURES + k];
+            by_old.viscous[viscous + k] = -by[A::MEASURES + k];
         }
         if let Some(slot) = thermal {
             by_old.temperatures[slot] = -by[Self::TEMPERATURE];
@@ -172,33 +173,41 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         }
     }
 
-    /// The derivatives of the number with respect to the parameters in this step.
+    /// The derivatives of the number with respect to the parameters in this step, in the first of two workspaces.
     #[inline]
-    pub(super) fn by_parameters(&self, of: &OfPoint<M>) -> M::Parameters {
+    pub(super) fn by_parameters<'a>(
+        &self,
+        of: &OfPoint<A>,
+        [sum, by]: &'a mut [Vec<f64>; 2],
+    ) -> &'a [f64] {
+        for workspace in [&mut *sum, &mut *by] {
+            workspace.resize(self.model.facts().parameter_count, 0.0);
+        }
         let (start, x) = (&self.start, &self.x);
-        let mut sum = start.form_adjoint(&self.model, x, &self.corners, &of.rho);
+        start.form_adjoint(&self.model, x, &self.corners, &of.rho, sum);
         let theta = self.temperature();
         if self.dashpots() > 0 {
-            let by = self.model.viscosity_adjoint(theta, &of.viscosities);
-            add::<M>(&mut sum, &by);
+            self.model.viscosity_adjoint(theta, &of.viscosities, by);
+            add(sum, by);
         }
         if self.drags() > 0 {
-            add::<M>(&mut sum, &self.model.drag_adjoint(theta, &of.drag));
+            self.model.drag_adjoint(theta, &of.drag, by);
+            add(sum, by);
         }
-        for entry in sum.as_mut() {
+        for entry in &mut *sum {
             *entry = -*entry;
         }
         sum
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// Adds the derivatives of `wᵀR` with respect to the arms of the second of two ends, given those to its variables.
     #[inline]
     pub(super) fn add_by_arms(
         &self,
         ends: &Ends<K, D>,
-        by: &M::Variables,
+        by: &A::Variables,
         w: &Arms<K, D>,
         step: f64,
         sum: &mut Arms<K, D>,
@@ -213,8 +222,8 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
     }
 }
 
-fn add<M: Material>(sum: &mut M::Parameters, by: &M::Parameters) {
-    for (sum, &by) in sum.as_mut().iter_mut().zip(by.as_ref()) {
+fn add(sum: &mut [f64], by: &[f64]) {
+    for (sum, &by) in sum.iter_mut().zip(by) {
         *sum += by;
     }
 }

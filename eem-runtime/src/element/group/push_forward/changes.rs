@@ -11,32 +11,33 @@ use crate::element::group::point_step::{Direction, PastStep};
 use crate::element::group::site::HeatPath;
 use crate::element::kinematics::{Blocks, Ends, Kinematics, MeasureSet, Numbers};
 use crate::element::layout::Slots;
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
 /// The derivatives of the equations of a point, the same for all directions.
-pub(super) struct Linearized<M: Material> {
+pub(super) struct Linearized<A: Arrays> {
     /// With the forces of Kelvin–Voigt dashpots.
-    pub(super) form: Form<f64, M>,
+    pub(super) form: Form<A>,
     /// Of the response with respect to the variables of the old state.
-    by_old: M::Tangent,
+    by_old: A::Tangent,
     /// The local equations before the elimination.
-    local: LocalSystem<M>,
+    local: LocalSystem<A>,
 }
 
 /// The changes of the forces, the local equations and θ* of a point at constant new variables.
-pub(super) struct Change<M: Material> {
-    forces: M::Variables,
-    local: M::Variables,
+pub(super) struct Change<A: Arrays> {
+    forces: A::Variables,
+    local: A::Variables,
     theta: f64,
 }
 
 /// The changes of viscosities with the parameters.
-struct ViscosityChanges<M: Material> {
-    viscosities: M::Viscosities,
-    drag: M::Drag,
+struct ViscosityChanges<A: Arrays> {
+    viscosities: A::Viscosities,
+    drag: A::Drag,
 }
 
-impl<M: Material, Q: MeasureSet> Point<M, Q> {
+impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Linearizes its equations at both states, set by `return_to`, and eliminates its unknowns.
     #[inline]
     pub(super) fn linearize_past(
@@ -44,20 +45,20 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         step: &PastStep<'_>,
         interface: &InterfaceTemperatures,
         paths: Option<&[HeatPath]>,
-    ) -> Result<Linearized<M>, StateError> {
+    ) -> Result<Linearized<A>, StateError> {
         let form = self.tangent_in(step.view.per_step)?;
         self.slopes_of(&form);
-        let theta = temperature_in::<M>(&form.0);
+        let theta = temperature_in::<A>(&form.0);
         let flow = self.heat_flow(&step.view, paths, interface, theta);
-        let mut local = LocalSystem::<M>::empty(self.pivot_units::<Exact>(theta));
+        let mut local = LocalSystem::<A>::empty(self.pivot_units::<Exact>(theta));
         self.balances::<Exact, false>(&step.view, &flow, &form, &mut local);
         if Self::UNKNOWNS > 0 {
-            let mut solved = LocalSystem::<M> {
+            let mut solved = LocalSystem::<A> {
                 rows: local.rows,
                 by_heat: local.by_heat,
                 ..LocalSystem::empty(local.unit)
             };
-            eliminate::<M, true>(&mut solved, self.own_unknowns())
+            eliminate::<A, true>(&mut solved, self.own_unknowns())
                 .map_err(|singular| self.unsolved(singular))?;
             self.keep_solved(&solved, paths.is_some());
         }
@@ -69,7 +70,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     }
 
     /// Keeps the derivatives of θ*.
-    fn slopes_of(&mut self, (_, tangent): &Form<f64, M>) {
+    fn slopes_of(&mut self, (_, tangent): &Form<A>) {
         if self.is_thermal() {
             self.slopes[Self::TEMPERATURE] = tangent[Self::TEMPERATURE];
         }
@@ -82,38 +83,38 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         step: &PastStep<'_>,
         (interface, paths): (&InterfaceTemperatures, Option<&[HeatPath]>),
         moved: &Numbers<Q>,
-        linear: &Linearized<M>,
+        linear: &Linearized<A>,
         direction: &Direction,
-    ) -> Change<M> {
+    ) -> Change<A> {
         let (h, per_step) = (step.view.step, step.view.per_step);
         let Slots { viscous, thermal } = self.slots();
-        let mut x = M::Variables::filled(0.0);
-        for a in 0..M::MEASURES {
+        let mut x = A::Variables::filled(0.0);
+        for a in 0..A::MEASURES {
             x[a] = moved[a];
         }
         for k in 0..self.dashpots() {
-            x[M::MEASURES + k] = direction.old.viscous[viscous + k];
+            x[A::MEASURES + k] = direction.old.viscous[viscous + k];
         }
         if let Some(slot) = thermal {
             x[Self::TEMPERATURE] = direction.old.temperatures[slot];
         }
-        let mut response = M::Response::filled(0.0);
+        let mut response = A::Response::filled(0.0);
         for (row, slopes) in linear.by_old.as_ref().iter().enumerate() {
-            response[row] = sum_of(slopes, &x);
+            response[row] = sum_of(slopes.as_ref(), x.as_ref());
         }
         let by_parameters = self.add_parameters(direction, &mut response);
-        let theta = temperature_in::<M>(&response);
-        let mut change = Change::<M> {
-            forces: M::Variables::filled(0.0),
-            local: M::Variables::filled(0.0),
+        let theta = temperature_in::<A>(&response);
+        let mut change = Change::<A> {
+            forces: A::Variables::filled(0.0),
+            local: A::Variables::filled(0.0),
             theta,
         };
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             change.forces[a] = response[a];
         }
         let (mut heat, mut d_heat) = (0.0, 0.0);
         for k in 0..self.dashpots() {
-            let (at, eta) = (M::MEASURES + k, self.viscosities.0[k]);
+            let (at, eta) = (A::MEASURES + k, self.viscosities.0[k]);
             let (rate, d_rate) = (self.creep[k] * per_step, -x[at] * per_step);
             let d_eta = self.viscosities.1[k] * theta + by_parameters.viscosities[k];
             let force = d_eta * rate + eta * d_rate;
@@ -133,7 +134,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         let Some(slot) = thermal else {
             return change;
         };
-        change.local[M::DASHPOTS] = if self.is_prescribed {
+        change.local[A::DASHPOTS] = if self.is_prescribed {
             -direction.new.temperatures[slot]
         } else {
             let own = self.temperature();
@@ -154,37 +155,34 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     fn add_parameters(
         &self,
         direction: &Direction,
-        response: &mut M::Response,
-    ) -> ViscosityChanges<M> {
-        let mut changes = ViscosityChanges::<M> {
-            viscosities: M::Viscosities::filled(0.0),
-            drag: M::Drag::filled(0.0),
+        response: &mut A::Response,
+    ) -> ViscosityChanges<A> {
+        let mut changes = ViscosityChanges::<A> {
+            viscosities: A::Viscosities::filled(0.0),
+            drag: A::Drag::filled(0.0),
         };
         let own = direction.parameters.get(self.element.index());
         let Some(own) = own.filter(|own| !own.is_empty()) else {
             return changes;
         };
-        let mut parameters = M::Parameters::filled(0.0);
-        // A model of a text has room for more parameters than it uses.
-        for (parameter, &own) in parameters.as_mut().iter_mut().zip(own) {
-            *parameter = own;
-        }
         let (start, x) = (&self.start, &self.x);
-        let by = start.form_tangent(&self.model, x, &self.corners, &parameters);
+        let by = start.form_tangent(&self.model, x, &self.corners, own);
         for (sum, &by) in response.as_mut().iter_mut().zip(by.as_ref()) {
             *sum += by;
         }
         let theta = self.temperature();
+        let mut by = vec![0.0; own.len()];
         for k in 0..self.dashpots() {
-            let mut weights = M::Viscosities::filled(0.0);
+            let mut weights = A::Viscosities::filled(0.0);
             weights[k] = 1.0;
-            let by = self.model.viscosity_adjoint(theta, &weights);
-            changes.viscosities[k] = sum_of(&by, &parameters);
+            self.model.viscosity_adjoint(theta, &weights, &mut by);
+            changes.viscosities[k] = sum_of(&by, own);
         }
         for a in 0..self.drags() {
-            let mut weights = M::Drag::filled(0.0);
+            let mut weights = A::Drag::filled(0.0);
             weights[a] = 1.0;
-            changes.drag[a] = sum_of(&self.model.drag_adjoint(theta, &weights), &parameters);
+            self.model.drag_adjoint(theta, &weights, &mut by);
+            changes.drag[a] = sum_of(&by, own);
         }
         changes
     }
@@ -194,28 +192,28 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
     #[inline]
     pub(super) fn push(
         &self,
-        linear: &Linearized<M>,
-        change: &Change<M>,
+        linear: &Linearized<A>,
+        change: &Change<A>,
         unknown: Option<usize>,
         direction: &mut Direction,
     ) -> Result<Numbers<Q>, StateError> {
-        let mut solved = LocalSystem::<M> {
+        let mut solved = LocalSystem::<A> {
             constant: change.local,
             rows: linear.local.rows,
             ..LocalSystem::empty(linear.local.unit)
         };
         if Self::UNKNOWNS > 0 {
-            eliminate::<M, false>(&mut solved, self.own_unknowns())
+            eliminate::<A, false>(&mut solved, self.own_unknowns())
                 .map_err(|singular| self.unsolved(singular))?;
         }
         let condensed = |row: usize, value: f64| {
             let slopes = &linear.form.1[row];
             self.unknowns().fold(value, |value, u| {
-                value - slopes[M::MEASURES + u] * solved.constant[u]
+                value - slopes[A::MEASURES + u] * solved.constant[u]
             })
         };
         let mut forces = Numbers::<Q>::filled(0.0);
-        for a in 0..M::MEASURES {
+        for a in 0..A::MEASURES {
             forces[a] = condensed(a, change.forces[a]);
         }
         let Slots { viscous, thermal } = self.slots();
@@ -223,7 +221,7 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
             direction.new.viscous[viscous + k] = solved.constant[k];
         }
         if let Some(slot) = thermal {
-            direction.new.temperatures[slot] = solved.constant[M::DASHPOTS];
+            direction.new.temperatures[slot] = solved.constant[A::DASHPOTS];
             direction.middle[slot] = change.theta;
             if let Some(unknown) = unknown {
                 let theta = condensed(Self::TEMPERATURE, change.theta);
@@ -244,33 +242,33 @@ impl<M: Material, Q: MeasureSet> Point<M, Q> {
         if Self::UNKNOWNS == 0 {
             return;
         }
-        let mut x = M::Variables::filled(0.0);
-        for a in 0..M::MEASURES {
+        let mut x = A::Variables::filled(0.0);
+        for a in 0..A::MEASURES {
             x[a] = changes[a];
         }
         let Slots { viscous, thermal } = self.slots();
         for u in self.unknowns() {
-            let place = match thermal.filter(|_| u == M::DASHPOTS) {
+            let place = match thermal.filter(|_| u == A::DASHPOTS) {
                 Some(slot) => &mut direction.new.temperatures[slot],
                 None => &mut direction.new.viscous[viscous + u],
             };
             let mut change = *place;
-            for a in 0..M::MEASURES {
+            for a in 0..A::MEASURES {
                 change += self.condensed.by_measure[a].get(u) * x[a];
             }
             if let Some(heat) = heat {
                 change += self.condensed.by_heat.get(u) * heat;
             }
             *place = -change;
-            x[M::MEASURES + u] = -change;
+            x[A::MEASURES + u] = -change;
         }
         if let Some(slot) = thermal {
-            direction.middle[slot] += sum_of(&self.slopes[Self::TEMPERATURE], &x);
+            direction.middle[slot] += sum_of(self.slopes[Self::TEMPERATURE].as_ref(), x.as_ref());
         }
     }
 }
 
-impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
+impl<A: Arrays, K: Kinematics<D>, const D: usize> PlacedPoint<A, K, D> {
     /// Adds the derivative of its impulses with respect to the old arms at given forces.
     #[inline]
     pub(super) fn add_old_curvature(
@@ -293,7 +291,7 @@ impl<M: Material, K: Kinematics<D>, const D: usize> PlacedPoint<M, K, D> {
 
 /// `Σ aᵢ bᵢ`.
 #[inline]
-fn sum_of<A: Array<f64>>(a: &A, b: &A) -> f64 {
-    let pairs = a.as_ref().iter().zip(b.as_ref());
+fn sum_of(a: &[f64], b: &[f64]) -> f64 {
+    let pairs = a.iter().zip(b);
     pairs.fold(0.0, |sum, (&a, &b)| sum + a * b)
 }

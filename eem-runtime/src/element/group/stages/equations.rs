@@ -8,10 +8,10 @@ use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::element::tally::Tally;
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
 
 /// A point at the stages without its nodes: the same in any number of dimensions.
-pub(crate) trait StageEquations<M: Material, Q: MeasureSet>:
+pub(crate) trait StageEquations<A: Arrays, Q: MeasureSet>:
     Sized + Send + Sync + 'static
 {
     /// Number of forces of a stage.
@@ -30,13 +30,13 @@ pub(crate) trait StageEquations<M: Material, Q: MeasureSet>:
     fn point_mut(&mut self) -> &mut StagePoint;
 
     /// Starts the trial at the old variables `(π, γ, θ)⁰`, and the old strain of a path.
-    fn begin(&mut self, in_state: &Point<M, Q>, x0: &M::Variables, strain: &[f64]);
+    fn begin(&mut self, in_state: &Point<A, Q>, x0: &A::Variables, strain: &[f64]);
 
     /// Writes the local equations at an evaluated trial: residuals and their derivatives with respect to
     /// local unknowns and inputs.
     fn write_equations(
         &mut self,
-        in_state: &Point<M, Q>,
+        in_state: &Point<A, Q>,
         local: &mut LocalStages,
         view: &StepView<'_>,
     ) -> Result<(), StateError>;
@@ -44,7 +44,7 @@ pub(crate) trait StageEquations<M: Material, Q: MeasureSet>:
     /// Eliminates the internal variables at an evaluated trial.
     fn condense(
         &mut self,
-        in_state: &Point<M, Q>,
+        in_state: &Point<A, Q>,
         local: &mut LocalStages,
         view: &StepView<'_>,
     ) -> Result<(), StateError> {
@@ -83,7 +83,7 @@ pub(crate) trait StageEquations<M: Material, Q: MeasureSet>:
     /// whose measures are given.
     fn close(
         &mut self,
-        in_state: &mut Point<M, Q>,
+        in_state: &mut Point<A, Q>,
         measures: &Numbers<Q>,
         view_and_outside: (&StepView<'_>, Outside<'_>),
         next_and_tally: (&mut State, &mut Tally),

@@ -19,23 +19,23 @@ use crate::element::kinematics::{Kinematics, MeasureSet, Measures, Points, Quadr
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::element::tally::{Reevaluation, Tally};
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
 
-/// The points of all elements of the model `M`, with equations `E`.
-pub(crate) struct OfMaterial<M: Material, K: Kinematics<D>, E, const D: usize> {
+/// The points of all elements of the model `A`, with equations `E`.
+pub(crate) struct OfMaterial<A: Arrays, K: Kinematics<D>, E, const D: usize> {
     rule: &'static Tableau,
     /// The elements in a state.
-    elements: ElementGroup<M, K, D>,
+    elements: ElementGroup<A, K, D>,
     equations: Vec<E>,
 }
 
-impl<M: Material, K: Kinematics<D>, E: StageEquations<M, K::Measures>, const D: usize>
-    OfMaterial<M, K, E, D>
+impl<A: Arrays, K: Kinematics<D>, E: StageEquations<A, K::Measures>, const D: usize>
+    OfMaterial<A, K, E, D>
 {
     /// The elements, with equations for a kind of kinematics and a point of the rule.
     pub(crate) fn new(
         rule: &'static Tableau,
-        elements: LooseElements<M, K, D>,
+        elements: LooseElements<A, K, D>,
         placed: Placed<'_>,
         equations: impl Fn(&K, StagePoint) -> E,
     ) -> Self {
@@ -77,7 +77,7 @@ impl<M: Material, K: Kinematics<D>, E: StageEquations<M, K::Measures>, const D: 
     }
 
     /// A point with its equations.
-    fn at(&mut self, place: usize) -> (&mut PlacedPoint<M, K, D>, &mut E) {
+    fn at(&mut self, place: usize) -> (&mut PlacedPoint<A, K, D>, &mut E) {
         let points = K::PerPoint::<()>::LEN;
         let member = &mut self.elements.members[place / points];
         let point = &mut member.points.as_mut()[place % points];
@@ -85,8 +85,8 @@ impl<M: Material, K: Kinematics<D>, E: StageEquations<M, K::Measures>, const D: 
     }
 }
 
-impl<M: Material, K: QuadraticStrain<D>, E: StageEquations<M, K::Measures>, const D: usize>
-    StageModels<K, D> for OfMaterial<M, K, E, D>
+impl<A: Arrays, K: QuadraticStrain<D>, E: StageEquations<A, K::Measures>, const D: usize>
+    StageModels<K, D> for OfMaterial<A, K, E, D>
 {
     fn elements(&self) -> &dyn Elements<D> {
         &self.elements
@@ -190,8 +190,8 @@ impl<M: Material, K: QuadraticStrain<D>, E: StageEquations<M, K::Measures>, cons
     }
 }
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> PathModels<K, D>
-    for OfMaterial<M, K, PointPath<M, K::Strain>, D>
+impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> PathModels<K, D>
+    for OfMaterial<A, K, PointPath<A, K::Strain>, D>
 {
     fn evaluate(
         &mut self,
@@ -221,8 +221,8 @@ impl<M: Material, K: QuadraticStrain<D>, const D: usize> PathModels<K, D>
     }
 }
 
-impl<M: Material, K: QuadraticStrain<D>, const D: usize> ValueModels<K, D>
-    for OfMaterial<M, K, StageValues<M>, D>
+impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> ValueModels<K, D>
+    for OfMaterial<A, K, StageValues<A>, D>
 {
     fn evaluate(
         &mut self,

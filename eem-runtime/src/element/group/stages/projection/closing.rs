@@ -19,17 +19,18 @@ use crate::element::kinematics::{MeasureSet, MeasuresOf, PerStrain, StrainMeasur
 use crate::element::state::State;
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES};
 use crate::element::tally::{Care, Tally};
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
 /// Heat and entropy received in a step, stage by stage.
 type Booked = [Received; MOST_STAGES];
 
-impl<M: Material, G: StrainMeasures> PointPath<M, G> {
+impl<A: Arrays, G: StrainMeasures> PointPath<A, G> {
     /// Closes the step at the new measures, except for the impulses of its forces.
     pub(super) fn close_at(
         &mut self,
-        in_state: &mut Point<M, G::Measures>,
+        in_state: &mut Point<A, G::Measures>,
         measures: &MeasuresOf<G>,
         (view, outside): (&StepView<'_>, Outside<'_>),
         (next, tally): (&mut State, &mut Tally),
@@ -51,7 +52,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// Books the increments of the internal variables and of the reservoirs' entropies.
     fn book(
         &self,
-        in_state: &Point<M, G::Measures>,
+        in_state: &Point<A, G::Measures>,
         (view, outside): (&StepView<'_>, Outside<'_>),
         next: &mut State,
         tally: &mut Tally,
@@ -85,7 +86,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// Books the viscous stretches; returns heat and entropy of the dashpots.
     fn book_dashpots(
         &self,
-        in_state: &Point<M, G::Measures>,
+        in_state: &Point<A, G::Measures>,
         view: &StepView<'_>,
         next: &mut State,
         tally: &mut Tally,
@@ -192,7 +193,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// its energy, J.
     fn certify(
         &self,
-        in_state: &Point<M, G::Measures>,
+        in_state: &Point<A, G::Measures>,
         (view, (paths, interface)): (&StepView<'_>, Outside<'_>),
         (booked, energy): (&Booked, f64),
         tally: &mut Tally,
@@ -264,7 +265,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// The sizes of the conjugates of the strain at all stages, with the conditioning errors of the path.
     pub(crate) fn conditioned_stress(
         &mut self,
-        in_state: &Point<M, G::Measures>,
+        in_state: &Point<A, G::Measures>,
     ) -> [PerStrain<G>; MOST_STAGES] {
         self.add_conditioning_of_path(in_state);
         let mut sizes = [PerStrain::<G>::filled(0.0); MOST_STAGES];

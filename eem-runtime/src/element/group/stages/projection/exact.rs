@@ -4,14 +4,14 @@ use super::path::PointPath;
 use super::vector::Vector;
 use crate::element::kinematics::StrainMeasures;
 use crate::element::tableau::MOST_STAGES;
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
 
 /// `Δê − Σ b a·R` is rounding up to this many roundings of its terms: a product and two sums of a term, in each of the two
 /// parts. The tangent then takes the correction `μ W R_i` as constant: its derivatives, μ W among them, would be noise divided by
 /// small increments, a stiffness of 10¹²⁰ N/m where the increments are 10⁻¹⁴⁰ m.
 const DEFECT_ROUNDINGS: f64 = 8.0;
 
-impl<M: Material, G: StrainMeasures> PointPath<M, G> {
+impl<A: Arrays, G: StrainMeasures> PointPath<A, G> {
     /// Corrects projected conjugates, given `∇ê` at the end and the discrete derivatives ē.
     ///
     /// ```text
@@ -19,7 +19,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// ```
     ///
     /// Without increments there is nothing to correct. What the given increments of a prescribed temperature do is heat.
-    pub(super) fn make_exact(&mut self, [slopes, mean]: &[Vector<M, G>; 2]) {
+    pub(super) fn make_exact(&mut self, [slopes, mean]: &[Vector<A, G>; 2]) {
         let (mut defect, mut norm, mut terms) = (0.0, self.warming, 0.0);
         for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
             let (a, rates) = (&self.conjugates[stage], &self.rates[stage]);
@@ -46,9 +46,9 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// `∂μ/∂R_j`.
     fn slopes_of_factor(
         &self,
-        slopes: &Vector<M, G>,
+        slopes: &Vector<A, G>,
         [factor, per_norm]: [f64; 2],
-    ) -> [Vector<M, G>; MOST_STAGES] {
+    ) -> [Vector<A, G>; MOST_STAGES] {
         let weights = self.point.rule.weights;
         let mut by = [Vector::zero(); MOST_STAGES];
         for (j, &weight) in weights.iter().enumerate() {
@@ -73,7 +73,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     fn apply_factor(
         &mut self,
         [factor, stiffness, conditioning]: [f64; 3],
-        slopes: &[Vector<M, G>; MOST_STAGES],
+        slopes: &[Vector<A, G>; MOST_STAGES],
     ) {
         let stages = self.point.rule.stages();
         for i in 0..stages {

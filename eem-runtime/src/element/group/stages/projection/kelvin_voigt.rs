@@ -11,16 +11,17 @@ use crate::element::error::StateError;
 use crate::element::group::point::Point;
 use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
 use crate::element::tableau::MOST_SETS;
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 
-impl<M: Material, G: StrainMeasures> PointPath<M, G> {
+impl<A: Arrays, G: StrainMeasures> PointPath<A, G> {
     /// Adds the forces of the dashpot to conjugates that are exact without them.
     pub(super) fn add_kelvin_voigt(
         &mut self,
-        in_state: &mut Point<M, G::Measures>,
+        in_state: &mut Point<A, G::Measures>,
         per_step: f64,
     ) -> Result<(), StateError> {
-        if const { !Point::<M, G::Measures>::MAY_HAVE_DRAG } || in_state.drags() == 0 {
+        if const { !Point::<A, G::Measures>::MAY_HAVE_DRAG } || in_state.drags() == 0 {
             return Ok(());
         }
         for stage in 0..self.point.rule.stages() {
@@ -39,7 +40,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// The same for a measure at a stage, given `η/h` and `(dη/dθ)/h`.
     fn add_kelvin_voigt_of(
         &mut self,
-        in_state: &Point<M, G::Measures>,
+        in_state: &Point<A, G::Measures>,
         [stage, measure]: [usize; 2],
         [eta, slope]: [f64; 2],
     ) -> Result<(), StateError> {

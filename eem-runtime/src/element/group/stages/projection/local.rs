@@ -20,24 +20,25 @@ use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
 use crate::element::state::State;
 use crate::element::tableau::MOST_STAGES;
 use crate::element::tally::Tally;
-use eem_material::free_energy::{Array, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
-impl<M: Material, G: StrainMeasures> StageEquations<M, G::Measures> for PointPath<M, G> {
+impl<A: Arrays, G: StrainMeasures> StageEquations<A, G::Measures> for PointPath<A, G> {
     const FORCES: usize = Self::STRAINS;
 
     fn point_mut(&mut self) -> &mut StagePoint {
         &mut self.point
     }
 
-    fn begin(&mut self, in_state: &Point<M, G::Measures>, x0: &M::Variables, strain: &[f64]) {
+    fn begin(&mut self, in_state: &Point<A, G::Measures>, x0: &A::Variables, strain: &[f64]) {
         self.begin_at(in_state, x0, PerStrain::<G>::beginning_of(strain));
     }
 
     // All in J; the unknowns are in their units.
     fn write_equations(
         &mut self,
-        in_state: &Point<M, G::Measures>,
+        in_state: &Point<A, G::Measures>,
         local: &mut LocalStages,
         view: &StepView<'_>,
     ) -> Result<(), StateError> {
@@ -110,7 +111,7 @@ impl<M: Material, G: StrainMeasures> StageEquations<M, G::Measures> for PointPat
 
     fn close(
         &mut self,
-        in_state: &mut Point<M, G::Measures>,
+        in_state: &mut Point<A, G::Measures>,
         measures: &MeasuresOf<G>,
         view_and_outside: (&StepView<'_>, Outside<'_>),
         next_and_tally: (&mut State, &mut Tally),
@@ -123,7 +124,7 @@ impl<M: Material, G: StrainMeasures> StageEquations<M, G::Measures> for PointPat
     }
 }
 
-impl<M: Material, G: StrainMeasures> PointPath<M, G> {
+impl<A: Arrays, G: StrainMeasures> PointPath<A, G> {
     /// Writes the derivatives of a conjugate of a stage to the row of the workspace.
     fn differentiate(&self, local: &mut LocalStages, [stage, index]: [usize; 2]) {
         let (sets, strains) = (self.point.rule.sets(), Self::STRAINS);
@@ -218,7 +219,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// The equations `θ (s(τ) − S(λ, γ, θ)) = 0` where the temperature θ is given.
     fn prescribe(
         &mut self,
-        in_state: &Point<M, G::Measures>,
+        in_state: &Point<A, G::Measures>,
         local: &mut LocalStages,
         prescribed: &[f64; MOST_STAGES],
     ) -> Result<(), StateError> {
@@ -234,13 +235,13 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
             let measures = self.measures_in_path(in_state.element, &y.strain)?;
             let x = y.variables(measures.as_ref(), theta);
             let (gradient, hessian) = in_state.model.hessian(&x);
-            let row = hessian[M::MEASURES + M::DASHPOTS];
+            let row = hessian[A::MEASURES + A::DASHPOTS];
             let increment = self.increments(shares)[last];
-            let entropy = -gradient[M::MEASURES + M::DASHPOTS];
+            let entropy = -gradient[A::MEASURES + A::DASHPOTS];
             let residual = (self.old[last] - entropy) + increment;
             self.point.solved[equation] = theta * residual;
             let slopes = self.measures.slopes([&y.strain, &y.strain]);
-            let by_strain = chained::<G>(&slopes, &row.as_ref()[..M::MEASURES]);
+            let by_strain = chained::<G>(&slopes, &row.as_ref()[..A::MEASURES]);
             for (set, &share) in shares.iter().enumerate() {
                 let share = theta * share;
                 for (q, &by) in by_strain.as_ref().iter().enumerate() {
@@ -249,7 +250,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
                 }
                 let matrix = &mut local.matrix[equation * unknowns..];
                 for k in 0..self.point.dashpots {
-                    let entry = share * row[M::MEASURES + k] * self.units[strains + k];
+                    let entry = share * row[A::MEASURES + k] * self.units[strains + k];
                     matrix[set * self.point.dashpots + k] += entry;
                 }
                 matrix[first + set] += share * self.units[last];

@@ -11,46 +11,47 @@ use crate::element::group::view::StepView;
 use crate::element::handle::Element;
 use crate::element::kinematics::{MeasuresOf, PerStrain, StrainMeasures};
 use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES, Path};
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
 
 /// The path of a point through a step, and the projections from it. It knows the strain and no nodes, so that it is the same in any
 /// number of dimensions.
-pub(crate) struct PointPath<M: FreeEnergy<f64>, G: StrainMeasures> {
+pub(crate) struct PointPath<A: Arrays, G: StrainMeasures> {
     pub(super) point: StagePoint,
     /// Its measures as functions of C.
     pub(super) measures: G,
     /// `y⁰ = (C, γ…, s)`, and the data of `(π, γ, θ)⁰` for the discrete derivatives.
-    pub(super) old: Vector<M, G>,
-    old_form: M::TemperatureFormOld,
+    pub(super) old: Vector<A, G>,
+    old_form: A::Kept,
     /// The units of the increments of γ and s: that of viscous stretches, the old heat capacity.
-    pub(super) units: Vector<M, G>,
+    pub(super) units: Vector<A, G>,
     /// The diagonal of W.
-    pub(super) metric: Vector<M, G>,
+    pub(super) metric: Vector<A, G>,
     /// R: the increments h ẏ at the stages.
-    pub(super) rates: [Vector<M, G>; MOST_STAGES],
+    pub(super) rates: [Vector<A, G>; MOST_STAGES],
     /// R before the last correction, and the correction, both without C.
-    pub(super) previous: [Vector<M, G>; MOST_STAGES],
-    pub(super) correction: [Vector<M, G>; MOST_STAGES],
+    pub(super) previous: [Vector<A, G>; MOST_STAGES],
+    pub(super) correction: [Vector<A, G>; MOST_STAGES],
     /// The temperatures of the points of the path, and that of its end, K; constant in a step if they are prescribed.
     pub(super) temperatures: [f64; MOST_POINTS + 1],
     /// w, of prescribed temperatures, and μ w, J.
     pub(super) warming: f64,
     pub(super) heat_beyond: f64,
     /// y¹, and `∇ê` and the magnitudes of the terms of C at both ends.
-    pub(super) end: Vector<M, G>,
-    pub(crate) end_slopes: [Vector<M, G>; 2],
+    pub(super) end: Vector<A, G>,
+    pub(crate) end_slopes: [Vector<A, G>; 2],
     pub(super) end_sizes: [PerStrain<G>; 2],
     /// a.
-    pub(crate) conjugates: [Vector<M, G>; MOST_STAGES],
+    pub(crate) conjugates: [Vector<A, G>; MOST_STAGES],
     /// `∂a_i/∂R_j`.
-    pub(super) by_rates: Box<PerPair<Matrix<M, G>>>,
+    pub(super) by_rates: Box<PerPair<Matrix<A, G>>>,
     /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, the conditioning error of the conjugates.
-    pub(super) conditioning: [Vector<M, G>; MOST_STAGES],
+    pub(super) conditioning: [Vector<A, G>; MOST_STAGES],
     /// `|∂²ψ/∂γ_k²|` in the old state, N/m.
-    pub(super) stiffness: M::Viscosities,
+    pub(super) stiffness: A::Viscosities,
     /// `η_k` and `dη_k/dθ` at `Θ_i`.
-    pub(super) viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
+    pub(super) viscosities: [(A::Viscosities, A::Viscosities); MOST_STAGES],
     /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives with respect to the temperature
     /// and, at constant temperature, to the increments of C.
     pub(super) viscous_heat: [f64; MOST_STAGES],
@@ -60,21 +61,21 @@ pub(crate) struct PointPath<M: FreeEnergy<f64>, G: StrainMeasures> {
     pub(super) received: [f64; MOST_STAGES],
 }
 
-impl<M: Material, G: StrainMeasures> PointPath<M, G> {
+impl<A: Arrays, G: StrainMeasures> PointPath<A, G> {
     /// Number of variables y, of components of the strain among them, and the index of the entropy.
-    pub(super) const LEN: usize = Vector::<M, G>::LEN;
-    pub(super) const STRAINS: usize = Vector::<M, G>::STRAINS;
-    pub(super) const ENTROPY: usize = Vector::<M, G>::ENTROPY;
+    pub(super) const LEN: usize = Vector::<A, G>::LEN;
+    pub(super) const STRAINS: usize = Vector::<A, G>::STRAINS;
+    pub(super) const ENTROPY: usize = Vector::<A, G>::ENTROPY;
 
     pub(crate) fn new(measures: G, point: StagePoint) -> Self {
         let (none, zeros) = (0.0, Vector::zero());
-        let viscosities = M::Viscosities::filled(none);
+        let viscosities = A::Viscosities::filled(none);
         let strain = PerStrain::<G>::filled(none);
         Self {
             point,
             measures,
             old: zeros,
-            old_form: M::TemperatureFormOld::filled(none),
+            old_form: A::Kept::filled(none),
             units: zeros,
             metric: zeros,
             rates: [zeros; MOST_STAGES],
@@ -101,16 +102,16 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// Starts the trial at the old variables and the old strain.
     pub(super) fn begin_at(
         &mut self,
-        in_state: &Point<M, G::Measures>,
-        x0: &M::Variables,
+        in_state: &Point<A, G::Measures>,
+        x0: &A::Variables,
         strain: &PerStrain<G>,
     ) {
-        let (measures, last) = (&self.measures, M::Variables::LEN - 1);
+        let (measures, last) = (&self.measures, A::Variables::LEN - 1);
         let (gradient, hessian) = in_state.model.hessian(x0);
         (in_state.model).keep_for_temperature_form(x0, &mut self.old_form);
         (self.old.rest, self.old.strain) = (*x0, *strain);
         for k in 0..self.point.dashpots {
-            let row = M::MEASURES + k;
+            let row = A::MEASURES + k;
             self.stiffness[k] = hessian[row][row].abs();
         }
         let (slopes, curvatures) = self.derivatives(strain, (x0, &gradient, &hessian));
@@ -157,7 +158,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// Evaluates the model along the path, given the increments of C.
     pub(crate) fn evaluate(
         &mut self,
-        in_state: &mut Point<M, G::Measures>,
+        in_state: &mut Point<A, G::Measures>,
         strain_rates: &[PerStrain<G>; MOST_STAGES],
         (view, interface): (&StepView<'_>, &InterfaceTemperatures),
     ) -> Result<(), StateError> {
@@ -191,7 +192,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     }
 
     /// `Σ_j shares_j R_j`.
-    pub(super) fn increments(&self, shares: &[f64]) -> Vector<M, G> {
+    pub(super) fn increments(&self, shares: &[f64]) -> Vector<A, G> {
         let mut sum = Vector::zero();
         for (rates, &share) in self.rates.iter().zip(shares) {
             for index in 0..Self::LEN {
@@ -202,7 +203,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     }
 
     /// `y = (C, γ, s)` at the point of the path after these fractions of the increments.
-    pub(super) fn path_at(&self, shares: &[f64]) -> Vector<M, G> {
+    pub(super) fn path_at(&self, shares: &[f64]) -> Vector<A, G> {
         let mut y = self.increments(shares);
         for index in 0..Self::LEN {
             y[index] += self.old[index];
@@ -211,7 +212,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     }
 
     /// Finds the conjugates of the stages and their derivatives, before [`make_exact`](Self::make_exact).
-    fn project(&mut self, in_state: &Point<M, G::Measures>) -> Result<(), StateError> {
+    fn project(&mut self, in_state: &Point<A, G::Measures>) -> Result<(), StateError> {
         let rule = self.point.rule;
         let Some(path) = rule.path else {
             return Ok(());
@@ -227,7 +228,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
             let (gradient, hessian) = in_state.model.hessian(&x);
             if self.point.is_thermal {
                 // ∂²ψ/∂θ² = −c/θ
-                let (last, theta) = (M::Variables::LEN - 1, x[M::Variables::LEN - 1]);
+                let (last, theta) = (A::Variables::LEN - 1, x[A::Variables::LEN - 1]);
                 Infeasible::unless_stable(-theta * hessian[last][last], theta)
                     .map_err(|infeasible| infeasible.of(in_state.element))?;
             }
@@ -242,8 +243,8 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     pub(super) fn derivatives(
         &self,
         strain: &PerStrain<G>,
-        of_model: (&M::Variables, &M::Variables, &M::Hessian),
-    ) -> (Vector<M, G>, Matrix<M, G>) {
+        of_model: (&A::Variables, &A::Variables, &A::Hessian),
+    ) -> (Vector<A, G>, Matrix<A, G>) {
         let last = match (self.point.is_thermal, self.is_held()) {
             (false, _) => Last::Absent,
             (true, false) => Last::Entropy,
@@ -256,8 +257,8 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     fn take(
         &mut self,
         (path, r): (&Path, usize),
-        y: &Vector<M, G>,
-        (slopes, curvatures): &(Vector<M, G>, Matrix<M, G>),
+        y: &Vector<A, G>,
+        (slopes, curvatures): &(Vector<A, G>, Matrix<A, G>),
     ) {
         let mut sizes = *y;
         sizes.strain = self.measures.sizes(&y.strain);
@@ -295,10 +296,10 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// `y = (C, γ, s)` and `x = (π, γ, θ)` at the point of the path after these fractions of the increments.
     pub(super) fn find_point(
         &mut self,
-        in_state: &Point<M, G::Measures>,
+        in_state: &Point<A, G::Measures>,
         shares: &[f64],
         point: usize,
-    ) -> Result<(Vector<M, G>, M::Variables), StateError> {
+    ) -> Result<(Vector<A, G>, A::Variables), StateError> {
         let y = self.path_at(shares);
         let measures = self.measures_in_path(in_state.element, &y.strain)?;
         let near = self.temperatures[point];
@@ -307,7 +308,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
             let entropy = y[Self::ENTROPY];
             let found = temperature_at(&in_state.model, x, entropy, near);
             let theta = found.map_err(|infeasible| infeasible.of(in_state.element))?;
-            (x[M::Variables::LEN - 1], self.temperatures[point]) = (theta, theta);
+            (x[A::Variables::LEN - 1], self.temperatures[point]) = (theta, theta);
         }
         Ok((y, x))
     }
@@ -316,25 +317,25 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// the increments is Δê. Of a prescribed temperature, the first are the derivatives of that product by the increments.
     fn reach_end(
         &mut self,
-        in_state: &Point<M, G::Measures>,
-    ) -> Result<[Vector<M, G>; 2], StateError> {
+        in_state: &Point<A, G::Measures>,
+    ) -> Result<[Vector<A, G>; 2], StateError> {
         let (end, x) = self.find_point(in_state, self.point.rule.weights, MOST_POINTS)?;
         let (measures, model) = (&self.measures, &in_state.model);
         self.end = end;
         self.end_sizes[1] = measures.sizes(&end.strain);
         let mut gradient = model.gradient(&x);
         let response = model.temperature_form_response(&self.old_form, &x);
-        let mut mean = M::Variables::filled(0.0);
+        let mut mean = A::Variables::filled(0.0);
         mean.as_mut()
-            .copy_from_slice(&response.as_ref()[..M::Variables::LEN]);
-        for force in &mut mean.as_mut()[M::MEASURES..M::MEASURES + self.point.dashpots] {
+            .copy_from_slice(&response.as_ref()[..A::Variables::LEN]);
+        for force in &mut mean.as_mut()[A::MEASURES..A::MEASURES + self.point.dashpots] {
             *force = -*force;
         }
         if self.point.is_thermal {
-            let last = M::Variables::LEN - 1;
+            let last = A::Variables::LEN - 1;
             gradient[last] = x[last];
         }
-        let between = |ends, by: M::Variables| Vector {
+        let between = |ends, by: A::Variables| Vector {
             strain: chained::<G>(&measures.slopes(ends), by.as_ref()),
             rest: by,
         };
@@ -346,7 +347,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
             return Ok([slopes, discrete]);
         }
         // Δê + θ* (s − S), by (C, γ) and s: ψ_x + (θ − θ*) S_x, θ*
-        let (last, (_, hessian)) = (M::Variables::LEN - 1, model.hessian(&x));
+        let (last, (_, hessian)) = (A::Variables::LEN - 1, model.hessian(&x));
         for column in 0..last {
             gradient[column] -= (x[last] - mean[last]) * hessian[last][column];
         }
@@ -355,7 +356,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     }
 
     /// Finds the viscosities at the temperatures of the stages; an error unless both are positive.
-    fn find_viscosities(&mut self, in_state: &mut Point<M, G::Measures>) -> Result<(), StateError> {
+    fn find_viscosities(&mut self, in_state: &mut Point<A, G::Measures>) -> Result<(), StateError> {
         for stage in 0..self.point.rule.stages() {
             let theta = self.mean_temperature(stage);
             if self.point.is_thermal && !is_positive(theta) {

@@ -5,9 +5,9 @@ use super::vector::Vector;
 use crate::element::group::point::Point;
 use crate::element::kinematics::StrainMeasures;
 use crate::element::tableau::MOST_STAGES;
-use eem_material::free_energy::Material;
+use eem_material::formulas::Arrays;
 
-impl<M: Material, G: StrainMeasures> PointPath<M, G> {
+impl<A: Arrays, G: StrainMeasures> PointPath<A, G> {
     /// Adds to the conditioning errors, in units of ε, those of a step whose increments are far above the variables: of the
     /// sums that give the points of the path and the projections, and of μ.
     ///
@@ -16,12 +16,12 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
     /// Σ_i b_i (c_i + |∇ê⁰| + |∇ê¹|)·|R_i| / Σ_i b_i R_i·W R_i · W |R_i|
     /// ```
     #[cold]
-    pub(super) fn add_conditioning_of_path(&mut self, in_state: &Point<M, G::Measures>) {
+    pub(super) fn add_conditioning_of_path(&mut self, in_state: &Point<A, G::Measures>) {
         let Some(path) = self.point.rule.path else {
             return;
         };
         let temperatures = self.temperatures;
-        let mut own = [Vector::<M, G>::zero(); MOST_STAGES];
+        let mut own = [Vector::<A, G>::zero(); MOST_STAGES];
         for (r, shares) in path.integrals.iter().enumerate() {
             // It has been found at this trial before.
             let Ok((y, x)) = self.find_point(in_state, shares, r) else {
@@ -29,7 +29,7 @@ impl<M: Material, G: StrainMeasures> PointPath<M, G> {
             };
             let (gradient, hessian) = in_state.model.hessian(&x);
             let (slopes, curvatures) = self.derivatives(&y.strain, (&x, &gradient, &hessian));
-            let mut terms = Vector::<M, G>::zero();
+            let mut terms = Vector::<A, G>::zero();
             for (rates, &share) in self.rates.iter().zip(*shares) {
                 for index in 0..Self::LEN {
                     terms[index] += (share * rates[index]).abs();

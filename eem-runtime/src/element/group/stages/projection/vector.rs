@@ -10,40 +10,41 @@ use core::ops::{Index, IndexMut, Range};
 
 use crate::element::group::arms::measures_in;
 use crate::element::kinematics::{PerStrain, StrainMatrix, StrainMeasures, StrainSlopes};
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
 /// A number per variable.
 #[derive(Debug)]
-pub(crate) struct Vector<M: FreeEnergy<f64>, G: StrainMeasures> {
+pub(crate) struct Vector<A: Arrays, G: StrainMeasures> {
     /// Of the components of the strain.
     pub(crate) strain: PerStrain<G>,
     /// Of γ and s, at their indices among the variables of the model, whose measures are ignored.
-    pub(super) rest: M::Variables,
+    pub(super) rest: A::Variables,
 }
 
 /// A number per two variables.
 #[derive(Debug)]
-pub(super) struct Matrix<M: FreeEnergy<f64>, G: StrainMeasures> {
+pub(super) struct Matrix<A: Arrays, G: StrainMeasures> {
     strains: StrainMatrix<G>,
     /// Rows of the strain, columns of the rest; and rows of the rest, columns of the strain, stored transposed.
-    right: G::PerStrain<M::Variables>,
-    below: G::PerStrain<M::Variables>,
-    rest: M::Hessian,
+    right: G::PerStrain<A::Variables>,
+    below: G::PerStrain<A::Variables>,
+    rest: A::Hessian,
 }
 
-impl<M: FreeEnergy<f64>, G: StrainMeasures> Vector<M, G> {
+impl<A: Arrays, G: StrainMeasures> Vector<A, G> {
     /// Number of components of the strain.
     pub(super) const STRAINS: usize = <PerStrain<G> as Array<f64>>::LEN;
     /// Number of variables.
-    pub(super) const LEN: usize = Self::STRAINS + M::DASHPOTS + M::THERMAL as usize;
+    pub(super) const LEN: usize = Self::STRAINS + A::DASHPOTS + A::THERMAL as usize;
     /// The index of the entropy.
-    pub(super) const ENTROPY: usize = Self::STRAINS + M::DASHPOTS;
+    pub(super) const ENTROPY: usize = Self::STRAINS + A::DASHPOTS;
 
     pub(super) fn zero() -> Self {
         Self {
             strain: PerStrain::<G>::filled(0.0),
-            rest: M::Variables::filled(0.0),
+            rest: A::Variables::filled(0.0),
         }
     }
 
@@ -65,11 +66,11 @@ impl<M: FreeEnergy<f64>, G: StrainMeasures> Vector<M, G> {
     }
 
     /// The variables of the model with these γ, and the given measures and temperature.
-    pub(super) fn variables(&self, measures: &[f64], theta: f64) -> M::Variables {
+    pub(super) fn variables(&self, measures: &[f64], theta: f64) -> A::Variables {
         let mut x = self.rest;
-        x.as_mut()[..M::MEASURES].copy_from_slice(measures);
-        if M::THERMAL {
-            x[M::MEASURES + M::DASHPOTS] = theta;
+        x.as_mut()[..A::MEASURES].copy_from_slice(measures);
+        if A::THERMAL {
+            x[A::MEASURES + A::DASHPOTS] = theta;
         }
         x
     }
@@ -80,74 +81,74 @@ pub(super) fn sum_of(numbers: &[f64]) -> f64 {
     numbers.iter().fold(0.0, |sum, number| sum + number)
 }
 
-impl<M: FreeEnergy<f64>, G: StrainMeasures> Matrix<M, G> {
+impl<A: Arrays, G: StrainMeasures> Matrix<A, G> {
     pub(super) fn zero() -> Self {
-        let zeros = M::Variables::filled(0.0);
+        let zeros = A::Variables::filled(0.0);
         Self {
             strains: G::PerStrain::filled(PerStrain::<G>::filled(0.0)),
             right: G::PerStrain::filled(zeros),
             below: G::PerStrain::filled(zeros),
-            rest: M::Hessian::filled(zeros),
+            rest: A::Hessian::filled(zeros),
         }
     }
 
     #[inline]
     pub(super) fn at(&self, [row, column]: [usize; 2]) -> f64 {
-        let strains = Vector::<M, G>::STRAINS;
+        let strains = Vector::<A, G>::STRAINS;
         match (row.checked_sub(strains), column.checked_sub(strains)) {
             (None, None) => self.strains[row][column],
-            (None, Some(beyond)) => self.right[row][M::MEASURES + beyond],
-            (Some(beyond), None) => self.below[column][M::MEASURES + beyond],
-            (Some(row), Some(column)) => self.rest[M::MEASURES + row][M::MEASURES + column],
+            (None, Some(beyond)) => self.right[row][A::MEASURES + beyond],
+            (Some(beyond), None) => self.below[column][A::MEASURES + beyond],
+            (Some(row), Some(column)) => self.rest[A::MEASURES + row][A::MEASURES + column],
         }
     }
 
     #[inline]
     pub(super) fn at_mut(&mut self, [row, column]: [usize; 2]) -> &mut f64 {
-        let strains = Vector::<M, G>::STRAINS;
+        let strains = Vector::<A, G>::STRAINS;
         match (row.checked_sub(strains), column.checked_sub(strains)) {
             (None, None) => &mut self.strains[row][column],
-            (None, Some(beyond)) => &mut self.right[row][M::MEASURES + beyond],
-            (Some(beyond), None) => &mut self.below[column][M::MEASURES + beyond],
-            (Some(row), Some(column)) => &mut self.rest[M::MEASURES + row][M::MEASURES + column],
+            (None, Some(beyond)) => &mut self.right[row][A::MEASURES + beyond],
+            (Some(beyond), None) => &mut self.below[column][A::MEASURES + beyond],
+            (Some(row), Some(column)) => &mut self.rest[A::MEASURES + row][A::MEASURES + column],
         }
     }
 }
 
-impl<M: FreeEnergy<f64>, G: StrainMeasures> Clone for Vector<M, G> {
+impl<A: Arrays, G: StrainMeasures> Clone for Vector<A, G> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<M: FreeEnergy<f64>, G: StrainMeasures> Copy for Vector<M, G> {}
+impl<A: Arrays, G: StrainMeasures> Copy for Vector<A, G> {}
 
-impl<M: FreeEnergy<f64>, G: StrainMeasures> Clone for Matrix<M, G> {
+impl<A: Arrays, G: StrainMeasures> Clone for Matrix<A, G> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<M: FreeEnergy<f64>, G: StrainMeasures> Copy for Matrix<M, G> {}
+impl<A: Arrays, G: StrainMeasures> Copy for Matrix<A, G> {}
 
-impl<M: FreeEnergy<f64>, G: StrainMeasures> Index<usize> for Vector<M, G> {
+impl<A: Arrays, G: StrainMeasures> Index<usize> for Vector<A, G> {
     type Output = f64;
 
     #[inline]
     fn index(&self, index: usize) -> &f64 {
         match index.checked_sub(Self::STRAINS) {
             None => &self.strain[index],
-            Some(beyond) => &self.rest[M::MEASURES + beyond],
+            Some(beyond) => &self.rest[A::MEASURES + beyond],
         }
     }
 }
 
-impl<M: FreeEnergy<f64>, G: StrainMeasures> IndexMut<usize> for Vector<M, G> {
+impl<A: Arrays, G: StrainMeasures> IndexMut<usize> for Vector<A, G> {
     #[inline]
     fn index_mut(&mut self, index: usize) -> &mut f64 {
         match index.checked_sub(Self::STRAINS) {
             None => &mut self.strain[index],
-            Some(beyond) => &mut self.rest[M::MEASURES + beyond],
+            Some(beyond) => &mut self.rest[A::MEASURES + beyond],
         }
     }
 }
@@ -164,16 +165,16 @@ pub(super) enum Last {
 
 /// `∇ê` and `∇²ê` with respect to `(C, γ, s)` from the derivatives of ψ with respect to `x = (π, γ, θ)`. If the temperature
 /// is given, `∇ψ` with respect to `(C, γ)` and θ, which depends on none of them.
-pub(super) fn derivatives<M: FreeEnergy<f64>, G: StrainMeasures>(
+pub(super) fn derivatives<A: Arrays, G: StrainMeasures>(
     measures: &G,
     strain: &PerStrain<G>,
-    of_model: (&M::Variables, &M::Variables, &M::Hessian),
+    of_model: (&A::Variables, &A::Variables, &A::Hessian),
     last: Last,
-) -> (Vector<M, G>, Matrix<M, G>) {
+) -> (Vector<A, G>, Matrix<A, G>) {
     let (first, second) = match last {
         Last::Absent => (*of_model.1, *of_model.2),
-        Last::Entropy => by_entropy::<M>(of_model),
-        Last::Temperature => at_given_temperature::<M>(of_model),
+        Last::Entropy => by_entropy::<A>(of_model),
+        Last::Temperature => at_given_temperature::<A>(of_model),
     };
     let along = measures.slopes([strain, strain]);
     let slopes = Vector {
@@ -182,11 +183,11 @@ pub(super) fn derivatives<M: FreeEnergy<f64>, G: StrainMeasures>(
     };
     let mut curvatures = Matrix::zero();
     let geometric = measures.curvature(strain, &measures_in::<G::Measures>(&first));
-    let strains = Vector::<M, G>::STRAINS;
-    for column in 0..M::Variables::LEN {
+    let strains = Vector::<A, G>::STRAINS;
+    for column in 0..A::Variables::LEN {
         let by_strain = chained::<G>(&along, second[column].as_ref());
         for (q, &by) in by_strain.as_ref().iter().enumerate() {
-            match column.checked_sub(M::MEASURES) {
+            match column.checked_sub(A::MEASURES) {
                 None => {
                     for (p, &slope) in along[column].as_ref().iter().enumerate() {
                         *curvatures.at_mut([q, p]) += by * slope;
@@ -204,8 +205,8 @@ pub(super) fn derivatives<M: FreeEnergy<f64>, G: StrainMeasures>(
             *curvatures.at_mut([q, p]) += entry;
         }
     }
-    for (q, row) in second.as_ref().iter().skip(M::MEASURES).enumerate() {
-        for (p, &entry) in row.as_ref().iter().skip(M::MEASURES).enumerate() {
+    for (q, row) in second.as_ref().iter().skip(A::MEASURES).enumerate() {
+        for (p, &entry) in row.as_ref().iter().skip(A::MEASURES).enumerate() {
             *curvatures.at_mut([strains + q, strains + p]) = entry;
         }
     }
@@ -213,11 +214,11 @@ pub(super) fn derivatives<M: FreeEnergy<f64>, G: StrainMeasures>(
 }
 
 /// The derivatives of the energy with respect to `(π, γ, s)`.
-fn by_entropy<M: FreeEnergy<f64>>(
-    (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
-) -> (M::Variables, M::Hessian) {
+fn by_entropy<A: Arrays>(
+    (x, gradient, hessian): (&A::Variables, &A::Variables, &A::Hessian),
+) -> (A::Variables, A::Hessian) {
     let (mut first, mut second) = (*gradient, *hessian);
-    let last = M::Variables::LEN - 1;
+    let last = A::Variables::LEN - 1;
     let by_theta = hessian[last];
     let per_capacity = -by_theta[last].recip();
     for row in 0..last {
@@ -233,12 +234,12 @@ fn by_entropy<M: FreeEnergy<f64>>(
 }
 
 /// The derivatives of ψ with respect to `(π, γ)` at a given temperature, and that temperature.
-fn at_given_temperature<M: FreeEnergy<f64>>(
-    (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
-) -> (M::Variables, M::Hessian) {
+fn at_given_temperature<A: Arrays>(
+    (x, gradient, hessian): (&A::Variables, &A::Variables, &A::Hessian),
+) -> (A::Variables, A::Hessian) {
     let (mut first, mut second) = (*gradient, *hessian);
-    let last = M::Variables::LEN - 1;
-    second[last] = M::Variables::filled(0.0);
+    let last = A::Variables::LEN - 1;
+    second[last] = A::Variables::filled(0.0);
     for row in &mut second.as_mut()[..last] {
         row[last] = 0.0;
     }
@@ -262,8 +263,8 @@ pub(super) fn chained<G: StrainMeasures>(
 
 /// The norm of the second derivatives by some variables, plus that of the first ones over `unit`; each derivative by a
 /// variable is divided by the root of its count. The metric made of it vanishes only where all these derivatives do.
-pub(super) fn steepness<M: FreeEnergy<f64>, G: StrainMeasures>(
-    (slopes, curvatures): (&Vector<M, G>, &Matrix<M, G>),
+pub(super) fn steepness<A: Arrays, G: StrainMeasures>(
+    (slopes, curvatures): (&Vector<A, G>, &Matrix<A, G>),
     variables: Range<usize>,
     counts: impl Fn(usize) -> f64,
     unit: f64,

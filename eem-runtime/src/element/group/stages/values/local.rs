@@ -15,31 +15,32 @@ use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::element::tableau::{EntropyBalance, MOST_STAGES};
 use crate::element::tally::Tally;
-use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::formulas::Arrays;
+use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
 /// The variables of a point and its model at the stages. They know its measures and no nodes.
-pub(crate) struct StageValues<M: FreeEnergy<f64>> {
+pub(crate) struct StageValues<A: Arrays> {
     pub(super) point: StagePoint,
     /// The old variables `(π, γ, θ)⁰`.
-    old: M::Variables,
+    old: A::Variables,
     /// The trial variables at the stages.
-    x: [M::Variables; MOST_STAGES],
+    x: [A::Variables; MOST_STAGES],
     /// Those before the last correction, and the correction; temperatures only at the stages whose
     /// temperatures are unknowns.
-    previous: [M::Variables; MOST_STAGES],
-    correction: [M::Variables; MOST_STAGES],
-    stages: [AtStage<M>; MOST_STAGES],
+    previous: [A::Variables; MOST_STAGES],
+    correction: [A::Variables; MOST_STAGES],
+    stages: [AtStage<A>; MOST_STAGES],
 }
 
-impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
-    const FORCES: usize = M::MEASURES;
+impl<A: Arrays, Q: MeasureSet> StageEquations<A, Q> for StageValues<A> {
+    const FORCES: usize = A::MEASURES;
 
     fn point_mut(&mut self) -> &mut StagePoint {
         &mut self.point
     }
 
-    fn begin(&mut self, _: &Point<M, Q>, x0: &M::Variables, _strain: &[f64]) {
+    fn begin(&mut self, _: &Point<A, Q>, x0: &A::Variables, _strain: &[f64]) {
         (self.old, self.x) = (*x0, [*x0; MOST_STAGES]);
         let prescribed = self.point.prescribed.into_iter().flatten();
         for (x, theta) in self.x.iter_mut().zip(prescribed) {
@@ -49,7 +50,7 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
 
     fn write_equations(
         &mut self,
-        _: &Point<M, Q>,
+        _: &Point<A, Q>,
         local: &mut LocalStages,
         view: &StepView<'_>,
     ) -> Result<(), StateError> {
@@ -75,7 +76,7 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
     }
 
     fn temperature(&self, local: &mut LocalStages, set: usize) -> f64 {
-        let mut by = M::Variables::filled(0.0);
+        let mut by = A::Variables::filled(0.0);
         by[Self::TEMPERATURE] = 1.0;
         let stage = self.point.rule.entropies[set].unknown;
         self.differentiate(local, stage, &by);
@@ -85,7 +86,7 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
 
     fn hold(&mut self) {
         self.previous = self.x;
-        self.correction = [M::Variables::filled(0.0); MOST_STAGES];
+        self.correction = [A::Variables::filled(0.0); MOST_STAGES];
     }
 
     fn correct(&mut self, local: &LocalStages) -> f64 {
@@ -96,7 +97,7 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
             let change = local.change(&self.point.solved, u);
             let (stage, index, scale) = if u < temperatures {
                 let stage = rule.stage_of(u / self.point.dashpots);
-                let index = M::MEASURES + u % self.point.dashpots;
+                let index = A::MEASURES + u % self.point.dashpots;
                 (stage, index, self.point.viscous_unit)
             } else {
                 let stage = rule.entropies[u - temperatures].unknown;
@@ -112,7 +113,7 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
     fn apply(&mut self, fraction: f64) {
         let rule = self.point.rule;
         for stage in rule.known..rule.stages() {
-            for index in M::MEASURES..M::MEASURES + self.point.dashpots {
+            for index in A::MEASURES..A::MEASURES + self.point.dashpots {
                 let change = fraction * self.correction[stage][index];
                 self.x[stage][index] = self.previous[stage][index] + change;
             }
@@ -135,7 +136,7 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
 
     fn close(
         &mut self,
-        in_state: &mut Point<M, Q>,
+        in_state: &mut Point<A, Q>,
         measures: &Numbers<Q>,
         (view, _): (&StepView<'_>, Outside<'_>),
         (next, _): (&mut State, &mut Tally),
@@ -151,12 +152,12 @@ impl<M: Material, Q: MeasureSet> StageEquations<M, Q> for StageValues<M> {
     }
 }
 
-impl<M: Material> StageValues<M> {
+impl<A: Arrays> StageValues<A> {
     /// The index of the last variable, the temperature of elements that have one.
-    const TEMPERATURE: usize = M::Variables::LEN - 1;
+    const TEMPERATURE: usize = A::Variables::LEN - 1;
 
     pub(crate) fn new(point: StagePoint) -> Self {
-        let zeros = [M::Variables::filled(0.0); MOST_STAGES];
+        let zeros = [A::Variables::filled(0.0); MOST_STAGES];
         Self {
             point,
             old: zeros[0],
@@ -169,7 +170,7 @@ impl<M: Material> StageValues<M> {
 
     /// Sets the measures of a stage.
     pub(crate) fn set_measures(&mut self, stage: usize, measures: &[f64]) {
-        self.x[stage].as_mut()[..M::MEASURES].copy_from_slice(measures);
+        self.x[stage].as_mut()[..A::MEASURES].copy_from_slice(measures);
     }
 
     /// The temperature of a stage, K; without meaning for elements that have none.
@@ -185,7 +186,7 @@ impl<M: Material> StageValues<M> {
     /// Evaluates the model at a stage whose measures are known.
     pub(crate) fn evaluate<Q: MeasureSet>(
         &mut self,
-        in_state: &mut Point<M, Q>,
+        in_state: &mut Point<A, Q>,
         stage: usize,
         (view, interface): (&StepView<'_>, &InterfaceTemperatures),
     ) -> Result<(), StateError> {
@@ -217,14 +218,14 @@ impl<M: Material> StageValues<M> {
     }
 
     /// Writes the derivatives of a quantity of a stage, given those with respect to x, to the row of the workspace.
-    fn differentiate(&self, local: &mut LocalStages, stage: usize, by: &M::Variables) {
+    fn differentiate(&self, local: &mut LocalStages, stage: usize, by: &A::Variables) {
         let rule = self.point.rule;
-        let (measures, rest) = by.as_ref().split_at(M::MEASURES);
+        let (measures, rest) = by.as_ref().split_at(A::MEASURES);
         let dashpots = &rest[..self.point.dashpots];
         local.clear_row();
         if let Some(set) = rule.set_of(stage) {
-            let first = 1 + set * M::MEASURES;
-            local.row[first..first + M::MEASURES].copy_from_slice(measures);
+            let first = 1 + set * A::MEASURES;
+            local.row[first..first + A::MEASURES].copy_from_slice(measures);
             let first = set * self.point.dashpots;
             local.by_unknown[first..first + dashpots.len()].copy_from_slice(dashpots);
         }
@@ -241,7 +242,7 @@ impl<M: Material> StageValues<M> {
         let rule = self.point.rule;
         for (set, weights) in rule.rates.iter().enumerate() {
             for k in 0..self.point.dashpots {
-                let (equation, index) = (set * self.point.dashpots + k, M::MEASURES + k);
+                let (equation, index) = (set * self.point.dashpots + k, A::MEASURES + k);
                 let mut residual = self.x[rule.stage_of(set)][index] - self.old[index];
                 let diagonal = equation * (local.unknowns() + 1);
                 local.matrix[diagonal] = 1.0;
@@ -283,7 +284,7 @@ impl<M: Material> StageValues<M> {
                     &self.stages[stage].rates_by[Self::TEMPERATURE],
                 );
                 self.point.add_row(local, equation, weight);
-                let heat = 1 + rule.sets() * M::MEASURES + stage;
+                let heat = 1 + rule.sets() * A::MEASURES + stage;
                 self.point.solved[heat * unknowns + equation] = weight / self.theta(stage);
             }
         }
@@ -308,7 +309,7 @@ impl<M: Material> StageValues<M> {
             })
         };
         for k in 0..self.point.dashpots {
-            let creep = over_step(&|stage| stages[stage].rates[M::MEASURES + k]);
+            let creep = over_step(&|stage| stages[stage].rates[A::MEASURES + k]);
             (next.viscous).advance(slots.viscous + k, &old.viscous, creep);
         }
         let Some(slot) = slots.thermal else {
