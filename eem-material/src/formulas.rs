@@ -36,6 +36,7 @@ pub trait Arrays: Entry {
 }
 
 /// [`Arrays`] of these types; those of measures are first.
+#[expect(clippy::type_complexity, reason = "one type for each kind of array")]
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes<P, X, H, V, G, C, R, T, O>(PhantomData<(P, X, H, V, G, C, R, T, O)>);
 
@@ -184,11 +185,7 @@ pub trait Formulas<A: Arrays>: Send + Sync {
         weights: &A::Response,
         found: &mut [f64],
     );
-    fn temperature_form_tangent(
-        &self,
-        ends: [&A::Variables; 2],
-        direction: &[f64],
-    ) -> A::Response;
+    fn temperature_form_tangent(&self, ends: [&A::Variables; 2], direction: &[f64]) -> A::Response;
     fn entropy_form_adjoint(
         &self,
         ends: [&A::Variables; 2],
@@ -482,7 +479,10 @@ where
     }
 
     fn gradient_adjoint(&self, x: &M::Variables, weights: &M::Variables, found: &mut [f64]) {
-        copy(FreeEnergy::gradient_adjoint(self, x, weights).as_ref(), found);
+        copy(
+            FreeEnergy::gradient_adjoint(self, x, weights).as_ref(),
+            found,
+        );
     }
 
     fn energy_by_parameters(&self, x: &M::Variables, found: &mut [f64]) {
@@ -490,10 +490,16 @@ where
     }
 
     fn viscosity_adjoint(&self, theta: f64, weights: &M::Viscosities, found: &mut [f64]) {
-        copy(FreeEnergy::viscosity_adjoint(self, theta, weights).as_ref(), found);
+        copy(
+            FreeEnergy::viscosity_adjoint(self, theta, weights).as_ref(),
+            found,
+        );
     }
 
     fn drag_adjoint(&self, theta: f64, weights: &M::Drag, found: &mut [f64]) {
-        copy(FreeEnergy::drag_adjoint(self, theta, weights).as_ref(), found);
+        copy(
+            FreeEnergy::drag_adjoint(self, theta, weights).as_ref(),
+            found,
+        );
     }
 }

@@ -93,11 +93,7 @@ impl<A: Arrays> Tabled<A> {
     #[inline]
     #[must_use]
     pub fn drags(&self) -> usize {
-        if Self::HAS_ROOM {
-            self.drags.into()
-        } else {
-            0
-        }
+        if Self::HAS_ROOM { self.drags.into() } else { 0 }
     }
 
     /// Whether there is a temperature.

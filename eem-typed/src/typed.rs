@@ -28,8 +28,7 @@ use crate::tape::Tape;
 /// | R | responses: N + 1 with a temperature, else N |
 /// | O | values of the old state that a form keeps: 4, 16, 24 for the springs with exact numbers, else 32 |
 ///
-/// If there is room for a dashpot in parallel (D = 1), these are the most: dashpots and temperature that a spring lacks are unused
-/// entries of arrays.
+/// With D = 1 these are the most: dashpots and a temperature that a spring lacks are unused entries of arrays.
 ///
 /// Use the names of the shapes of springs, such as [`ThermalSpring1`](crate::ThermalSpring1), and [`solid!`](crate::solid). A
 /// copy shares the tapes.
@@ -155,11 +154,7 @@ impl<
         others: &mut [f64],
     ) -> Rates<[f64; N]> {
         let (mut forces, mut slopes) = ([0.0; N], [0.0; N]);
-        let count = if self.functions.is_thermal() {
-            N - 1
-        } else {
-            0
-        };
+        let count = (N - 1) * usize::from(self.functions.is_thermal());
         tape.run(inputs, [&mut forces, &mut slopes[..count], others]);
         Rates { forces, slopes }
     }
@@ -209,11 +204,8 @@ impl<
     }
 
     fn together(&self) -> Option<&TogetherOf<Self>> {
-        if H::AT_POINT[0] == 0 {
-            Some(&*self.functions)
-        } else {
-            None
-        }
+        let together: &TogetherOf<Self> = &*self.functions;
+        (H::AT_POINT[0] == 0).then_some(together)
     }
 
     fn parameter_count(&self) -> usize {

@@ -10,6 +10,7 @@ mod against_duals;
 mod against_interpreter;
 #[cfg(feature = "typed")]
 mod against_typed;
+mod behind_table;
 mod bounds;
 mod digits;
 mod dual;

@@ -217,9 +217,7 @@ impl<const D: usize> Scene<D> {
         parts: Parts<A, K, D>,
     ) -> (usize, usize) {
         let kind = identity(&parts.as_ref()[0].0);
-        let new = || -> Box<dyn Loose<D>> {
-            Box::new(LooseElements::<A, K, D>::new(no_explicit))
-        };
+        let new = || -> Box<dyn Loose<D>> { Box::new(LooseElements::<A, K, D>::new(no_explicit)) };
         let (group, set) = self.set_of::<LooseElements<A, K, D>>(kind, new);
         let place = set.points();
         set.elements.push((first, parts));

@@ -9,6 +9,7 @@ use eem_material::free_energy::{ExactForm, MOST_TOGETHER, Steps};
 use eem_material::tabled::Tabled;
 use eem_material::with_room::WithRoom;
 
+use crate::zoo::behind_table::Behind;
 use crate::zoo::families;
 use crate::zoo::states;
 
@@ -380,8 +381,8 @@ fn behind_table<M: Material, A: Arrays>(model: &M, at: &At) -> Option<Results> {
     } else {
         return None;
     };
-    assert!(tabled.as_any().is::<M>());
-    Some(everything(&tabled.duplicate(), at))
+    assert!((*tabled).as_any().is::<M>());
+    Some(everything(&Behind(tabled.duplicate()), at))
 }
 
 /// The same behind each table, with room for what forms keep of the old state, and without.

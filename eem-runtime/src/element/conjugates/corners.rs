@@ -5,8 +5,8 @@
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::temperature::{LAST_CORRECTION, temperature_of};
 use eem_material::formulas::{Arrays, TogetherIn};
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::{Array, MOST_TOGETHER, Steps};
+use eem_material::tabled::Tabled;
 
 /// The largest first correction of ln θ with which Newton's method continues, and the factor by which corrections have to
 /// shrink; otherwise a safeguarded search finds the temperatures one by one.

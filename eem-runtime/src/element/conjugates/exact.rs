@@ -24,8 +24,8 @@
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::start::Form;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::Array;
+use eem_material::tabled::Tabled;
 
 /// The temperatures of mixed states for the step back from the new state to the old one: with the states exchanged, the ascending chain
 /// is the descending one.

@@ -31,8 +31,8 @@ use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::conjugates::start::{Form, Kept, Start};
 use crate::element::conjugates::temperature::temperature_at;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::Array;
+use eem_material::tabled::Tabled;
 
 impl PointRule {
     /// The temperature τ of a trial, given its other variables and Δs: the entropy at the point is s⁰ + c Δs.
@@ -101,12 +101,7 @@ fn point<A: Arrays>(start: &Start<A>, x: &A::Variables, c: f64) -> A::Variables 
 /// ```
 ///
 /// `c = ½` is the midpoint, where `s_m = s⁰ + ½Δs`; `c = 1` the end of the step.
-fn respond<A: Arrays>(
-    model: &Tabled<A>,
-    start: &Start<A>,
-    x: &A::Variables,
-    c: f64,
-) -> Form<A> {
+fn respond<A: Arrays>(model: &Tabled<A>, start: &Start<A>, x: &A::Variables, c: f64) -> Form<A> {
     let variables = A::Variables::LEN;
     let dashpots = A::MEASURES..A::MEASURES + A::DASHPOTS;
     let (gradient, hessian) = model.hessian(&point(start, x, c));

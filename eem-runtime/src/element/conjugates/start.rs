@@ -3,10 +3,10 @@
 use crate::element::conjugates::corners::find_corners;
 use crate::element::conjugates::family::{ExactForm, Family, OneSet, not_of_this_family};
 use crate::element::conjugates::infeasible::Infeasible;
-pub(crate) use eem_material::formulas::Form;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
+pub(crate) use eem_material::formulas::Form;
 use eem_material::free_energy::Array;
+use eem_material::tabled::Tabled;
 
 /// The old state of an element as its scheme sees it.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +68,13 @@ impl<A: Arrays> Start<A> {
     /// the temperature.
     // Each in its own place: one value for all forms would be copied as the largest one.
     #[inline]
-    pub(crate) fn keep(&mut self, scheme: OneSet, model: &Tabled<A>, entropy: f64, is_prescribed: bool) {
+    pub(crate) fn keep(
+        &mut self,
+        scheme: OneSet,
+        model: &Tabled<A>,
+        entropy: f64,
+        is_prescribed: bool,
+    ) {
         match scheme {
             OneSet::Exact(ExactForm::Entropy) if !is_prescribed => {
                 model.keep_for_entropy_form(&self.x0, self.old.in_entropy());
@@ -91,8 +97,7 @@ impl<A: Arrays> Start<A> {
     /// What the form keeps.
     pub(crate) fn kept(&self) -> &[f64] {
         match &self.old {
-            Kept::Entropy(old) => old.as_ref(),
-            Kept::Temperature(old) => old.as_ref(),
+            Kept::Entropy(old) | Kept::Temperature(old) => old.as_ref(),
             Kept::State(_) => not_of_this_family(),
         }
     }

@@ -5,9 +5,9 @@
 use crate::element::conjugates::infeasible::Infeasible;
 use crate::element::state::Energy;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::Caloric;
 use eem_material::inversion::temperature_near;
+use eem_material::tabled::Tabled;
 
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
 /// again. Newton's method in ln θ leaves half the square of the correction, times the slope

@@ -36,7 +36,8 @@ impl<A: Arrays, K: QuadraticStrain<D>, const D: usize> Loose<D> for LooseElement
     }
 
     fn name(&self) -> &'static &'static str {
-        self.model().map_or(&"material", |model| model.facts().model)
+        self.model()
+            .map_or(&"material", |model| model.facts().model)
     }
 
     fn infinite_parameter(&self, place: usize) -> Option<(&'static str, f64)> {

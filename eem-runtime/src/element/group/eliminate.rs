@@ -3,9 +3,9 @@
 use crate::algebra::lu::Singular;
 use crate::element::kinematics::MeasureSet;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
+use eem_material::tabled::Tabled;
 
 /// A number per local unknown: the viscous stretches, then the temperature.
 #[derive(Clone, Copy, Debug)]

@@ -15,9 +15,9 @@ use crate::element::kinematics::{Arms, Kinematics, MeasureSet, SolidState};
 use crate::element::layout::Slots;
 use crate::element::state::{Energy, State};
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::Array;
 use eem_material::number::digest::Digest;
+use eem_material::tabled::Tabled;
 
 impl<A: Arrays, K: Kinematics<D>, const D: usize> Elements<D> for ElementGroup<A, K, D> {
     fn initialize(&mut self, state: &mut State, refuse: &mut dyn FnMut(StateError)) {
@@ -300,10 +300,7 @@ fn digest_kind<A: Arrays>(model: &Tabled<A>, digest: &mut Digest) {
 }
 
 /// An error unless forces and entropy of an initial state are finite; those of later states are checked with a response.
-fn check_gradient<A: Arrays>(
-    element: Element,
-    gradient: &A::Variables,
-) -> Result<(), StateError> {
+fn check_gradient<A: Arrays>(element: Element, gradient: &A::Variables) -> Result<(), StateError> {
     match gradient
         .as_ref()
         .iter()

@@ -20,9 +20,9 @@ use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, MeasureSet, Numbers};
 use crate::element::tally::Tally;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::Array;
 use eem_material::number::scalar::is_positive;
+use eem_material::tabled::Tabled;
 
 impl<A: Arrays, Q: MeasureSet> Point<A, Q> {
     /// Whether its type has room for such a dashpot. What only they need is not compiled for others.

@@ -87,7 +87,9 @@ impl<A: Arrays, K: Kinematics<D>, const D: usize> LooseElements<A, K, D> {
 
 impl<A: Arrays, K: Kinematics<D>, const D: usize> fmt::Debug for LooseElements<A, K, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = self.model().map_or(&"material", |model| model.facts().model);
+        let name = self
+            .model()
+            .map_or(&"material", |model| model.facts().model);
         write!(f, "{} elements of {name}", self.elements.len())
     }
 }

@@ -12,8 +12,8 @@ use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::Array;
+use eem_material::tabled::Tabled;
 
 /// An element.
 pub(crate) struct Member<A: Arrays, K: Kinematics<D>, const D: usize> {

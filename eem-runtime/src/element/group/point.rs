@@ -11,10 +11,10 @@ use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::free_energy::Array;
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::is_positive;
+use eem_material::tabled::Tabled;
 
 /// The Kelvin–Voigt dashpot at a trial; `A` is empty without one.
 #[derive(Clone, Copy, Debug)]
@@ -71,14 +71,10 @@ impl<V: Array<f64>> PointMemory<V> {
 }
 
 /// `η_k` and `dη_k/dθ`.
-pub(super) type Viscosities<A> = (
-    <A as Arrays>::Viscosities,
-    <A as Arrays>::Viscosities,
-);
+pub(super) type Viscosities<A> = (<A as Arrays>::Viscosities, <A as Arrays>::Viscosities);
 
 /// The damping of a point with this model.
-pub(super) type DampingOf<A> =
-    Damping<<A as Arrays>::Variables, <A as Arrays>::Hessian>;
+pub(super) type DampingOf<A> = Damping<<A as Arrays>::Variables, <A as Arrays>::Hessian>;
 
 /// A point with its variables in a step. It knows the numbers of its measures `Q`, and no nodes.
 pub(crate) struct Point<A: Arrays, Q: MeasureSet> {

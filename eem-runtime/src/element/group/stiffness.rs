@@ -6,8 +6,8 @@ use core::ops::Range;
 use crate::element::kinematics::{MeasureSet, Numbers};
 use crate::element::layout::Slots;
 use eem_material::formulas::Arrays;
-use eem_material::tabled::Tabled;
 use eem_material::number::scalar::Scalar;
+use eem_material::tabled::Tabled;
 
 /// Stiffness and rates of a point.
 #[derive(Clone, Debug)]

@@ -15,7 +15,7 @@ use eem_material::free_energy::Array;
 use eem_material::number::scalar::Scalar;
 
 /// A number per variable.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Vector<A: Arrays, G: StrainMeasures> {
     /// Of the components of the strain.
     pub(crate) strain: PerStrain<G>,
@@ -24,7 +24,7 @@ pub(crate) struct Vector<A: Arrays, G: StrainMeasures> {
 }
 
 /// A number per two variables.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Matrix<A: Arrays, G: StrainMeasures> {
     strains: StrainMatrix<G>,
     /// Rows of the strain, columns of the rest; and rows of the rest, columns of the strain, stored transposed.
@@ -114,22 +114,6 @@ impl<A: Arrays, G: StrainMeasures> Matrix<A, G> {
         }
     }
 }
-
-impl<A: Arrays, G: StrainMeasures> Clone for Vector<A, G> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<A: Arrays, G: StrainMeasures> Copy for Vector<A, G> {}
-
-impl<A: Arrays, G: StrainMeasures> Clone for Matrix<A, G> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<A: Arrays, G: StrainMeasures> Copy for Matrix<A, G> {}
 
 impl<A: Arrays, G: StrainMeasures> Index<usize> for Vector<A, G> {
     type Output = f64;
