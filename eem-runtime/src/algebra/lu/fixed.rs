@@ -139,9 +139,11 @@ fn solve_compiled<const N: usize>(matrix: &mut [f64], b: &mut [f64]) -> Result<(
     // `exchange_from` finishes the solution itself: a return to `eliminate` would load rows again.
     match eliminate(a, right) {
         Ok(()) => substitute(a, right),
-        Err(row) => exchange_from(row, N, a.as_flattened_mut(), right)?,
+        Err(row) => {
+            exchange_from(row, N, a.as_flattened_mut(), right)?;
+            *a = [[0.0; N]; N];
+        }
     }
-    *a = [[0.0; N]; N];
     Ok(())
 }
 
@@ -179,7 +181,7 @@ fn eliminate_row<const N: usize>(
     let (mut row, mut right) = (a[at], b[at]);
     for k in 0..at {
         let factor = row[k];
-        let first = even(k + 1);
+        let first = first_of_pair(k + 1, N);
         subtract(&mut row[first..], factor, &a[k][first..]);
         right -= factor * b[k];
     }
@@ -187,7 +189,7 @@ fn eliminate_row<const N: usize>(
         return Err(at);
     }
     let inverse = row[at].recip();
-    let first = even(at + 1);
+    let first = first_of_pair(at + 1, N);
     for (entry, &value) in a[at][first..].iter_mut().zip(&row[first..]) {
         *entry = value * inverse;
     }
@@ -195,11 +197,12 @@ fn eliminate_row<const N: usize>(
     Ok(())
 }
 
-/// Finds the solution from the upper factor, whose diagonal is one.
+/// Finds the solution from the upper factor, whose diagonal is one, and leaves zeros in its place.
 #[inline]
-fn substitute<const N: usize>(a: &[[f64; N]; N], b: &mut [f64; N]) {
-    for (row, entries) in a.iter().enumerate().rev() {
+fn substitute<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) {
+    for (row, entries) in a.iter_mut().enumerate().rev() {
         substitute_row(row, entries, b);
+        *entries = [0.0; N];
     }
 }
 
@@ -275,9 +278,9 @@ fn largest_behind(row: &[f64], diagonal: usize) -> Result<usize, Singular> {
     }
 }
 
-/// Entries are subtracted in pairs: from an even column on.
-const fn even(column: usize) -> usize {
-    column & !1
+/// The first column of the pair that contains a column. Entries are subtracted in pairs, of which the last one ends with the row.
+const fn first_of_pair(column: usize, columns: usize) -> usize {
+    column - (columns - column) % 2
 }
 
 /// Whether the diagonal entry of a row is a good pivot.
