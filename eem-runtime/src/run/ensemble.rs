@@ -137,11 +137,13 @@ impl Ensemble<'_> {
     ) -> Vec<Result<T, MemberError>> {
         let member = |used: &mut Option<Simulation<D>>, input: &I| {
             let (scene, handles) = build(input);
-            let run = Simulation::in_memory_of(used.take(), scene, self.scheme, self.step);
-            let mut run = run.map_err(SceneError::from)?;
+            let run = Simulation::new_in(used, scene, self.scheme, self.step);
+            let run = run.map_err(SceneError::from)?;
             run.set_newton_settings(self.newton)?;
-            let result = observe(&mut run, handles, input);
-            *used = run.is_reusable().then_some(run);
+            let result = observe(run, handles, input);
+            if !run.is_reusable() {
+                *used = None;
+            }
             result
         };
         let stopped = AtomicBool::new(false);

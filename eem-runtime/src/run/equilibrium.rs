@@ -3,8 +3,7 @@
 mod heat;
 pub(crate) mod motion;
 
-use std::collections::BTreeSet;
-
+use crate::algebra::ascending;
 use crate::element::conduction::Conduction;
 use crate::element::conjugates::{Conjugates, OneSet, PointRule};
 #[cfg(not(test))]
@@ -386,11 +385,11 @@ impl<const D: usize> Scene<D> {
 
 /// The edges of all elements from their first node to the others, each once, as pairs of nodes.
 fn arms(elements: &[ElementEntry]) -> Vec<[usize; 2]> {
-    let mut arms = BTreeSet::new();
+    let mut arms = Vec::new();
     for entry in elements {
         if let [first, others @ ..] = &entry.nodes[..] {
             arms.extend(others.iter().map(|other| [*first, *other]));
         }
     }
-    Vec::from_iter(arms)
+    ascending(arms)
 }

@@ -177,10 +177,10 @@ impl<const D: usize> Simulation<D> {
             Unknown::Position(index) | Unknown::Momentum(index) => {
                 format!("{} along axis {}", self.scene.node(index / D), index % D)
             }
-            Unknown::Viscous(index) => self.element_with(|own, dashpots| {
+            Unknown::Viscous(index) => self.element_with(&|own, dashpots| {
                 (own.viscous..own.viscous + dashpots).contains(&index)
             })?,
-            Unknown::Temperature(slot) => self.element_with(|own, _| own.thermal == Some(slot))?,
+            Unknown::Temperature(slot) => self.element_with(&|own, _| own.thermal == Some(slot))?,
         };
         Some(WorstError {
             of: format!("the {quantity} of {place}"),
@@ -192,11 +192,13 @@ impl<const D: usize> Simulation<D> {
     }
 
     /// The first element whose slots and number of dashpots satisfy a condition.
-    fn element_with(&self, is_it: impl Fn(Slots, usize) -> bool) -> Option<String> {
-        let mut all = self.all_elements();
-        let found =
-            all.find(|(shape, elements, place)| is_it(elements.slots(*place), shape.dashpots));
-        found.map(|(_, elements, place)| elements.handle(place).to_string())
+    fn element_with(&self, is_it: &dyn Fn(Slots, usize) -> bool) -> Option<String> {
+        for (shape, elements, place) in self.all_elements() {
+            if is_it(elements.slots(place), shape.dashpots) {
+                return Some(elements.handle(place).to_string());
+            }
+        }
+        None
     }
 }
 

@@ -53,9 +53,9 @@ pub(crate) fn initial_state<const D: usize>(
     });
     let (moves, still) = (step.is_some(), SVector::from([0.0; D]));
     let positions = &mut state.positions;
-    positions.write(|all| write_points(all, scene, |node| node.position));
+    positions.write(|all| write_points(all, scene, &|node| node.position));
     state.momenta.write(|all| {
-        write_points(all, scene, |node| {
+        write_points(all, scene, &|node| {
             let momentum = node.start_momentum(node.mass.unwrap_or(0.0));
             if moves { momentum } else { still }
         });
@@ -63,7 +63,7 @@ pub(crate) fn initial_state<const D: usize>(
     let mut errors = Vec::new();
     if is_coupled {
         state.velocities.write(|all| {
-            write_points(all, scene, |node| match node.mass.filter(|_| moves) {
+            write_points(all, scene, &|node| match node.mass.filter(|_| moves) {
                 Some(_) => node.velocity,
                 None => still,
             });
@@ -99,7 +99,7 @@ pub(crate) fn initial_state<const D: usize>(
 fn write_points<const D: usize>(
     all: &mut [f64],
     scene: &Scene<D>,
-    of: impl Fn(&NodeEntry<D>) -> SVector<f64, D>,
+    of: &dyn Fn(&NodeEntry<D>) -> SVector<f64, D>,
 ) {
     for (own, node) in all.as_chunks_mut::<D>().0.iter_mut().zip(&scene.nodes) {
         *own = of(node).into();

@@ -1,7 +1,6 @@
 //! The least scales of errors, from what a scene holds: no unknown is the reason for tiny steps because it starts at zero.
 
 use core::f64::consts::TAU;
-use std::collections::BTreeMap;
 
 use crate::algebra::{length, norm};
 use crate::element::conduction::{Conduction, Partner};
@@ -9,7 +8,6 @@ use crate::element::group::Elements;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::step::control::controller::{Accuracy, ROUNDINGS};
-use eem_material::number::compact::compact;
 use eem_material::number::scalar::Scalar;
 
 /// A momentum that grows counts for at most this multiple of itself.
@@ -46,13 +44,16 @@ pub(crate) struct LeastScales {
     nodes: Box<[AtNode]>,
     /// The largest entries of all nodes.
     most: AtNode,
-    /// The sum of the stiffnesses between each moved anchor and a mass, N/m.
-    links: BTreeMap<[u32; 2], f64>,
+    /// The moved anchors, in ascending order, with the masses that each pulls.
+    links: Vec<(usize, Pulled)>,
     /// The ends of springs with dashpots in series.
     viscous: Box<[[u32; 2]]>,
     /// The largest κ/c of the elements at each reservoir, 1/s.
     exchanges: Box<[f64]>,
 }
+
+/// The nodes that a moved anchor pulls, with the sum of the stiffnesses between them, N/m.
+type Pulled = Vec<(u32, f64)>;
 
 /// What is around a node.
 #[derive(Clone, Copy, Debug, Default)]
@@ -85,7 +86,10 @@ impl LeastScales {
         // The sum of the dampers, N s/m, and the shortest length, m, at each node.
         let mut around = vec![[0.0, f64::MAX]; masses.len()];
         let mut rate = 0.0;
-        let mut links = BTreeMap::new();
+        let mut links = Vec::with_capacity(moved.len());
+        for &anchor in moved {
+            links.push((anchor, Pulled::new()));
+        }
         let mut viscous = Vec::new();
         let mut exchanges = vec![0.0; conduction.reservoirs.len()];
         for group in groups {
@@ -113,11 +117,13 @@ impl LeastScales {
                     *damping += point.damping;
                     *length = Scalar::minimum(*length, point.length);
                 }
-                let is_moved = |anchor: &&u32| moved.binary_search(&(**anchor as usize)).is_ok();
-                for &anchor in point.nodes.iter().filter(is_moved) {
+                for &anchor in point.nodes {
+                    let Ok(link) = moved.binary_search(&(anchor as usize)) else {
+                        continue;
+                    };
                     for &node in point.nodes {
                         if masses.get(node as usize).is_some() {
-                            *links.entry([anchor, node]).or_insert(0.0) += point.elastic;
+                            pull(&mut links[link].1, node, point.elastic);
                         }
                     }
                 }
@@ -262,9 +268,18 @@ impl LeastScales {
 
     /// The masses that a moved anchor pulls, with the stiffness between them, N/m.
     pub(crate) fn pulled_by(&self, anchor: usize) -> impl Iterator<Item = (usize, f64)> {
-        let anchor = compact(anchor);
-        let links = self.links.range([anchor, 0]..=[anchor, u32::MAX]);
-        links.map(|(&[_, mass], &stiffness)| (mass as usize, stiffness))
+        let own = self.links.binary_search_by_key(&anchor, |link| link.0);
+        let masses = own.map_or(&[][..], |link| &self.links[link].1).iter();
+        masses.map(|&(mass, stiffness)| (mass as usize, stiffness))
+    }
+}
+
+/// Adds a stiffness between a moved anchor and a mass, N/m.
+fn pull(masses: &mut Pulled, node: u32, stiffness: f64) {
+    let mut all = masses.iter_mut();
+    match all.find(|(mass, _)| *mass == node) {
+        Some((_, sum)) => *sum += stiffness,
+        None => masses.push((node, stiffness)),
     }
 }
 
