@@ -239,9 +239,12 @@ fn map<I: Sync, W: Default, T: Send>(
         let found = taken.map(|(index, input)| (index, f(&mut own, index, input)));
         found.collect::<Vec<_>>()
     };
-    let mut found = on_each(threads, inputs.len(), work);
-    found.sort_by_key(|&(index, _)| index);
-    found.into_iter().map(|(_, result)| result).collect()
+    let mut results = Vec::new();
+    results.resize_with(inputs.len(), || None);
+    for (index, result) in on_each(threads, inputs.len(), work) {
+        results[index] = Some(result);
+    }
+    results.into_iter().flatten().collect()
 }
 
 /// What `work` returns on each of these threads; it is called at most `most` times.

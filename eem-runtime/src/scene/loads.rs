@@ -179,7 +179,11 @@ impl<const D: usize> Loads<D> {
 
     /// The lines of all rockets.
     pub(crate) fn rocket_lines(&self) -> Vec<PushLine> {
-        self.rockets.iter().map(|rocket| rocket.line).collect()
+        let mut lines = Vec::with_capacity(self.rockets.len());
+        for rocket in &self.rockets {
+            lines.push(rocket.line);
+        }
+        lines
     }
 
     /// Whether forces are functions of time.

@@ -8,7 +8,7 @@ use crate::element::meters::Meters;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
-use crate::scene::entry::NodeEntry;
+use crate::scene::entry::{ElementEntry, NodeEntry};
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::{Course, Loads, Written, written};
 use crate::scene::solid_error::SolidError;
@@ -31,26 +31,11 @@ pub(crate) fn initial_state<const D: usize>(
 ) -> Result<Box<State>, Vec<SceneError>> {
     let coordinates = scene.nodes.len() * D;
     let is_coupled = !scene.pairs.is_empty();
-    let zeros = |count| Compensated::new(vec![0.0; count]);
-    let zero = Sum::new(0.0);
-    let mut state = used.unwrap_or_else(|| {
-        Box::new(State {
-            time: zero,
-            positions: zeros(coordinates),
-            momenta: zeros(coordinates),
-            velocities: zeros(if is_coupled { coordinates } else { 0 }),
-            viscous: zeros(layout.viscous),
-            entropies: zeros(layout.thermal),
-            temperatures: vec![0.0; layout.thermal],
-            energies: vec![Energy::zero(); scene.elements.len()],
-            reservoir_entropies: zeros(scene.reservoirs.len()),
-            work: zero,
-            heat: zero,
-            thermostat_entropy: zero,
-            dissipated: zero,
-            meters: Meters::default(),
-        })
-    });
+    let velocities = if is_coupled { coordinates } else { 0 };
+    let counts = [coordinates, velocities, scene.reservoirs.len()];
+    let mut state = cleared_state(counts, layout, used);
+    state.time = Sum::new(scene.start);
+    set_internal(&scene.elements, layout, &mut state);
     let (moves, still) = (step.is_some(), SVector::from([0.0; D]));
     let positions = &mut state.positions;
     positions.write(|all| write_points(all, scene, &|node| node.position));
@@ -72,12 +57,59 @@ pub(crate) fn initial_state<const D: usize>(
             }
         });
     }
-    if !errors.is_empty() {
-        return Err(errors);
+    if errors.is_empty() {
+        Ok(state)
+    } else {
+        Err(errors)
     }
-    state.viscous.write(|all| all.fill(0.0));
+}
+
+/// A state of these numbers of coordinates, velocities and reservoirs, in the memory of one if there is some. All but the first two
+/// are zero.
+fn cleared_state(
+    [coordinates, velocities, reservoirs]: [usize; 3],
+    layout: &Layout,
+    used: Option<Box<State>>,
+) -> Box<State> {
+    let zeros = |count| Compensated::new(vec![0.0; count]);
+    let zero = Sum::new(0.0);
+    let Some(mut state) = used else {
+        return Box::new(State {
+            time: zero,
+            positions: zeros(coordinates),
+            momenta: zeros(coordinates),
+            velocities: zeros(velocities),
+            viscous: zeros(layout.viscous),
+            entropies: zeros(layout.thermal),
+            temperatures: vec![0.0; layout.thermal],
+            energies: vec![Energy::zero(); layout.elements.len()],
+            reservoir_entropies: zeros(reservoirs),
+            work: zero,
+            heat: zero,
+            thermostat_entropy: zero,
+            dissipated: zero,
+            meters: Meters::default(),
+        });
+    };
+    let sums = [
+        &mut state.viscous,
+        &mut state.entropies,
+        &mut state.reservoir_entropies,
+    ];
+    for sums in sums {
+        sums.write(|all| all.fill(0.0));
+    }
     state.temperatures.fill(0.0);
-    for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
+    state.energies.fill(Energy::zero());
+    (state.work, state.heat) = (zero, zero);
+    (state.thermostat_entropy, state.dissipated) = (zero, zero);
+    state.meters = Meters::default();
+    state
+}
+
+/// Writes viscous stretches and temperatures as they are given.
+fn set_internal(elements: &[ElementEntry], layout: &Layout, state: &mut State) {
+    for (entry, slots) in elements.iter().zip(&layout.elements) {
         for &(dashpot, stretch) in &entry.viscous_stretches {
             state.viscous.set(slots.viscous + dashpot, stretch);
         }
@@ -85,14 +117,6 @@ pub(crate) fn initial_state<const D: usize>(
             state.temperatures[slot] = temperature;
         }
     }
-    state.entropies.write(|all| all.fill(0.0));
-    state.energies.fill(Energy::zero());
-    state.reservoir_entropies.write(|all| all.fill(0.0));
-    state.time = Sum::new(scene.start);
-    (state.work, state.heat) = (zero, zero);
-    (state.thermostat_entropy, state.dissipated) = (zero, zero);
-    state.meters = Meters::default();
-    Ok(state)
 }
 
 /// Writes a vector for each node of a scene.
